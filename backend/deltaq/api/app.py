@@ -1,0 +1,81 @@
+"""The application: routes, error map, headers, and the life of the workers."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager, suppress
+
+from fastapi import APIRouter, FastAPI
+from starlette.middleware.gzip import GZipMiddleware
+
+from .. import __version__
+from ..packages import modules_of
+from ..settings import Settings
+from . import problems
+from .headers import SecurityHeaders
+from .routes import pages
+from .routes.common import PREFIX
+from .service import Service, make_service
+from .workers.job import Job, JobError
+
+LOGGER = logging.getLogger("deltaq.api")
+WARM = Job("deltaq.api.jobs:warm", deadline=300.0)
+DESCRIPTION = """Derives Lagrange's equations of the second kind step by step, simulates the motion, and says how
+accurate the answer is. Every error is a problem document (RFC 9457)."""
+
+
+def create_app(settings: Settings | None = None) -> FastAPI:
+    """A FastAPI application with its own workers and cache."""
+    service = make_service(settings or Settings.from_environment())
+    app = FastAPI(
+        title="δq",
+        summary="Analytical mechanics, derived and simulated",
+        description=DESCRIPTION,
+        version=__version__,
+        openapi_url=f"{PREFIX}/openapi.json",
+        docs_url=None,
+        redoc_url=None,
+        lifespan=_lifespan,
+        telemetry={"tracing": False},
+        separate_input_output_schemas=False,
+    )
+    app.state.service = service
+    app.include_router(_api(), prefix=PREFIX)
+    app.include_router(pages.router)  # last: it takes every address that is left
+    problems.install(app)
+    app.add_middleware(GZipMiddleware, minimum_size=1000, compresslevel=5)
+    app.add_middleware(SecurityHeaders)
+    return app
+
+
+def _api() -> APIRouter:
+    """All routers that stand in `routes/`, but the pages."""
+    api = APIRouter()
+    for module in modules_of("deltaq.api.routes"):
+        if module is not pages and hasattr(module, "router"):
+            api.include_router(module.router)
+    return api
+
+
+@asynccontextmanager
+async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
+    service: Service = app.state.service
+    service.pool.start()
+    warming = asyncio.create_task(_warm(service))
+    try:
+        yield
+    finally:
+        warming.cancel()
+        with suppress(asyncio.CancelledError):
+            await warming
+        await asyncio.to_thread(service.pool.stop)
+
+
+async def _warm(service: Service) -> None:
+    """One worker compiles what is not compiled yet; the others answer meanwhile."""
+    try:
+        await service.pool.run(WARM, {})
+    except JobError as error:
+        LOGGER.warning("could not warm up: %s", error)

@@ -1,0 +1,105 @@
+"""The files of the page: which may be served, how long they may be kept, and their compressed form."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import hashlib
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+MEDIA_TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".mjs": "text/javascript; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".svg": "image/svg+xml",
+    ".png": "image/png",
+    ".ico": "image/x-icon",
+    ".woff2": "font/woff2",
+    ".txt": "text/plain; charset=utf-8",
+    "": "text/plain; charset=utf-8",  # LICENSE, NOTICE
+}
+INCOMPRESSIBLE = frozenset({".png", ".ico", ".woff2"})
+HIDDEN_FOLDERS = frozenset({"node_modules", "tests"})
+FOR_EVER = "public, max-age=31536000, immutable"
+ASK_AGAIN = "no-cache"
+
+_IMPORT_MAP = re.compile(r'<script type="importmap"[^>]*>(.*?)</script>', re.DOTALL)
+_VENDOR_PATH = re.compile(r"""(?<=["'])(\.?/)?vendor/""")
+
+
+@dataclass(frozen=True)
+class Asset:
+    """A file as it is sent."""
+
+    content: bytes
+    compressed: bytes | None
+    media_type: str
+    cache_control: str
+
+    @property
+    def etag(self) -> str:
+        return f'"{hashlib.sha256(self.content).hexdigest()[:16]}"'
+
+
+@dataclass(frozen=True)
+class Assets:
+    """The files below `root`. Libraries have the address /vendor/<version>/…, which names their content."""
+
+    root: Path
+
+    @property
+    def version(self) -> str:
+        """The version of the libraries, as the build hook wrote it."""
+        stamp = self.root / "vendor" / "version.txt"
+        return stamp.read_text(encoding="utf-8").strip() if stamp.is_file() else "unversioned"
+
+    def page(self) -> str | None:
+        """index.html, with the versioned addresses of the libraries; None if there is no page."""
+        index = self.root / "index.html"
+        if not index.is_file():
+            return None
+        return _VENDOR_PATH.sub(f"/vendor/{self.version}/", index.read_text(encoding="utf-8"))
+
+    def find(self, path: str) -> Asset | None:
+        """The file at an address below /, or None if there is none that may be served."""
+        parts = path.split("/")
+        versioned = len(parts) > 2 and parts[0] == "vendor" and parts[1] == self.version
+        if versioned:
+            del parts[1]
+        if any(part in HIDDEN_FOLDERS or part.startswith(".") or "\\" in part or "\0" in part for part in parts):
+            return None
+        file = self.root.joinpath(*parts)
+        if (
+            file.suffix not in MEDIA_TYPES
+            or not _is_file(file)
+            or not file.resolve().is_relative_to(self.root.resolve())
+        ):
+            return None
+        content, compressed = _read(file, file.stat().st_mtime_ns)
+        return Asset(content, compressed, MEDIA_TYPES[file.suffix], FOR_EVER if versioned else ASK_AGAIN)
+
+
+def import_map_hash(page: str) -> str | None:
+    """What script-src must allow for the page's import map, the one inline script there is."""
+    found = _IMPORT_MAP.search(page)
+    if found is None:
+        return None
+    return "sha256-" + base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode()
+
+
+def _is_file(file: Path) -> bool:
+    try:
+        return file.is_file()
+    except OSError:  # a name too long for the file system
+        return False
+
+
+@lru_cache(maxsize=512)
+def _read(file: Path, _modified: int) -> tuple[bytes, bytes | None]:
+    """Content and compressed content; read again when the file has been modified."""
+    content = file.read_bytes()
+    return content, None if file.suffix in INCOMPRESSIBLE else gzip.compress(content, 6, mtime=0)

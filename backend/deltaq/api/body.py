@@ -1,0 +1,63 @@
+"""Reading the body of a request: bounded in size and time, strict in syntax."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from fastapi import Request, Response
+from fastapi.routing import APIRoute
+from starlette.exceptions import HTTPException
+
+from ..settings import Settings
+from .strict_json import loads
+
+
+class BodyError(HTTPException):
+    """The body is too large or too slow; `parameters` fill the sentence that says so."""
+
+    def __init__(self, status: int, **parameters: float) -> None:
+        super().__init__(status, headers={"Connection": "close"})
+        self.parameters = parameters
+
+
+class StrictRequest(Request):
+    """A request whose body is read with bounds; `state.lang` is the language that the body asks for."""
+
+    async def body(self) -> bytes:
+        if not hasattr(self, "_body"):
+            settings: Settings = self.app.state.service.settings
+            try:
+                self._body = await asyncio.wait_for(self._bounded(settings.largest_body), settings.body_timeout)
+            except TimeoutError:
+                raise BodyError(408, seconds=settings.body_timeout) from None
+        return self._body
+
+    async def _bounded(self, limit: int) -> bytes:
+        """All chunks, counted as they come: a length that is announced may be a lie, or missing."""
+        chunks, size = [], 0
+        async for chunk in self.stream():
+            size += len(chunk)
+            if size > limit:
+                raise BodyError(413, limit=limit)
+            chunks.append(chunk)
+        return b"".join(chunks)
+
+    async def json(self) -> Any:
+        document = loads(await self.body())
+        if isinstance(document, dict):
+            self.state.lang = document.get("lang")
+        return document
+
+
+class StrictRoute(APIRoute):
+    """A route that reads its body by StrictRequest."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        handler = super().get_route_handler()
+
+        async def handle(request: Request) -> Response:
+            return await handler(StrictRequest(request.scope, request.receive))
+
+        return handle

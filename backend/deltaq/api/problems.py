@@ -1,0 +1,188 @@
+"""The one map from errors to problem documents (application/problem+json, RFC 9457), in the client's language."""
+
+from __future__ import annotations
+
+import json
+import logging
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+from uuid import uuid4
+
+from fastapi import FastAPI, Request, Response
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from ..errors import DeltaqError, InputError, Problem, UnknownNameError
+from ..narration.catalog import message, text
+from .languages import Language, language_of
+from .strict_json import JsonError
+from .validation import problems_of
+from .workers.job import DeadlineExceeded, JobError, MemoryExceeded, Overloaded
+
+LOGGER = logging.getLogger("deltaq.api")
+MEDIA_TYPE = "application/problem+json"
+RETRY_AFTER = 2
+
+
+@dataclass(frozen=True)
+class ProblemType:
+    """A kind of failed request: the last part of its `type` address, and its HTTP status."""
+
+    name: str
+    status: int
+
+
+INVALID_REQUEST = ProblemType("invalid-request", 422)
+INVALID_JSON = ProblemType("invalid-json", 400)
+UNKNOWN_NAME = ProblemType("unknown-name", 404)
+NOT_FOUND = ProblemType("not-found", 404)
+METHOD_NOT_ALLOWED = ProblemType("method-not-allowed", 405)
+BODY_TOO_SLOW = ProblemType("body-too-slow", 408)
+BODY_TOO_LARGE = ProblemType("body-too-large", 413)
+INTERNAL_ERROR = ProblemType("internal-error", 500)
+OVERLOADED = ProblemType("overloaded", 503)
+COMPUTATION_TOO_LARGE = ProblemType("computation-too-large", 504)
+
+# The most special class first; an error is of the first type whose class it is.
+_TYPES: tuple[tuple[type[Exception], ProblemType], ...] = (
+    (JsonError, INVALID_JSON),
+    (UnknownNameError, UNKNOWN_NAME),
+    (InputError, INVALID_REQUEST),
+    (RequestValidationError, INVALID_REQUEST),
+    (Overloaded, OVERLOADED),
+    (DeadlineExceeded, COMPUTATION_TOO_LARGE),
+    (MemoryExceeded, COMPUTATION_TOO_LARGE),
+    (Exception, INTERNAL_ERROR),
+)
+_HTTP_TYPES = {
+    404: NOT_FOUND,
+    405: METHOD_NOT_ALLOWED,
+    408: BODY_TOO_SLOW,
+    413: BODY_TOO_LARGE,
+}
+
+
+@dataclass(frozen=True)
+class Report:
+    """A problem document before it is put into words."""
+
+    type: ProblemType
+    problems: tuple[Problem, ...] = ()
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    headers: Mapping[str, str] = field(default_factory=dict)
+
+    def document(self, language: Language) -> dict[str, Any]:
+        """The members of RFC 9457, and `problems` with pointer, offset, length, code and message."""
+        described = describe(self.problems, language)
+        detail = _text(language, self.type, "detail", **self.parameters)
+        return {
+            "type": f"/problems/{self.type.name}",
+            "title": _text(language, self.type, "title"),
+            "status": self.type.status,
+            "detail": detail or " ".join(one["message"] for one in described[:3]),
+            "problems": described,
+        }
+
+    def response(self, language: Language) -> Response:
+        """The document as an HTTP response."""
+        body = json.dumps(self.document(language), ensure_ascii=False).encode("utf-8", "backslashreplace")
+        headers = {"Content-Language": language, "Cache-Control": "no-store", **self.headers}
+        return Response(body, self.type.status, headers, MEDIA_TYPE)
+
+
+def describe(problems: Iterable[Problem], language: Language) -> list[dict[str, Any]]:
+    """Problems in words."""
+    return [
+        {
+            "pointer": problem.pointer,
+            "offset": problem.offset,
+            "length": problem.length,
+            "code": problem.code,
+            "message": _message(problem, language),
+        }
+        for problem in problems
+    ]
+
+
+def _text(language: Language, kind: ProblemType, part: str, **parameters: Any) -> str:
+    """Title or detail of a problem type; a type without a detail of its own is described by its problems."""
+    try:
+        return text(language, f"errors.type.{kind.name}.{part}", **parameters)
+    except KeyError:
+        return ""
+
+
+def _message(problem: Problem, language: Language) -> str:
+    """The problem in words. A code without a sentence must not turn the client's mistake into ours."""
+    try:
+        return message(language, problem)
+    except KeyError:
+        LOGGER.warning("no sentence for %s in %s", problem.code, language)
+        return problem.code
+
+
+def report_of(error: Exception) -> Report:
+    """What went wrong, as data for the client; our own mistakes are logged and say nothing but where to look."""
+    if isinstance(error, HTTPException):
+        # FastAPI wraps what goes wrong while it reads the body.
+        return report_of(error.__cause__) if isinstance(error.__cause__, DeltaqError) else _http_report(error)
+    kind = next(kind for cause, kind in _TYPES if isinstance(error, cause))
+    if kind is INTERNAL_ERROR:
+        return _incident(error)
+    if kind is OVERLOADED:
+        return Report(kind, parameters={"seconds": RETRY_AFTER}, headers={"Retry-After": str(RETRY_AFTER)})
+    problems = problems_of(error) if isinstance(error, RequestValidationError) else getattr(error, "problems", ())
+    return Report(kind, tuple(problems))
+
+
+def _http_report(error: HTTPException) -> Report:
+    headers = dict(error.headers or {})
+    kind = _HTTP_TYPES.get(error.status_code, ProblemType("http-error", error.status_code))
+    parameters = {"allowed": headers.get("Allow", ""), **getattr(error, "parameters", {})}
+    return Report(kind, parameters=parameters, headers=headers)
+
+
+def _incident(error: Exception) -> Report:
+    incident = uuid4().hex[:12]
+    if isinstance(error, JobError):
+        LOGGER.error("incident %s in a worker: %s\n%s", incident, error, getattr(error, "trace", ""))
+    else:
+        LOGGER.error("incident %s", incident, exc_info=error)
+    return Report(INTERNAL_ERROR, parameters={"incident": incident})
+
+
+class Guard:
+    """Answers what nobody foresaw, inside the other middleware, so that such an answer has their headers too."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        started = False
+
+        async def watched(message: Message) -> None:
+            nonlocal started
+            started = True
+            await send(message)
+
+        try:
+            await self.app(scope, receive, watched)
+        except Exception as error:
+            if started or scope["type"] != "http":
+                raise
+            response = await handle(Request(scope), error)
+            await response(scope, receive, send)
+
+
+async def handle(request: Request, error: Exception) -> Response:
+    """The exception handler of the application."""
+    return report_of(error).response(language_of(request))
+
+
+def install(app: FastAPI) -> None:
+    """Make every error of the application a problem document."""
+    for kind in (HTTPException, RequestValidationError, InputError, JobError):
+        app.add_exception_handler(kind, handle)
+    app.add_middleware(Guard)

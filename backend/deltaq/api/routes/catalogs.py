@@ -1,0 +1,25 @@
+"""The sentences of the page and the service, by language."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter, Request, Response
+
+from ...errors import Problem, UnknownNameError
+from ...narration.catalog import catalog
+from ..languages import LANGUAGES
+from ..responses import tagged
+from .common import failures
+
+router = APIRouter(prefix="/catalogs", tags=["catalogs"])
+
+
+@router.get("/{lang}", response_model=dict[str, dict[str, Any]], responses=failures(404))
+def get_catalog(request: Request, lang: str) -> Response:
+    """All sentences of a language: {rules, errors, statuses, page, methods}."""
+    known = next((one for one in LANGUAGES if one == lang), None)
+    if known is None:
+        parameters = {"name": lang[:16], "known": ", ".join(LANGUAGES)}
+        raise UnknownNameError(Problem("request-unknown-language", parameters=parameters))
+    return tagged(request, dict(catalog(known)))

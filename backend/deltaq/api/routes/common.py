@@ -1,0 +1,46 @@
+"""What several routes need."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import Request
+from pydantic import BaseModel
+
+from ...errors import UnknownNameError
+from ...mechanics.library import load_scene
+from ..languages import language_of
+from ..wire.problem import ProblemDocument
+
+PREFIX = "/api/v1"
+
+_MEANINGS = {
+    400: "the body is not JSON",
+    404: "there is nothing of this name",
+    413: "the body is too large",
+    422: "the request is not valid",
+    503: "the service is busy; Retry-After says when to ask again",
+    504: "the computation is too large",
+}
+
+
+def failures(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """OpenAPI of the problem documents that a route may answer; any other status is one, too."""
+    content = {"application/problem+json": {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}}
+    meanings = {str(status): _MEANINGS[status] for status in statuses} | {"default": "any other failure"}
+    return {
+        status: {"model": ProblemDocument, "description": meaning, "content": content}
+        for status, meaning in meanings.items()
+    }
+
+
+def question_of(request: Request, body: BaseModel) -> dict[str, Any]:
+    """All that an answer depends on: the body and the language. UnknownNameError if there is no such scene."""
+    question = body.model_dump()
+    scene = question["scene"]
+    if isinstance(scene, str):
+        try:
+            load_scene(scene)
+        except UnknownNameError as error:
+            raise UnknownNameError(*(problem.below("/scene") for problem in error.problems)) from None
+    return question | {"lang": language_of(request)}

@@ -1,0 +1,38 @@
+"""Derivations: computed once, then known by their content hash."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fastapi import APIRouter, Request, Response
+from starlette.exceptions import HTTPException
+
+from ..body import StrictRoute
+from ..responses import packed
+from ..service import service_of
+from ..wire.derivation import DerivationAnswer, DerivationRequest
+from ..workers.job import Job
+from .common import PREFIX, failures, question_of
+
+router = APIRouter(prefix="/derivations", tags=["derivations"], route_class=StrictRoute)
+DERIVE = Job("deltaq.api.jobs:derive", deadline=5.0)
+
+
+@router.post("", response_model=DerivationAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+async def derive(request: Request, body: DerivationRequest) -> Response:
+    """Derive the equations of motion of a scene, step by step."""
+    service = service_of(request)
+    question = question_of(request, body)
+    key = service.key(DERIVE.target, question)
+    job = replace(DERIVE, deadline=service.settings.derivation_deadline)
+    answer = await service.answer(key, job, {"id": key, "request": question})
+    return packed(request, key, answer, f"{PREFIX}/derivations/{key}")
+
+
+@router.get("/{identifier}", response_model=DerivationAnswer, responses=failures(404))
+async def get_derivation(request: Request, identifier: str) -> Response:
+    """A derivation that was asked for before. It never changes; one that is no longer kept must be asked for again."""
+    answer = service_of(request).cache.peek(identifier)
+    if answer is None:
+        raise HTTPException(404)
+    return packed(request, identifier, answer, f"{PREFIX}/derivations/{identifier}")

@@ -1,0 +1,37 @@
+"""Integration methods."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter, Request, Response
+
+from ...narration.catalog import text
+from ...simulation.library import get_method, method_ids
+from ..languages import Language, language_of
+from ..responses import tagged
+from ..wire.method import MethodList
+from .common import failures
+
+router = APIRouter(prefix="/methods", tags=["methods"])
+
+
+@router.get("", response_model=MethodList, responses=failures())
+def list_methods(request: Request) -> Response:
+    """The integration methods by rising order, titles in the language asked for."""
+    language = language_of(request)
+    return tagged(request, {"methods": [_entry(identifier, language) for identifier in method_ids()]})
+
+
+def _entry(identifier: str, language: Language) -> dict[str, Any]:
+    method = get_method(identifier)
+    return {
+        "id": method.id,
+        "title": text(language, f"methods.{method.id}.title"),
+        "summary": text(language, f"methods.{method.id}.summary"),
+        "order": method.order,
+        "stages": method.tableau.stages,
+        "family": method.family,
+        "adaptive": method.is_adaptive,
+        "symplectic": method.is_symplectic,
+    }

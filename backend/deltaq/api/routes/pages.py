@@ -1,0 +1,73 @@
+"""The page, its files, and the documentation of the API; nothing comes from elsewhere."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cache
+from importlib.resources import files
+
+from fastapi import APIRouter, Request, Response
+from starlette.exceptions import HTTPException
+
+from ..assets import ASK_AGAIN, Asset, import_map_hash
+from ..headers import content_security_policy
+from ..responses import accepts_gzip, not_modified
+from ..service import service_of
+
+router = APIRouter(include_in_schema=False)
+
+
+@cache
+def _documentation(name: str) -> str:
+    return (files("deltaq.api") / "docs" / name).read_text(encoding="utf-8")
+
+
+@router.api_route("/", methods=["GET", "HEAD"])
+def page(request: Request) -> Response:
+    """The page; its policy names the hash of its import map."""
+    html = service_of(request).assets.page()
+    if html is None:
+        raise HTTPException(404)
+    inline = import_map_hash(html)
+    policy = content_security_policy(*([inline] if inline else []))
+    return _text(request, html, "text/html", {"Content-Security-Policy": policy})
+
+
+@router.api_route("/docs", methods=["GET", "HEAD"])
+def documentation(request: Request) -> Response:
+    """The API, to be read and tried."""
+    html = _documentation("index.html").replace("{version}", service_of(request).assets.version)
+    return _text(request, html, "text/html")
+
+
+@router.api_route("/docs/start.js", methods=["GET", "HEAD"])
+def documentation_script(request: Request) -> Response:
+    """What starts the documentation page."""
+    return _text(request, _documentation("start.js"), "text/javascript")
+
+
+@router.api_route("/{path:path}", methods=["GET", "HEAD"])
+def file(request: Request, path: str) -> Response:
+    """A file of the page."""
+    asset = service_of(request).assets.find(path)
+    if asset is None:
+        raise HTTPException(404)
+    return _file(request, asset)
+
+
+def _text(request: Request, content: str, media_type: str, headers: dict[str, str] | None = None) -> Response:
+    etag = f'"{hashlib.sha256(content.encode()).hexdigest()[:16]}"'
+    sent = {"ETag": etag, "Cache-Control": ASK_AGAIN, **(headers or {})}
+    if not_modified(request, etag):
+        return Response(status_code=304, headers=sent)
+    return Response(content, headers=sent, media_type=media_type)
+
+
+def _file(request: Request, asset: Asset) -> Response:
+    headers = {"ETag": asset.etag, "Cache-Control": asset.cache_control, "Vary": "Accept-Encoding"}
+    if not_modified(request, asset.etag):
+        return Response(status_code=304, headers=headers)
+    headers["Content-Type"] = asset.media_type
+    if asset.compressed is not None and accepts_gzip(request):
+        return Response(asset.compressed, headers=headers | {"Content-Encoding": "gzip"})
+    return Response(asset.content, headers=headers)

@@ -1,0 +1,27 @@
+"""Simulations."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fastapi import APIRouter, Request, Response
+
+from ..body import StrictRoute
+from ..responses import packed
+from ..service import service_of
+from ..wire.simulation import SimulationAnswer, SimulationRequest
+from ..workers.job import Job
+from .common import failures, question_of
+
+router = APIRouter(prefix="/simulations", tags=["simulations"], route_class=StrictRoute)
+SIMULATE = Job("deltaq.api.jobs:simulate", deadline=20.0)
+
+
+@router.post("", response_model=SimulationAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+async def simulate(request: Request, body: SimulationRequest) -> Response:
+    """Simulate a scene. A run that fails is an answer too: it says how far it came, why, and what to do."""
+    service = service_of(request)
+    question = question_of(request, body)
+    key = service.key(SIMULATE.target, question)
+    job = replace(SIMULATE, deadline=service.settings.simulation_deadline)
+    return packed(request, key, await service.answer(key, job, {"request": question}))

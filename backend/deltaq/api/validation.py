@@ -1,0 +1,58 @@
+"""What Pydantic finds wrong with a request, as our own problems: codes and parameters, and no echo of the input."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from fastapi.exceptions import RequestValidationError
+
+from ..errors import Problem
+from .strict_json import escaped
+
+_CODES = {
+    "missing": "missing-field",
+    "extra_forbidden": "unknown-field",
+    "model_type": "request-not-object",
+    "model_attributes_type": "request-not-object",
+    "dict_type": "request-not-object",
+    "list_type": "request-not-array",
+    "tuple_type": "request-not-array",
+    "string_type": "request-not-text",
+    "float_type": "request-not-number",
+    "float_parsing": "request-not-number",
+    "int_type": "request-not-integer",
+    "int_parsing": "request-not-integer",
+    "int_from_float": "request-not-integer",
+    "bool_type": "request-not-boolean",
+    "bool_parsing": "request-not-boolean",
+    "finite_number": "request-not-finite",
+    "greater_than_equal": "request-too-small",
+    "greater_than": "request-not-above",
+    "less_than_equal": "request-too-large",
+    "less_than": "request-not-below",
+    "literal_error": "request-not-one-of",
+    "string_too_long": "request-text-too-long",
+    "string_too_short": "request-text-too-short",
+    "too_long": "request-too-many",
+    "too_short": "request-too-few",
+    "request-scene-type": "request-scene-type",
+    "request-step-and-tolerance": "request-step-and-tolerance",
+}
+
+
+def problems_of(error: RequestValidationError) -> Iterator[Problem]:
+    """One problem for each finding."""
+    for finding in error.errors():
+        code = _CODES.get(finding["type"], "request-invalid")
+        parameters = {"field": str(finding["loc"][-1])[:64], **_parameters(finding.get("ctx", {}))}
+        yield Problem(code, pointer(finding["loc"]), parameters=parameters)
+
+
+def pointer(location: tuple[int | str, ...]) -> str:
+    """JSON pointer (RFC 6901) of a Pydantic location, whose first part says body, query or path."""
+    return "".join(f"/{escaped(str(part))}" for part in location[1:] if part != "[key]")
+
+
+def _parameters(context: dict[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in context.items() if isinstance(value, (str, int, float))}

@@ -1,0 +1,66 @@
+"""Derivations: from a scene to its equations of motion, step by step."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import ConfigDict, Field
+
+from ..languages import Language
+from .base import Answer, Guides, Names, Request, SceneReference, Values
+
+Formulation = Literal["dalembert-lagrange"]
+
+
+class DerivationRequest(Request):
+    """Which scene to derive, what to change before, and in which language."""
+
+    scene: SceneReference
+    guides: Guides = Field((), description="coordinates to be made functions of time")
+    freeze: Names = Field((), description="coordinates to be held constant", examples=[[]])
+    parameters: Values = Field({}, description="values of parameters", examples=[{"l": 0.8}])
+    formulation: Formulation = "dalembert-lagrange"
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {"scene": "elastic-pendulum", "lang": "de"},
+                {
+                    "scene": "base-pendulum",
+                    "guides": [{"coordinate": "y", "value": "y0*sin(omega*t)"}],
+                    "parameters": {"y0": 0.1, "omega": 12.0},
+                },
+            ]
+        }
+    )
+
+
+class Step(Answer):
+    """One law applied once."""
+
+    id: str = Field(examples=["virtual-displacement:bob"])
+    rule: str = Field(description="the law", examples=["virtual-displacement"])
+    title: str
+    text: str
+    latex: str = Field(examples=["\\delta T = m\\ell^2\\dot{\\varphi}\\,\\delta\\dot{\\varphi}"])
+    marked: str = Field(description="the same with \\htmlClass hooks that tell which term is what")
+    verified: bool = Field(description="whether an independent route confirmed the step")
+    sources: tuple[str, ...] = Field(description="bodies and loads that the terms come from")
+    substeps: tuple[Step, ...]
+
+
+class Chapter(Answer):
+    """Steps that belong together."""
+
+    id: str = Field(examples=["variation"])
+    title: str
+    steps: tuple[Step, ...]
+
+
+class DerivationAnswer(Answer):
+    """The derivation, and its results as plain expressions and as LaTeX."""
+
+    id: str = Field(description="content hash; GET /derivations/{id} answers the same", examples=["9f3c…"])
+    chapters: tuple[Chapter, ...]
+    result: dict[str, Any]

@@ -1,0 +1,55 @@
+"""Scenes: the list, a document, and whether a document is valid."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import Field, WithJsonSchema
+
+from .base import Answer
+from .problem import ProblemEntry
+
+
+class SceneEntry(Answer):
+    """A built-in scene in the list."""
+
+    id: str = Field(examples=["elastic-pendulum"])
+    title: dict[str, str] = Field(examples=[{"de": "Federpendel", "en": "Elastic pendulum"}])
+    summary: dict[str, str]
+    degrees_of_freedom: int = Field(examples=[2])
+
+
+class SceneList(Answer):
+    """The built-in scenes."""
+
+    scenes: tuple[SceneEntry, ...]
+
+
+class SceneValidity(Answer):
+    """Whether a scene document describes a mechanical system."""
+
+    valid: bool
+    problems: tuple[ProblemEntry, ...]
+
+
+EXAMPLE = {
+    "format": 1,
+    "id": "my-pendulum",
+    "title": {"de": "Mein Pendel", "en": "My pendulum"},
+    "summary": {"de": "Ein ebenes Pendel.", "en": "A plane pendulum."},
+    "dimension": 2,
+    "coordinates": [{"name": "phi", "unit": "rad", "value": 0.5, "rate": 0.0}],
+    "parameters": [
+        {"name": "m", "unit": "kg", "value": 1.0},
+        {"name": "l", "latex": "\\ell", "unit": "m", "value": 1.0},
+        {"name": "g", "unit": "m/s^2", "value": 9.81},
+    ],
+    "points": [{"name": "pivot", "position": ["0", "0"]}],
+    "bodies": [{"name": "bob", "kind": "particle", "mass": "m", "position": ["l*sin(phi)", "l*cos(phi)"]}],
+    "loads": [{"name": "weight", "kind": "gravity", "acceleration": ["0", "g"]}],
+}
+
+SceneDocument = Annotated[
+    dict[str, Any],
+    WithJsonSchema({"type": "object", "title": "Scene, format 1", "examples": [EXAMPLE]}),
+]

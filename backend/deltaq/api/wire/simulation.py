@@ -1,0 +1,106 @@
+"""Simulations: a scene's motion in time, with status, error estimate, energy balance and cost."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from ...simulation.choice import AUTO
+from ...simulation.request import DEFAULT_SAMPLES, LARGEST_SPAN, PARTS, SAMPLES, TOLERANCES
+from ..languages import Language
+from .base import Answer, Guides, Name, Names, Request, SceneReference, Values
+
+
+class InitialValue(Request):
+    """Value and rate of a coordinate at t = 0; what is left out is the scene's own."""
+
+    value: float | None = Field(None, examples=[0.5])
+    rate: float | None = Field(None, examples=[0.0])
+
+
+class SimulationRequest(Request):
+    """What to simulate, how long, and how accurately."""
+
+    scene: SceneReference
+    guides: Guides = Field((), description="coordinates to be made functions of time")
+    freeze: Names = Field((), description="coordinates to be held constant", examples=[[]])
+    parameters: Values = Field({}, description="values of parameters", examples=[{"l": 0.8}])
+    initial: Annotated[dict[Name, InitialValue], Field(max_length=64)] = Field({}, examples=[{"phi": {"value": 0.5}}])
+    t_end: float = Field(gt=0, le=LARGEST_SPAN, description="seconds", examples=[10.0])
+    samples: int = Field(
+        DEFAULT_SAMPLES,
+        ge=SAMPLES[0],
+        le=SAMPLES[1],
+        description="number of samples, evenly spaced, both ends included",
+    )
+    method: Name = Field(AUTO, description="a method of GET /methods, or auto", examples=["dop853"])
+    tolerance: float | None = Field(
+        None,
+        ge=TOLERANCES[0],
+        le=TOLERANCES[1],
+        description="wanted error of the coordinates: absolute below 1, relative above",
+    )
+    step: float | None = Field(None, gt=0, description="fixed step in seconds, instead of a tolerance")
+    include: Names = Field((), description=f"the parts wanted, of {', '.join(PARTS)}; all if empty", examples=[[]])
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {"scene": "elastic-pendulum", "t_end": 10.0, "samples": 101, "tolerance": 1e-9},
+                {"scene": "pendulum", "t_end": 5.0, "method": "rk4", "step": 0.01, "initial": {"phi": {"value": 1.0}}},
+            ]
+        }
+    )
+
+    @model_validator(mode="after")
+    def _one_accuracy(self) -> Self:
+        if self.step is not None and self.tolerance is not None:
+            raise PydanticCustomError("request-step-and-tolerance", "either step or tolerance")
+        return self
+
+
+class Energy(Answer):
+    """Energies at the samples in joule, the work of the other forces, and the balance kinetic + potential − work."""
+
+    kinetic: tuple[float, ...]
+    potential: tuple[float, ...]
+    work: tuple[float, ...]
+    balance: tuple[float, ...] = Field(description="constant when all is right")
+    drift: float = Field(description="largest departure of the balance from its start")
+
+
+class ErrorEstimate(Answer):
+    """The estimated largest absolute error of any coordinate at each sample, and the time after which none is right."""
+
+    estimate: tuple[float | None, ...]
+    horizon: float | None
+
+
+class Cost(Answer):
+    """What the run took; times in seconds."""
+
+    steps: int
+    rejected: int
+    rhs_evaluations: int
+    wall_time: float
+    compile_time: float
+
+
+class SimulationAnswer(Answer):
+    """The trajectory at the samples that were reached; parts that were not asked for are missing."""
+
+    status: str = Field(description="ok, or why the run ended early", examples=["ok"])
+    reason: str = Field(description="the status as a sentence")
+    remedy: str = Field(description="what to do about it")
+    method: str = Field(examples=["dop853"])
+    t: tuple[float, ...]
+    coordinates: dict[str, tuple[float, ...]] | None = None
+    rates: dict[str, tuple[float, ...]] | None = None
+    positions: dict[str, tuple[tuple[float, ...], ...]] | None = None
+    loads: dict[str, tuple[tuple[float, ...], ...]] | None = Field(None, description="force vectors")
+    energy: Energy | None = None
+    error: ErrorEstimate | None = None
+    cost: Cost

@@ -1,0 +1,52 @@
+"""What is asked of a worker, and the ways in which it can end without an answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...errors import DeltaqError
+
+
+@dataclass(frozen=True)
+class Job:
+    """A function named `package.module:function` that turns a JSON document into a JSON document.
+
+    `deadline` is the wall time in seconds after which the process that runs it is killed. A `pure` job has no effect
+    but its answer, so it may be run again when its worker was killed from outside.
+    """
+
+    target: str
+    deadline: float
+    pure: bool = True
+
+
+class JobError(DeltaqError):
+    """A job ended without an answer, and its input is not to blame."""
+
+
+class DeadlineExceeded(JobError):
+    """The job took longer than its deadline; its process was killed."""
+
+
+class MemoryExceeded(JobError):
+    """The job needed more memory than a worker may have."""
+
+
+class WorkerDied(JobError):
+    """The process that ran the job is gone; `repeatable` if it was killed from outside, not by what it did."""
+
+    def __init__(self, summary: str, *, repeatable: bool) -> None:
+        super().__init__(summary)
+        self.repeatable = repeatable
+
+
+class Overloaded(JobError):
+    """The queue is full, or the job waited in it for too long."""
+
+
+class JobFailed(JobError):
+    """The job raised an exception that is our bug; `trace` is its traceback."""
+
+    def __init__(self, summary: str, trace: str = "") -> None:
+        super().__init__(summary)
+        self.trace = trace

@@ -1,0 +1,48 @@
+"""Bounds that the operating system keeps for a worker, whatever the worker does."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import os
+import resource
+import signal
+import sys
+import time
+
+_PR_SET_PDEATHSIG = 1
+
+
+def die_with_parent() -> None:
+    """Linux kills this process when its parent ends, even in the middle of a C call.
+
+    The parent is the fork server, which ends with the web process (see keep_only). Elsewhere an idle worker sees its
+    pipe close, and a busy one has its bound on processor time.
+    """
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def keep_only(*descriptors: int) -> None:
+    """Close all files but the standard streams and those named.
+
+    A child of the fork server inherits the write end of the pipe by whose closing the fork server notices that the
+    web process has ended; with it open, an orphan would keep its own parent alive.
+    """
+    first = 3
+    for last in (*sorted(descriptors), os.sysconf("SC_OPEN_MAX")):
+        os.closerange(first, last)
+        first = last + 1
+
+
+def bound_memory(size: int) -> None:
+    """Address space in bytes; beyond it allocations raise MemoryError. To be set after the large imports."""
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (size if hard == resource.RLIM_INFINITY else min(size, hard), hard))
+
+
+def bound_processor_time(seconds: float) -> None:
+    """Processor time from now on; beyond it the kernel ends the process, also when nobody is left to kill it."""
+    _, hard = resource.getrlimit(resource.RLIMIT_CPU)
+    allowed = math.ceil(time.process_time() + seconds) + 1
+    resource.setrlimit(resource.RLIMIT_CPU, (allowed if hard == resource.RLIM_INFINITY else min(allowed, hard), hard))

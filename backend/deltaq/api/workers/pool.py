@@ -1,0 +1,87 @@
+"""The pool: a bounded queue in front of a few lanes."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from dataclasses import dataclass
+from queue import Full, Queue
+from typing import Any
+
+from .job import Job, Overloaded
+from .lane import Lane, Limits, Task
+from .message import encode_request
+from .worker import preload
+
+
+@dataclass(frozen=True)
+class PoolState:
+    """How the pool is doing."""
+
+    workers: int
+    ready: int
+    busy: int
+    waiting: int
+    kills: int
+
+
+class Pool:
+    """Runs jobs in `size` worker processes; at most `queue_length` tasks wait."""
+
+    def __init__(self, size: int, queue_length: int, limits: Limits, modules: Sequence[str] = ()) -> None:
+        self._tasks: Queue[Task | None] = Queue(queue_length)
+        self._limits = limits
+        self._modules = tuple(modules)
+        self._lanes = tuple(Lane(self._tasks, limits) for _ in range(size))
+
+    def start(self) -> None:
+        """Start the lanes; returns at once, the workers come up in the background."""
+        preload(self._modules)
+        for lane in self._lanes:
+            lane.start()
+
+    def stop(self, timeout: float = 5.0) -> None:
+        """End the lanes: waiting tasks are refused, running ones may finish within `timeout` seconds."""
+        for lane in self._lanes:
+            lane.stop()
+        while not self._tasks.empty():
+            task = self._tasks.get_nowait()
+            if task is not None and task.answer.set_running_or_notify_cancel():
+                task.answer.set_exception(Overloaded("the service is stopping"))
+        for _ in self._lanes:
+            self._tasks.put(None)
+        for lane in self._lanes:
+            lane.join(timeout)
+            lane.drop_worker()
+
+    async def run(self, job: Job, document: Any) -> bytes:
+        """The JSON of the job's answer.
+
+        InputError as the job raised it; Overloaded, DeadlineExceeded, MemoryExceeded, WorkerDied or JobFailed
+        otherwise. Always ends: with a full queue at once, else after patience and deadlines.
+        """
+        task = Task(job, encode_request(job.target, job.deadline, document))
+        try:
+            self._tasks.put_nowait(task)
+        except Full:
+            raise Overloaded("the queue is full") from None
+        longest = self._limits.patience + 2 * job.deadline + 5.0
+        try:
+            return await asyncio.wait_for(asyncio.wrap_future(task.answer), longest)
+        except TimeoutError:
+            raise Overloaded("no worker came up") from None
+
+    @property
+    def state(self) -> PoolState:
+        return PoolState(
+            workers=len(self._lanes),
+            ready=sum(lane.worker is not None for lane in self._lanes),
+            busy=sum(lane.busy for lane in self._lanes),
+            waiting=self._tasks.qsize(),
+            kills=sum(lane.kills for lane in self._lanes),
+        )
+
+    @property
+    def pids(self) -> tuple[int, ...]:
+        """The process ids of the workers that are up."""
+        return tuple(worker.pid for lane in self._lanes if (worker := lane.worker) is not None)

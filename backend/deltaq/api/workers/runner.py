@@ -1,0 +1,58 @@
+"""The loop of a worker process: read a request, run its function, write the answer or the error as data."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import traceback
+from importlib import import_module
+from multiprocessing.connection import Connection
+from typing import Any
+
+from ...errors import InputError
+from .limits import bound_memory, bound_processor_time, die_with_parent, keep_only
+from .message import READY, Failure, encode_answer, encode_error, problem_data
+
+
+def run(connection: Connection, memory: int) -> None:
+    """Serve requests until the other end of the pipe is closed."""
+    keep_only(connection.fileno())
+    die_with_parent()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which then closes the pipe
+    bound_memory(memory)
+    connection.send_bytes(READY)
+    while True:
+        try:
+            request = connection.recv_bytes()
+        except (EOFError, OSError):
+            os._exit(0)
+        connection.send_bytes(reply_to(request))
+
+
+def reply_to(request: bytes) -> bytes:
+    """The answer to one request; every exception becomes data."""
+    try:
+        target, seconds, document = json.loads(request)
+        bound_processor_time(seconds)
+        return encode_answer(function_of(target)(document))
+    except InputError as error:
+        problems = tuple(problem_data(problem) for problem in error.problems)
+        return encode_error(Failure(type(error).__name__, problems=problems))
+    except BaseException as error:  # noqa: BLE001  a worker answers whatever happens
+        return encode_error(failure_of(error))
+
+
+def failure_of(error: BaseException) -> Failure:
+    """Our bug as data; even an exception whose text cannot be made gives one."""
+    kind = type(error).__name__
+    try:
+        return Failure(kind, f"{kind}: {error}"[:1000], "".join(traceback.format_exception(error))[-10_000:])
+    except BaseException:  # noqa: BLE001  its __str__ raises
+        return Failure(kind, kind)
+
+
+def function_of(target: str) -> Any:
+    """The function named `package.module:function`."""
+    module, _, name = target.partition(":")
+    return getattr(import_module(module), name)

@@ -1,0 +1,127 @@
+"""The command line: `deltaq serve`."""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import socket
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from . import __version__
+
+if TYPE_CHECKING:
+    from .settings import Settings
+
+BUSY = 2
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; the exit code is 0, or 2 for what the user can mend."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.command == "serve":
+        return serve(options.host, options.port, open_page=options.open)
+    parser.print_help()
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="deltaq", description="Derives and simulates analytical mechanics.")
+    parser.add_argument("--version", action="version", version=f"deltaq {__version__}")
+    commands = parser.add_subparsers(dest="command", metavar="command")
+    serve_parser = commands.add_parser(
+        "serve",
+        help="serve the page and the API",
+        description="Serves the page and the API.",
+        epilog="Further settings are environment variables: DELTAQ_WORKERS, DELTAQ_CACHE_SIZE, "
+        "DELTAQ_DERIVATION_DEADLINE, DELTAQ_SIMULATION_DEADLINE and others of deltaq/settings.py.",
+    )
+    serve_parser.add_argument("--host", default="127.0.0.1", help="address to bind (default: %(default)s)")
+    serve_parser.add_argument(
+        "--port", type=_port, default=8000, help="port; 0 takes a free one (default: %(default)s)"
+    )
+    serve_parser.add_argument("--open", action="store_true", help="open the page in the browser")
+    return parser
+
+
+def _port(text: str) -> int:
+    number = int(text) if text.isdecimal() else -1
+    if not 0 <= number <= 65535:
+        raise argparse.ArgumentTypeError(f"a port is a number from 0 to 65535, not {text}")
+    return number
+
+
+def serve(host: str, port: int, *, open_page: bool) -> int:
+    """Serve until interrupted. The port is taken before anything is loaded, so that a busy one is told at once."""
+    try:
+        listener = _listen(host, port)
+    except OSError as error:
+        print(_cannot_listen(host, port, error), file=sys.stderr)
+        return BUSY
+    from .settings import Settings, SettingsError
+
+    try:
+        settings = Settings.from_environment()
+    except SettingsError as error:
+        print(f"deltaq: {error}", file=sys.stderr)
+        return BUSY
+    address = _address(host, listener.getsockname()[1])
+    print(f"δq is at {address}  (Ctrl-C ends it)", flush=True)
+    if open_page:
+        import webbrowser
+
+        webbrowser.open(address)
+    _run(listener, settings)
+    return 0
+
+
+def _run(listener: socket.socket, settings: Settings) -> None:
+    import uvicorn
+
+    from .api.app import create_app
+
+    config = uvicorn.Config(
+        create_app(settings),
+        http="h11",
+        ws="none",
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        timeout_keep_alive=15,
+        timeout_graceful_shutdown=5,
+        h11_max_incomplete_event_size=32768,
+    )
+    uvicorn.Server(config).run(sockets=[listener])
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    """A socket that already takes connections; they wait until the service is loaded."""
+    family, kind, protocol, _, place = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+    listener = socket.socket(family, kind, protocol)
+    try:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(place)
+        listener.listen(2048)
+    except OSError:
+        listener.close()
+        raise
+    return listener
+
+
+def _cannot_listen(host: str, port: int, error: OSError) -> str:
+    if error.errno == errno.EADDRINUSE:
+        return f"deltaq: port {port} is in use. Take another one: deltaq serve --port {min(port + 1, 65535)}"
+    if error.errno == errno.EACCES:
+        return f"deltaq: port {port} is not for ordinary users. Take one above 1023: deltaq serve --port 8000"
+    return f"deltaq: cannot listen at {host}: {error.strerror or error}"
+
+
+def _address(host: str, port: int) -> str:
+    shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)  # noqa: S104
+    return f"http://{shown}:{port}/"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

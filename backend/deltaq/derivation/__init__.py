@@ -1,0 +1,1 @@
+"""Derivations: from positions to equations of motion, one law at a time."""

@@ -1,0 +1,136 @@
+"""The symbols of a scene in the hands of SymPy, and the few operations that every law uses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeVar
+
+import sympy as sp
+
+from ..language import canonical
+from ..language.expression import Expression
+from ..language.symbols import Symbols
+from ..language.sympy_algebra import time_derivative, to_sympy
+from ..language.tree import Node
+from ..mechanics.scene import Scene
+from .formula import Given, Value
+
+V = TypeVar("V", sp.Expr, sp.ImmutableMatrix)
+
+
+@dataclass(frozen=True, eq=False)
+class Calculus:
+    """Coordinates, rates, accelerations and variations are plain symbols: `phi`, `dot(phi)`, `ddot(phi)`, `delta(phi)`.
+
+    Derivatives with respect to time follow by the chain rule. `free` are the coordinates that no guide prescribes.
+    """
+
+    scene: Scene
+
+    @cached_property
+    def symbols(self) -> Symbols:
+        return Symbols(self.scene.names)
+
+    @cached_property
+    def free(self) -> tuple[str, ...]:
+        return tuple(coordinate.name for coordinate in self.scene.free)
+
+    @cached_property
+    def coordinates(self) -> tuple[str, ...]:
+        return tuple(coordinate.name for coordinate in self.scene.coordinates)
+
+    def q(self, name: str) -> sp.Symbol:
+        return self.symbols.name(name)
+
+    def rate(self, name: str) -> sp.Symbol:
+        return self.symbols.rate(name, 1)
+
+    def acceleration(self, name: str) -> sp.Symbol:
+        return self.symbols.rate(name, 2)
+
+    def variation(self, name: str) -> sp.Symbol:
+        return self.symbols.variation(name)
+
+    @property
+    def t(self) -> sp.Symbol:
+        return self.symbols.time
+
+    @property
+    def zero(self) -> sp.Expr:
+        return sp.Integer(0)
+
+    @cached_property
+    def h(self) -> sp.Symbol:
+        """The number that the definition of the first variation differentiates by."""
+        taken = {symbol.name for symbol in self.scene.names.symbols}
+        return sp.Symbol(next(name for name in ("h", "epsilon", "eta", "lambda") if name not in taken), real=True)
+
+    @cached_property
+    def variations(self) -> Mapping[sp.Symbol, sp.Symbol]:
+        """δq of every free coordinate q."""
+        return {self.q(name): self.variation(name) for name in self.free}
+
+    def expression(self, node: Node) -> sp.Expr:
+        return to_sympy(node, self.symbols)
+
+    def vector(self, nodes: Iterable[Node]) -> sp.ImmutableMatrix:
+        return column(self.expression(node) for node in nodes)
+
+    def given(self, expressions: Iterable[Expression]) -> Given:
+        """A vector as the scene states it."""
+        trees = tuple(expression.tree for expression in expressions)
+        return Given(trees, self.vector(trees))
+
+    @cached_property
+    def guides(self) -> Mapping[sp.Symbol, sp.Expr]:
+        """Guided coordinates with their rates and accelerations, each as a function of time."""
+        found: dict[sp.Symbol, sp.Expr] = {}
+        for guide in self.scene.guides:
+            value = self.expression(guide.value.tree)
+            speed = time_derivative(value, self.symbols)
+            acceleration = time_derivative(speed, self.symbols)
+            name = guide.coordinate
+            found |= {self.q(name): value, self.rate(name): speed, self.acceleration(name): acceleration}
+        return found
+
+    def guided(self, value: V) -> V:
+        """The value with every guide put in."""
+        return value.xreplace(dict(self.guides)) if self.guides else value
+
+    def time_derivative(self, value: sp.Expr) -> sp.Expr:
+        return time_derivative(value, self.symbols)
+
+    def display(self, value: V) -> V:
+        """The shortest of a few equivalent forms."""
+        return by_component(value, lambda component: canonical.display(component, self.symbols))
+
+    def derivative(self, value: V, by: sp.Symbol) -> V:
+        """∂value/∂by, in its display form."""
+        return self.display(value.diff(by))
+
+    def vary(self, value: sp.Expr) -> sp.Expr:
+        """δvalue by the chain rule, the time held fixed."""
+        return sum((value.diff(q) * dq for q, dq in self.variations.items()), self.zero)
+
+    def collected(self, work: sp.Expr) -> sp.Expr:
+        """A virtual work as Σ Qᵢ δqᵢ, each coefficient in its display form."""
+        expanded = work.expand()
+        return sp.Add(*(self.display(expanded.coeff(dq)) * dq for dq in self.variations.values()))
+
+    def is_zero(self, value: sp.Expr) -> bool:
+        """Whether the value vanishes identically; what cannot be decided is taken as not zero."""
+        return canonical.is_zero(value, self.symbols) is True
+
+    def dot(self, left: sp.ImmutableMatrix, right: sp.ImmutableMatrix) -> sp.Expr:
+        return sum((a * b for a, b in zip(left, right, strict=True)), self.zero)
+
+
+def column(components: Iterable[sp.Expr]) -> sp.ImmutableMatrix:
+    return sp.ImmutableMatrix([[component] for component in components])
+
+
+def by_component(value: Value, function: Callable[[sp.Expr], sp.Expr]) -> Value:
+    """The function of every component of a vector or matrix, or of the expression itself."""
+    return value.applyfunc(function) if isinstance(value, sp.MatrixBase) else function(value)

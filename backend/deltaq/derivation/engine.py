@@ -1,0 +1,29 @@
+"""The driver: which formulation, then its steps, then their verification."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+
+from ..errors import Problem, UnknownNameError
+from ..mechanics.scene import Scene
+from ..packages import modules_of
+from .step import Derivation
+from .system import System
+from .verification import verified
+
+FORMULATIONS = "deltaq.derivation.formulations"
+
+
+def formulation_names() -> tuple[str, ...]:
+    return tuple(module.FORMULATION for module in modules_of(FORMULATIONS))
+
+
+def derive(scene: Scene, formulation: str = "dalembert-lagrange") -> tuple[System, Derivation]:
+    """The derivation of a scene, every step verified. Raises UnknownNameError for an unknown formulation."""
+    roads = {module.FORMULATION: module for module in modules_of(FORMULATIONS)}
+    if formulation not in roads:
+        near = get_close_matches(formulation, roads, n=1)
+        parameters = {"name": formulation[:40], "known": ", ".join(roads), "suggestion": near[0] if near else ""}
+        raise UnknownNameError(Problem("unknown-formulation", "/formulation", parameters=parameters))
+    system = System(scene)
+    return system, verified(roads[formulation].derive(system), system)

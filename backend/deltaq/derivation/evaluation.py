@@ -1,0 +1,132 @@
+"""Numbers for formulas: what each evaluates to at a point, in ball arithmetic, without symbolic differentiation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import sympy as sp
+from flint import arb
+
+from ..language.tree import fold
+from .formula import (
+    Dot,
+    Equation,
+    Explicit,
+    Formula,
+    Gateaux,
+    Given,
+    Named,
+    Partial,
+    Plus,
+    Rate,
+    Shifted,
+    Substituted,
+    Times,
+    Value,
+)
+from .tree_evaluation import FUNCTIONS, ArbAlgebra, power
+
+Point = Mapping[str, arb]
+Numbers = tuple[arb, ...]  # one for a scalar, several for a vector
+
+STEP = arb(2) ** -128
+
+# Operations by the names of SymPy's classes.
+BY_CLASS: Mapping[str, Callable[..., arb]] = {
+    **FUNCTIONS,
+    "Abs": FUNCTIONS["abs"],
+    "Add": lambda *terms: sum(terms, arb(0)),
+    "Mul": lambda *factors: math.prod(factors, start=arb(1)),
+    "Pow": power,
+}
+CONSTANTS: Mapping[sp.Basic, Callable[[], arb]] = {sp.pi: arb.pi, sp.E: arb.const_e}
+
+
+def evaluate(formula: Formula, point: Point) -> Numbers:
+    """The formula's components at the point. Not finite where it is not defined there."""
+
+    def at(other: Point) -> Callable[[Formula], Numbers]:
+        return lambda part: evaluate(part, other)
+
+    match formula:
+        case Given(trees):
+            return tuple(fold(tree, ArbAlgebra(point)) for tree in trees)
+        case Explicit(value) | Named(_, value):
+            return components(value, point)
+        case Partial(of, by):
+            return difference(at, of, lambda h: _moved(point, {by.name: h}))
+        case Rate(of):
+            return difference(at, of, lambda h: along_motion(point, h))
+        case Gateaux(of):
+            return difference(at, of, lambda h: varied(point, h))
+        case Shifted(value, h):
+            return difference(at, Explicit(value), lambda size: {**point, h.name: size})
+        case Times(factors):
+            return _product([evaluate(factor, point) for factor in factors])
+        case Dot(left, right):
+            pairs = zip(evaluate(left, point), evaluate(right, point), strict=True)
+            return (sum((a * b for a, b in pairs), arb(0)),)
+        case Plus(terms):
+            return _sum([tuple(term.sign * part for part in evaluate(term.formula, point)) for term in terms])
+        case Equation(left, right):
+            return _sum([evaluate(left, point), tuple(-part for part in evaluate(right, point))])
+        case Substituted(of, values):
+            return evaluate(of, {**point, **{symbol.name: number(value, point) for symbol, value in values.items()}})
+
+
+def components(value: Value, point: Point) -> Numbers:
+    """The numbers of a vector or an expression."""
+    parts = list(value) if isinstance(value, sp.MatrixBase) else [value]
+    return tuple(number(part, point) for part in parts)
+
+
+def difference(
+    at: Callable[[Point], Callable[[Formula], Numbers]], of: Formula, moved: Callable[[arb], Point]
+) -> Numbers:
+    """The derivative of a formula along a curve of points, as a central difference."""
+    ahead, behind = at(moved(STEP))(of), at(moved(-STEP))(of)
+    return tuple((a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True))
+
+
+def along_motion(point: Point, h: arb) -> Point:
+    """Where the system is a time h later: q + q̇h + q̈h²/2, and its rates."""
+    moved = {"t": point["t"] + h}
+    for name in point:
+        speed, acceleration = point.get(f"dot({name})"), point.get(f"ddot({name})")
+        if speed is not None and acceleration is not None:
+            moved[name] = point[name] + speed * h + acceleration * h * h / 2
+            moved[f"dot({name})"] = speed + acceleration * h
+    return {**point, **moved}
+
+
+def varied(point: Point, h: arb) -> Point:
+    """The neighbouring configuration q + h δq at the same time."""
+    return _moved(point, {name: h * point[f"delta({name})"] for name in point if f"delta({name})" in point})
+
+
+def number(expression: sp.Basic, point: Point) -> arb:
+    """The expression's value, evaluated from the leaves up."""
+    if isinstance(expression, sp.Symbol):
+        return point[expression.name]
+    if isinstance(expression, sp.Rational):
+        return arb(expression.p) / arb(expression.q)
+    if expression in CONSTANTS:
+        return CONSTANTS[expression]()
+    arguments = [number(argument, point) for argument in expression.args]
+    return BY_CLASS[type(expression).__name__](*arguments)
+
+
+def _moved(point: Point, shifts: Mapping[str, arb]) -> Point:
+    return {**point, **{name: point[name] + shift for name, shift in shifts.items()}}
+
+
+def _product(factors: list[Numbers]) -> Numbers:
+    """Scalars times at most one vector."""
+    vector = next((factor for factor in factors if len(factor) > 1), (arb(1),))
+    scalar = math.prod((factor[0] for factor in factors if len(factor) == 1), start=arb(1))
+    return tuple(scalar * part for part in vector)
+
+
+def _sum(terms: list[Numbers]) -> Numbers:
+    return tuple(sum(parts, arb(0)) for parts in zip(*terms, strict=True))

@@ -1,0 +1,105 @@
+"""The lecture's road: from d'Alembert's principle to Lagrange's equations of the second kind.
+
+δW = ∫ r̈ · δr dm for every virtual displacement, which becomes d/dt ∂E/∂q̇ᵢ − ∂E/∂qᵢ = Qᵢ.
+Source: Lagrange, Mécanique analytique (1788); the lecture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...mechanics.contributions import PointForce
+from ..rules import (
+    curl_test,
+    decomposition,
+    generalized_force,
+    guide,
+    guided_position,
+    kinetic_energy,
+    lagrange_equation,
+    lagrange_function,
+    position,
+    potential,
+    total_differential,
+    total_kinetic_energy,
+    total_virtual_work,
+    velocity,
+    virtual_displacement,
+    work_of_force,
+    work_of_potential,
+)
+from ..step import Chapter, Derivation, Step
+from ..system import System
+
+FORMULATION = "dalembert-lagrange"
+
+
+def derive(system: System) -> Derivation:
+    """The chapters in the lecture's order."""
+    chapters = {
+        "configuration": _configuration,
+        "variation": _variation,
+        "virtual-work": _virtual_work,
+        "kinetic-energy": _kinetic_energy,
+        "decomposition": _decomposition,
+        "lagrange": _lagrange,
+    }
+    return Derivation(FORMULATION, tuple(Chapter(name, tuple(steps(system))) for name, steps in chapters.items()))
+
+
+def _places(system: System) -> tuple[str, ...]:
+    """The places whose motion matters: bodies, and points where forces act."""
+    bodies = (body.name for body in system.scene.bodies)
+    points = (load.place for load in system.scene.contributions if isinstance(load, PointForce))
+    return tuple(dict.fromkeys((*bodies, *points)))
+
+
+def _configuration(system: System) -> Iterator[Step]:
+    for place in _places(system):
+        yield position.apply(system, place)
+    for each in system.scene.guides:
+        yield guide.apply(system, each)
+    if system.scene.guides:
+        for place in _places(system):
+            yield guided_position.apply(system, place)
+
+
+def _variation(system: System) -> Iterator[Step]:
+    for place in _places(system):
+        yield virtual_displacement.apply(system, place)
+        yield total_differential.apply(system, place)
+
+
+def _virtual_work(system: System) -> Iterator[Step]:
+    loads = system.scene.contributions
+    for load in loads:
+        several = sum(other.source == load.source for other in loads) > 1
+        subject = f"{load.source}:{system.place_of(load)}" if several else load.source
+        if isinstance(load, PointForce):
+            yield work_of_force.apply(system, load, subject)
+        else:
+            yield work_of_potential.apply(system, load, subject)
+    yield total_virtual_work.apply(system)
+    yield generalized_force.apply(system)
+
+
+def _kinetic_energy(system: System) -> Iterator[Step]:
+    for body in system.scene.bodies:
+        yield velocity.apply(system, body.name)
+        yield kinetic_energy.apply(system, body)
+    if len(system.scene.bodies) > 1:
+        yield total_kinetic_energy.apply(system)
+
+
+def _decomposition(system: System) -> Iterator[Step]:
+    for load in system.load_names:
+        yield curl_test.apply(system, load)
+        if system.is_conservative(load):
+            yield potential.apply(system, load)
+    yield decomposition.apply(system)
+
+
+def _lagrange(system: System) -> Iterator[Step]:
+    yield lagrange_function.apply(system)
+    for coordinate in system.free:
+        yield lagrange_equation.apply(system, coordinate)

@@ -1,0 +1,54 @@
+"""Where bodies are, how they may be displaced, and how they move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from .calculus import Calculus, column
+from .formula import Named, Quantity
+from .memory import kept
+
+
+@dataclass(frozen=True, eq=False)
+class Kinematics(Calculus):
+    """Positions r(q, t) of points and bodies with the guides put in, and their derivatives."""
+
+    def source(self, place: str) -> str:
+        """The name under which a place is the source of a term."""
+        kind = "body" if any(body.name == place for body in self.scene.bodies) else "point"
+        return f"{kind}:{place}"
+
+    @kept
+    def position(self, place: str) -> sp.ImmutableMatrix:
+        return self.guided(self.vector(component.tree for component in self.scene.place(place)))
+
+    def named_position(self, place: str) -> Named:
+        """r with what it depends on: r(q₁, q₂, t)."""
+        value = self.position(place)
+        arguments = tuple(self.q(name) for name in self.coordinates_of(place))
+        return Named(Quantity("position", place), value, arguments + ((self.t,) if value.has(self.t) else ()))
+
+    def coordinates_of(self, place: str) -> tuple[str, ...]:
+        """The free coordinates that the place depends on."""
+        return tuple(name for name in self.free if self.position(place).has(self.q(name)))
+
+    def tangent(self, place: str, coordinate: str) -> sp.ImmutableMatrix:
+        """∂r/∂q"""
+        return self.derivative(self.position(place), self.q(coordinate))
+
+    @kept
+    def virtual_displacement(self, place: str) -> sp.ImmutableMatrix:
+        """δr = ∂r/∂qᵢ δqᵢ"""
+        return column(self.collected(self.vary(component)) for component in self.position(place))
+
+    @kept
+    def velocity(self, place: str) -> sp.ImmutableMatrix:
+        """v = dr/dt"""
+        return self.display(column(self.time_derivative(component) for component in self.position(place)))
+
+    @property
+    def depends_on_time(self) -> bool:
+        """Whether any place moves by itself: ∂r/∂t ≠ 0."""
+        return any(self.position(place).has(self.t) for place in self.scene.places)

@@ -1,0 +1,24 @@
+"""Results kept with the object that computed them, so that they go when it goes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Concatenate, ParamSpec, TypeVar, cast
+
+P = ParamSpec("P")
+S = TypeVar("S")
+T = TypeVar("T")
+
+
+def kept(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenate[S, P], T]:
+    """The method, computing its answer for the same arguments only once for each object."""
+
+    @wraps(method)
+    def recalling(self: S, *args: P.args, **kwargs: P.kwargs) -> T:
+        answers = cast("dict[object, T]", vars(self).setdefault(f"answers of {method.__name__}", {}))
+        if args not in answers:
+            answers[args] = method(self, *args, **kwargs)
+        return answers[args]
+
+    return cast("Callable[Concatenate[S, P], T]", recalling)

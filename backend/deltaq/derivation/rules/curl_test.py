@@ -1,0 +1,44 @@
+"""Curl test: generalized forces Q(q, t) have a potential if and only if ∂Qᵢ/∂qₖ = ∂Qₖ/∂qᵢ for all pairs.
+
+The space of coordinates is taken as simply connected; forces that depend on rates have none.
+Source: Arnold, Mathematical Methods of Classical Mechanics, 2nd ed., §5 and §36 (Poincaré's lemma).
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+from ..formula import Explicit, Named, Partial, Quantity
+from ..step import Relation, Step
+from ..system import System
+
+RULE = "curl-test"
+
+
+def apply(system: System, load: str) -> Step:
+    """The test for one load; the pairs that differ are shown with ≠."""
+    pairs = combinations(system.free, 2)
+    lines = tuple(line for a, b in pairs for line in _compare(system, load, a, b))
+    return Step(RULE, load, lines, (f"load:{load}",), {"load": load, "outcome": _outcome(system, load)})
+
+
+def _outcome(system: System, load: str) -> str:
+    if system.is_conservative(load):
+        return "conservative" if len(system.free) > 1 else "single"
+    rates = {system.rate(q) for q in system.free}
+    moving = any(system.load_force(load, q).free_symbols & rates for q in system.free)
+    return "rates" if moving else "nonconservative"
+
+
+def _compare(system: System, load: str, first: str, second: str) -> tuple[Relation, ...]:
+    """∂Qᵢ/∂qₖ = a = ∂Qₖ/∂qᵢ in one line, or both values and that they differ."""
+    left, right = _cross_derivative(system, load, first, second), _cross_derivative(system, load, second, first)
+    if system.is_zero(left[1].value - right[1].value):
+        return (Relation((*left, right[0])),)
+    return Relation(left), Relation(right), Relation((left[0], right[0]), "≠")
+
+
+def _cross_derivative(system: System, load: str, of: str, by: str) -> tuple[Partial, Explicit]:
+    force = system.load_force(load, of)
+    named = Named(Quantity("generalized-force", of, load), force)
+    return Partial(named, system.q(by)), Explicit(system.derivative(force, system.q(by)))

@@ -1,0 +1,21 @@
+"""First variation (Gâteaux differential): δf = ∂/∂h f(q + h δq) at h = 0, the time held fixed.
+
+Source: Gelfand, Fomin, Calculus of Variations, §3; the lecture's definition.
+"""
+
+from __future__ import annotations
+
+from ..formula import Explicit, Gateaux, Named, Quantity, Shifted
+from ..step import Relation, Step
+from ..system import System
+
+RULE = "gateaux-differential"
+
+
+def apply(system: System, place: str) -> Step:
+    position = system.position(place)
+    left = Named(Quantity("virtual-displacement", place), system.virtual_displacement(place))
+    shifted = position.xreplace({q: q + system.h * dq for q, dq in system.variations.items()})
+    varied = system.display(shifted.diff(system.h).xreplace({system.h: 0}))
+    members = (left, Gateaux(system.named_position(place)), Shifted(shifted, system.h), Explicit(varied))
+    return Step(RULE, place, (Relation(members),), (system.source(place),), {"place": place})

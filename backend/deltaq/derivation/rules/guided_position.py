@@ -1,0 +1,20 @@
+"""Substitution: equals may be put for equals. With the guide put in, the position depends on time explicitly.
+
+Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §1.3.
+"""
+
+from __future__ import annotations
+
+from ..formula import Explicit, Substituted
+from ..step import Relation, Step
+from ..system import System
+
+RULE = "guided-position"
+
+
+def apply(system: System, place: str) -> Step:
+    free = system.given(system.scene.place(place))
+    substituted = Substituted(free, system.guides)
+    line = Relation((system.named_position(place), substituted, Explicit(system.position(place))))
+    about = {"place": place, "coordinate": ", ".join(guide.coordinate for guide in system.scene.guides)}
+    return Step(RULE, place, (line,), (system.source(place),), about)

@@ -1,0 +1,44 @@
+"""Lagrange's equation of the second kind: d/dt ∂L/∂q̇ᵢ − ∂L/∂qᵢ = Qᵢᵈ for every free coordinate.
+
+Source: Lagrange, Mécanique analytique (1788); Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §1.4.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..formula import Equation, Explicit, Named, Partial, Plus, Quantity, Rate, minus
+from ..formula import Term as Summand
+from ..step import Relation, Step
+from ..system import System
+from ..terms import terms_by_source
+
+RULE = "equation"
+MOMENTUM, MOMENTUM_RATE, SLOPE = "momentum", "momentum-rate", "lagrangian-slope"
+
+
+def apply(system: System, coordinate: str) -> Step:
+    """The equation of one coordinate: its three parts as substeps, then all terms on one side."""
+    lagrangian = Named(Quantity("lagrangian"), system.lagrangian)
+    rate, q = system.rate(coordinate), system.q(coordinate)
+    law = Plus((Summand(Rate(Partial(lagrangian, rate))), minus(Partial(lagrangian, q))))
+    outside = Named(Quantity("nonconservative-force", coordinate), system.nonconservative_force(coordinate))
+    terms = terms_by_source(system, coordinate)
+    written = Equation(Plus(terms) if terms else Explicit(system.zero), Explicit(sp.Integer(0)))
+    sources = tuple(dict.fromkeys(source for term in terms for source in term.sources))
+    line = Relation((Equation(law, outside), written), "⇔")
+    step = Step(RULE, coordinate, (line,), sources, {"coordinate": coordinate})
+    return step.with_substeps(*_parts(system, coordinate, lagrangian))
+
+
+def _parts(system: System, coordinate: str, lagrangian: Named) -> tuple[Step, ...]:
+    rate, q = system.rate(coordinate), system.q(coordinate)
+    momentum = system.momentum(coordinate)
+    name = Named(Quantity("momentum", coordinate), momentum)
+    about = {"coordinate": coordinate}
+    lines = {
+        MOMENTUM: (name, Partial(lagrangian, rate), Explicit(momentum)),
+        MOMENTUM_RATE: (Rate(name), Explicit(system.display(system.time_derivative(momentum)))),
+        SLOPE: (Partial(lagrangian, q), Explicit(system.derivative(system.lagrangian, q))),
+    }
+    return tuple(Step(rule, coordinate, (Relation(members),), (), about) for rule, members in lines.items())

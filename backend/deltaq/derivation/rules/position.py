@@ -1,0 +1,19 @@
+"""Configuration: the position of every body is a function of the coordinates and of time, r = r(P, t, q₁ … q_f).
+
+Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §1.3.
+"""
+
+from __future__ import annotations
+
+from ..formula import Named, Quantity
+from ..step import Relation, Step
+from ..system import System
+
+RULE = "position"
+
+
+def apply(system: System, place: str) -> Step:
+    given = system.given(system.scene.place(place))
+    arguments = tuple(system.q(name) for name in system.coordinates if given.value.has(system.q(name)))
+    name = Named(Quantity("position", place), given.value, arguments)
+    return Step(RULE, place, (Relation((name, given)),), (system.source(place),), {"place": place})

@@ -1,0 +1,26 @@
+"""Chain rule of the first variation: δr = ∂r/∂qᵢ δqᵢ, summed over the free coordinates; the time is not varied.
+
+Source: Lanczos, The Variational Principles of Mechanics, ch. II; the lecture's chain rule.
+"""
+
+from __future__ import annotations
+
+from ..formula import Explicit, Named, Partial, Plus, Quantity, Term, Times
+from ..step import Relation, Step
+from ..system import System
+from . import gateaux_differential, tangent_vector
+
+RULE = "virtual-displacement"
+
+
+def apply(system: System, place: str) -> Step:
+    position, total = system.named_position(place), system.virtual_displacement(place)
+    names = system.coordinates_of(place)
+    formal = [Times((Partial(position, system.q(q)), Explicit(system.variation(q)))) for q in names]
+    written = [Times((Explicit(system.tangent(place, q)), Explicit(system.variation(q)))) for q in names]
+    left = Named(Quantity("virtual-displacement", place), total)
+    lines = [Plus(tuple(map(Term, formal))), Plus(tuple(map(Term, written)))] if names else []
+    line = Relation((left, *lines, Explicit(total)))
+    tangents = (tangent_vector.apply(system, place, q) for q in names)
+    step = Step(RULE, place, (line,), (system.source(place),), {"place": place})
+    return step.with_substeps(gateaux_differential.apply(system, place), *tangents)

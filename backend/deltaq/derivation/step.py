@@ -1,0 +1,83 @@
+"""Steps, chapters and derivations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+from .formula import Formula
+
+
+@dataclass(frozen=True)
+class Relation:
+    """One line of mathematics: formulas joined by `sign`, each equal to the next.
+
+    The sign is `=`, `≠` where two are shown to differ, or `⇔` between equations that say the same of the motion.
+    """
+
+    members: tuple[Formula, ...]
+    sign: str = "="
+
+    @property
+    def before(self) -> Formula:
+        return self.members[0]
+
+    @property
+    def after(self) -> Formula:
+        return self.members[-1]
+
+
+@dataclass(frozen=True)
+class Step:
+    """One law applied once.
+
+    `rule` names the law, `subject` what it is applied to, `about` the names its sentence needs. The relations are the
+    law's premise turned into its conclusion. `verified` is set by the verification, never by the rule itself.
+    """
+
+    rule: str
+    subject: str
+    relations: tuple[Relation, ...]
+    sources: tuple[str, ...] = ()
+    about: Mapping[str, str] = field(default_factory=dict)
+    substeps: tuple[Step, ...] = ()
+    verified: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "about", MappingProxyType(dict(self.about)))
+
+    @property
+    def id(self) -> str:
+        """Name of the step, safe in a URL: `virtual-displacement:bob`."""
+        return f"{self.rule}:{self.subject}" if self.subject else self.rule
+
+    def walk(self) -> Iterator[Step]:
+        yield self
+        for substep in self.substeps:
+            yield from substep.walk()
+
+    def with_substeps(self, *substeps: Step) -> Step:
+        return replace(self, substeps=substeps)
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A part of the road, in the lecture's order."""
+
+    id: str
+    steps: tuple[Step, ...]
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """The whole road, and what it leads to."""
+
+    formulation: str
+    chapters: tuple[Chapter, ...]
+
+    def steps(self) -> Iterator[Step]:
+        """Every step and substep, in reading order."""
+        for chapter in self.chapters:
+            for step in chapter.steps:
+                yield from step.walk()

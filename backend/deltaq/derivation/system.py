@@ -1,0 +1,90 @@
+"""A scene as a dynamical system: energies, the decomposition of the forces, and Lagrange's function."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+
+import sympy as sp
+
+from ..mechanics.bodies import Body
+from ..mechanics.contributions import PotentialEnergy
+from .antiderivative import antiderivative
+from .memory import kept
+from .work import Work
+
+
+@dataclass(frozen=True, eq=False)
+class System(Work):
+    """Everything the rules ask of a scene. Results are kept, so that each is computed once in a derivation."""
+
+    def mass(self, body: Body) -> sp.Expr:
+        return self.expression(body.mass.tree)
+
+    @property
+    def body_sources(self) -> tuple[str, ...]:
+        return tuple(f"body:{body.name}" for body in self.scene.bodies)
+
+    @kept
+    def kinetic_energy_of(self, body: Body) -> sp.Expr:
+        """E = m/2 v · v"""
+        velocity = self.velocity(body.name)
+        return self.display(self.mass(body) / 2 * self.dot(velocity, velocity))
+
+    @cached_property
+    def kinetic_energy(self) -> sp.Expr:
+        return self.display(sp.Add(*(self.kinetic_energy_of(body) for body in self.scene.bodies)))
+
+    @kept
+    def is_conservative(self, load: str) -> bool:
+        """Whether the load's forces have a potential: no rates in them, and a symmetric Jacobian."""
+        forces = {self.q(q): self.load_force(load, q) for q in self.free}
+        rates = {self.rate(q) for q in self.free}
+        if any(force.free_symbols & rates for force in forces.values()):
+            return False
+        pairs = combinations(forces.items(), 2)
+        return all(self.is_zero(f.diff(p) - g.diff(q)) for (q, f), (p, g) in pairs)
+
+    @property
+    def conservative_sources(self) -> tuple[str, ...]:
+        return tuple(f"load:{load}" for load in self.load_names if self.is_conservative(load))
+
+    @kept
+    def load_potential(self, load: str) -> sp.Expr:
+        """V of a conservative load: as given, or by line integral along the axes; up to a function of time."""
+        parts = [part for part in self.scene.contributions if part.source == load]
+        given = [self.potential(part) for part in parts if isinstance(part, PotentialEnergy)]
+        if len(given) == len(parts):
+            return self.display(sp.Add(*given))
+        return self.display(self._line_integral({self.q(q): -self.load_force(load, q) for q in self.free}))
+
+    def _line_integral(self, slopes: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+        """The function whose partial derivatives are the slopes, less what does not depend on the coordinates."""
+        total, later = self.zero, dict.fromkeys(slopes, sp.Integer(0))
+        for q, slope in slopes.items():
+            del later[q]
+            on_axis = slope.xreplace(later)
+            total += antiderivative(on_axis, q, self.symbols)
+        terms = sp.Add.make_args(total.expand())
+        return sp.Add(*(term for term in terms if term.free_symbols & slopes.keys()))
+
+    @cached_property
+    def potential_energy(self) -> sp.Expr:
+        loads = (load for load in self.load_names if self.is_conservative(load))
+        return self.display(sp.Add(*map(self.load_potential, loads)))
+
+    @kept
+    def nonconservative_force(self, coordinate: str) -> sp.Expr:
+        """Qᵢᵈ: what is left of Qᵢ when every load with a potential is taken out."""
+        loads = (load for load in self.load_names if not self.is_conservative(load))
+        return self.display(sp.Add(*(self.load_force(load, coordinate) for load in loads)))
+
+    @cached_property
+    def lagrangian(self) -> sp.Expr:
+        return self.kinetic_energy - self.potential_energy
+
+    @kept
+    def momentum(self, coordinate: str) -> sp.Expr:
+        """∂L/∂q̇"""
+        return self.derivative(self.lagrangian, self.rate(coordinate))

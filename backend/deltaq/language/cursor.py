@@ -1,0 +1,93 @@
+"""The reading position in a list of tokens, and the count of what has been made from them."""
+
+from __future__ import annotations
+
+from typing import NoReturn, TypeVar
+
+from .bounds import MAX_DEPTH, MAX_NODES
+from .names import Names
+from .tokens import Token, between, fail
+from .tree import Node, Span
+
+# A bracket with a sum of products in it takes up to three levels of the parser.
+_MAX_NESTING = 2 * MAX_DEPTH
+
+N = TypeVar("N", bound=Node)
+
+
+class Cursor:
+    """Tokens are looked at and taken; nodes are counted, and so is the nesting."""
+
+    def __init__(self, text: str, tokens: list[Token], names: Names) -> None:
+        self.text = text
+        self.names = names
+        self.depth = 0
+        self._tokens = tokens
+        self._at = 0
+        self._nodes = 0
+
+    @property
+    def token(self) -> Token:
+        """The token ahead."""
+        return self._tokens[self._at]
+
+    def at_end(self) -> bool:
+        """Whether all tokens have been taken."""
+        return self.token.kind == "end"
+
+    @property
+    def previous(self) -> Token:
+        """The token last taken."""
+        return self._tokens[max(self._at - 1, 0)]
+
+    def ahead(self, distance: int = 1) -> Token:
+        """The token `distance` places after the one ahead."""
+        return self._tokens[min(self._at + distance, len(self._tokens) - 1)]
+
+    def take(self) -> Token:
+        """The token ahead, and step over it."""
+        token = self.token
+        self._at = min(self._at + 1, len(self._tokens) - 1)
+        return token
+
+    def takes(self, *operators: str) -> bool:
+        """Step over one of these operators if it is ahead."""
+        found = self.token.is_operator(*operators)
+        if found:
+            self.take()
+        return found
+
+    def close(self, opening: Token) -> Span:
+        """Step over the bracket that closes `opening`; the whole stretch."""
+        wanted = {"(": ")", "[": "]", "": "", "|": "|"}[opening.text]
+        if self.token.kind == "close" and self.token.text == wanted:
+            return between(opening.span, self.take().span)
+        if self.token.kind in ("end", "close"):
+            fail("unclosed-bracket", opening.span, bracket=opening.text, wanted=wanted)
+        return self.unexpected()
+
+    def unexpected(self) -> NoReturn:
+        """Report the token ahead, which cannot stand here."""
+        token = self.token
+        if token.kind == "end":
+            fail("unexpected-end", Span(len(self.text), 0))
+        if token.kind == "close":
+            fail("unopened-bracket", token.span, bracket=token.text)
+        fail("unexpected-symbol", token.span, symbol=self.slice(token.span))
+
+    def slice(self, span: Span) -> str:
+        """The text at `span`, shortened."""
+        return self.text[span.offset : span.offset + span.length].strip()[:80]
+
+    def made(self, node: N) -> N:
+        """Count a node that was made."""
+        self._nodes += 1
+        if self._nodes > MAX_NODES:
+            fail("too-many-nodes", node.span, limit=MAX_NODES)
+        return node
+
+    def descend(self) -> None:
+        """One level deeper."""
+        self.depth += 1
+        if self.depth > _MAX_NESTING:
+            fail("too-deep", self.token.span, limit=MAX_DEPTH)

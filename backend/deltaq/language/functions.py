@@ -1,0 +1,62 @@
+"""The allow-list: every function the expression language knows, and nothing else can be called.
+
+One table for the lexers, the bounds, the printers and the algebras.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+
+@dataclass(frozen=True)
+class Function:
+    """A real function: its `name` in the plain language, how to evaluate it and how LaTeX writes it."""
+
+    name: str
+    evaluate: Callable[..., float]
+    latex: str
+    arguments: int = 1
+    spellings: tuple[str, ...] = ()
+    power_after_name: bool = True
+
+
+def _sign(x: float) -> float:
+    return math.copysign(1.0, x) if x else 0.0
+
+
+_TABLE = (
+    Function("sin", math.sin, r"\sin"),
+    Function("cos", math.cos, r"\cos"),
+    Function("tan", math.tan, r"\tan"),
+    Function("cot", lambda x: 1 / math.tan(x), r"\cot", spellings=("cotan",)),
+    Function("sec", lambda x: 1 / math.cos(x), r"\sec"),
+    Function("csc", lambda x: 1 / math.sin(x), r"\csc", spellings=("cosec",)),
+    Function("asin", math.asin, r"\arcsin", spellings=("arcsin",)),
+    Function("acos", math.acos, r"\arccos", spellings=("arccos",)),
+    Function("atan", math.atan, r"\arctan", spellings=("arctan",)),
+    Function("atan2", math.atan2, r"\operatorname{atan2}", arguments=2, spellings=("arctan2",)),
+    Function("sinh", math.sinh, r"\sinh"),
+    Function("cosh", math.cosh, r"\cosh"),
+    Function("tanh", math.tanh, r"\tanh"),
+    Function("asinh", math.asinh, r"\operatorname{arsinh}", spellings=("arsinh", "arcsinh")),
+    Function("acosh", math.acosh, r"\operatorname{arcosh}", spellings=("arcosh", "arccosh")),
+    Function("atanh", math.atanh, r"\operatorname{artanh}", spellings=("artanh", "arctanh")),
+    Function("exp", math.exp, r"\exp"),
+    Function("log", math.log, r"\ln", spellings=("ln",)),
+    Function("sqrt", math.sqrt, r"\sqrt", power_after_name=False),
+    Function("abs", abs, r"\operatorname{abs}", power_after_name=False),
+    Function("sign", _sign, r"\operatorname{sgn}", spellings=("sgn", "signum"), power_after_name=False),
+)
+
+FUNCTIONS: Mapping[str, Function] = MappingProxyType({f.name: f for f in _TABLE})
+SPELLINGS: Mapping[str, Function] = MappingProxyType({s: f for f in _TABLE for s in (f.name, *f.spellings)})
+
+# Words with a meaning of their own in the plain language; no symbol of a scene may take them.
+OPERATORS = frozenset({"dot", "ddot", "delta", "d", "diff"})
+REFUSED_FUNCTIONS = frozenset(
+    {"factorial", "gamma", "eval", "exec", "lambda", "import", "Integral", "integrate", "sum", "product", "limit"}
+    | {"solve", "subs", "det", "min", "max", "floor", "ceil", "round", "mod", "erf", "Piecewise", "binomial"}
+)

@@ -1,0 +1,107 @@
+"""Ball arithmetic (Arb, by python-flint): the value of an expression at a point with a rigorous error bound."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
+from typing import Any, Literal
+
+import flint
+import sympy
+
+from .functions import FUNCTIONS
+
+PRECISIONS = (96, 400, 4000)
+POINTS = 12
+ENOUGH_POINTS = 4
+# A value is called zero if all balls are this much smaller than the largest term: 2^-3000 is about 1e-903.
+_NEGLIGIBLE_BITS = 3000
+
+_FUNCTIONS: Mapping[Any, Callable[..., Any]] = MappingProxyType(
+    {
+        getattr(sympy, name): (lambda x, name=name: getattr(x, name)())
+        for name in FUNCTIONS.keys() - {"abs", "sign", "sqrt", "atan2"}
+    }
+    | {sympy.Abs: abs, sympy.sign: lambda x: x.sgn(), sympy.atan2: flint.arb.atan2}
+)
+
+Sign = Literal["nonzero", "negligible", "unknown"]
+
+
+def sample_zero(expr: Any) -> tuple[bool | None, int]:
+    """Whether an expression vanishes, and at how many points that was seen.
+
+    False is certain: a ball excludes zero. True means that at all points, at least four, the value is below 1e-900 of
+    its largest term; for an analytic function that is not zero this happens with probability zero, unless it is flat to
+    900 digits. None: too few points lie in its domain.
+    """
+    points = _points(sorted(expr.free_symbols, key=lambda s: s.name))
+    seen = 0
+    for point in points:
+        sign = _sign(expr, point)
+        if sign == "nonzero":
+            return False, seen + 1
+        seen += sign == "negligible"
+    return (True if seen >= ENOUGH_POINTS else None), seen
+
+
+def _points(symbols: list[Any]) -> Iterator[dict[Any, Any]]:
+    """Fixed pseudo-random points; symbols that are not known to be positive take both signs."""
+    generator = random.Random(20_061)
+    for _ in range(POINTS):
+        yield {
+            s: sympy.Rational(generator.randint(150, 2600), 1009) * (1 if s.is_positive else generator.choice((-1, 1)))
+            for s in symbols
+        }
+
+
+def _sign(expr: Any, point: Mapping[Any, Any]) -> Sign:
+    for bits in PRECISIONS:
+        with flint.ctx.workprec(bits):
+            try:
+                terms = [_value(term, point) for term in sympy.Add.make_args(expr)]
+            except (ValueError, ZeroDivisionError, OverflowError):
+                return "unknown"
+            total = sum(terms, flint.arb(0))
+            if not total.is_finite():
+                continue
+            if not total.contains(0):
+                return "nonzero"
+            scale = max((abs(t).upper() for t in terms), default=flint.arb(1))
+            if abs(total).upper() < scale * flint.arb(2) ** -_NEGLIGIBLE_BITS or not terms:
+                return "negligible"
+    return "unknown"
+
+
+def _value(expr: Any, point: Mapping[Any, Any]) -> Any:  # noqa: PLR0911
+    if expr.is_Symbol:
+        return _value(point[expr], point)
+    if expr.is_Rational:
+        return flint.arb(flint.fmpq(int(expr.p), int(expr.q)))
+    if expr is sympy.pi:
+        return flint.arb.pi()
+    if expr is sympy.E:
+        return flint.arb(1).exp()
+    if expr.is_Add:
+        return sum((_value(a, point) for a in expr.args), flint.arb(0))
+    if expr.is_Mul:
+        product = flint.arb(1)
+        for factor in expr.args:
+            product *= _value(factor, point)
+        return product
+    if expr.is_Pow:
+        return _power(expr, point)
+    function = _FUNCTIONS.get(expr.func)
+    if function is None:
+        raise ValueError(type(expr).__name__)
+    return function(*(_value(a, point) for a in expr.args))
+
+
+def _power(expr: Any, point: Mapping[Any, Any]) -> Any:
+    base, exponent = _value(expr.base, point), expr.exp
+    if exponent.is_Integer:
+        return base ** int(exponent)
+    if exponent == sympy.Rational(1, 2):
+        return base.sqrt()
+    return base ** _value(exponent, point)

@@ -1,0 +1,197 @@
+"""SymPy → LaTeX as the lecture writes it: m \\ell^2 \\ddot{\\varphi} + m g \\ell \\sin\\varphi."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+
+import sympy
+
+from .functions import FUNCTIONS
+from .names import Names
+from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, decimal, exact, fraction_parts, is_decimal
+from .order import Order, split_symbol
+from .spelling import latex_of
+
+Mark = Callable[[str, str], str]
+
+_NAMES: Mapping[str, str] = MappingProxyType({"Abs": "abs"})
+_ACCENTS: Mapping[int, str] = MappingProxyType({1: r"\dot", 2: r"\ddot", 3: r"\dddot"})
+
+
+def unmarked(_symbol: str, latex: str) -> str:
+    """The mark that leaves no mark."""
+    return latex
+
+
+@dataclass(frozen=True)
+class Typography:
+    """How symbols are typeset and in which order. `mark(symbol name, LaTeX)` may wrap each, in a colour say."""
+
+    names: Names
+    mark: Mark = unmarked
+    order: Order = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "order", Order(self.names))
+
+    def symbol(self, name: str) -> str:
+        """LaTeX of a SymPy symbol by its plain name: "dot(phi)" → \\dot{\\varphi}."""
+        kind, base = split_symbol(name)
+        known = self.names.get(base)
+        letter = known.typeset if known else latex_of(base)
+        return self.mark(name, _decorated(kind, letter))
+
+
+def _decorated(kind: int, letter: str) -> str:
+    if kind in _ACCENTS:
+        head, underscore, index = letter.partition("_")
+        return f"{_ACCENTS[kind]}{{{head}}}{underscore}{index}"
+    if kind == 4:
+        return rf"\mathrm{{d}}{letter}"
+    return rf"\delta {letter}" if kind == 5 else letter
+
+
+def latex(expr: Any, typography: Typography) -> str:
+    """LaTeX of an expression; a Matrix in brackets; an Eq with its sign; a Tuple of Eq as rows."""
+    if isinstance(expr, sympy.MatrixBase):
+        rows = [" & ".join(latex(entry, typography) for entry in row) for row in expr.tolist()]
+        return r"\begin{bmatrix} " + r" \\ ".join(rows) + r" \end{bmatrix}"
+    if isinstance(expr, sympy.Eq):
+        return f"{latex(expr.lhs, typography)} = {latex(expr.rhs, typography)}"
+    if isinstance(expr, sympy.Tuple):
+        rows = [latex(part, typography).replace(" = ", " &= ") for part in expr]
+        return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
+    return _Latex(typography).text(sympy.sympify(expr), 0)
+
+
+class _Latex:
+    def __init__(self, typography: Typography) -> None:
+        self._typography = typography
+        self._order = typography.order
+
+    def text(self, expr: sympy.Expr, binding: int) -> str:
+        text, own = self._with_binding(expr)
+        return _bracketed(text) if own < binding else text
+
+    def _with_binding(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
+        if expr.is_Symbol:
+            return self._typography.symbol(expr.name), ATOM if split_symbol(expr.name)[0] < 4 else PRODUCT
+        if expr.is_Rational or expr.is_Float:
+            return _number(expr)
+        if expr is sympy.pi:
+            return r"\pi", ATOM
+        if expr.is_Add:
+            return self._sum(expr), SUM
+        if expr.is_Mul:
+            return self._product(expr), PRODUCT
+        if expr is sympy.E or isinstance(expr, sympy.exp):
+            return self._exponential(expr), POWER
+        return (self._power(expr), POWER) if expr.is_Pow else (self.call(expr), PRODUCT)
+
+    def _exponential(self, expr: sympy.Expr) -> str:
+        exponent = self.text(expr.args[0], 0) if expr.args else "1"
+        return rf"\mathrm{{e}}^{{{exponent}}}"
+
+    def _sum(self, expr: sympy.Expr) -> str:
+        text = ""
+        for term in self._order.terms(expr):
+            printed = self.text(term, SUM + 1)
+            if not text:
+                text = printed
+            else:
+                text += f" - {printed[1:].lstrip()}" if printed.startswith("-") else f" + {printed}"
+        return text
+
+    def _product(self, expr: sympy.Expr) -> str:
+        sign, upper, lower = fraction_parts(expr)
+        if all(f.is_Rational for f in lower):
+            return sign + self._with_number_in_front(upper, lower)
+        return rf"{sign}\frac{{{self.factors(upper)}}}{{{self.factors(lower)}}}"
+
+    def _with_number_in_front(self, upper: list[sympy.Expr], lower: list[sympy.Expr]) -> str:
+        if not lower:
+            return self.factors(upper)
+        numbers = [f for f in upper if f.is_Rational]
+        rest = [f for f in upper if not f.is_Rational]
+        if len(rest) == 1 and not numbers and (rest[0] is sympy.pi or rest[0].is_Symbol):
+            numbers, rest = rest, []
+        fraction = rf"\frac{{{self.factors(numbers)}}}{{{self.factors(lower)}}}"
+        return f"{fraction} {self.factors(rest)}" if rest else fraction
+
+    def factors(self, factors: list[sympy.Expr]) -> str:
+        """A product; a thin space stands before δ and d, and a function's argument is closed before a bracket."""
+        ordered = self._order.factors(factors)
+        text = ""
+        for position, factor in enumerate(ordered):
+            following = ordered[position + 1] if position + 1 < len(ordered) else None
+            close = following is not None and base_exponent(following)[0].is_Add
+            alone = len(ordered) == 1
+            printed = self._factor(factor, closed=close, alone=alone)
+            space = r" \, " if _is_infinitesimal(factor) else " "
+            text = f"{text}{space}{printed}" if text else printed
+        return text or "1"
+
+    def _factor(self, factor: sympy.Expr, *, closed: bool, alone: bool) -> str:
+        base, exponent = base_exponent(factor)
+        if _is_function(base) and (exponent.is_Integer and exponent > 0):
+            return self.call(base, exponent, closed=closed)
+        if factor.is_Symbol:
+            return self._typography.symbol(factor.name)
+        return self.text(factor, SUM if alone else PRODUCT)
+
+    def _power(self, expr: sympy.Expr) -> str:
+        base, exponent = base_exponent(expr)
+        if exponent.is_Rational and exponent.is_negative:
+            return rf"\frac{{1}}{{{self.text(base**-exponent, 0)}}}"
+        if exponent == sympy.Rational(1, 2):
+            return rf"\sqrt{{{self.text(base, 0)}}}"
+        if _is_function(base) and exponent.is_Integer:
+            return self.call(base, exponent)
+        return f"{self.text(base, ATOM)}^{{{self._exponent(exponent)}}}"
+
+    def _exponent(self, exponent: sympy.Expr) -> str:
+        return str(exponent) if exponent.is_Rational else self.text(exponent, 0)
+
+    def call(self, expr: sympy.Expr, power: sympy.Expr = sympy.S.One, *, closed: bool = False) -> str:
+        """A function with its power: \\sin^{2}\\varphi, \\cos(\\varphi_1 - \\varphi_2)."""
+        name = _NAMES.get(type(expr).__name__, type(expr).__name__)
+        arguments = [self.text(a, 0) for a in expr.args]
+        raised = "" if power == 1 else f"^{{{power}}}"
+        if name == "abs":
+            return rf"\left|{arguments[0]}\right|{raised}"
+        command = FUNCTIONS[name].latex if name in FUNCTIONS else rf"\operatorname{{{name}}}"
+        bare = len(expr.args) == 1 and expr.args[0].is_Symbol and not closed and command.startswith("\\")
+        if bare and not command.endswith("}") and split_symbol(expr.args[0].name)[0] == 0:
+            return f"{command}{raised}{_spaced(arguments[0])}"
+        return f"{command}{raised}{_bracketed(', '.join(arguments))}"
+
+
+def _spaced(argument: str) -> str:
+    return argument if argument.startswith("\\") else f" {argument}"
+
+
+def _is_function(expr: sympy.Expr) -> bool:
+    return bool(expr.is_Function) and not isinstance(expr, sympy.exp)
+
+
+def _is_infinitesimal(factor: sympy.Expr) -> bool:
+    return bool(factor.is_Symbol) and split_symbol(factor.name)[0] >= 4
+
+
+def _bracketed(text: str) -> str:
+    tall = any(command in text for command in (r"\frac", r"\left", r"\sqrt"))
+    return rf"\left({text}\right)" if tall else f"({text})"
+
+
+def _number(number: sympy.Expr) -> tuple[str, int]:
+    value = exact(number)
+    sign, size = "-" if value < 0 else "", abs(value)
+    binding = SUM + 1 if value < 0 else ATOM
+    if size.denominator == 1:
+        return f"{sign}{size.numerator}", binding
+    if is_decimal(size):
+        return f"{sign}{decimal(size)}", binding
+    return rf"{sign}\frac{{{size.numerator}}}{{{size.denominator}}}", min(binding, PRODUCT)

@@ -1,0 +1,233 @@
+"""SymPy → Fourier form and back.
+
+tan, cot, sec, csc and the hyperbolic functions are written in sine, cosine and exponentials; what stands below a
+fraction line, and sums under a root, become generators of their own (`bases`) that `cleared` takes up to the numerator.
+Any other function is an opaque generator: equal arguments give equal generators, but no more is known about it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any
+
+import sympy
+from flint import fmpq
+
+from . import fourier
+from .fourier import ONE, STILL, Form, Monomial, Phase
+
+_LARGEST_FACTORED = 10**12
+
+
+def _quotient(upper: Any, lower: Any) -> Any:
+    return upper * lower**-1
+
+
+_REWRITTEN: Mapping[Any, Callable[[Any], Any]] = MappingProxyType(
+    {
+        sympy.tan: lambda x: _quotient(sympy.sin(x), sympy.cos(x)),
+        sympy.cot: lambda x: _quotient(sympy.cos(x), sympy.sin(x)),
+        sympy.sec: lambda x: sympy.cos(x) ** -1,
+        sympy.csc: lambda x: sympy.sin(x) ** -1,
+        sympy.sinh: lambda x: (sympy.exp(x) - sympy.exp(-x)) / 2,
+        sympy.cosh: lambda x: (sympy.exp(x) + sympy.exp(-x)) / 2,
+        sympy.tanh: lambda x: _quotient(sympy.exp(x) - sympy.exp(-x), sympy.exp(x) + sympy.exp(-x)),
+    }
+)
+
+
+class Reader:
+    """Makes forms, and remembers what its generators stand for."""
+
+    def __init__(self) -> None:
+        self.meaning: dict[str, Any] = {}
+        self.bases: dict[str, Form] = {}
+        self.is_exact = True
+        self._known: dict[Any, Form] = {}
+
+    def form(self, expr: Any) -> Form:
+        """The form of a SymPy expression. Raises TooLargeError."""
+        known = self._known.get(expr)
+        if known is None:
+            known = self._known[expr] = self._read(expr)
+        return known
+
+    def _read(self, expr: Any) -> Form:  # noqa: PLR0911
+        if expr.is_Symbol:
+            self.meaning[expr.name] = expr
+            return fourier.monomial(expr.name)
+        if expr.is_Rational:
+            return fourier.constant(fmpq(int(expr.p), int(expr.q)))
+        if expr.is_Float:
+            return self.form(sympy.Rational(str(expr)))
+        if expr.is_Add:
+            return fourier.add(self.form(a) for a in expr.args)
+        if expr.is_Mul:
+            return self._product(expr)
+        if isinstance(expr, sympy.exp) or expr is sympy.E:
+            return self._exponential(expr.args[0] if expr.args else sympy.S.One, expr)
+        if expr.is_Pow:
+            return self._power(*expr.as_base_exp())
+        if isinstance(expr, (sympy.sin, sympy.cos)):
+            return self._wave(expr)
+        rewrite = _REWRITTEN.get(expr.func)
+        return self.form(rewrite(expr.args[0])) if rewrite else self._opaque(expr)
+
+    def _product(self, expr: Any) -> Form:
+        product = fourier.constant(1)
+        for factor in sorted((self.form(a) for a in expr.args), key=len):
+            product = fourier.multiply(product, factor)
+        return product
+
+    def _power(self, base: Any, exponent: Any) -> Form:
+        if not exponent.is_Rational:
+            return self._opaque(base**exponent)
+        if exponent.is_Integer and exponent > 0:
+            return fourier.power(self.form(base), int(exponent))
+        if base.is_Rational:
+            return self._root(base, exponent)
+        return self._base(self.form(base), fmpq(int(exponent.p), int(exponent.q)), base**exponent)
+
+    def _root(self, base: Any, exponent: Any) -> Form:
+        """A root of a rational number: a monomial in roots of primes, with exponents between 0 and 1."""
+        if base <= 0 or base.p * base.q > _LARGEST_FACTORED:
+            return self._opaque(base**exponent)
+        form = fourier.constant(1)
+        for prime, times in sympy.factorrat(base).items():
+            total = exponent * times
+            whole = sympy.floor(total)
+            part = total - whole
+            self.meaning[str(prime)] = sympy.Integer(prime)
+            root = fourier.monomial(str(prime), fmpq(int(part.p), int(part.q)) if part else 0)
+            form = fourier.multiply(form, fourier.scale(root, fmpq(int(prime)) ** int(whole)))
+        return form
+
+    def _base(self, form: Form, exponent: Any, expr: Any) -> Form:
+        """A negative or fractional power: of a single monomial at once, else of a base with leading coefficient ±1."""
+        if not form:
+            raise ZeroDivisionError
+        if len(form) == 1 and fourier.is_still(form):
+            ((mono, _, _), coefficient), *_ = form.items()
+            if exponent.q == 1:
+                return {(fourier.raised(mono, exponent), STILL, False): coefficient ** int(exponent.p)}
+            if coefficient > 0 and all(self._is_positive(name) for name, _ in mono):
+                number = sympy.Rational(int(coefficient.p), int(coefficient.q))
+                root = self._root(number, sympy.Rational(int(exponent.p), int(exponent.q)))
+                return fourier.multiply(root, {(fourier.raised(mono, exponent), STILL, False): fmpq(1)})
+        size = form[fourier.leading(form)]
+        if exponent.q > 1:
+            self.is_exact = False
+            size = abs(size)
+            if int(size.p) * int(size.q) > _LARGEST_FACTORED:
+                return self._opaque(expr)
+        monic = fourier.scale(form, 1 / size)
+        key = f"~{sympy.sstr(self.expression(monic))}"
+        self.bases[key] = monic
+        number = self._power(sympy.Rational(int(size.p), int(size.q)), sympy.Rational(int(exponent.p), int(exponent.q)))
+        return fourier.multiply(number, fourier.monomial(key, exponent if exponent.q > 1 else int(exponent.p)))
+
+    def _is_positive(self, name: str) -> bool:
+        return bool(self.meaning[name].is_positive) if name in self.meaning else False
+
+    def _exponential(self, argument: Any, expr: Any) -> Form:
+        """exp of a polynomial: a monomial in the exponentials of its monomials."""
+        form = self.form(argument)
+        if not self._is_polynomial(form):
+            return self._opaque(expr)
+        factors: list[tuple[str, Any]] = []
+        for (mono, _, _), coefficient in form.items():
+            key = "exp " + "*".join(f"{name}^{e}" for name, e in mono)
+            self.meaning[key] = sympy.exp(self._monomial(mono))
+            factors.append((key, int(coefficient.p) if coefficient.q == 1 else coefficient))
+        return {(tuple(sorted(factors)), STILL, False): fmpq(1)}
+
+    def _is_polynomial(self, form: Form) -> bool:
+        return fourier.is_still(form) and not any(name in self.bases for mono, _, _ in form for name, _ in mono)
+
+    def _wave(self, expr: Any) -> Form:
+        """cos or sin of a linear form; of its constant multiple of π by the addition theorem."""
+        form = self.form(expr.args[0])
+        sine = isinstance(expr, sympy.sin)
+        if not self._is_polynomial(form):
+            return self._opaque(expr)
+        turn = next((c for (mono, _, _), c in form.items() if mono == (("pi", 1),)), None)
+        phase: Phase = tuple(sorted((mono, c) for (mono, _, _), c in form.items() if mono != (("pi", 1),)))
+        if turn is None:
+            return fourier.wave(phase, sine=sine)
+        return self._turned(phase, sympy.Rational(int(turn.p), int(turn.q)) * sympy.pi, sine=sine)
+
+    def _turned(self, phase: Phase, turn: Any, *, sine: bool) -> Form:
+        cosine_turn, sine_turn = self._constant_wave(sympy.cos(turn)), self._constant_wave(sympy.sin(turn))
+        same = fourier.multiply(fourier.wave(phase, sine=sine), cosine_turn)
+        other = fourier.multiply(fourier.wave(phase, sine=not sine), sine_turn)
+        return fourier.add((same, other if sine else fourier.scale(other, -1)))
+
+    def _constant_wave(self, value: Any) -> Form:
+        return self._opaque(value) if value.has(sympy.sin, sympy.cos) else self.form(value)
+
+    def _opaque(self, expr: Any) -> Form:
+        if expr is sympy.pi:
+            self.meaning["pi"] = sympy.pi
+            return fourier.monomial("pi")
+        self.is_exact = False
+        known = expr if expr.is_number else expr.func(*(self.expression(self.form(a)) for a in expr.args))
+        key = f"~{sympy.sstr(known)}"
+        self.meaning[key] = known
+        return fourier.monomial(key)
+
+    def cleared(self, form: Form) -> tuple[Form, Monomial]:
+        """Numerator and denominator: no base stands in the numerator with a whole or a negative power."""
+        denominator: Monomial = ONE
+        for key in reversed(tuple(self.bases)):
+            exponents = [dict(mono).get(key, 0) for mono, _, _ in form]
+            lowest = min((_floor(e) for e in exponents), default=0)
+            if lowest == 0 and all(e == 0 or (not isinstance(e, int) and e < 1) for e in exponents):
+                continue
+            lowest = min(lowest, 0)
+            form = fourier.add(self._expanded(term, c, key, lowest) for term, c in form.items())
+            denominator = fourier.times(denominator, ((key, -lowest),)) if lowest else denominator
+        return form, denominator
+
+    def _expanded(self, term: fourier.Term, coefficient: Any, key: str, lowest: int) -> Form:
+        mono, phase, sine = term
+        exponent = dict(mono).get(key, 0) - lowest
+        whole = _floor(exponent)
+        part = exponent - whole
+        rest = fourier.times(tuple(pair for pair in mono if pair[0] != key), ((key, part),) if part else ONE)
+        return fourier.multiply({(rest, phase, sine): coefficient}, fourier.power(self.bases[key], whole))
+
+    def expression(self, form: Form) -> Any:
+        """The SymPy expression of a form, term by term."""
+        return sympy.Add(*(self._term(term, coefficient) for term, coefficient in form.items()))
+
+    def _term(self, term: fourier.Term, coefficient: Any) -> Any:
+        mono, phase, sine = term
+        number = sympy.Rational(int(coefficient.p), int(coefficient.q))
+        return sympy.Mul(number, self._monomial(mono), self.wave(phase, sine=sine))
+
+    def wave(self, phase: Phase, *, sine: bool) -> Any:
+        """cos(phase) or sin(phase) in SymPy."""
+        if not phase:
+            return sympy.S.One
+        angle = sympy.Add(*(sympy.Rational(int(c.p), int(c.q)) * self._monomial(mono) for mono, c in phase))
+        return sympy.sin(angle) if sine else sympy.cos(angle)
+
+    def _monomial(self, mono: Monomial) -> Any:
+        return sympy.Mul(*(self.generator(name) ** _rational(e) for name, e in mono))
+
+    def monomial(self, mono: Monomial) -> Any:
+        """A monomial in SymPy."""
+        return self._monomial(mono)
+
+    def generator(self, name: str) -> Any:
+        """What a generator stands for."""
+        return self.expression(self.bases[name]) if name in self.bases else self.meaning[name]
+
+
+def _floor(exponent: Any) -> int:
+    return exponent if isinstance(exponent, int) else int(exponent.p) // int(exponent.q)
+
+
+def _rational(exponent: Any) -> Any:
+    return sympy.Integer(exponent) if isinstance(exponent, int) else sympy.Rational(int(exponent.p), int(exponent.q))

@@ -1,0 +1,67 @@
+"""How numbers and fractions are written: 9.81 as a decimal, 1/2 as a fraction, m/2 and not 0.5 m."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import sympy
+
+# How tightly a printed text binds.
+SUM, PRODUCT, POWER, ATOM = 1, 2, 3, 4
+_SMALL = 10
+
+
+def is_decimal(value: Fraction) -> bool:
+    """Whether a person writes it as a decimal: it ends, and its denominator is no small number."""
+    q = value.denominator
+    return q >= _SMALL and q % 5 == 0 and 10**12 % q == 0
+
+
+def decimal(value: Fraction) -> str:
+    """An ending decimal, exactly."""
+    digits = next(n for n in range(1, 13) if 10**n % value.denominator == 0)
+    whole, part = divmod(abs(value.numerator) * 10**digits // value.denominator, 10**digits)
+    return f"{'-' if value < 0 else ''}{whole}.{part:0{digits}d}"
+
+
+def exact(number: sympy.Expr) -> Fraction:
+    """The exact value of a SymPy Rational or Float."""
+    if number.is_Float:
+        return Fraction(repr(float(number)))
+    return Fraction(int(number.p), int(number.q))
+
+
+def plain_number(number: sympy.Expr) -> tuple[str, int]:
+    """Text and how tightly it binds."""
+    value = exact(number)
+    if value.denominator == 1 or is_decimal(value):
+        text = str(value.numerator) if value.denominator == 1 else decimal(value)
+        return text, SUM + 1 if value < 0 else ATOM
+    return f"{value.numerator}/{value.denominator}", PRODUCT
+
+
+def base_exponent(factor: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+    """Base and exponent; an exponential function counts as a base of its own."""
+    return (factor, sympy.S.One) if isinstance(factor, sympy.exp) else factor.as_base_exp()
+
+
+def fraction_parts(expr: sympy.Expr) -> tuple[str, list[sympy.Expr], list[sympy.Expr]]:
+    """Sign, factors above and factors below the line of a product."""
+    upper: list[sympy.Expr] = []
+    lower: list[sympy.Expr] = []
+    sign = ""
+    for factor in sympy.Mul.make_args(expr):
+        if factor.is_Rational or factor.is_Float:
+            value = exact(factor)
+            sign = "-" if value < 0 else ""
+            value = abs(value)
+            above, below = (value, Fraction(1)) if is_decimal(value) else (value.numerator, value.denominator)
+            upper += [sympy.Rational(above)] if above != 1 else []
+            lower += [sympy.Rational(below)] if below != 1 else []
+        else:
+            base, exponent = base_exponent(factor)
+            if exponent.is_Rational and exponent.is_negative:
+                lower.append(base**-exponent)
+            else:
+                upper.append(factor)
+    return sign, upper, lower

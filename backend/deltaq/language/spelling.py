@@ -1,0 +1,66 @@
+"""How one letter is written in Unicode, in LaTeX and in plain text, and how a name becomes LaTeX."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Mapping
+from types import MappingProxyType
+
+GREEK: Mapping[str, str] = MappingProxyType(
+    {
+        "α": "alpha", "β": "beta", "γ": "gamma", "ε": "epsilon", "ϵ": "epsilon", "ζ": "zeta", "η": "eta",
+        "θ": "theta", "ϑ": "vartheta", "ι": "iota", "κ": "kappa", "λ": "lambda", "μ": "mu", "µ": "mu", "ν": "nu",
+        "ξ": "xi", "ο": "omicron", "π": "pi", "ρ": "rho", "ϱ": "varrho", "σ": "sigma", "ς": "varsigma", "τ": "tau",
+        "υ": "upsilon", "φ": "phi", "ϕ": "phi", "χ": "chi", "ψ": "psi", "ω": "omega", "δ": "delta", "Γ": "Gamma",
+        "Δ": "Delta", "Θ": "Theta", "Λ": "Lambda", "Ξ": "Xi", "Π": "Pi", "Σ": "Sigma", "Φ": "Phi", "Ψ": "Psi",
+        "Ω": "Omega", "ℓ": "ell",
+    }
+)  # fmt: skip
+GREEK_NAMES = frozenset(GREEK.values()) | {"varphi", "varepsilon", "varpi", "varkappa"}
+SUBSCRIPTS: Mapping[str, str] = MappingProxyType(dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True)))
+SUPERSCRIPTS: Mapping[str, str] = MappingProxyType(dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789", strict=True)))
+
+# Variants that mean the same letter as long as a scene does not tell them apart.
+_VARIANTS: Mapping[str, str] = MappingProxyType(
+    {
+        "varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "varrho": "rho", "varsigma": "sigma",
+        "varkappa": "kappa", "varpi": "pi", "ell": "l",
+    }
+)  # fmt: skip
+_LATEX_OF: Mapping[str, str] = MappingProxyType({"phi": r"\varphi", "epsilon": r"\varepsilon", "ell": r"\ell"})
+_WORD = re.compile(r"[A-Za-z]+|\d+")
+
+
+def spelt_out(text: str) -> str:
+    """Unicode letters and indices replaced by their plain names: φ₁ → phi1."""
+    return "".join(GREEK.get(c) or SUBSCRIPTS.get(c) or unicodedata.normalize("NFKC", c) for c in text)
+
+
+def key(spelling: str) -> str:
+    """What all ways to write one symbol have in common: `q_2`, `q_{2}`, `q2`, `q₂` → q2; `\\varphi_1` → varphi1."""
+    return re.sub(r"[\\{}_\s]", "", spelt_out(re.sub(r"\\(?:mathrm|mathit|text|operatorname)\b", "", spelling)))
+
+
+def folded(spelling: str) -> str:
+    """The key with variant letters made one: varphi → phi, ell → l."""
+    return re.sub(r"[A-Za-z]+", lambda m: _VARIANTS.get(m[0], m[0]), key(spelling))
+
+
+def latex_of(name: str) -> str:
+    """LaTeX of a plain name: phi → \\varphi, y_0 and y0 → y_{0}, omega_max → \\omega_{\\mathrm{max}}."""
+    head, *indices = re.findall(r"[A-Za-z]+|\d+", name.replace("_", " "))
+    base = _letter(head)
+    return base if not indices else f"{base}_{{{','.join(map(_index, indices))}}}"
+
+
+def _letter(word: str) -> str:
+    if word in _LATEX_OF:
+        return _LATEX_OF[word]
+    if word in GREEK_NAMES:
+        return "\\" + word
+    return word if len(word) == 1 else rf"\mathrm{{{word}}}"
+
+
+def _index(word: str) -> str:
+    return word if word.isdigit() else _letter(word)

@@ -1,0 +1,49 @@
+"""The SymPy symbols of a scene. Their names are exactly the plain language: `phi`, `dot(phi)`, `delta(phi)`, `d(t)`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy
+
+from .names import Names
+
+_RATES = ("{}", "dot({})", "ddot({})", "dddot({})")
+
+
+def spell_rate(name: str, order: int) -> str:
+    """The plain spelling of a time derivative; order 0 is the coordinate itself."""
+    return _RATES[order].format(name)
+
+
+@dataclass(frozen=True)
+class Symbols:
+    """One real SymPy symbol for each quantity; parameters known to be positive are positive symbols."""
+
+    names: Names
+
+    def name(self, name: str) -> sympy.Expr:
+        """The symbol of a parameter, coordinate, material coordinate or `t`; the number π for `pi`."""
+        if name == "pi":
+            return sympy.pi
+        symbol = self.names.get(name)
+        if symbol is not None and symbol.positive:
+            return sympy.Symbol(name, real=True, positive=True)
+        return sympy.Symbol(name, real=True)
+
+    def rate(self, name: str, order: int = 1) -> sympy.Symbol:
+        """q̇ (order 1), q̈ (order 2)."""
+        return sympy.Symbol(spell_rate(name, order), real=True)
+
+    def variation(self, name: str) -> sympy.Symbol:
+        """δq"""
+        return sympy.Symbol(f"delta({name})", real=True)
+
+    def differential(self, name: str) -> sympy.Symbol:
+        """dq, or dt"""
+        return sympy.Symbol(f"d({name})", real=True)
+
+    @property
+    def time(self) -> sympy.Symbol:
+        """t"""
+        return sympy.Symbol("t", real=True)

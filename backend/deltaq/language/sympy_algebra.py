@@ -1,0 +1,150 @@
+"""Expression trees → SymPy. Derivatives are carried out; nothing is ever read from text here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from types import MappingProxyType
+from typing import Any, NoReturn
+
+import sympy
+
+from ..errors import ExpressionError, Problem
+from .bounds import MAX_EXPONENT
+from .functions import FUNCTIONS
+from .symbols import Symbols
+from .tree import Node, fold
+
+# SymPy objects: Expr, Matrix, Eq or Tuple. SymPy is not typed.
+Value = Any
+
+_SAME_NAME = FUNCTIONS.keys() - {"abs"}
+_FUNCTIONS: Mapping[str, Callable[..., Any]] = MappingProxyType(
+    {name: getattr(sympy, name) for name in _SAME_NAME} | {"abs": sympy.Abs}
+)
+_UNDEFINED = (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo)
+
+
+def to_sympy(node: Node, symbols: Symbols) -> Value:
+    """The SymPy value of a tree: Expr; a column or matrix for a Vector; Eq (unevaluated); a Tuple of Eq for a system.
+
+    Raises ExpressionError `division-by-zero`, `not-real` or `not-differentiable` if the value does not exist.
+    """
+    value = fold(node, SympyAlgebra(symbols))
+    if value.has(sympy.I):
+        _refuse("not-real")
+    if value.has(*_UNDEFINED):
+        _refuse("division-by-zero")
+    return value
+
+
+def time_derivative(expr: Value, symbols: Symbols) -> Value:
+    """d/dt along the motion, by the chain rule: df/dt = Σ ∂f/∂q q̇ + ∂f/∂q̇ q̈ + … + ∂f/∂t."""
+    used = expr.free_symbols
+    total = expr.diff(symbols.time)
+    for name in symbols.names.coordinates:
+        chain = (symbols.name(name), symbols.rate(name, 1), symbols.rate(name, 2), symbols.rate(name, 3))
+        for variable, rate in pairwise(chain):
+            if variable in used:
+                total += expr.diff(variable) * rate
+    if total.has(sympy.DiracDelta, sympy.Derivative, sympy.Subs):
+        _refuse("not-differentiable")
+    return total
+
+
+def _refuse(code: str) -> NoReturn:
+    raise ExpressionError(Problem(code))
+
+
+@dataclass(frozen=True)
+class SympyAlgebra:
+    """The Algebra whose values are SymPy objects."""
+
+    symbols: Symbols
+
+    def number(self, value: Fraction) -> Value:
+        return sympy.Rational(value.numerator, value.denominator)
+
+    def name(self, name: str) -> Value:
+        return self.symbols.name(name)
+
+    def rate(self, name: str, order: int) -> Value:
+        return self.symbols.rate(name, order)
+
+    def variation(self, name: str) -> Value:
+        return self.symbols.variation(name)
+
+    def differential(self, name: str) -> Value:
+        return self.symbols.differential(name)
+
+    def sum(self, terms: tuple[Value, ...]) -> Value:
+        if isinstance(terms[0], sympy.MatrixBase):
+            return sum(terms[1:], terms[0])
+        return sympy.Add(*terms)
+
+    def product(self, factors: tuple[Value, ...]) -> Value:
+        scalar = sympy.Mul(*(f for f in factors if not isinstance(f, sympy.MatrixBase)))
+        arrays = [f for f in factors if isinstance(f, sympy.MatrixBase)]
+        match arrays:
+            case []:
+                return scalar
+            case [array]:
+                return array * scalar
+            case [first, second]:
+                return first.dot(second) * scalar
+            case _:
+                _refuse("vector-product")
+
+    def quotient(self, numerator: Value, denominator: Value) -> Value:
+        if denominator.is_zero:
+            _refuse("division-by-zero")
+        return numerator / denominator
+
+    def negation(self, operand: Value) -> Value:
+        return -operand
+
+    def power(self, base: Value, exponent: Value) -> Value:
+        if not exponent.is_Rational or abs(exponent) > MAX_EXPONENT:
+            _refuse("exponent-too-large" if exponent.is_Rational else "symbolic-exponent")
+        if base.is_zero and not exponent.is_positive:
+            _refuse("division-by-zero")
+        return base**exponent
+
+    def call(self, function: str, arguments: tuple[Value, ...]) -> Value:
+        if function == "exp":
+            _check_exponential(arguments[0])
+        value = _FUNCTIONS[function](*arguments)
+        if value in _UNDEFINED:
+            _refuse("division-by-zero")
+        return value
+
+    def time_derivative(self, operand: Value) -> Value:
+        return time_derivative(operand, self.symbols)
+
+    def partial_derivative(self, operand: Value, variable: Value) -> Value:
+        value = operand.diff(variable)
+        if value.has(sympy.DiracDelta, sympy.Derivative, sympy.Subs):
+            _refuse("not-differentiable")
+        return value
+
+    def vector(self, components: tuple[Value, ...]) -> Value:
+        if any(isinstance(c, sympy.Eq) for c in components):
+            return sympy.Tuple(*components)
+        if isinstance(components[0], sympy.MatrixBase):
+            return sympy.ImmutableMatrix([list(row) for row in components])
+        return sympy.ImmutableMatrix(components)
+
+    def equation(self, left: Value, right: Value) -> Value:
+        if isinstance(left, sympy.MatrixBase) and not isinstance(right, sympy.MatrixBase):
+            right = sympy.ImmutableMatrix.zeros(*left.shape)
+        return sympy.Eq(left, right, evaluate=False)
+
+
+def _check_exponential(argument: Value) -> None:
+    """SymPy turns exp(n log a) into a^n at once: n must be small before it does."""
+    if argument.has(sympy.log) and any(abs(n) > MAX_EXPONENT for n in argument.atoms(sympy.Rational)):
+        _refuse("exponent-too-large")
+    if any(term.is_number and abs(term.evalf(15)) > 700 for term in sympy.Add.make_args(argument)):
+        _refuse("value-too-large")

@@ -1,0 +1,124 @@
+"""Fourier sums ↔ polynomials in sines and cosines, and which of them is shorter."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import sympy
+from flint import fmpq
+
+from . import fourier
+from .fourier import ONE, STILL, Form, Monomial, Phase
+from .normal_form import Reader
+
+_MAX_TERMS = 60
+_MAX_MULTIPLE = 8
+
+
+def shortest(form: Form, reader: Reader) -> Form:
+    """The form as it is, or with sin² or with cos² eliminated, whichever is shortest to write."""
+    if len(form) > _MAX_TERMS or fourier.is_still(form):
+        return form
+    units = _units(form)
+    if any(abs(c) > _MAX_MULTIPLE * units[mono] for _, phase, _ in form for mono, c in phase):
+        return form
+    candidates = [form, *_products(form, units, reader)]
+    if any(int(u.p) % 2 == 0 for u in units.values()):
+        halves = {mono: u / 2 if int(u.p) % 2 == 0 else u for mono, u in units.items()}
+        candidates += _products(form, halves, reader)
+    return min(candidates, key=_length)
+
+
+def _products(form: Form, units: dict[Monomial, Any], reader: Reader) -> tuple[Form, Form]:
+    """The form in products of sin and cos, once without squares of cosines and once without those of sines."""
+    product = _Products(units, reader)
+    expanded = fourier.add(product.term(term, c) for term, c in form.items())
+    return product.reduced(expanded, "cos", "sin"), product.reduced(expanded, "sin", "cos")
+
+
+def _units(form: Form) -> dict[Monomial, Any]:
+    """For each monomial in the phases the largest angle of which all are whole multiples."""
+    units: dict[Monomial, Any] = {}
+    for _, phase, _ in form:
+        for mono, coefficient in phase:
+            known = units.get(mono, coefficient)
+            units[mono] = _common_unit(known, coefficient)
+    return units
+
+
+def _common_unit(a: Any, b: Any) -> Any:
+    denominator = math.lcm(int(a.q), int(b.q))
+    return fmpq(math.gcd(int((a * denominator).p), int((b * denominator).p)), denominator)
+
+
+def _length(form: Form) -> int:
+    """Terms, factors and angles to write."""
+    return sum(
+        2 + sum(2 + 2 * name.count("*") + int(e != 1) for name, e in mono)
+        + _angle_length(phase) + int(abs(number) != 1)
+        for (mono, phase, _), number in form.items()
+    )  # fmt: skip
+
+
+def _angle_length(phase: Phase) -> int:
+    return 2 * len(phase) + sum(len(mono) - 1 + 2 * int(abs(c) != 1) for mono, c in phase)
+
+
+class _Products:
+    """Writes waves as products of sin and cos of single angles, as monomials in generators for these."""
+
+    def __init__(self, units: dict[Monomial, Any], reader: Reader) -> None:
+        self._names: dict[Monomial, str] = {}
+        for mono, unit in units.items():
+            angle: Phase = ((mono, unit),)
+            name = sympy.sstr(reader.wave(angle, sine=False))[3:]
+            self._names[mono] = name
+            reader.meaning["sin" + name] = reader.wave(angle, sine=True)
+            reader.meaning["cos" + name] = reader.wave(angle, sine=False)
+        self._units = units
+
+    def term(self, term: fourier.Term, coefficient: Any) -> Form:
+        """One term with its wave expanded by the addition theorems."""
+        mono, phase, sine = term
+        cosine, sine_part = fourier.constant(1), fourier.constant(0)
+        for angle, c in phase:
+            multiple = int((c / self._units[angle]).p)
+            even, odd = self._multiple(self._names[angle], multiple)
+            cosine, sine_part = (
+                fourier.add((fourier.multiply(cosine, even), fourier.scale(fourier.multiply(sine_part, odd), -1))),
+                fourier.add((fourier.multiply(sine_part, even), fourier.multiply(cosine, odd))),
+            )
+        return fourier.multiply({(mono, STILL, False): coefficient}, sine_part if sine else cosine)
+
+    def _multiple(self, name: str, multiple: int) -> tuple[Form, Form]:
+        """cos nα and sin nα: real and imaginary part of (cos α + i sin α)^n."""
+        parts: tuple[Form, Form] = ({}, {})
+        for k in range(abs(multiple) + 1):
+            mono = fourier.times(_power(f"cos{name}", abs(multiple) - k), _power(f"sin{name}", k))
+            sign = -1 if k % 4 > 1 else 1
+            parts[k % 2][mono, STILL, False] = fmpq(sign * math.comb(abs(multiple), k))
+        return parts[0], parts[1] if multiple > 0 else fourier.scale(parts[1], -1)
+
+    def reduced(self, form: Form, gone: str, kept: str) -> Form:
+        """Squares of one function replaced: sin² = 1 − cos²."""
+        for name in self._names.values():
+            form = fourier.add(self._reduced_term(term, c, gone + name, kept + name) for term, c in form.items())
+        return form
+
+    def _reduced_term(self, term: fourier.Term, coefficient: Any, gone: str, kept: str) -> Form:
+        mono, phase, sine = term
+        squares, rest = divmod(dict(mono).get(gone, 0), 2)
+        if not squares:
+            return {term: coefficient}
+        others = fourier.times(tuple(pair for pair in mono if pair[0] != gone), _power(gone, rest))
+        replacement = fourier.power(fourier.add((fourier.constant(1), fourier.scale(_square(kept), -1))), squares)
+        return fourier.multiply({(others, phase, sine): coefficient}, replacement)
+
+
+def _power(name: str, exponent: int) -> Monomial:
+    return ((name, exponent),) if exponent else ONE
+
+
+def _square(name: str) -> Form:
+    return fourier.monomial(name, 2)

@@ -1,0 +1,1 @@
+"""Mechanical systems as data: frozen types that validate themselves. No computer algebra, no numerics."""

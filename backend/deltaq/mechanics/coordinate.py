@@ -1,0 +1,29 @@
+"""Generalized coordinates."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..errors import Problem
+from .checks import demand, name_problem, range_problems
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """Generalized coordinate q(t), with its initial value and rate.
+
+    `latex` is the symbol to print ("" lets the name make it); `min` and `max` bound the slider of the initial value.
+    """
+
+    name: str
+    latex: str = ""
+    unit: str = ""
+    value: float = 0.0
+    rate: float = 0.0
+    min: float | None = None
+    max: float | None = None
+
+    def __post_init__(self) -> None:
+        rate = None if math.isfinite(self.rate) else Problem("not-finite", "/rate")
+        demand(name_problem(self.name), rate, *range_problems(self.value, self.min, self.max))

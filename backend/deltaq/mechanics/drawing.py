@@ -1,0 +1,75 @@
+"""How a scene is drawn: a list of elements that hang on its points and bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from ..errors import Problem
+from .checks import demand
+from .reader import Reader
+
+Vertical = Literal["up", "down"]
+
+# Each kind of element, and the fields that say where it hangs.
+ELEMENTS: dict[str, tuple[str, ...]] = {
+    "angle": ("at",),
+    "bob": ("at",),
+    "cart": ("at",),
+    "dimension": ("from", "to"),
+    "disc": ("at",),
+    "force": (),
+    "ground": ("at",),
+    "guide": ("at",),
+    "pivot": ("at",),
+    "rod": ("from", "to"),
+    "spring": ("from", "to"),
+    "trail": ("at",),
+    "weight": ("at",),
+}
+TEXTS = ("load", "coordinate", "direction", "label")
+NUMBERS = ("radius", "width", "height")
+
+
+@dataclass(frozen=True)
+class Element:
+    """One primitive: its kind, the places it hangs on, and its options."""
+
+    kind: str
+    places: tuple[tuple[str, str], ...] = ()
+    options: tuple[tuple[str, str | float], ...] = ()
+
+    def __post_init__(self) -> None:
+        known = self.kind in ELEMENTS
+        demand(None if known else Problem("unknown-kind", "/kind", parameters={"kind": self.kind[:40]}))
+
+    @classmethod
+    def read(cls, table: Reader) -> Element:
+        kind = table.text("kind")
+        places = tuple((key, table.place(key)) for key in ELEMENTS.get(kind, ()))
+        texts = ((key, table.text(key)) for key in TEXTS if key in table.table)
+        numbers = ((key, table.number(key, 1.0)) for key in NUMBERS if key in table.table)
+        return cls(kind, places, (*texts, *numbers))
+
+    def write(self) -> dict[str, object]:
+        return {"kind": self.kind, **dict(self.places), **dict(self.options)}
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """`vertical` is where the second component grows on the screen; `view` is xmin, xmax, ymin, ymax."""
+
+    vertical: Vertical = "up"
+    view: tuple[float, ...] | None = None
+    elements: tuple[Element, ...] = ()
+
+    def __post_init__(self) -> None:
+        demand(
+            None if self.vertical in ("up", "down") else Problem("unknown-direction", "/vertical"),
+            None if self._view_is_box() else Problem("invalid-view", "/view"),
+        )
+
+    def _view_is_box(self) -> bool:
+        if self.view is None:
+            return True
+        return len(self.view) == 4 and self.view[0] < self.view[1] and self.view[2] < self.view[3]

@@ -1,0 +1,161 @@
+"""Reading one table of a scene document, field by field.
+
+Problems are collected, not raised, so that a user sees all of them at once; a field that cannot be read is replaced
+by a harmless value so that the rest can still be looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from fractions import Fraction
+from typing import TypeVar
+
+from ..errors import InputError, Parameter, Problem
+from ..language.expression import Expression
+from ..language.names import Names
+from ..language.parser import parse
+from ..language.tree import Number
+
+T = TypeVar("T")
+NOT_OF: Mapping[type, str] = {
+    str: "not-text",
+    float: "not-a-number",
+    int: "not-an-integer",
+    bool: "not-a-flag",
+    list: "not-a-list",
+    Mapping: "not-a-table",
+}
+NOTHING = Expression("0", Number(Fraction(0)))
+
+
+@dataclass(frozen=True)
+class Context:
+    """What the fields of a scene may refer to."""
+
+    names: Names
+    places: tuple[str, ...]
+    dimension: int
+
+
+@dataclass
+class Reader:
+    """A table of the document at `pointer`; `problems` is shared by all tables of one reading."""
+
+    table: Mapping[str, object]
+    pointer: str
+    problems: list[Problem]
+    context: Context | None = None
+    used: set[str] = field(default_factory=lambda: {"kind"})
+    default_name: str = ""
+
+    def complain(self, code: str, key: str = "", **parameters: Parameter) -> None:
+        self.problems.append(Problem(code, f"{self.pointer}/{key}" if key else self.pointer, parameters=parameters))
+
+    def get(self, key: str, kind: type[T] | tuple[type[T], ...], default: T | None) -> T | None:
+        """The field, if it is of the kind wanted; without a default it must be there."""
+        self.used.add(key)
+        value = self.table.get(key)
+        if value is None:
+            if default is None:
+                self.complain("missing-field", key, field=key)
+            return default
+        if not isinstance(value, kind) or isinstance(value, bool) is not (kind is bool):
+            self.complain(NOT_OF[kind[0] if isinstance(kind, tuple) else kind], key)
+            return default
+        return value
+
+    def text(self, key: str, default: str | None = None) -> str:
+        return self.get(key, str, default) or ""
+
+    def name(self) -> str:
+        return self.text("name", self.default_name or None)
+
+    def flag(self, key: str, *, default: bool) -> bool:
+        return bool(self.get(key, bool, default))
+
+    def number(self, key: str, default: float) -> float:
+        return self._float(key, self.get(key, (float, int), default), default)
+
+    def bound(self, key: str) -> float | None:
+        self.used.add(key)
+        return None if self.table.get(key) is None else self.number(key, 0.0)
+
+    def _float(self, key: str, value: float | None, default: float) -> float:
+        try:
+            return float(default if value is None else value)
+        except OverflowError:
+            self.complain("not-finite", key)
+            return default
+
+    def strings(self, key: str) -> tuple[str, ...]:
+        values = self.get(key, (list, tuple), None)
+        return () if values is None else tuple(self._string(f"{key}/{i}", value) for i, value in enumerate(values))
+
+    def _string(self, key: str, value: object) -> str:
+        if isinstance(value, str):
+            return value
+        self.complain(NOT_OF[str], key)
+        return "0"
+
+    def expression(self, key: str, default: str | None = None) -> Expression:
+        text = self.text(key, default)
+        return self.parsed(text, key) if text else self._empty(key)
+
+    def _empty(self, key: str) -> Expression:
+        if isinstance(self.table.get(key), str):
+            self.complain("empty-expression", key, field=key)
+        return NOTHING
+
+    def vector(self, key: str) -> tuple[Expression, ...]:
+        texts = self.strings(key)
+        dimension = self._context.dimension
+        if key in self.table and len(texts) != dimension:
+            self.complain("wrong-dimension", key, expected=dimension, found=len(texts))
+        parsed = tuple(self.parsed(text, f"{key}/{i}") for i, text in enumerate(texts[:dimension]))
+        return parsed + (NOTHING,) * (dimension - len(parsed))
+
+    def position(self, key: str) -> tuple[Expression, ...]:
+        """A position field r(q, t): it must not depend on rates."""
+        components = self.vector(key)
+        for i, component in enumerate(components):
+            for rate in sorted(component.rates):
+                self.complain("position-with-rate", f"{key}/{i}", coordinate=rate)
+        return components
+
+    def place(self, key: str) -> str:
+        name = self.text(key)
+        if name and name not in self._context.places:
+            near = get_close_matches(name, self._context.places, n=1)
+            self.complain("unknown-place", key, name=name, suggestion=near[0] if near else "")
+        return name
+
+    def parsed(self, text: str, key: str) -> Expression:
+        try:
+            expression = parse(text, self._context.names)
+        except InputError as error:
+            self.problems.extend(problem.below(f"{self.pointer}/{key}") for problem in error.problems)
+            return NOTHING
+        if expression.is_scalar:
+            return expression
+        self.complain("not-scalar", key)
+        return NOTHING
+
+    @property
+    def _context(self) -> Context:
+        if self.context is None:
+            raise LookupError("names are read before expressions")
+        return self.context
+
+    def build(self, make: Callable[[Reader], T]) -> Iterator[T]:
+        """What `make` makes of this table, or nothing if the thing itself objects; unknown fields are reported."""
+        try:
+            made = make(self)
+        except InputError as error:
+            self.problems.extend(problem.below(self.pointer) for problem in error.problems)
+            return
+        yield made
+        for key in self.table.keys() - self.used:
+            near = get_close_matches(key, self.used, n=1)
+            self.complain("unknown-field", key, field=key[:40], suggestion=near[0] if near else "")

@@ -1,0 +1,113 @@
+"""The scene: a mechanical system described as data."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from types import MappingProxyType
+
+from ..errors import Problem
+from ..language.expression import Expression
+from ..language.names import Names, Symbol
+from .bodies import Body
+from .checks import demand
+from .contributions import Contribution
+from .coordinate import Coordinate
+from .drawing import Drawing
+from .guide import Guide
+from .loads import Load
+from .parameter import Parameter
+from .point import Point
+
+Translated = Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A mechanical system (scene format 1): coordinates, parameters, points, bodies, loads, guides and a drawing.
+
+    `dimension` is the number of components of every vector, 2 (plane) or 3 (space). Points and bodies are both places,
+    and share their names; loads have names of their own.
+    """
+
+    id: str
+    title: Translated
+    summary: Translated
+    dimension: int
+    coordinates: tuple[Coordinate, ...]
+    parameters: tuple[Parameter, ...]
+    points: tuple[Point, ...]
+    bodies: tuple[Body, ...]
+    loads: tuple[Load, ...]
+    guides: tuple[Guide, ...] = ()
+    drawing: Drawing = Drawing()
+
+    def __post_init__(self) -> None:
+        demand(*self._problems())
+
+    def _problems(self) -> Iterator[Problem]:
+        if not self.bodies:
+            yield Problem("no-body", "/bodies")
+        if not self.free:
+            yield Problem("no-free-coordinate", "/guides" if self.guides else "/coordinates")
+        yield from _repeated("/points", [*(p.name for p in self.points), *(b.name for b in self.bodies)])
+        yield from _repeated("/loads", [load.name for load in self.loads])
+        yield from _repeated("/guides", [guide.coordinate for guide in self.guides])
+        for index, guide in enumerate(self.guides):
+            yield from self._guide_problems(f"/guides/{index}", guide)
+
+    def _guide_problems(self, pointer: str, guide: Guide) -> Iterator[Problem]:
+        known = tuple(coordinate.name for coordinate in self.coordinates)
+        if guide.coordinate not in known:
+            yield Problem("unknown-coordinate", f"{pointer}/coordinate", parameters={"name": guide.coordinate[:40]})
+        for name in sorted(guide.value.names & set(known)):
+            yield Problem("guide-by-coordinate", f"{pointer}/value", parameters={"name": name})
+
+    @cached_property
+    def names(self) -> Names:
+        """What its expressions may refer to."""
+        return names_of(self.coordinates, self.parameters)
+
+    @cached_property
+    def free(self) -> tuple[Coordinate, ...]:
+        """The coordinates that no guide prescribes: the degrees of freedom."""
+        guided = {guide.coordinate for guide in self.guides}
+        return tuple(coordinate for coordinate in self.coordinates if coordinate.name not in guided)
+
+    @cached_property
+    def places(self) -> Mapping[str, tuple[Expression, ...]]:
+        """Positions of all points and bodies by name."""
+        points = {point.name: point.position for point in self.points}
+        return MappingProxyType(points | {body.name: body.position for body in self.bodies})
+
+    def place(self, name: str) -> tuple[Expression, ...]:
+        return self.places[name]
+
+    @cached_property
+    def contributions(self) -> tuple[Contribution, ...]:
+        """The forces and potentials that the loads come down to, in the order of the loads."""
+        return tuple(part for load in self.loads for part in load.contributions(self.places, self.bodies))
+
+    def guide_of(self, coordinate: str) -> Guide | None:
+        return next((guide for guide in self.guides if guide.coordinate == coordinate), None)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # A mapping proxy cannot be pickled; the cached properties need not be.
+        fields = (self.id, dict(self.title), dict(self.summary), self.dimension, self.coordinates, self.parameters)
+        return Scene, (*fields, self.points, self.bodies, self.loads, self.guides, self.drawing)
+
+
+def names_of(coordinates: tuple[Coordinate, ...], parameters: tuple[Parameter, ...]) -> Names:
+    """The names of coordinates (in their order) and parameters. Raises InputError for repeated and reserved ones."""
+    return Names(
+        tuple(Symbol(c.name, "coordinate", c.latex) for c in coordinates)
+        + tuple(Symbol(p.name, "parameter", p.latex, p.positive) for p in parameters)
+    )
+
+
+def _repeated(pointer: str, names: list[str]) -> Iterator[Problem]:
+    for name, count in Counter(names).items():
+        if count > 1:
+            yield Problem("duplicate-name", pointer, parameters={"name": name})

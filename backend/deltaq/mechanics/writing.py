@@ -1,0 +1,50 @@
+"""Writing scenes: the document of format 1, as plain data for JSON."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+from ..language.expression import Expression
+from .bodies import Body
+from .coordinate import Coordinate
+from .document import FORMAT
+from .guide import Guide
+from .loads import Load
+from .parameter import Parameter
+from .point import Point
+from .scene import Scene
+
+
+def write_scene(scene: Scene) -> dict[str, object]:
+    """The document of a scene, as plain data for JSON."""
+    drawing = {
+        "vertical": scene.drawing.vertical,
+        "view": list(scene.drawing.view) if scene.drawing.view else None,
+        "elements": [element.write() for element in scene.drawing.elements],
+    }
+    return {
+        "format": FORMAT,
+        "id": scene.id,
+        "title": dict(scene.title),
+        "summary": dict(scene.summary),
+        "dimension": scene.dimension,
+        "coordinates": [_write(thing) for thing in scene.coordinates],
+        "parameters": [_write(thing) for thing in scene.parameters],
+        "points": [_write(thing) for thing in scene.points],
+        "bodies": [_write(thing) for thing in scene.bodies],
+        "loads": [_write(thing) for thing in scene.loads],
+        "guides": [_write(thing) for thing in scene.guides],
+        "drawing": {key: value for key, value in drawing.items() if value is not None},
+    }
+
+
+def _write(thing: Coordinate | Parameter | Point | Body | Load | Guide) -> dict[str, object]:
+    kind = {"kind": thing.kind} if hasattr(thing, "kind") else {}
+    values = {item.metadata.get("key", item.name): getattr(thing, item.name) for item in fields(thing)}  # type: ignore[arg-type]
+    return kind | {key: _plain(value) for key, value in values.items() if value is not None}
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, Expression):
+        return value.text
+    return [_plain(item) for item in value] if isinstance(value, tuple) else value

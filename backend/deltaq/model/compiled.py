@@ -1,0 +1,52 @@
+"""Expressions to machine code, by SymEngine's LLVM back end."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import symengine as se
+from numpy.typing import NDArray
+
+from ..errors import Problem, SceneError
+from .functions import Expr
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """A function from `inputs` to `outputs` doubles: void f(double *out, const double *in, void *data).
+
+    The addresses are valid as long as this object lives. It can be pickled; addresses are made anew on loading.
+    """
+
+    function: Any
+    inputs: int
+    outputs: int
+
+    @property
+    def addresses(self) -> tuple[int, int]:
+        """The function's address and that of its data, the last argument of every call."""
+        pointer, data = self.function.as_ctypes()
+        return int(ctypes.cast(pointer, ctypes.c_void_p).value or 0), int(data.value or 0)
+
+    def table(self, rows: Floats) -> Floats:
+        """The outputs for each row of inputs: shape (n, inputs) to (n, outputs)."""
+        values = self.function(np.ascontiguousarray(rows, dtype=np.float64))
+        return np.asarray(values, dtype=np.float64).reshape(len(rows), self.outputs)
+
+
+def compile_expressions(inputs: Sequence[Expr], outputs: Sequence[Expr]) -> Compiled:
+    """Machine code for the outputs, with common subexpressions computed once.
+
+    Raises SceneError if one of them has no real value whatever the inputs.
+    """
+    try:
+        function = se.Lambdify(list(inputs), [list(outputs)], backend="llvm", cse=True)
+    except RuntimeError as error:  # a complex or infinite constant, 1/(x − x) or √(−1), say
+        raise SceneError(Problem("not-computable", parameters={"detail": str(error)[:80]})) from None
+    return Compiled(function, len(inputs), len(outputs))

@@ -1,0 +1,121 @@
+"""The numeric model of a scene, ready to run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+from ..mechanics.scene import Scene
+from .compiled import Compiled, Floats, compile_expressions
+from .equations import Equations, equations
+
+
+@dataclass(frozen=True)
+class Layout:
+    """What the numbers of a model's inputs and outputs are.
+
+    Inputs of both functions: q, q̇ (of the free coordinates), t, parameters.
+    """
+
+    free: tuple[str, ...]
+    guided: tuple[str, ...]
+    parameters: tuple[str, ...]
+    places: tuple[str, ...]
+    arrows: tuple[str, ...]
+    dimension: int
+    is_powered: bool
+
+    @property
+    def degrees(self) -> int:
+        return len(self.free)
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What can be seen of a motion; every array has the samples as its first axis."""
+
+    kinetic: Floats
+    potential: Floats
+    values: Mapping[str, Floats]  # of guided coordinates
+    rates: Mapping[str, Floats]
+    positions: Mapping[str, Floats]  # shape (samples, dimension)
+    arrows: Mapping[str, Floats]
+
+
+@dataclass(frozen=True)
+class Model:
+    """M(q, t) q̈ = f(q, q̇, t) as machine code; parameters are inputs, so new values need no new model.
+
+    `motion` gives the lower triangle of M (row by row), f and, where power is fed in, P₀ and p₁ of P = P₀ + p₁·q̈.
+    `observed` gives E, V, values and rates of guided coordinates, positions and force vectors.
+    """
+
+    layout: Layout
+    motion: Compiled
+    observed: Compiled
+
+    def observe(self, inputs: Floats) -> Observation:
+        """What is seen in each row of inputs."""
+        layout, table = self.layout, self.observed.table(inputs)
+        guided, size = len(layout.guided), layout.dimension
+        first_place = 2 + 2 * guided
+        first_arrow = first_place + size * len(layout.places)
+        return Observation(
+            table[:, 0],
+            table[:, 1],
+            {name: table[:, 2 + i] for i, name in enumerate(layout.guided)},
+            {name: table[:, 2 + guided + i] for i, name in enumerate(layout.guided)},
+            _vectors(table, first_place, size, layout.places),
+            _vectors(table, first_arrow, size, layout.arrows),
+        )
+
+
+def _vectors(table: Floats, first: int, size: int, names: tuple[str, ...]) -> dict[str, Floats]:
+    return {name: table[:, first + size * i : first + size * (i + 1)] for i, name in enumerate(names)}
+
+
+def compile_model(scene: Scene) -> Model:
+    """The model of a scene, built and compiled; scenes that differ only in numbers, names and drawing share theirs."""
+    return _compiled_once(_Mechanics(_mechanics(scene), scene))
+
+
+@dataclass(frozen=True)
+class _Mechanics:
+    """A scene, equal to all others with the same mechanics: what the model depends on, and no more."""
+
+    content: tuple[object, ...]
+    scene: Scene = field(compare=False)
+
+
+def _mechanics(scene: Scene) -> tuple[object, ...]:
+    names = tuple(c.name for c in scene.coordinates), tuple(p.name for p in scene.parameters)
+    return scene.dimension, names, scene.points, scene.bodies, scene.loads, scene.guides
+
+
+@lru_cache(maxsize=64)
+def _compiled_once(mechanics: _Mechanics) -> Model:
+    return _compiled(equations(mechanics.scene), mechanics.scene.dimension)
+
+
+def _compiled(eqs: Equations, dimension: int) -> Model:
+    symbols = eqs.symbols
+    layout = Layout(
+        symbols.free,
+        symbols.guided,
+        symbols.parameters,
+        tuple(eqs.positions),
+        tuple(eqs.arrows),
+        dimension,
+        eqs.is_powered,
+    )
+    triangle = [entry for i, row in enumerate(eqs.mass_matrix) for entry in row[: i + 1]]
+    power = [eqs.power, *eqs.acceleration_power] if eqs.is_powered else []
+    vectors = [*eqs.positions.values(), *eqs.arrows.values()]
+    seen = [value for value, _ in eqs.guided.values()] + [rate for _, rate in eqs.guided.values()]
+    observed = [eqs.kinetic, eqs.potential, *seen, *(x for vector in vectors for x in vector)]
+    return Model(
+        layout,
+        compile_expressions(symbols.inputs, [*triangle, *eqs.forcing, *power]),
+        compile_expressions(symbols.inputs, observed),
+    )

@@ -1,0 +1,1 @@
+"""Narration: the only place where steps become formulas on paper and sentences."""

@@ -1,0 +1,66 @@
+"""The catalogs: every sentence that a user reads, in each language, by key.
+
+`locales/<language>/<section>.json` hold nested texts with {placeholders}; files `errors.<part>.json` are parts of the
+section `errors`. The page reads the same catalogs.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from string import Formatter
+
+from ..errors import Problem
+
+LANGUAGES = ("en", "de")
+Catalog = Mapping[str, object]
+
+
+@cache
+def catalog(language: str) -> Catalog:
+    """All texts of a language by section."""
+    merged: dict[str, dict[str, object]] = {}
+    folder = files("deltaq") / "narration" / "locales" / language
+    for file in sorted(folder.iterdir(), key=lambda file: file.name):
+        if file.name.endswith(".json"):
+            merged.setdefault(file.name.split(".")[0], {}).update(json.loads(file.read_text(encoding="utf-8")))
+    return merged
+
+
+def template(language: str, key: str) -> str:
+    """The text under a key such as `rules.guide.title`. A key without a text is a KeyError: our bug."""
+    entry: object = catalog(language)
+    for part in key.split("."):
+        if not isinstance(entry, Mapping) or part not in entry:
+            raise KeyError(f"no text for {key} in {language}")
+        entry = entry[part]
+    return str(entry)
+
+
+def text(language: str, key: str, **parameters: object) -> str:
+    """The sentence under a key, its {placeholders} put in."""
+    return filled(template(language, key), parameters)
+
+
+def filled(template: str, parameters: Mapping[str, object]) -> str:
+    """The template with its {placeholders} put in; a user's text is put in as it is, never read as a template."""
+    pieces = (
+        literal + ("" if field is None else str(parameters.get(field, "")))
+        for literal, field, _, _ in Formatter().parse(template)
+    )
+    return "".join(pieces)
+
+
+def message(language: str, problem: Problem) -> str:
+    """What a problem says to the user, with the suggestion where there is one."""
+    sentence = text(language, f"errors.{problem.code}", **problem.parameters)
+    suggestion = problem.parameters.get("suggestion")
+    return f"{sentence} {text(language, 'errors.suggestion', suggestion=suggestion)}" if suggestion else sentence
+
+
+def language_of(wanted: str | None) -> str:
+    """The language to answer in: the one wanted if there is a catalog for it, else English."""
+    short = (wanted or "")[:2].lower()
+    return short if short in LANGUAGES else LANGUAGES[0]

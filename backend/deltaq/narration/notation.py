@@ -1,0 +1,150 @@
+"""Formulas on paper: LaTeX of what a step says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import groupby
+
+import sympy as sp
+
+from ..derivation.formula import (
+    Dot,
+    Equation,
+    Explicit,
+    Formula,
+    Gateaux,
+    Given,
+    Named,
+    Partial,
+    Plus,
+    Rate,
+    Shifted,
+    Substituted,
+    Term,
+    Times,
+    Value,
+)
+from ..derivation.step import Relation
+from ..language.latex_printer import Typography, latex
+from .symbols import QuantitySymbols
+
+SIGNS = {"=": "=", "≠": r"\neq", "⇔": r"\;\Longleftrightarrow\;"}
+
+
+@dataclass(frozen=True)
+class Notation:
+    """Writes formulas: `typography` sets the symbols of the scene, `symbols` those of quantities."""
+
+    typography: Typography
+    symbols: QuantitySymbols
+    h: sp.Symbol
+
+    def value(self, value: Value) -> str:
+        return latex(value, self.typography)
+
+    def formula(self, formula: Formula) -> str:
+        match formula:
+            case Given(_, value) | Explicit(value):
+                return self.value(value)
+            case Named(quantity, _, arguments):
+                inside = ", ".join(map(self.value, arguments))
+                return self.symbols.latex(quantity) + (f"({inside})" if arguments else "")
+            case Partial(of, by):
+                return rf"\frac{{\partial {self._bare(of)}}}{{\partial {self.value(by)}}}"
+            case Rate(of):
+                return self._rate(of)
+            case Gateaux(of):
+                return self._gateaux(of)
+            case Shifted(value, h):
+                return self._at_zero(self.value(value), h)
+            case Times(factors):
+                return r"\,".join(map(self._factor, factors))
+            case Dot(left, right):
+                return rf"{self._factor(left)} \cdot {self._factor(right)}"
+            case Plus(terms):
+                return self._sum(terms)
+            case Substituted(of, values):
+                return self._substituted(of, values)
+            case Equation(left, right):
+                return f"{self.formula(left)} = {self.formula(right)}"
+
+    def relation(self, relation: Relation) -> list[str]:
+        """The rows of an aligned block: the first two members share one, each further member has its own."""
+        sign = SIGNS[relation.sign]
+        texts = map(self.formula, relation.members)
+        first, *others = (text for text, _ in groupby(texts))  # a member that reads like the one before says nothing
+        if relation.sign == "⇔":
+            return [f"& {first}", *(rf"{sign} & {other}" for other in others)]
+        rows = [f"{'' if row else first} &{sign} {other}" for row, other in enumerate(others)]
+        return rows or [f"& {first}"]
+
+    def block(self, relations: tuple[Relation, ...]) -> str:
+        """All lines of a step."""
+        rows = [row for relation in relations for row in self.relation(relation)]
+        return r"\begin{aligned}" + r" \\[0.4em] ".join(rows) + r"\end{aligned}" if rows else ""
+
+    def _bare(self, of: Formula) -> str:
+        """The name without its arguments, for the numerator of a derivative."""
+        return self.symbols.latex(of.quantity) if isinstance(of, Named) else self._factor(of)
+
+    def _factor(self, formula: Formula) -> str:
+        """In parentheses where it is a sum of its own."""
+        text = self.formula(formula)
+        return rf"\left({text}\right)" if self._is_sum(formula) else text
+
+    def _is_sum(self, formula: Formula) -> bool:
+        written_out = isinstance(formula, Explicit | Given) and isinstance(formula.value, sp.Add)
+        return isinstance(formula, Plus) or written_out
+
+    def _rate(self, of: Formula) -> str:
+        if isinstance(of, Named):
+            return rf"\frac{{\mathrm{{d}} {self._bare(of)}}}{{\mathrm{{d}} t}}"
+        return rf"\frac{{\mathrm{{d}}}}{{\mathrm{{d}} t}}\left({self.formula(of)}\right)"
+
+    def _gateaux(self, of: Formula) -> str:
+        if not isinstance(of, Named) or not of.arguments:
+            return rf"\delta {self._bare(of)}"
+        h = self.value(self.h)
+        shifted = ", ".join(self._shifted_argument(argument, h) for argument in of.arguments)
+        return self._at_zero(rf"{self._bare(of)}({shifted})", self.h)
+
+    def _shifted_argument(self, argument: sp.Symbol, h: str) -> str:
+        variation = sp.Symbol(f"delta({argument.name})", real=True)
+        free = {coordinate.name for coordinate in self.symbols.scene.free}
+        text = self.value(argument)
+        return rf"{text} + {h}\,{self.value(variation)}" if argument.name in free else text
+
+    def _at_zero(self, text: str, h: sp.Symbol) -> str:
+        letter = self.value(h)
+        return rf"\left.\frac{{\partial}}{{\partial {letter}}} {text}\right|_{{{letter}=0}}"
+
+    def _sum(self, terms: tuple[Term, ...]) -> str:
+        pieces: list[str] = []
+        for term in filter(_counts, terms):
+            text, negative = self._unsigned(term)
+            sign = "-" if negative else "+"
+            pieces.append(f"{sign if pieces or negative else ''} {self._marked(term, text)}")
+        return " ".join(pieces).strip() or "0"
+
+    def _unsigned(self, term: Term) -> tuple[str, bool]:
+        """The term without its sign, which stands outside the mark so that it is spaced as an operator."""
+        text = self.formula(term.formula)
+        if term.sign < 0 and self._is_sum(term.formula):
+            return self._factor(term.formula), True
+        leads_with_minus = text.startswith("-")
+        return text.removeprefix("-"), leads_with_minus is not (term.sign < 0)
+
+    def _marked(self, term: Term, text: str) -> str:
+        classes = [source.replace(":", "-") for source in term.sources]
+        return self.symbols.wrap(" ".join([*classes, *([term.role] if term.role else [])]), text)
+
+    def _substituted(self, of: Formula, values: Mapping[sp.Symbol, sp.Expr]) -> str:
+        present = of.value.free_symbols if isinstance(of, Given | Explicit | Named) else set(values)
+        rules = ", ".join(f"{self.value(s)} = {self.value(v)}" for s, v in values.items() if s in present)
+        return rf"\left.{self.formula(of)}\right|_{{{rules}}}" if rules else self.formula(of)
+
+
+def _counts(term: Term) -> bool:
+    """Whether a summand is worth writing: a zero is not."""
+    return not (isinstance(term.formula, Explicit) and term.formula.value == 0)

@@ -1,0 +1,74 @@
+"""How quantities are written: **r**, δ**r**, E, V, L, Q₁ …, with the classes that give each its colour on the page."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from ..derivation.formula import Quantity
+from ..mechanics.scene import Scene
+
+NUMBERED = re.compile(r"q_\{?(\d+)\}?")
+
+# Symbol of a quantity, and the class of the page it belongs to ("" for none). {of} is a name, {i} a coordinate's index.
+SYMBOLS: Mapping[str, tuple[str, str]] = {
+    "coordinate": ("{q}", ""),
+    "position": (r"\mathbf{{r}}{of}", "body-{name}"),
+    "virtual-displacement": (r"\delta\mathbf{{r}}{of}", "body-{name}"),
+    "differential": (r"\mathrm{{d}}\mathbf{{r}}{of}", "body-{name}"),
+    "velocity": (r"\mathbf{{v}}{of}", "body-{name}"),
+    "force": (r"\mathbf{{F}}{of}", "load-{name}"),
+    "virtual-work": (r"\delta W{of}", "load-{name}"),
+    "generalized-force": ("Q_{{{i}}}{part}", ""),
+    "nonconservative-force": ("Q_{{{i}}}^{{d}}", ""),
+    "kinetic-energy": ("E{of}", "energy-kinetic"),
+    "potential-energy": ("V{of}", "energy-potential"),
+    "lagrangian": ("L", ""),
+    "momentum": ("p_{{{i}}}", ""),
+}
+BY_PLACE = ("position", "virtual-displacement", "differential", "velocity")
+
+
+@dataclass(frozen=True)
+class QuantitySymbols:
+    """LaTeX of quantities in one scene. With a single place the index is left out, as the lecture does."""
+
+    scene: Scene
+    coordinate_latex: Mapping[str, str]
+    wrap: Callable[[str, str], str]
+
+    def latex(self, quantity: Quantity) -> str:
+        pattern, css = SYMBOLS[quantity.kind]
+        symbol = pattern.format(
+            of=self._index(quantity),
+            i=self._colored(quantity.of, self.index(quantity.of)),
+            q=self._colored(quantity.of, self.coordinate_latex.get(quantity.of, "")),
+            part=f"^{{{upright(quantity.part)}}}" if quantity.part else "",
+        )
+        named = css.format(name=quantity.of) if quantity.of or "{" not in css else ""
+        return self.wrap(named, symbol)
+
+    def _colored(self, coordinate: str, latex: str) -> str:
+        names = tuple(self.coordinate_latex)
+        return self.wrap(f"q-{names.index(coordinate)}", latex) if coordinate in names else latex
+
+    def index(self, coordinate: str) -> str:
+        """q₂ has the index 2, φ the index φ."""
+        latex = self.coordinate_latex.get(coordinate, "")
+        number = NUMBERED.fullmatch(latex)
+        return number.group(1) if number else latex
+
+    def _index(self, quantity: Quantity) -> str:
+        if not quantity.of:
+            return "_{a}" if quantity.kind == "virtual-work" else ""
+        alone = quantity.kind in BY_PLACE and len(self.scene.bodies) == 1 and quantity.of == self.scene.bodies[0].name
+        if alone:
+            return ""
+        names = [quantity.of] if not quantity.part or len(self.scene.bodies) == 1 else [quantity.of, quantity.part]
+        return f"_{{{', '.join(map(upright, names))}}}"
+
+
+def upright(name: str) -> str:
+    """A name of places or loads as upright text."""
+    return rf"\text{{{name.replace('_', chr(92) + '_')}}}"

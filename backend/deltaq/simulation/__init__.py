@@ -1,0 +1,1 @@
+"""Motion computed: problems, methods, trajectories with their error estimate, status and cost."""

@@ -1,0 +1,98 @@
+"""A trajectory as plain data for JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..model.model import Observation
+from .choice import Choice
+from .outcome import Outcome
+from .problem import Floats, Problem
+from .request import Request
+from .rounding import rounded, short
+from .trajectory import Trajectory
+
+Document = dict[str, object]
+UNKNOWN_ERROR = 1e-12  # to round by where no error estimate was asked for
+
+
+def answer(
+    request: Request, choice: Choice, problem: Problem, trajectory: Trajectory, seen: Observation, compile_time: float
+) -> Document:
+    """The answer to a request. Every number is finite; numbers are rounded to what the error estimate supports."""
+    errors = trajectory.estimate.errors if trajectory.estimate else np.full(len(trajectory.times), UNKNOWN_ERROR)
+    free = problem.model.layout.free
+    order = [coordinate.name for coordinate in request.scene.coordinates]
+    values = dict(zip(free, trajectory.values.T, strict=True)) | dict(seen.values)
+    rates = dict(zip(free, trajectory.rates.T, strict=True)) | dict(seen.rates)
+    parts: Document = {
+        "coordinates": {name: rounded(values[name], errors).tolist() for name in order},
+        "rates": {name: rounded(rates[name], errors).tolist() for name in order},
+        "positions": _vectors(seen.positions, errors),
+        "loads": _vectors(seen.arrows, errors),
+        "energy": _energy(trajectory, seen, errors),
+        "error": _error(trajectory, request.tolerance),
+    }
+    return {
+        "status": trajectory.outcome.status,
+        "reason": _told(trajectory.outcome),
+        "remedy": _told(trajectory.outcome),
+        "method": choice.method.id,
+        "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
+        "t": [float(f"{t:.15g}") for t in trajectory.times],
+        **{part: data for part, data in parts.items() if part in request.include},
+        "t_reached": trajectory.reached,
+        "trusted_until": trajectory.trusted_until,
+        "condition": 1.0 / trajectory.conditioning if trajectory.conditioning > 0 else None,
+        "cost": _cost(trajectory, compile_time),
+    }
+
+
+def _told(outcome: Outcome) -> Document:
+    return {"code": outcome.code, "parameters": dict(outcome.parameters)}
+
+
+def _vectors(vectors: Mapping[str, Floats], errors: Floats) -> Document:
+    return {name: rounded(values, errors).tolist() for name, values in vectors.items()}
+
+
+def _energy(trajectory: Trajectory, seen: Observation, errors: Floats) -> Document:
+    """Energies, the work of what is not in E + V, and the balance E + V − ∫P dt, constant when all is right."""
+    balance = seen.kinetic + seen.potential - trajectory.work
+    scale = float(np.max(np.abs(seen.kinetic) + np.abs(seen.potential), initial=0.0))
+    # Second order in the error where the energy is flat, hence more digits than the error itself supports.
+    doubt = np.maximum(1e-3 * errors, 1e-14) * max(scale, 1e-300)
+    return {
+        "kinetic": rounded(seen.kinetic, doubt).tolist(),
+        "potential": rounded(seen.potential, doubt).tolist(),
+        "work": rounded(trajectory.work, doubt).tolist(),
+        "balance": rounded(balance, doubt).tolist(),
+        "drift": float(f"{np.max(np.abs(balance - balance[0])):.3g}"),
+    }
+
+
+def _error(trajectory: Trajectory, tolerance: float | None) -> Document:
+    found = trajectory.estimate
+    return {
+        "estimate": short(found.errors) if found else [None] * len(trajectory.times),
+        "horizon": found.horizon if found else None,
+        "worst": float(f"{found.worst:.3g}") if found else None,
+        "tolerance": tolerance,
+        "reached": trajectory.tolerance_reached,
+    }
+
+
+def _cost(trajectory: Trajectory, compile_time: float) -> Document:
+    cost = trajectory.cost
+    return {
+        "steps": cost.steps,
+        "rejected": cost.rejected,
+        "rhs_evaluations": cost.rhs_evaluations,
+        "wall_time": cost.wall_time,
+        "compile_time": compile_time,
+        "runs": cost.runs,
+        "run_time": cost.run_time,
+        "run_evaluations": cost.run_evaluations,
+    }

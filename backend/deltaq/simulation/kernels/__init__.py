@@ -1,0 +1,1 @@
+"""The stepping loops, compiled by Numba: one for each family of methods."""

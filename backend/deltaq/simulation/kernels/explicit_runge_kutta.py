@@ -1,0 +1,91 @@
+"""The stepping loop of all explicit Runge–Kutta methods, fixed step and adaptive."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .compiler import kernel
+from .extension import sample
+from .motion import CANCELLED, FINE, NOT_FINITE, STEP_LIMIT, STEP_UNDERFLOW, Floats, Motion, slope
+from .step import Room, Weights, accept, attempt
+from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, shrunk
+
+ROUNDING = 2.3e-16
+
+
+class Result(NamedTuple):
+    """`outcome` as in `motion`; the first `samples` rows of the samples are filled."""
+
+    outcome: int
+    samples: int
+    steps: int
+    rejected: int
+    evaluations: int
+    reached: float
+
+
+@kernel
+def interruption(control: Control, tries: int, cancelled: NDArray[np.int64]) -> int:
+    """Whether to stop before the next step, and why."""
+    if cancelled[0] != 0:
+        return CANCELLED
+    return STEP_LIMIT if tries >= control.step_limit else FINE
+
+
+@kernel
+def integrate(
+    motion: Motion,
+    weights: Weights,
+    control: Control,
+    room: Room,
+    times: Floats,
+    out: Floats,
+    cancelled: NDArray[np.int64],
+) -> Result:
+    """Steps from times[0] to times[-1] and fills out[i] with the state at times[i], for as long as all goes well.
+
+    The initial state stands in room.old.
+    """
+    t, lost_time, end = times[0], 0.0, weights.b.size
+    finish = times[times.size - 1]
+    outcome = slope(motion, t, room.old, room.slopes[0])
+    for d in range(room.old.size):
+        out[0, d] = room.old[d]
+        if outcome == FINE and not abs(room.slopes[0, d]) < np.inf:
+            outcome = NOT_FINITE
+    if outcome != FINE:
+        return Result(outcome, 1, 0, 0, 1, t)
+    is_adaptive = control.tolerance > 0.0
+    h = first_step(motion, control, t, room) if is_adaptive else control.step
+    filled, steps, rejected, evaluations, before, growth = 1, 0, 0, 1 + is_adaptive, 1e-4, LARGEST_GROWTH
+    while filled < times.size:
+        outcome = interruption(control, steps + rejected, cancelled)
+        if outcome != FINE:
+            break
+        h = h if h * (1.0 + 1e-9) < finish - t else finish - t
+        outcome = attempt(motion, weights, t, h, room)
+        evaluations += end
+        error = error_norm(weights.error, control.tolerance, h, motion.degrees, room) if is_adaptive else 0.0
+        if outcome == FINE and error <= 1.0:
+            filled, extra = sample(motion, weights, t, h, times, out, filled, room)
+            evaluations += extra
+            accept(end, room)
+            steps += 1
+            tick = h + lost_time
+            lost_time = tick - ((t + tick) - t)
+            t += tick
+            h = grown(control, h, error, before, growth)
+            before, growth = max(error, 1e-4), LARGEST_GROWTH
+        elif is_adaptive:
+            rejected += 1
+            h = shrunk(control, h, error if outcome == FINE else np.nan)
+            growth = 1.0
+            if h <= 16.0 * ROUNDING * max(abs(t), 1e-3 * control.largest_step):
+                outcome = STEP_UNDERFLOW if outcome == FINE else outcome
+                break
+        else:
+            break
+    return Result(outcome, filled, steps, rejected, evaluations, t)

@@ -1,0 +1,30 @@
+"""Calling a compiled model from inside a kernel.
+
+The addresses are arguments, so one compiled kernel serves every model and can be cached on disk.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+
+def _call(_context: Any, _address: Any, _data: Any, outputs: Any, inputs: Any) -> Any:
+    """call(address, data, outputs, inputs): void f(double *out, const double *in, void *data) at `address`."""
+
+    def generate(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+        number, memory = ir.DoubleType().as_pointer(), ir.IntType(8).as_pointer()
+        kind = ir.FunctionType(ir.VoidType(), [number, number, memory])
+        function = builder.inttoptr(arguments[0], kind.as_pointer())
+        out = context.make_array(outputs)(context, builder, arguments[2])
+        given = context.make_array(inputs)(context, builder, arguments[3])
+        builder.call(function, [out.data, given.data, builder.inttoptr(arguments[1], memory)])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, types.int64, outputs, inputs), generate
+
+
+call: Any = intrinsic(_call)

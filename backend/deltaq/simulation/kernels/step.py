@@ -1,0 +1,105 @@
+"""One step of an explicit Runge–Kutta method: its stages, and the new state by compensated (Kahan) summation."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .compiler import kernel
+from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, slope
+
+LARGEST_VALUE = 1e15  # beyond, nothing in a mechanical scene has a meaning
+
+
+class Weights(NamedTuple):
+    """A tableau as arrays (see `method.Tableau`); `a` and `c` begin with the second stage."""
+
+    a: Floats
+    b: Floats
+    c: Floats
+    error: Floats
+    dense: Floats
+    extra_a: Floats
+    extra_c: Floats
+
+
+class Room(NamedTuple):
+    """Arrays to work in. Kernels allocate nothing, so that Numba counts no references in the inner loop."""
+
+    slopes: Floats  # of all stages
+    stage: Floats  # the state of one stage
+    old: Floats
+    new: Floats
+    lost: Floats  # digits of the old state below its rounding
+    new_lost: Floats
+    extension: Floats
+
+
+def make_room(state: Floats, weights: Weights) -> Room:
+    width, slopes = state.size, weights.b.size + 1 + weights.extra_c.size
+    line = np.zeros(width)
+    return Room(
+        np.zeros((slopes, width)),
+        line.copy(),
+        state.copy(),
+        line.copy(),
+        line.copy(),
+        line.copy(),
+        np.zeros((3 + weights.dense.shape[0], width)),
+    )
+
+
+@kernel
+def stages(motion: Motion, a: Floats, c: Floats, first: int, t: float, h: float, room: Room) -> int:
+    """Slopes number `first` and on, one for each row of a; returns how it went."""
+    width = room.old.size
+    for s in range(c.size):
+        for d in range(width):
+            room.stage[d] = 0.0
+        for j in range(first + s):
+            weight = a[s, j]
+            if weight != 0.0:
+                for d in range(width):
+                    room.stage[d] += weight * room.slopes[j, d]
+        for d in range(width):
+            room.stage[d] = room.old[d] + h * room.stage[d]
+        outcome = slope(motion, t + c[s] * h, room.stage, room.slopes[first + s])
+        if outcome != FINE:
+            return outcome
+    return FINE
+
+
+@kernel
+def advance(b: Floats, h: float, room: Room) -> int:
+    """The new state from the slopes, with compensation; returns how it went."""
+    for d in range(room.old.size):
+        change = 0.0
+        for j in range(b.size):
+            change += b[j] * room.slopes[j, d]
+        change = h * change + room.lost[d]
+        room.new[d] = room.old[d] + change
+        room.new_lost[d] = change - (room.new[d] - room.old[d])
+        if not abs(room.new[d]) <= LARGEST_VALUE:
+            return NOT_FINITE if np.isnan(room.new[d]) else TOO_LARGE
+    return FINE
+
+
+@kernel
+def attempt(motion: Motion, weights: Weights, t: float, h: float, room: Room) -> int:
+    """All stages of one step, the new state and the slope there; returns how it went."""
+    outcome = stages(motion, weights.a, weights.c, 1, t, h, room)
+    if outcome == FINE:
+        outcome = advance(weights.b, h, room)
+    if outcome == FINE:
+        outcome = slope(motion, t + h, room.new, room.slopes[weights.b.size])
+    return outcome
+
+
+@kernel
+def accept(end: int, room: Room) -> None:
+    """The new state becomes the old one."""
+    for d in range(room.old.size):
+        room.old[d] = room.new[d]
+        room.lost[d] = room.new_lost[d]
+        room.slopes[0, d] = room.slopes[end, d]

@@ -1,0 +1,88 @@
+"""How large the next step is: PI control.
+
+Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.4, and II, IV.2.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .compiler import kernel
+from .motion import FINE, Floats, Motion, slope
+from .step import Room
+
+SAFETY, LARGEST_GROWTH, LARGEST_SHRINK = 0.9, 6.0, 0.2
+
+
+class Control(NamedTuple):
+    """How to choose steps: `tolerance` 0 means the fixed step `step`."""
+
+    tolerance: float
+    step: float
+    largest_step: float
+    error_order: float
+    memory: float
+    step_limit: int
+
+
+@kernel
+def error_norm(error: Floats, tolerance: float, h: float, degrees: int, room: Room) -> float:
+    """The estimated error of the step over what is tolerated (root mean square); 1 is just good enough.
+
+    With two estimates they are joined as in DOP853: e₅² / √(e₅² + e₃²/100).
+    """
+    fine, coarse = 0.0, 0.0
+    for d in range(2 * degrees):
+        scale = tolerance * max(1.0, abs(room.old[d]), abs(room.new[d]))
+        first, second = 0.0, 0.0
+        for j in range(error.shape[1]):
+            first += error[0, j] * room.slopes[j, d]
+            if error.shape[0] > 1:
+                second += error[1, j] * room.slopes[j, d]
+        fine += (first / scale) ** 2
+        coarse += (second / scale) ** 2
+    joined = fine + 0.01 * coarse if error.shape[0] > 1 else fine
+    return h * fine / np.sqrt(joined * 2 * degrees) if joined > 0.0 else 0.0
+
+
+@kernel
+def first_step(motion: Motion, control: Control, t: float, room: Room) -> float:
+    """A first step size (Hairer, Nørsett, Wanner I, II.4): an Euler step tells how the slope changes."""
+    width = 2 * motion.degrees
+    size, speed, bend = 0.0, 0.0, 0.0
+    for d in range(width):
+        scale = control.tolerance * max(1.0, abs(room.old[d]))
+        size += (room.old[d] / scale) ** 2
+        speed += (room.slopes[0, d] / scale) ** 2
+    h = 0.01 * np.sqrt(size / speed) if size > 0.0 and speed > 0.0 else 1e-6
+    h = min(h, control.largest_step)
+    for d in range(room.old.size):
+        room.stage[d] = room.old[d] + h * room.slopes[0, d]
+    if slope(motion, t + h, room.stage, room.slopes[1]) != FINE:
+        return 0.01 * h
+    for d in range(width):
+        scale = control.tolerance * max(1.0, abs(room.old[d]))
+        bend += ((room.slopes[1, d] - room.slopes[0, d]) / scale) ** 2
+    steepest = np.sqrt(max(speed, bend / (h * h)) / width)
+    wanted = (0.01 / steepest) ** (1.0 / control.error_order) if steepest > 0.0 else 100.0 * h
+    return max(min(100.0 * h, wanted, control.largest_step), 1e-12 * control.largest_step)
+
+
+@kernel
+def grown(control: Control, h: float, error: float, before: float, growth: float) -> float:
+    """The next step after an accepted one: PI control by this error and the one before, growing by `growth` at most."""
+    if control.tolerance == 0.0:
+        return control.step
+    power = 1.0 / control.error_order - 0.75 * control.memory
+    factor = SAFETY * max(error, 1e-10) ** (-power) * before**control.memory
+    return float(min(h * min(max(factor, LARGEST_SHRINK), growth), control.largest_step))
+
+
+@kernel
+def shrunk(control: Control, h: float, error: float) -> float:
+    """The step to try again with; `error` is NaN if a stage failed."""
+    if not error < np.inf:
+        return 0.1 * h
+    return float(h * max(SAFETY * error ** (-1.0 / control.error_order), LARGEST_SHRINK))

@@ -1,0 +1,30 @@
+"""The methods there are: whatever stands in `methods/`."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from functools import cache
+
+from ..errors import Problem, UnknownNameError
+from ..packages import modules_of
+from .method import Method
+
+
+@cache
+def _methods() -> dict[str, Method]:
+    found: list[Method] = [module.METHOD for module in modules_of("deltaq.simulation.methods")]
+    return {method.id: method for method in sorted(found, key=lambda method: (method.order, method.id))}
+
+
+def method_ids() -> tuple[str, ...]:
+    """Ids of all methods, by rising order."""
+    return tuple(_methods())
+
+
+def get_method(identifier: str) -> Method:
+    """The method of this id. Raises UnknownNameError if there is none."""
+    if identifier not in _methods():
+        near = get_close_matches(identifier, method_ids(), n=1)
+        parameters = {"name": identifier[:64], "suggestion": near[0] if near else "", "known": ", ".join(method_ids())}
+        raise UnknownNameError(Problem("unknown-method", "/method", parameters=parameters))
+    return _methods()[identifier]

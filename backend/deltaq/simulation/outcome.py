@@ -1,0 +1,51 @@
+"""How a computation ended, in words for programs; `narration/locales/*/statuses.json` has the sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from .kernels.motion import CANCELLED, FINE, NOT_FINITE, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
+
+Number = str | int | float
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """`status` is the machine word; `code` names the reason and the remedy in the catalogs, with `parameters`."""
+
+    status: str
+    code: str
+    parameters: Mapping[str, Number] = field(default_factory=dict)
+
+    @property
+    def is_ok(self) -> bool:
+        return self.status == "ok"
+
+
+OK = Outcome("ok", "ok")
+
+# What the kernels return: status and code.
+_WORDS: Mapping[int, tuple[str, str]] = MappingProxyType(
+    {
+        FINE: ("ok", "ok"),
+        STEP_LIMIT: ("step_limit", "step_limit"),
+        SINGULAR: ("singular_mass_matrix", "singular_mass_matrix"),
+        NOT_FINITE: ("diverged", "not_finite"),
+        TOO_LARGE: ("diverged", "diverged"),
+        STEP_UNDERFLOW: ("diverged", "step_underflow"),
+        CANCELLED: ("cancelled", "cancelled"),
+    }
+)
+
+
+def outcome_of(kernel_outcome: int, parameters: Mapping[str, Number]) -> Outcome:
+    """What a kernel reports, with what the sentences about it need to know."""
+    status, code = _WORDS[kernel_outcome]
+    return Outcome(status, code, dict(parameters))
+
+
+def codes() -> tuple[str, ...]:
+    """All codes that a trajectory may carry."""
+    return (*(code for _, code in _WORDS.values()), "horizon_reached", "tolerance_missed")

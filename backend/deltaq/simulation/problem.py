@@ -1,0 +1,48 @@
+"""What is to be computed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.model import Model
+
+Floats = NDArray[np.float64]
+
+# Steps in one run; about three seconds of the most expensive method on a small scene.
+STEP_LIMIT = 2_000_000
+
+
+@dataclass(frozen=True)
+class Problem:
+    """An initial value problem: q(0), q̇(0) of the free coordinates (in their order), on [0, t_end].
+
+    `angular` says which coordinates are angles: an angle that is wrong by a radian is wrong, however often it has
+    wound around. `samples` are spread evenly over [0, t_end].
+    """
+
+    model: Model
+    parameters: tuple[float, ...]
+    values: tuple[float, ...]
+    rates: tuple[float, ...]
+    t_end: float
+    samples: int = 501
+    angular: tuple[bool, ...] = ()
+    step_limit: int = STEP_LIMIT
+
+    @property
+    def degrees(self) -> int:
+        return self.model.layout.degrees
+
+    @property
+    def state(self) -> Floats:
+        """The initial state (q, q̇ and, where power is fed in, ∫P dt)."""
+        work = (0.0,) if self.model.layout.is_powered else ()
+        return np.array([*self.values, *self.rates, *work], dtype=np.float64)
+
+    def inputs(self, times: Floats, states: Floats) -> Floats:
+        """What the model's functions read at these times and states: one row each."""
+        parameters = np.broadcast_to(np.array(self.parameters, dtype=np.float64), (len(times), len(self.parameters)))
+        return np.hstack([states[:, : 2 * self.degrees], times[:, None], parameters])

@@ -1,0 +1,90 @@
+"""How to run a method finer: a smaller local tolerance where it has step control, else a smaller step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from .run import Steps
+
+FINEST_TOLERANCE = 1e-14  # of the coarser run of a pair; below, rounding rules
+FIRST_STEPS, USUAL_TOLERANCE = 200, 1e-3  # in the first try with a fixed step
+LARGEST_STEP = 0.01  # of the span, so that a motion that begins at rest does not jump over what comes later
+
+
+class Refinement(Protocol):
+    """`resolution` is whatever the method is refined by; `pair` is how to step for two runs that can be compared.
+
+    The factors turn the difference of the two runs into an estimate of the error of either.
+    """
+
+    @property
+    def factor_of_coarse(self) -> float: ...
+    @property
+    def factor_of_fine(self) -> float: ...
+    def first(self, tolerance: float) -> float: ...
+    def pair(self, resolution: float) -> tuple[Steps, Steps]: ...
+    def next(self, resolution: float, excess: float) -> float: ...
+    def is_finest(self, resolution: float) -> bool: ...
+
+
+@dataclass(frozen=True)
+class ByTolerance:
+    """Adaptive methods. The error is about proportional to the local tolerance; runs are a factor of 10 apart.
+
+    The difference is the error of the coarse run; taken for the error of the fine one it is on the safe side.
+    """
+
+    t_end: float
+    factor_of_coarse: float = 1.2
+    factor_of_fine: float = 1.2
+
+    def first(self, tolerance: float) -> float:
+        return max(0.1 * tolerance, FINEST_TOLERANCE)
+
+    def pair(self, resolution: float) -> tuple[Steps, Steps]:
+        # Where the largest step rules, the tolerance does not tell the two runs apart; so it must differ, too.
+        largest = LARGEST_STEP * self.t_end
+        return Steps(largest, resolution), Steps(0.7 * largest, 0.1 * resolution)
+
+    def next(self, resolution: float, excess: float) -> float:
+        return max(resolution * min(max(0.3 / excess, 1e-4), 0.3), FINEST_TOLERANCE)
+
+    def is_finest(self, resolution: float) -> bool:
+        return resolution <= FINEST_TOLERANCE
+
+
+@dataclass(frozen=True)
+class ByStep:
+    """Fixed steps. The error is proportional to h^p (Richardson); runs are a factor of 2 apart."""
+
+    t_end: float
+    order: int
+    step_limit: int
+
+    @property
+    def factor_of_coarse(self) -> float:
+        return float(1.2 * 2**self.order / (2**self.order - 1))
+
+    @property
+    def factor_of_fine(self) -> float:
+        return float(max(0.2, 2.0 / (2**self.order - 1)))
+
+    def first(self, tolerance: float) -> float:
+        guess = float((tolerance / USUAL_TOLERANCE) ** (1.0 / self.order))
+        return self.t_end / FIRST_STEPS * min(max(guess, 0.1), 1.0)
+
+    def pair(self, resolution: float) -> tuple[Steps, Steps]:
+        return Steps(resolution), Steps(0.5 * resolution)
+
+    def next(self, resolution: float, excess: float) -> float:
+        shrink = float((0.5 / excess) ** (1.0 / self.order))
+        return max(resolution * min(max(shrink, 0.02), 0.5), self._finest)
+
+    def is_finest(self, resolution: float) -> bool:
+        return resolution <= self._finest
+
+    @property
+    def _finest(self) -> float:
+        """The finer run of the pair must end within the step limit."""
+        return 2.01 * self.t_end / self.step_limit

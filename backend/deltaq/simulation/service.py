@@ -1,0 +1,111 @@
+"""Answers to `POST /simulations`: plain data in, plain data out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from time import perf_counter
+
+import numpy as np
+
+from ..mechanics.library import load_scene
+from ..mechanics.scene import Scene
+from ..model.model import Observation, compile_model
+from .answer import Document, answer
+from .choice import Choice, choose
+from .driver import simulate
+from .library import get_method, method_ids
+from .outcome import Outcome
+from .problem import Problem
+from .request import Request, read_request
+from .trajectory import Trajectory
+
+ANGLES = frozenset({"rad", "1", "°", "deg"})
+
+
+def run(document: Mapping[str, object]) -> Document:
+    """Simulates what the request names. Raises InputError for what cannot be read.
+
+    `document`: {scene: id or document, guides?, freeze?, parameters?, initial?, t_end, samples?, method?,
+    tolerance? or step?, include?, lang?}.
+    """
+    request = read_request(document)
+    choice = choose(request.method, request.scene, request.step)
+    return simulate_request(request, choice)
+
+
+def simulate_request(request: Request, choice: Choice) -> Document:
+    """The answer to a request that has been read, by the method chosen."""
+    start = perf_counter()
+    model = compile_model(request.scene)
+    compile_time = perf_counter() - start
+    problem = problem_of(request.scene, request.t_end, request.samples)
+    trajectory = simulate(
+        problem,
+        choice.method,
+        step=request.step,
+        tolerance=request.tolerance,
+        with_error="error" in request.include,
+    )
+    states = np.hstack([trajectory.values, trajectory.rates])
+    seen = model.observe(problem.inputs(trajectory.times, states))
+    return answer(request, choice, problem, *_finite(trajectory, seen), compile_time)
+
+
+def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:
+    """The initial value problem that a scene's own values pose."""
+    return Problem(
+        compile_model(scene),
+        tuple(parameter.value for parameter in scene.parameters),
+        tuple(coordinate.value for coordinate in scene.free),
+        tuple(coordinate.rate for coordinate in scene.free),
+        t_end,
+        samples,
+        tuple(coordinate.unit in ANGLES for coordinate in scene.free),
+    )
+
+
+def warm() -> None:
+    """Compiles the kernels, or loads them from the cache on disk; a first run of each kind of method."""
+    for identifier in method_ids():
+        simulate(problem_of(load_scene("pendulum"), 0.1, 2), get_method(identifier), step=0.05)
+
+
+def _finite(trajectory: Trajectory, seen: Observation) -> tuple[Trajectory, Observation]:
+    """Both as far as everything seen is finite (a position may have a pole where the motion has none)."""
+    arrays = [seen.kinetic, seen.potential, *seen.values.values(), *seen.rates.values()]
+    vectors = [*seen.positions.values(), *seen.arrows.values()]
+    table = np.column_stack([*arrays, *vectors])
+    good = int(np.isfinite(table).all(axis=1).cumprod().sum())
+    if good == len(table):
+        return trajectory, seen
+    return _cut(trajectory, good), _cut_observation(seen, good)
+
+
+def _cut(trajectory: Trajectory, good: int) -> Trajectory:
+    found = trajectory.estimate
+    told = {**trajectory.outcome.parameters, "t": float(trajectory.times[max(good - 1, 0)])}
+    return replace(
+        trajectory,
+        outcome=Outcome("diverged", "not_finite", told),
+        times=trajectory.times[:good],
+        values=trajectory.values[:good],
+        rates=trajectory.rates[:good],
+        work=trajectory.work[:good],
+        estimate=replace(found, errors=found.errors[:good]) if found else None,
+        reached=float(trajectory.times[max(good - 1, 0)]),
+    )
+
+
+def _cut_observation(seen: Observation, good: int) -> Observation:
+    def cut(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        return {name: values[:good] for name, values in arrays.items()}
+
+    return Observation(
+        seen.kinetic[:good],
+        seen.potential[:good],
+        cut(seen.values),
+        cut(seen.rates),
+        cut(seen.positions),
+        cut(seen.arrows),
+    )

@@ -1,0 +1,141 @@
+/** The driver: it alone knows the parts, and connects session, clock, views and address. */
+
+import { render } from "lit-html";
+import { createApi } from "./model/api.js";
+import { createClock } from "./model/clock.js";
+import { createSession, START } from "./model/session.js";
+import { createStore } from "./model/store.js";
+import { translator } from "./model/catalog.js";
+import { readPlace, startLanguage, writePlace } from "./model/url.js";
+import { fixed } from "./model/numbers.js";
+import { createDrawing } from "./view/drawing.js";
+import { createPlots } from "./view/plots.js";
+import { createReadouts } from "./view/readouts.js";
+import { announce, createReach, toggleSubsteps } from "./view/reach.js";
+import { listen } from "./view/keys.js";
+import { linkHighlights } from "./view/highlight.js";
+import { page } from "./view/page.js";
+
+const root = /** @type {HTMLElement} */ (document.getElementById("page"));
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const store = createStore(START);
+const clock = createClock();
+const reach = createReach(root);
+const session = createSession(store, createApi(fetch.bind(globalThis)), clock);
+
+/** @type {{drawing: ReturnType<typeof createDrawing>, plots: ReturnType<typeof createPlots>, readouts: ReturnType<typeof createReadouts>, scrub: HTMLInputElement, time: HTMLElement} | null} */
+let parts = null;
+
+function togglePlay() {
+  clock.play(!clock.playing);
+  update();
+}
+
+/** @param {number} t */
+function scrub(t) {
+  clock.play(false);
+  clock.seek(t);
+  update();
+}
+
+function fullscreen() {
+  void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.());
+}
+
+/** @returns {import("./view/page.js").View} */
+function view() {
+  const state = store.get();
+  const section = (/** @type {string} */ name) => /** @type {Record<string, unknown>} */ (state.catalog[name] ?? {});
+  const methods = translator(section("methods"));
+  return {
+    state, session, clock, togglePlay, scrub, fullscreen,
+    t: translator(section("page")),
+    methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,
+    link: (patch) => location.pathname + writePlace({ ...state.place, ...patch }),
+    follow(event, go) {
+      const { ctrlKey, metaKey, shiftKey } = /** @type {MouseEvent} */ (event);
+      if (ctrlKey || metaKey || shiftKey) return;
+      event.preventDefault();
+      go();
+    },
+    retry: () => void session.start(state.place),
+  };
+}
+
+/** Shows the moment t everywhere. @param {number} t */
+function show(t) {
+  if (!parts) return;
+  const { lang } = store.get().place;
+  parts.drawing.draw(t);
+  parts.plots.move(t);
+  parts.readouts.move(t);
+  parts.scrub.value = String(t);
+  parts.scrub.style.setProperty("--filled", String(clock.end ? t / clock.end : 0));
+  parts.time.textContent = `${fixed(t, 2, lang)} s`;
+}
+
+function assemble() {
+  const find = (/** @type {string} */ selector) => /** @type {HTMLElement} */ (root.querySelector(selector));
+  const frame = find(".drawing");
+  const made = {
+    drawing: createDrawing(frame),
+    plots: createPlots(find(".plots"), { seek: scrub }),
+    readouts: createReadouts(find(".readouts")),
+    scrub: /** @type {HTMLInputElement} */ (find(".scrub")),
+    time: find(".time"),
+  };
+  new ResizeObserver(() => made.drawing.resize(clock.time)).observe(frame);
+  return made;
+}
+
+function update() {
+  const current = view();
+  const { state } = current;
+  const { place, scene, trajectory } = state;
+  if (!state.catalog.page && !state.failures.page) return;
+  const theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
+  document.documentElement.dataset.theme = theme;
+  document.documentElement.lang = place.lang;
+  document.title = current.t("title");
+  render(page(current), root);
+  parts ??= assemble();
+  parts.drawing.show(scene, trajectory, clock.time);
+  parts.readouts.show(scene, trajectory, place.lang);
+  parts.plots.show(scene && trajectory ? { scene, trajectory, duration: place.duration, lang: place.lang, theme } : null);
+  show(clock.time);
+  history.replaceState(null, "", location.pathname + writePlace(place));
+  if (reach(place.step, still.matches)) announce(state.lines, place.step, current.t);
+}
+
+/** The motion begins by itself once, unless the viewer prefers rest. */
+function autoplay() {
+  if (!store.get().trajectory || still.matches) return;
+  stopWaiting();
+  clock.play(true);
+  update();
+}
+
+store.subscribe(update);
+const stopWaiting = store.subscribe(autoplay);
+clock.subscribe(show);
+dark.addEventListener("change", update);
+linkHighlights(root);
+listen(document, {
+  go: session.go, fullscreen, overlay: session.overlay, play: togglePlay,
+  covered: () => store.get().overlay !== "",
+  uncover: () => session.overlay(""),
+  substeps: () => toggleSubsteps(root, store.get().place.step),
+});
+
+let before = 0;
+/** @param {number} now */
+function tick(now) {
+  clock.advance((now - before) / 1000);
+  before = now;
+  requestAnimationFrame(tick);
+}
+requestAnimationFrame(tick);
+
+const asked = readPlace(location.search);
+void session.start({ ...asked, lang: startLanguage(asked.lang, navigator.languages) });

@@ -1,0 +1,12 @@
+import type katexModule from "katex";
+
+declare global {
+  /** Set by the classic script vendor/katex/dist/katex.min.js (half the bytes of its ES module). */
+  var katex: typeof katexModule;
+
+  /** Set by vendor/plotly.js-basic-dist-min/plotly-basic.min.js, loaded when the first plot is wanted. */
+  var Plotly: {
+    react(root: HTMLElement, data: object[], layout: object, config: object): Promise<void>;
+    purge(root: HTMLElement): void;
+  };
+}

@@ -1,0 +1,68 @@
+/** The API as functions; every failure comes back as an `ApiError` whose `failure` can be shown as sentences. */
+
+/** @typedef {import("./types.js").Failure} Failure */
+
+export class ApiError extends Error {
+  /** @param {Failure} failure */
+  constructor(failure) {
+    super(failure.detail || failure.title);
+    this.failure = failure;
+  }
+}
+
+/** @type {Failure} */
+const UNREACHABLE = { title: "", detail: "", problems: [], status: 0 };
+
+/**
+ * A problem+json body as a failure; anything else (a proxy's page, nothing at all) becomes one without words.
+ * @param {number} status @param {unknown} body
+ * @returns {Failure}
+ */
+export function failureOf(status, body) {
+  const given = /** @type {Record<string, unknown>} */ (body && typeof body === "object" ? body : {});
+  const problems = Array.isArray(given.problems) ? given.problems : [];
+  return {
+    status,
+    title: typeof given.title === "string" ? given.title : "",
+    detail: typeof given.detail === "string" ? given.detail : "",
+    problems: problems.filter((problem) => typeof problem?.message === "string"),
+  };
+}
+
+/**
+ * @param {typeof fetch} send
+ * @param {string} [base]
+ */
+export function createApi(send, base = "/api/v1") {
+  /** @param {string} path @param {RequestInit} [options] */
+  async function call(path, options) {
+    const response = await send(base + path, options).catch((error) => {
+      if (error?.name === "AbortError") throw error;
+      throw new ApiError(UNREACHABLE);
+    });
+    const body = await response.json().catch(() => null);
+    if (!response.ok || body === null) throw new ApiError(failureOf(response.status, body));
+    return body;
+  }
+
+  /** @param {string} path @param {object} body @param {AbortSignal} [signal] */
+  const post = (path, body, signal) =>
+    call(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body), signal });
+
+  return {
+    /** @returns {Promise<{scenes: import("./types.js").SceneEntry[]}>} */
+    scenes: () => call("/scenes"),
+    /** @param {string} id @returns {Promise<import("./types.js").Scene>} */
+    scene: (id) => call(`/scenes/${encodeURIComponent(id)}`),
+    /** @returns {Promise<{methods: import("./types.js").Method[]}>} */
+    methods: () => call("/methods"),
+    /** @param {string} lang @returns {Promise<import("./types.js").Catalog>} */
+    catalog: (lang) => call(`/catalogs/${lang}`),
+    /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Derivation>} */
+    derive: (body, signal) => post("/derivations", body, signal),
+    /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Trajectory>} */
+    simulate: (body, signal) => post("/simulations", body, signal),
+  };
+}
+
+/** @typedef {ReturnType<typeof createApi>} Api */

@@ -1,0 +1,38 @@
+/** Texts by key, from the catalogs that the backend shares. */
+
+/** @typedef {(key: string, parameters?: Record<string, string | number>) => string} Translate */
+
+/**
+ * Looks a text up in one section of a catalog; keys may be flat ("player.play") or nested.
+ * An absent text shows its key, so that it is seen.
+ * @param {Record<string, unknown>} section
+ * @returns {Translate}
+ */
+export function translator(section) {
+  return (key, parameters = {}) => {
+    const text = section[key] ?? nested(section, key);
+    return typeof text === "string" ? filled(text, parameters) : key;
+  };
+}
+
+/** @param {Record<string, unknown>} section @param {string} key */
+function nested(section, key) {
+  return key.split(".").reduce(
+    /** @param {any} node @param {string} part */ (node, part) => (node && typeof node === "object" ? node[part] : null),
+    /** @type {any} */ (section),
+  );
+}
+
+/** @param {string} text @param {Record<string, string | number>} parameters */
+function filled(text, parameters) {
+  return text.replace(/\{(\w+)\}/g, (whole, name) => (name in parameters ? String(parameters[name]) : whole));
+}
+
+/**
+ * The text in the asked language, else in English, else in any.
+ * @param {Record<string, string> | undefined} texts @param {string} lang
+ */
+export function inLanguage(texts, lang) {
+  if (!texts) return "";
+  return texts[lang] ?? texts.en ?? Object.values(texts)[0] ?? "";
+}

@@ -1,0 +1,151 @@
+/** What is written into a drawing: forces, weights, angles, dimensions. */
+
+import { add, arcFromDown, arrowHead, fromDown, lengthOf, line, normal, scaled, subtract, unit, wrapped } from "./geometry.js";
+import { coordinateClass, latexOf, placeOf } from "./stage.js";
+
+/** @typedef {import("../types.js").Element} Element */
+/** @typedef {import("../types.js").Figure} Figure */
+/** @typedef {import("../types.js").Load} Load */
+/** @typedef {import("../types.js").Pixel} Pixel */
+/** @typedef {import("./stage.js").Stage} Stage */
+/** @typedef {import("../types.js").Snapshot} Snapshot */
+
+/** The largest force of a load is drawn this many units long. */
+const LONGEST = 5.5;
+/** Between rod and vertical there is no room for a letter below this angle; it fades in up to twice of it. */
+const NARROW = 0.18;
+/** Shorter arrows are not drawn: their head would lie. */
+const SHORTEST = 0.6;
+
+/**
+ * @param {Pixel} from @param {Pixel} vector in pixels @param {string} key @param {string} className @param {number} size
+ * @returns {import("../types.js").Shape[]}
+ */
+function arrow(from, vector, key, className, size) {
+  const tip = add(from, vector);
+  const along = unit(vector);
+  const shaft = line(from, add(tip, scaled(along, -size * 0.7)));
+  return [
+    { key: `${key}-shaft`, d: shaft, className: `arrow ${className}` },
+    { key: `${key}-head`, d: arrowHead(tip, along, size), className: `head ${className}` },
+  ];
+}
+
+/** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+export function force(element, stage, now, key) {
+  const load = stage.scene.loads.find((candidate) => candidate.name === element.load);
+  if (load?.kind === "gravity") return weights(stage, now, key);
+  const samples = stage.trajectory.loads?.[element.load ?? ""];
+  const value = now.loads[element.load ?? ""];
+  if (!load || !samples || !value) return { shapes: [], labels: [] };
+  const largest = Math.max(...samples.map((sample) => lengthOf(stage.direct(sample))), 1e-12);
+  const vector = scaled(stage.direct(value), (LONGEST * stage.unit) / largest);
+  if (!(lengthOf(vector) > SHORTEST * stage.unit)) return { shapes: [], labels: [] };
+  const from = placeOf(stage, now, load.at ?? "");
+  const className = `load load-${load.name}`;
+  return {
+    shapes: arrow(from, vector, key, className, stage.unit),
+    labels: [{ key, latex: forceLatex(load), at: beyond(from, vector, stage.unit * 1.1), className }],
+  };
+}
+
+/** Gravity acts on every body. @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+function weights(stage, now, key) {
+  const figures = stage.scene.bodies.map((body) => weight({ kind: "weight", at: body.name }, stage, now, `${key}-${body.name}`));
+  return { shapes: figures.flatMap((f) => f.shapes), labels: figures.flatMap((f) => f.labels) };
+}
+
+/** A little past the tip of an arrow. @param {Pixel} from @param {Pixel} vector @param {number} gap */
+function beyond(from, vector, gap) {
+  return add(add(from, vector), scaled(unit(vector), gap));
+}
+
+/** @param {Load} load */
+export function forceLatex(load) {
+  if (load.latex) return load.latex;
+  const letter = /^([A-Za-z])_?(\w*)$/.exec(load.name);
+  if (letter && letter[2].length < 3) return letter[2] ? `\\mathbf{${letter[1]}}_{${letter[2]}}` : `\\mathbf{${letter[1]}}`;
+  return "\\mathbf{F}";
+}
+
+/** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+export function weight(element, stage, now, key) {
+  const load = stage.scene.loads.find((candidate) => candidate.kind === "gravity");
+  const from = placeOf(stage, now, element.at ?? "");
+  const vector = scaled(stage.down, stage.unit * 4.2);
+  const className = `load load-${load?.name ?? "weight"}`;
+  const label = add(from, add(vector, [stage.unit * 0.65, -stage.unit * 0.5]));
+  return {
+    shapes: arrow(from, vector, key, className, stage.unit),
+    labels: [{ key, latex: weightLatex(element, stage, load), at: label, className, start: true }],
+  };
+}
+
+/** m g where mass and acceleration are plain names, else G. @param {Element} element @param {Stage} stage @param {Load | undefined} load */
+function weightLatex(element, stage, load) {
+  const body = stage.scene.bodies.find((candidate) => candidate.name === element.at);
+  const acceleration = (load?.acceleration ?? []).map((part) => part.replace(/[-\s]/g, "")).find((part) => part !== "0");
+  const names = [body?.mass, acceleration].map((name) => stage.scene.parameters.find((p) => p.name === name)?.latex || name);
+  const plain = names.every((name) => name && /^[A-Za-z]\w*$|^\\?\w+(_\{?\w+\}?)?$/.test(name));
+  return plain ? names.join("\\,") : "\\mathbf{G}";
+}
+
+/**
+ * The arc from the vertical to the rod; turns of more than half a circle show their remainder.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function angle(element, stage, now, key) {
+  const centre = placeOf(stage, now, element.at ?? "");
+  const turn = wrapped(now.coordinates[element.coordinate ?? ""] ?? 0);
+  const radius = stage.unit * 4.8;
+  const className = coordinateClass(stage.scene, element.coordinate);
+  const reference = { key: `${key}-axis`, d: line(centre, add(centre, [0, radius * 1.08])), className: "reference" };
+  if (Math.abs(turn) < 0.02) return { shapes: [reference], labels: [] };
+  const size = Math.min(stage.unit * 0.8, Math.abs(turn) * radius * 0.5);
+  const end = add(centre, scaled(fromDown(turn), radius));
+  const along = scaled(normal(fromDown(turn)), -Math.sign(turn));
+  const short = turn - Math.sign(turn) * (size / radius) * 0.7;
+  return {
+    shapes: [
+      reference,
+      { key: `${key}-arc`, d: arcFromDown(centre, radius, short), className: `mark ${className}` },
+      { key: `${key}-head`, d: arrowHead(end, along, size), className: `head ${className}` },
+    ],
+    labels: [
+      {
+        key,
+        latex: latexOf(stage.scene, element.coordinate),
+        at: add(centre, scaled(fromDown(turn / 2), radius + stage.unit * 1.15)),
+        className,
+        opacity: Math.min(1, Math.max(0, (Math.abs(turn) - NARROW) / NARROW)),
+      },
+    ],
+  };
+}
+
+/**
+ * A dimension line beside its two places, with extension lines; the arrow points from the first to the second.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function dimension(element, stage, now, key) {
+  const [from, to] = [placeOf(stage, now, element.from ?? ""), placeOf(stage, now, element.to ?? "")];
+  const horizontal = Math.abs(to[0] - from[0]) > 3 * Math.abs(to[1] - from[1]);
+  const offset = /** @type {Pixel} */ (horizontal ? [0, -stage.unit * 3.2] : [-stage.unit * 4.2, 0]);
+  const [a, b] = [add(from, offset), add(/** @type {Pixel} */ (horizontal ? [to[0], from[1]] : [from[0], to[1]]), offset)];
+  const span = subtract(b, a);
+  const className = coordinateClass(stage.scene, element.coordinate);
+  const past = scaled(unit(offset), stage.unit * 0.5);
+  const size = Math.min(stage.unit * 0.8, lengthOf(span) * 0.6);
+  const aside = scaled(unit(offset), stage.unit * 1.1);
+  return {
+    shapes: [
+      { key: `${key}-from`, d: line(from, add(a, past)), className: "reference" },
+      { key: `${key}-to`, d: line(to, add(b, past)), className: "extension" },
+      { key: `${key}-line`, d: line(a, add(b, scaled(unit(span), -size * 0.7))), className: `mark ${className}` },
+      { key: `${key}-head`, d: size > 1 ? arrowHead(b, unit(span), size) : "", className: `head ${className}` },
+    ],
+    labels: [{ key, latex: latexOf(stage.scene, element.coordinate), at: add(scaled(add(a, b), 0.5), aside), className }],
+  };
+}

@@ -1,0 +1,89 @@
+/** What a system is made of: rod, spring, bob, cart, disc, and the trail a place leaves. */
+
+import { circle, coil, lengthOf, line, polygon, polyline, subtract } from "./geometry.js";
+import { placeOf } from "./stage.js";
+import { trailOf } from "../trajectory.js";
+
+/** @typedef {import("../types.js").Element} Element */
+/** @typedef {import("../types.js").Figure} Figure */
+/** @typedef {import("./stage.js").Stage} Stage */
+/** @typedef {import("../types.js").Snapshot} Snapshot */
+
+/** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+export function rod(element, stage, now, key) {
+  const d = line(placeOf(stage, now, element.from ?? ""), placeOf(stage, now, element.to ?? ""));
+  return { shapes: [{ key, d, className: "ink rod" }], labels: [] };
+}
+
+/**
+ * The number of coils belongs to the spring, so it comes from the first sample and not from the moment.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function spring(element, stage, now, key) {
+  const [from, to] = [element.from ?? "", element.to ?? ""];
+  const first = [from, to].map((place) => stage.project(stage.trajectory.positions[place]?.[0] ?? [0, 0]));
+  const coils = Math.max(4, Math.min(12, Math.round(lengthOf(subtract(first[1], first[0])) / (stage.unit * 0.85))));
+  const d = coil(placeOf(stage, now, from), placeOf(stage, now, to), stage.unit * 0.72, coils);
+  return { shapes: [{ key, d, className: `ink spring ${element.load ? `load-${element.load}` : ""}` }], labels: [] };
+}
+
+/** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+export function bob(element, stage, now, key) {
+  const place = placeOf(stage, now, element.at ?? "");
+  const className = `ink steel bob body-${element.at}`;
+  return { shapes: [{ key, d: circle(stage.unit * 0.85), className, at: place }], labels: [] };
+}
+
+/** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+export function disc(element, stage, now, key) {
+  const radius = sizeOf(element.radius, stage) * stage.scale || stage.unit * 2;
+  const place = placeOf(stage, now, element.at ?? "");
+  const angle = now.coordinates[element.coordinate ?? ""] ?? 0;
+  const mark = line([0, 0], [radius * Math.sin(angle), -radius * Math.cos(angle)]);
+  const shapes = [
+    { key, d: circle(radius), className: `ink steel body-${element.at}`, at: place },
+    { key: `${key}-mark`, d: mark, className: "ink", at: place },
+    { key: `${key}-axle`, d: circle(stage.unit * 0.25), className: "ink paper", at: place },
+  ];
+  return { shapes, labels: [] };
+}
+
+/** A length given as a number or as the name of a parameter. @param {number | string | undefined} given @param {Stage} stage */
+function sizeOf(given, stage) {
+  const named = stage.scene.parameters.find((parameter) => parameter.name === given);
+  return named?.value ?? (Number(given) || 0);
+}
+
+/** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+export function cart(element, stage, now, key) {
+  const place = placeOf(stage, now, element.at ?? "");
+  const w = element.width ? (element.width * stage.scale) / 2 : stage.unit * 2.4;
+  const h = element.height ? (element.height * stage.scale) / 2 : stage.unit * 1.1;
+  const wheel = stage.unit * 0.5;
+  const shapes = [
+    ...[-1, 1].map((side) => ({
+      key: `${key}-wheel${side}`,
+      d: circle(wheel, [side * w * 0.6, h + wheel]),
+      className: "ink paper",
+      at: place,
+    })),
+    { key, d: polygon([[-w, -h], [w, -h], [w, h], [-w, h]]), className: `ink steel body-${element.at}`, at: place },
+  ];
+  return { shapes, labels: [] };
+}
+
+/** Seconds that a trail lasts, and its pieces, each fainter than the next. */
+const TRAIL = 1.6;
+const PIECES = 20;
+
+/** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+export function trail(element, stage, now, key) {
+  const path = trailOf(stage.trajectory, element.at ?? "", now.t, TRAIL, PIECES * 3).map(stage.project);
+  const shapes = Array.from({ length: PIECES }, (_, i) => {
+    const piece = path.slice(i * 3, i * 3 + 4);
+    const opacity = Math.round(((i + 1) / PIECES) ** 1.6 * 55) / 100;
+    return { key: `${key}-${i}`, d: piece.length > 1 ? polyline(piece) : "", className: "trail", opacity };
+  });
+  return { shapes, labels: [] };
+}

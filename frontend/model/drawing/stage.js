@@ -1,0 +1,112 @@
+/** From metres to pixels: what part of the plane is shown, and where a place stands on the screen. */
+
+/** @typedef {import("../types.js").Scene} Scene */
+/** @typedef {import("../types.js").Trajectory} Trajectory */
+/** @typedef {import("../types.js").Snapshot} Snapshot */
+/** @typedef {import("../types.js").Pixel} Pixel */
+/** @typedef {{width: number, height: number}} Size */
+/** @typedef {[number, number, number, number]} Box  xmin, xmax, ymin, ymax, as in the scene format */
+
+/**
+ * @typedef {object} Stage  a scene in a frame of pixels
+ * @property {Scene} scene
+ * @property {Trajectory} trajectory
+ * @property {Size} size
+ * @property {number} unit  the size of small things (bob, arrow head, coil) in pixels
+ * @property {number} scale  pixels per metre
+ * @property {Pixel} down  unit vector of gravity's usual direction on the screen
+ * @property {(position: readonly number[]) => Pixel} project
+ * @property {(vector: readonly number[]) => Pixel} direct
+ */
+
+/** Growth of the shown part when the motion leaves it, in steps so that it does not creep while a slider moves. */
+const GROWTH = 1.25;
+/** A runaway motion must not shrink the scene to a dot. */
+const MOST_GROWTH = GROWTH ** 8;
+
+/** A space position seen from the front right; a plane one as it is. @param {readonly number[]} p @returns {Pixel} */
+export function flattened(p) {
+  return p.length < 3 ? [p[0], p[1]] : [p[0] - 0.4 * p[1], p[2] - 0.25 * p[1]];
+}
+
+/**
+ * The part of the plane to show: the scene's own view, widened about its centre if the motion leaves it.
+ * @param {Scene} scene @param {Trajectory} trajectory
+ * @returns {Box}
+ */
+export function viewOf(scene, trajectory) {
+  const reached = boundsOf(Object.values(trajectory.positions).flat().map(flattened));
+  const own = scene.drawing?.view;
+  return own ? widened(/** @type {Box} */ (own), reached) : padded(reached);
+}
+
+/** @param {readonly Pixel[]} points @returns {Box} */
+function boundsOf(points) {
+  const box = /** @type {Box} */ ([Infinity, -Infinity, Infinity, -Infinity]);
+  for (const [x, y] of points) {
+    if (!Number.isFinite(x) || !Number.isFinite(y)) continue;
+    box[0] = Math.min(box[0], x);
+    box[1] = Math.max(box[1], x);
+    box[2] = Math.min(box[2], y);
+    box[3] = Math.max(box[3], y);
+  }
+  return box[0] <= box[1] ? box : [-1, 1, -1, 1];
+}
+
+/** @param {Box} box @returns {Box} */
+function padded([x0, x1, y0, y1]) {
+  const margin = 0.15 * Math.max(x1 - x0, y1 - y0, 0.5);
+  return [x0 - margin, x1 + margin, y0 - margin, y1 + margin];
+}
+
+/** @param {Box} own @param {Box} reached @returns {Box} */
+function widened(own, reached) {
+  let box = own;
+  const centre = [(own[0] + own[1]) / 2, (own[2] + own[3]) / 2];
+  const half = [(own[1] - own[0]) / 2, (own[3] - own[2]) / 2];
+  for (let growth = 1; growth <= MOST_GROWTH; growth *= GROWTH) {
+    const [w, h] = half.map((side) => side * growth);
+    box = [centre[0] - w, centre[0] + w, centre[1] - h, centre[1] + h];
+    if (box[0] <= reached[0] && box[1] >= reached[1] && box[2] <= reached[2] && box[3] >= reached[3]) break;
+  }
+  return box;
+}
+
+/**
+ * @param {Scene} scene @param {Trajectory} trajectory @param {Size} size
+ * @returns {Stage}
+ */
+export function stageOf(scene, trajectory, size) {
+  const [x0, x1, y0, y1] = viewOf(scene, trajectory);
+  const scale = Math.min(size.width / (x1 - x0), size.height / (y1 - y0));
+  const sign = scene.drawing?.vertical === "up" ? -1 : 1;
+  /** @param {readonly number[]} vector @returns {Pixel} */
+  const direct = (vector) => {
+    const [x, y] = flattened(vector);
+    return [x * scale, sign * y * scale];
+  };
+  /** @param {readonly number[]} position @returns {Pixel} */
+  const project = (position) => {
+    const [x, y] = flattened(position);
+    return [size.width / 2 + (x - (x0 + x1) / 2) * scale, size.height / 2 + sign * (y - (y0 + y1) / 2) * scale];
+  };
+  const unit = Math.max(8, Math.min(24, Math.min(size.width, size.height) / 30));
+  return { scene, trajectory, size, unit, scale, down: [0, 1], project, direct };
+}
+
+/** Where a point or body stands at a moment. @param {Stage} stage @param {Snapshot} now @param {string} place */
+export function placeOf(stage, now, place) {
+  return stage.project(now.positions[place] ?? [0, 0, 0].slice(0, stage.scene.dimension));
+}
+
+/** The class of a coordinate: one quantity, one colour. @param {Scene} scene @param {string | undefined} name */
+export function coordinateClass(scene, name) {
+  const index = scene.coordinates.findIndex((coordinate) => coordinate.name === name);
+  return index < 0 ? "" : `q-${index}`;
+}
+
+/** The LaTeX of a coordinate or parameter. @param {Scene} scene @param {string | undefined} name */
+export function latexOf(scene, name) {
+  const found = [...scene.coordinates, ...scene.parameters].find((symbol) => symbol.name === name);
+  return found?.latex || name || "";
+}

@@ -1,0 +1,89 @@
+/** What holds a system: ground, pivot, guide. */
+
+import { add, circle, hatching, line, normal, polygon, scaled, subtract } from "./geometry.js";
+import { placeOf } from "./stage.js";
+
+/** @typedef {import("../types.js").Element} Element */
+/** @typedef {import("../types.js").Figure} Figure */
+/** @typedef {import("../types.js").Pixel} Pixel */
+/** @typedef {import("./stage.js").Stage} Stage */
+/** @typedef {import("../types.js").Snapshot} Snapshot */
+
+/**
+ * Hatched ground. In the lower half of the frame things stand on it, else they hang from it; where a pivot sits
+ * at the same place it leaves room for the pivot's triangle.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function ground(element, stage, now, key) {
+  const place = placeOf(stage, now, element.at ?? "");
+  const below = place[1] > stage.size.height * 0.6;
+  const half = element.width ? (element.width * stage.scale) / 2 : stage.unit * 3;
+  const away = /** @type {Pixel} */ ([0, below ? 1 : -1]);
+  const base = holdsPivot(element, stage) ? add(place, scaled(away, triangleHeight(stage))) : place;
+  const from = /** @type {Pixel} */ ([base[0] - half, base[1]]);
+  const to = /** @type {Pixel} */ ([base[0] + half, base[1]]);
+  const shapes = [
+    { key: `${key}-hatch`, d: hatching(from, to, away, stage.unit * 0.75), className: "hatch" },
+    { key: `${key}-line`, d: line(from, to), className: "ink thick" },
+  ];
+  return { shapes, labels: [] };
+}
+
+/** @param {Element} element @param {Stage} stage */
+function holdsPivot(element, stage) {
+  return (stage.scene.drawing?.elements ?? []).some((other) => other.kind === "pivot" && other.at === element.at);
+}
+
+/** @param {Stage} stage */
+const triangleHeight = (stage) => stage.unit * 1.9;
+
+/**
+ * A hinge; with the triangle of a fixed support where ground holds it.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function pivot(element, stage, now, key) {
+  const place = placeOf(stage, now, element.at ?? "");
+  const height = triangleHeight(stage) * (place[1] > stage.size.height * 0.6 ? 1 : -1);
+  const fixed = (stage.scene.drawing?.elements ?? []).some((other) => other.kind === "ground" && other.at === element.at);
+  const triangle = polygon([[0, 0], [stage.unit * 1.15, height], [-stage.unit * 1.15, height]]);
+  const hinge = { key: `${key}-hinge`, d: circle(stage.unit * 0.42), className: "ink paper hinge", at: place };
+  const support = { key: `${key}-triangle`, d: triangle, className: "ink paper", at: place };
+  return { shapes: fixed ? [support, hinge] : [hinge], labels: [] };
+}
+
+/**
+ * A block between two fixed rails, long enough for the whole motion.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function guide(element, stage, now, key) {
+  const place = placeOf(stage, now, element.at ?? "");
+  const along = /** @type {Pixel} */ (element.direction === "horizontal" ? [1, 0] : [0, 1]);
+  const across = normal(along);
+  const path = stage.trajectory.positions[element.at ?? ""] ?? [[0, 0]];
+  const reach = path.map((position) => dot(subtract(stage.project(position), place), along));
+  const u = stage.unit;
+  const rails = [1, -1].flatMap((side) => {
+    const offset = scaled(across, side * u * 0.95);
+    const from = add(add(place, offset), scaled(along, Math.min(...reach) - 1.5 * u));
+    const to = add(add(place, offset), scaled(along, Math.max(...reach) + 1.5 * u));
+    return [
+      { key: `${key}-hatch${side}`, d: hatching(from, to, scaled(across, side), u * 0.5), className: "hatch" },
+      { key: `${key}-rail${side}`, d: line(from, to), className: "ink" },
+    ];
+  });
+  const block = { key: `${key}-block`, d: box(along, across, u * 1.05, u * 0.8), className: "ink steel", at: place };
+  return { shapes: [...rails, block], labels: [] };
+}
+
+/** @param {Pixel} a @param {Pixel} b */
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1];
+
+/** @param {Pixel} along @param {Pixel} across @param {number} half @param {number} wide */
+function box(along, across, half, wide) {
+  const a = scaled(along, half);
+  const b = scaled(across, wide);
+  return polygon([add(a, b), subtract(a, b), subtract(scaled(a, -1), b), add(scaled(a, -1), b)]);
+}

@@ -1,0 +1,42 @@
+/** Requests while a slider is dragged: one at a time, at most one per `pause`, and always the latest wish. */
+
+/**
+ * @template W
+ * @param {(wish: W, signal: AbortSignal) => Promise<void>} work
+ * @param {number} pause milliseconds between two starts
+ * @param {{now: () => number, wait: (ms: number) => Promise<void>}} [time]
+ */
+export function latestOnly(work, pause, time = { now: () => Date.now(), wait: (ms) => new Promise((done) => setTimeout(done, ms)) }) {
+  /** @type {{wish: W} | null} */
+  let next = null;
+  let running = false;
+  let started = -Infinity;
+  let control = new AbortController();
+
+  async function run() {
+    running = true;
+    while (next) {
+      await time.wait(Math.max(0, started + pause - time.now()));
+      const { wish } = next ?? {};
+      if (wish === undefined) break;
+      next = null;
+      started = time.now();
+      await work(wish, control.signal);
+    }
+    running = false;
+  }
+
+  return {
+    /** @param {W} wish */
+    ask(wish) {
+      next = { wish };
+      if (!running) void run();
+    },
+    /** Drops what is waiting and aborts what is under way. */
+    cancel() {
+      next = null;
+      control.abort();
+      control = new AbortController();
+    },
+  };
+}

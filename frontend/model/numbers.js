@@ -1,0 +1,72 @@
+/** Numbers as people write them: decimal comma in German, ten to a power instead of "e-9". */
+
+const RAISED = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+
+/** @param {number} exponent */
+function raised(exponent) {
+  return [...String(exponent)].map((c) => RAISED[/** @type {keyof typeof RAISED} */ (c)]).join("");
+}
+
+/**
+ * Fixed number of decimals; a true minus sign, and never a negative zero.
+ * @param {number} value @param {number} decimals @param {string} lang
+ */
+export function fixed(value, decimals, lang) {
+  if (!Number.isFinite(value)) return "–";
+  const rounded = Number(value.toFixed(decimals)) || 0;
+  const text = Math.abs(rounded).toLocaleString(lang, {
+    minimumFractionDigits: decimals,
+    maximumFractionDigits: decimals,
+    useGrouping: false,
+  });
+  return rounded < 0 ? `−${text}` : text;
+}
+
+/**
+ * Significant digits; scientific outside 10⁻³ … 10⁵.
+ * @param {number} value @param {number} digits @param {string} lang
+ */
+export function significant(value, digits, lang) {
+  if (!Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const [mantissa, exponent] = value.toExponential(digits - 1).split("e").map(Number);
+  if (exponent >= -3 && exponent < 5) return fixed(value, Math.max(0, digits - 1 - exponent), lang);
+  const factor = fixed(mantissa, digits - 1, lang);
+  return `${factor}·10${raised(exponent)}`;
+}
+
+/**
+ * A duration of computing: µs, ms or s.
+ * @param {number} seconds @param {string} lang
+ */
+export function duration(seconds, lang) {
+  if (seconds < 1e-3) return `${significant(seconds * 1e6, 2, lang)} µs`;
+  if (seconds < 1) return `${significant(seconds * 1e3, 2, lang)} ms`;
+  return `${significant(seconds, 3, lang)} s`;
+}
+
+/**
+ * How many decimals show every step of a slider.
+ * @param {number} step
+ */
+export function decimalsOf(step) {
+  return Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) - 1e-9)));
+}
+
+/**
+ * The largest of 1, 2, 5 times a power of ten that is not above x.
+ * @param {number} x
+ */
+export function niceFloor(x) {
+  const power = 10 ** Math.floor(Math.log10(x) + 1e-9);
+  const lead = x / power + 1e-9;
+  return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
+}
+
+/**
+ * A unit as it is printed: "m/s^2" becomes "m/s²".
+ * @param {string} unit
+ */
+export function unitText(unit) {
+  return unit.replace(/\^(-?\d+)/g, (_, n) => raised(n)).replace(/\*/g, "·");
+}

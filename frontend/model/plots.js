@@ -1,0 +1,152 @@
+/** What the plots show: rows of curves over one time axis. */
+
+import { largestError } from "./trajectory.js";
+import { unitText } from "./numbers.js";
+
+/** @typedef {import("./types.js").Trajectory} Trajectory */
+/** @typedef {import("./types.js").Scene} Scene */
+/** @typedef {{key: string, latex: string, className: string, values: number[], dash: string, band: boolean}} Curve */
+/** @typedef {{key: string, unit: string, curves: Curve[]}} Row */
+/** @typedef {{ink: string, muted: string, grid: string, paper: string, of: (className: string) => string}} Palette */
+
+/** An error estimate above this share of a row's range is shown as a band. */
+const VISIBLE = 0.01;
+
+/**
+ * Coordinates of the same unit share a row; the energies have the last one.
+ * @param {Scene} scene @param {Trajectory} trajectory
+ * @returns {Row[]}
+ */
+export function rowsOf(scene, trajectory) {
+  /** @type {Map<string, Row>} */
+  const rows = new Map();
+  scene.coordinates.forEach((coordinate, index) => {
+    const values = trajectory.coordinates[coordinate.name];
+    if (!values) return;
+    const row = rows.get(coordinate.unit) ?? { key: `q${index}`, unit: unitText(coordinate.unit), curves: [] };
+    const latex = coordinate.latex || coordinate.name;
+    row.curves.push({ key: coordinate.name, latex, className: `q-${index}`, values, dash: "solid", band: true });
+    rows.set(coordinate.unit, row);
+  });
+  return [...rows.values(), ...energyRow(trajectory)];
+}
+
+/** @param {Trajectory} trajectory @returns {Row[]} */
+function energyRow({ energy }) {
+  if (!energy) return [];
+  const curve = (/** @type {keyof typeof energy} */ key, /** @type {string} */ latex, /** @type {string} */ className, dash = "solid") => ({
+    key, latex, className, values: energy[key], dash, band: false,
+  });
+  const curves = [
+    curve("kinetic", "E", "energy-kinetic"),
+    curve("potential", "V", "energy-potential"),
+    curve("balance", "E+V-\\textstyle\\int\\! P\\,dt", "energy-balance", "dot"),
+  ];
+  return [{ key: "energy", unit: "J", curves }];
+}
+
+/** Pixels between two rows: room for the names of the curves. */
+const GAP = 24;
+
+/**
+ * The rows' parts of the height, from the top, with a gap between them.
+ * @param {number} count @param {number} pixels the height
+ */
+export function domainsOf(count, pixels) {
+  const gap = Math.min(0.15, GAP / Math.max(pixels, 1));
+  const height = (1 - gap * (count - 1)) / count;
+  return Array.from({ length: count }, (_, i) => {
+    const top = 1 - i * (height + gap);
+    return [Math.max(0, top - height), top];
+  });
+}
+
+/**
+ * Plotly traces of all rows.
+ * @param {readonly Row[]} rows @param {Trajectory} trajectory @param {Palette} palette
+ */
+export function tracesOf(rows, trajectory, palette) {
+  return rows.flatMap((row, r) =>
+    row.curves.flatMap((curve) => {
+      const axis = { xaxis: "x", yaxis: r === 0 ? "y" : `y${r + 1}` };
+      const color = palette.of(curve.className);
+      const trace = {
+        type: "scatter", mode: "lines", x: trajectory.t, y: curve.values, name: curve.key, hoverinfo: "skip",
+        line: { color, width: curve.dash === "solid" ? 2 : 1.6, dash: curve.dash, simplify: false }, ...axis,
+      };
+      return curve.band ? [...bandOf(curve, trajectory, color, axis), trace] : [trace];
+    }),
+  );
+}
+
+/**
+ * The band q ± estimate, if it can be seen.
+ * @param {Curve} curve @param {Trajectory} trajectory @param {string} color @param {object} axis
+ */
+function bandOf(curve, trajectory, color, axis) {
+  const error = trajectory.error?.estimate ?? [];
+  const range = Math.max(...curve.values) - Math.min(...curve.values);
+  if (!((largestError(trajectory) ?? 0) > VISIBLE * range)) return [];
+  const wide = (/** @type {number} */ sign) => curve.values.map((v, i) => v + sign * Math.min(error[i] ?? range, range));
+  const x = [...trajectory.t, ...[...trajectory.t].reverse()];
+  const y = [...wide(1), ...wide(-1).reverse()];
+  const line = { width: 0 };
+  return [{ type: "scatter", mode: "lines", x, y, fill: "toself", fillcolor: color, opacity: 0.18, line, hoverinfo: "skip", ...axis }];
+}
+
+/** Margins of the plots in pixels; the cursor and the scrub slider use them as well. */
+export const MARGIN = { l: 46, r: 10, t: 24, b: 24 };
+
+/**
+ * Plotly layout: one time axis at the bottom, one value axis per row.
+ * @param {readonly Row[]} rows @param {number} end @param {Palette} palette @param {string} lang
+ * @param {number} height in pixels
+ */
+export function layoutOf(rows, end, palette, lang, height) {
+  const font = { family: "system-ui, sans-serif", size: 11, color: palette.muted };
+  const line = { gridcolor: palette.grid, zeroline: false, ticks: "", fixedrange: true, automargin: false };
+  const axes = domainsOf(rows.length, height - MARGIN.t - MARGIN.b).map((domain, r) => [
+    r === 0 ? "yaxis" : `yaxis${r + 1}`,
+    { ...line, domain, nticks: 4, zeroline: true, zerolinecolor: palette.grid, zerolinewidth: 1.5, ...rangeOf(rows[r]) },
+  ]);
+  return {
+    ...Object.fromEntries(axes),
+    xaxis: { ...line, range: [0, end || 1], anchor: rows.length > 1 ? `y${rows.length}` : "y", nticks: 8 },
+    margin: { ...MARGIN, pad: 4 },
+    showlegend: false,
+    hovermode: false,
+    dragmode: false,
+    font,
+    paper_bgcolor: "rgba(0,0,0,0)",
+    plot_bgcolor: "rgba(0,0,0,0)",
+    separators: lang === "de" ? ",." : ".,",
+  };
+}
+
+/**
+ * A little room on both sides; a constant curve gets a range that shows it as constant.
+ * @param {Row} row
+ */
+function rangeOf(row) {
+  const values = row.curves.flatMap((curve) => curve.values).filter(Number.isFinite);
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of values) {
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  if (!(low <= high)) return {};
+  const span = Math.max(high - low, 1e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+  return { range: [low - 0.08 * span, high + 0.08 * span] };
+}
+
+/**
+ * Pixels of a time on the plots, and back.
+ * @param {number} width @param {number} end
+ */
+export function timeScale(width, end) {
+  const inner = Math.max(1, width - MARGIN.l - MARGIN.r);
+  return {
+    pixel: (/** @type {number} */ t) => MARGIN.l + (end > 0 ? t / end : 0) * inner,
+    time: (/** @type {number} */ x) => Math.max(0, Math.min(end, ((x - MARGIN.l) / inner) * end)),
+  };
+}

@@ -1,0 +1,47 @@
+/**
+ * The shapes of what the API sends and of what the parts of the page hand to each other.
+ *
+ * @typedef {{name: string, latex: string, unit: string, value: number, rate: number,
+ *   min?: number | null, max?: number | null}} Coordinate
+ * @typedef {{name: string, latex: string, unit: string, value: number,
+ *   min?: number | null, max?: number | null}} Parameter
+ * @typedef {{name: string, position: string[]}} Point
+ * @typedef {{name: string, kind: string, mass?: string, position: string[]}} Body
+ * @typedef {{kind: string, name: string, at?: string, latex?: string, acceleration?: string[]}} Load
+ * @typedef {{coordinate: string, value: string}} Guide
+ * @typedef {{kind: string, at?: string, from?: string, to?: string, load?: string, coordinate?: string,
+ *   direction?: string, radius?: number | string, width?: number, height?: number, label?: string}} Element
+ * @typedef {{vertical?: "up" | "down", view?: number[] | null, elements?: Element[]}} Drawing
+ * @typedef {Record<string, string>} Texts  text by language
+ * @typedef {{id: string, title: Texts, summary: Texts, degrees_of_freedom: number}} SceneEntry
+ * @typedef {{id: string, title: Texts, summary: Texts, dimension: number, coordinates: Coordinate[],
+ *   parameters: Parameter[], points: Point[], bodies: Body[], loads: Load[], guides?: Guide[],
+ *   drawing?: Drawing | null}} Scene
+ * @typedef {{id: string, rule: string, title: string, text: string, latex: string, marked: string,
+ *   verified: boolean, sources: string[], substeps: Step[]}} Step
+ * @typedef {{id: string, title: string, steps: Step[]}} Chapter
+ * @typedef {{id: string, chapters: Chapter[]}} Derivation
+ * @typedef {{id: string, title?: string, adaptive?: boolean, order?: number}} Method
+ * @typedef {{kinetic: number[], potential: number[], balance: number[]}} Energy
+ * @typedef {{status: string, reason?: string | null, remedy?: string | null, t: number[],
+ *   coordinates: Record<string, number[]>, rates: Record<string, number[]>,
+ *   positions: Record<string, number[][]>, loads?: Record<string, number[][]>, energy?: Energy,
+ *   error?: {estimate?: (number | null)[] | null, horizon?: number | null},
+ *   cost?: {steps?: number, rejected?: number, rhs_evaluations?: number, wall_time?: number},
+ *   method: string}} Trajectory
+ * @typedef {{value: number, rate: number}} Initial
+ * @typedef {{initial: Record<string, Initial>, parameters: Record<string, number>}} Changes
+ * @typedef {{t: number, coordinates: Record<string, number>, rates: Record<string, number>,
+ *   positions: Record<string, number[]>, loads: Record<string, number[]>,
+ *   energy: {kinetic: number, potential: number, balance: number} | null}} Snapshot
+ * @typedef {[number, number]} Pixel
+ * @typedef {{key: string, d: string, className: string, at?: Pixel, opacity?: number}} Shape
+ * @typedef {{key: string, latex: string, at: Pixel, className: string, start?: boolean, opacity?: number}} Label  start: the label begins at its place instead of being centred
+ * @typedef {{shapes: Shape[], labels: Label[]}} Figure
+ * @typedef {{title: string, detail: string, problems: {message: string, pointer?: string}[], status: number}} Failure
+ * @typedef {Record<string, string | Record<string, unknown>>} Catalog
+ * @typedef {"derivation" | "plots" | "values"} Panel
+ * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, duration: number,
+ *   panel: Panel}} Place  what the address says
+ */
+export {};

@@ -1,0 +1,59 @@
+/** Every state of the page has an address: reading it and writing it. */
+
+/** @typedef {import("./types.js").Place} Place */
+
+/** @type {Place} */
+export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", duration: 10, panel: "derivation" };
+
+const LANGUAGES = ["de", "en"];
+const THEMES = ["auto", "light", "dark", "projector"];
+const PANELS = ["derivation", "plots", "values"];
+const LONGEST = 100;
+
+/**
+ * @param {string} query e.g. "?scene=pendulum&step=position:bob"
+ * @returns {Place}
+ */
+export function readPlace(query) {
+  const given = new URLSearchParams(query);
+  const seconds = Number(given.get("duration"));
+  return {
+    scene: slug(given.get("scene")),
+    step: slug(given.get("step")),
+    lang: oneOf(LANGUAGES, given.get("lang"), HOME.lang),
+    theme: oneOf(THEMES, given.get("theme"), HOME.theme),
+    method: slug(given.get("method")),
+    duration: seconds > 0 && seconds <= LONGEST ? seconds : HOME.duration,
+    panel: /** @type {import("./types.js").Panel} */ (oneOf(PANELS, given.get("panel"), HOME.panel)),
+  };
+}
+
+/**
+ * The query of a place; what is as usual is left out, so that addresses stay short.
+ * @param {Place} place
+ */
+export function writePlace(place) {
+  const query = Object.entries(place)
+    .filter(([key, value]) => value !== "" && value !== HOME[/** @type {keyof Place} */ (key)])
+    .map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%3A", ":")}`);
+  return query.length ? `?${query.join("&")}` : "";
+}
+
+/** @param {string[]} allowed @param {string | null} value @param {string} otherwise */
+function oneOf(allowed, value, otherwise) {
+  return value !== null && allowed.includes(value) ? value : otherwise;
+}
+
+/** @param {string | null} value */
+function slug(value) {
+  return value && /^[\w:.,@+-]{1,100}$/.test(value) ? value : "";
+}
+
+/**
+ * The language to start with: asked for, else the first known one the browser prefers.
+ * @param {string} asked @param {readonly string[]} preferred
+ */
+export function startLanguage(asked, preferred) {
+  const known = preferred.map((tag) => tag.slice(0, 2).toLowerCase()).find((tag) => LANGUAGES.includes(tag));
+  return asked || known || "en";
+}

@@ -1,0 +1,86 @@
+/** The adjustable numbers of a scene: parameters and initial values, as sliders. */
+
+import { decimalsOf, niceFloor } from "./numbers.js";
+
+/** @typedef {import("./types.js").Scene} Scene */
+/** @typedef {import("./types.js").Changes} Changes */
+/** @typedef {{key: string, group: "initial" | "parameter", field: "value" | "rate", name: string, latex: string,
+ *   unit: string, className: string, value: number, min: number, max: number, step: number, decimals: number}} Slider */
+
+/** @type {Changes} */
+export const UNCHANGED = { initial: {}, parameters: {} };
+
+/**
+ * All sliders of a scene with the values as changed. Guided coordinates have no initial values.
+ * @param {Scene} scene @param {Changes} changes
+ * @returns {Slider[]}
+ */
+export function slidersOf(scene, changes) {
+  const guided = new Set((scene.guides ?? []).map((guide) => guide.coordinate));
+  const initial = scene.coordinates.flatMap((coordinate, index) => {
+    if (guided.has(coordinate.name)) return [];
+    const now = changes.initial[coordinate.name] ?? coordinate;
+    const { name, unit } = coordinate;
+    const latex = coordinate.latex || name;
+    const shared = { group: /** @type {const} */ ("initial"), name, className: `q-${index}` };
+    const [low, high] = coordinateRange(coordinate);
+    const fastest = niceFloor(Math.max(high - low, 1)) * 2.5;
+    return [
+      slider({ ...shared, field: "value", latex: `${latex}(0)`, unit }, now.value, low, high),
+      slider({ ...shared, field: "rate", latex: `${dotted(latex)}(0)`, unit: `${unit}/s` }, now.rate, -fastest, fastest),
+    ];
+  });
+  return [...initial, ...scene.parameters.map((parameter) => parameterSlider(parameter, changes))];
+}
+
+/** The rate of a coordinate: the dot stands on the letter, not on its index. @param {string} latex */
+export function dotted(latex) {
+  const [, letter, rest] = /^(\\?[A-Za-z]+)(_.+)?$/.exec(latex) ?? ["", latex, ""];
+  return `\\dot{${letter}}${rest ?? ""}`;
+}
+
+/** @param {import("./types.js").Coordinate} coordinate */
+function coordinateRange({ unit, value, min, max }) {
+  const reach = unit === "rad" ? Math.PI : Math.max(1, 2 * Math.abs(value));
+  return [min ?? Math.min(-reach, value), max ?? Math.max(reach, value)];
+}
+
+/** @param {import("./types.js").Parameter} parameter @param {Changes} changes */
+function parameterSlider(parameter, changes) {
+  const { name, unit, value } = parameter;
+  const shared = { group: /** @type {const} */ ("parameter"), field: /** @type {const} */ ("value"), name, className: "" };
+  const low = parameter.min ?? Math.min(0, 4 * value);
+  const high = parameter.max ?? Math.max(1, 4 * value);
+  return slider({ ...shared, latex: parameter.latex || name, unit }, changes.parameters[name] ?? value, low, high);
+}
+
+/**
+ * @param {Pick<Slider, "group" | "field" | "name" | "latex" | "unit" | "className">} about
+ * @param {number} value @param {number} min @param {number} max
+ * @returns {Slider}
+ */
+function slider(about, value, min, max) {
+  const step = niceFloor((max - min) / 100 || 1);
+  return { ...about, key: `${about.group}-${about.name}-${about.field}`, value, min, max, step, decimals: decimalsOf(step) };
+}
+
+/**
+ * The changes after one slider has moved; a number outside of its range is held at the range's end.
+ * @param {Scene} scene @param {Changes} changes @param {Slider} moved @param {number} value
+ * @returns {Changes}
+ */
+export function changed(scene, changes, moved, value) {
+  if (!Number.isFinite(value)) return changes;
+  const held = Math.max(moved.min, Math.min(moved.max, value));
+  if (moved.group === "parameter") {
+    return { ...changes, parameters: { ...changes.parameters, [moved.name]: held } };
+  }
+  const coordinate = scene.coordinates.find((candidate) => candidate.name === moved.name);
+  const before = changes.initial[moved.name] ?? { value: coordinate?.value ?? 0, rate: coordinate?.rate ?? 0 };
+  return { ...changes, initial: { ...changes.initial, [moved.name]: { ...before, [moved.field]: held } } };
+}
+
+/** @param {Changes} changes */
+export function isChanged(changes) {
+  return Object.keys(changes.initial).length + Object.keys(changes.parameters).length > 0;
+}

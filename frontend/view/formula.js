@@ -1,0 +1,74 @@
+/** Formulas: KaTeX into the DOM, made to fit their column; what KaTeX refuses is shown as plain text. */
+
+import { html, nothing } from "lit-html";
+import { Directive, directive } from "lit-html/directive.js";
+
+/** Display formulas shrink to this part of their size before they scroll. */
+const SMALLEST = 0.72;
+
+/** @param {{command: string}} context  only classes, which carry the colours, and only in LaTeX from the server */
+const onlyClasses = (context) => context.command === "\\htmlClass";
+
+/**
+ * @param {HTMLElement} element @param {string} latex @param {boolean} display
+ */
+function typeset(element, latex, display) {
+  try {
+    globalThis.katex.render(latex, element, {
+      displayMode: display, trust: onlyClasses, strict: "ignore", throwOnError: true, maxExpand: 1000, maxSize: 10,
+    });
+  } catch {
+    element.textContent = latex;
+    element.classList.add("untypeset");
+  }
+}
+
+const fitter = new ResizeObserver((entries) => entries.forEach(({ target }) => fit(/** @type {HTMLElement} */ (target))));
+/** @type {WeakMap<HTMLElement, number>} */
+const fittedWidths = new WeakMap();
+
+/** Sets the size at which a formula fits its column. @param {HTMLElement} element */
+function fit(element) {
+  const width = element.clientWidth;
+  if (width === 0 || fittedWidths.get(element) === width) return;
+  fittedWidths.set(element, width);
+  element.style.setProperty("--fit", "1");
+  const needed = element.scrollWidth;
+  if (needed > width) element.style.setProperty("--fit", String(Math.max(SMALLEST, Math.floor((width / needed) * 98) / 100)));
+}
+
+class Typeset extends Directive {
+  latex = "";
+
+  /** @param {string} _latex @param {boolean} _display */
+  render(_latex, _display) {
+    return nothing;
+  }
+
+  /** @param {import("lit-html").ElementPart} part @param {[string, boolean]} values */
+  update(part, [latex, display]) {
+    if (latex === this.latex) return nothing;
+    this.latex = latex;
+    const element = /** @type {HTMLElement} */ (part.element);
+    typeset(element, latex, display);
+    if (display) {
+      fittedWidths.delete(element);
+      fitter.observe(element);
+    }
+    return nothing;
+  }
+}
+
+const typesetInto = directive(Typeset);
+
+/** A formula within a line. @param {string} latex @param {string} [className] */
+export const inline = (latex, className = "") => html`<span class="math ${className}" ${typesetInto(latex, false)}></span>`;
+
+/** A formula on a line of its own. @param {string} latex */
+export const displayed = (latex) => html`<div class="formula" tabindex="-1" ${typesetInto(latex, true)}></div>`;
+
+/** A sentence with formulas between dollar signs. @param {string} text */
+export const prose = (text) => text.split("$").map((part, i) => (i % 2 ? inline(part) : part));
+
+/** A sentence without markup, for titles and screen readers. @param {string} text */
+export const plainly = (text) => text.replace(/\$[^$]*\$/g, (formula) => formula.slice(1, -1).replace(/\\(htmlClass\{[^}]*\}|[a-z]+)|[{}\\]/g, "$1"));

@@ -1,0 +1,68 @@
+/** The top line: which scene, which language, which appearance. */
+
+import { html } from "lit-html";
+import { live } from "lit-html/directives/live.js";
+import { icon } from "./icons.js";
+import { inLanguage } from "../model/catalog.js";
+
+/** @typedef {import("./page.js").View} View */
+
+const THEMES = ["auto", "light", "dark", "projector"];
+
+/** @param {Event} event */
+const chosen = (event) => /** @type {HTMLSelectElement} */ (event.target).value;
+
+/** @param {View} view */
+export function header(view) {
+  const { state, session, t } = view;
+  return html`
+    <header class="top">
+      <a class="brand" href="/" title=${t("tagline")}><span class="delta">δ</span><span class="q">q</span></a>
+      ${sceneChooser(view)}
+      <div class="tools">
+        ${language(view)}
+        <label class="choice theme" title=${t("theme.choose")}>
+          <span class="unseen">${t("theme.choose")}</span>${icon("theme")}
+          <select .value=${live(state.place.theme)} @change=${(/** @type {Event} */ e) => session.move({ theme: chosen(e) })}>
+            ${THEMES.map((theme) => html`<option value=${theme} ?selected=${theme === state.place.theme}>${t(`theme.${theme}`)}</option>`)}
+          </select>${icon("chevron")}
+        </label>
+        <button class="tool" title=${t("tool.overview")} aria-label=${t("tool.overview")} @click=${() => session.overlay("overview")}>${icon("overview")}</button>
+        <button class="tool wide-only" title=${t("tool.fullscreen")} aria-label=${t("tool.fullscreen")} @click=${view.fullscreen}>${icon("fullscreen")}</button>
+        <button class="tool wide-only" title=${t("tool.help")} aria-label=${t("tool.help")} @click=${() => session.overlay("help")}>${icon("help")}</button>
+      </div>
+    </header>
+  `;
+}
+
+/** @param {View} view */
+function sceneChooser({ state, session, t }) {
+  const { lang, scene } = state.place;
+  const entry = state.scenes.find((candidate) => candidate.id === scene);
+  const freedoms = entry?.degrees_of_freedom ?? 0;
+  return html`
+    <div class="scene">
+      <h1>
+        <label class="choice">
+          <span class="unseen">${t("scene.choose")}</span>
+          <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => session.choose(chosen(e))}>
+            ${state.scenes.map((s) => html`<option value=${s.id} ?selected=${s.id === scene}>${inLanguage(s.title, lang)}</option>`)}
+          </select>${icon("chevron")}
+        </label>
+      </h1>
+      <p class="summary">${entry ? (freedoms === 1 ? t("scene.freedoms-one") : t("scene.freedoms", { count: freedoms })) : ""}
+        <span class="more">${inLanguage(entry?.summary, lang)}</span></p>
+    </div>
+  `;
+}
+
+/** @param {View} view */
+function language({ state, session, t }) {
+  return html`
+    <div class="segments" role="group" aria-label=${t("language.choose")}>
+      ${["de", "en"].map((lang) => html`
+        <button aria-pressed=${String(state.place.lang === lang)} lang=${lang} title=${t(`language.${lang}`)}
+          @click=${() => session.language(lang)}>${lang.toUpperCase()}</button>`)}
+    </div>
+  `;
+}

@@ -1,0 +1,23 @@
+/** The few icons, drawn on a grid of 20. */
+
+import { svg, html } from "lit-html";
+
+const PATHS = {
+  play: "M6 4v12l10-6z",
+  pause: "M6 4h3v12H6zM11 4h3v12h-3z",
+  next: "M7 4l6 6-6 6",
+  previous: "M13 4l-6 6 6 6",
+  overview: "M3 3h5v5H3zM12 3h5v5h-5zM3 12h5v5H3zM12 12h5v5h-5z",
+  fullscreen: "M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4",
+  help: "M7 7.5a3 3 0 1 1 4.4 2.6c-.9.5-1.4 1-1.4 2.1M10 15.2v.3",
+  verified: "M4 10.5l4 4 8-9",
+  chevron: "M5 8l5 5 5-5",
+  theme: "M10 3a7 7 0 1 0 0 14zM10 3a7 7 0 0 1 0 14",
+  close: "M5 5l10 10M15 5L5 15",
+};
+const SOLID = new Set(["play", "pause"]);
+
+/** @param {keyof typeof PATHS} name */
+export function icon(name) {
+  return html`<svg class="icon ${SOLID.has(name) ? "solid" : ""}" viewBox="0 0 20 20" aria-hidden="true">${svg`<path d=${PATHS[name]} />`}</svg>`;
+}

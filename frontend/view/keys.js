@@ -1,0 +1,48 @@
+/** The keyboard, as in a lecture: steps forward and back, full screen, black screen, overview. */
+
+/** Where keys belong to the element itself. */
+const FIELDS = "input, select, textarea, math-field, [contenteditable]";
+/** Where Space and Enter press the element itself. */
+const PRESSED = "button, a, summary";
+
+/**
+ * @typedef {object} Keys
+ * @property {(by: number) => void} go
+ * @property {() => void} fullscreen
+ * @property {(name: "overview" | "help" | "black") => void} overlay
+ * @property {() => boolean} covered  something lies above the page
+ * @property {() => void} uncover
+ * @property {() => void} play
+ * @property {() => void} substeps
+ */
+
+/** @param {Keys} keys @returns {Record<string, () => void>} */
+function table({ go, fullscreen, overlay, play, substeps }) {
+  const next = () => go(1);
+  const previous = () => go(-1);
+  return {
+    ArrowRight: next, " ": next, n: next, PageDown: next,
+    ArrowLeft: previous, p: previous, PageUp: previous,
+    Home: () => go(-Infinity), End: () => go(Infinity),
+    f: fullscreen, b: () => overlay("black"), ".": () => overlay("black"),
+    Escape: () => overlay("overview"), o: () => overlay("overview"), "?": () => overlay("help"), k: play, e: substeps,
+  };
+}
+
+/** @param {EventTarget} target @param {Keys} keys */
+export function listen(target, keys) {
+  const actions = table(keys);
+  target.addEventListener("keydown", (event) => {
+    const { key, ctrlKey, metaKey, altKey, target: from } = /** @type {KeyboardEvent} */ (event);
+    const element = from instanceof Element ? from : null;
+    if (ctrlKey || metaKey || altKey || element?.closest(FIELDS)) return;
+    if (key === " " && element?.closest(PRESSED)) return;
+    const action = actions[key.length === 1 ? key.toLowerCase() : key];
+    if (!action) return;
+    // A dialog closes by itself on Escape; any key ends the black screen.
+    if (element?.closest("dialog")) return;
+    event.preventDefault();
+    if (keys.covered()) keys.uncover();
+    else action();
+  });
+}

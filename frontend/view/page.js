@@ -1,0 +1,87 @@
+/** The page as a whole: derivation beside drawing, plots and values. */
+
+import { html, nothing } from "lit-html";
+import { chapters, pager, steps } from "./steps.js";
+import { failure } from "./failure.js";
+import { header } from "./header.js";
+import { overlays } from "./overlays.js";
+import { player } from "./player.js";
+import { report } from "./report.js";
+import { values } from "./values.js";
+import { inLanguage } from "../model/catalog.js";
+
+/**
+ * @typedef {object} View  what views may know and do
+ * @property {import("../model/session.js").State} state
+ * @property {import("../model/session.js").Session} session
+ * @property {import("../model/clock.js").Clock} clock
+ * @property {import("../model/catalog.js").Translate} t
+ * @property {(id: string) => string} methodTitle
+ * @property {(patch: Partial<import("../model/types.js").Place>) => string} link
+ * @property {(event: Event, go: () => void) => void} follow
+ * @property {() => void} togglePlay
+ * @property {(t: number) => void} scrub
+ * @property {() => void} fullscreen
+ * @property {() => void} retry
+ */
+
+const PANELS = /** @type {const} */ (["derivation", "plots", "values"]);
+
+/** @param {View} view */
+export function page(view) {
+  const { state, t } = view;
+  const { failures } = state;
+  return html`
+    <a class="skip" href="#derivation">${t("skip")}</a>
+    ${header(view)}
+    <main class="desk" data-panel=${state.place.panel}>
+      <section class="derivation" id="derivation" aria-label=${t("derivation")}>
+        ${chapters(view)}
+        <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
+          ${failures.page ? failure(failures.page, t("failure.page"), view.retry, t)
+            : failures.derivation ? failure(failures.derivation, t("failure.derivation"), view.retry, t) : steps(view)}
+        </div>
+        ${pager(view)}
+      </section>
+      <section class="figure ${failures.simulation ? "failed" : ""}" aria-label=${t("drawing")}>
+        ${drawing(view)}
+        ${player(view)}
+        ${values(view)}
+        <div class="plots" role="img" aria-label=${t("plots.description")}>
+          <div class="canvas"></div><div class="rows"></div><div class="beyond" hidden></div>
+          <div class="ghost" hidden></div><div class="cursor"></div>
+        </div>
+        ${report(view)}
+      </section>
+    </main>
+    ${panels(view)}
+    ${overlays(view)}
+  `;
+}
+
+/** @param {View} view */
+function drawing({ state, t, retry }) {
+  const { lang } = state.place;
+  const title = inLanguage(state.scene?.title, lang);
+  const summary = inLanguage(state.scene?.summary, lang);
+  const waiting = !state.trajectory && !state.failures.simulation;
+  return html`
+    <div class="drawing ${waiting ? "waiting" : ""}">
+      <svg role="img" aria-label=${t("drawing.description", { title, summary })}></svg>
+      <div class="labels" aria-hidden="true"></div>
+      <div class="readouts" aria-hidden="true"></div>
+      ${waiting ? html`<p class="unseen">${t("drawing.loading")}</p>` : nothing}
+      ${state.failures.simulation ? failure(state.failures.simulation, t("failure.simulation"), retry, t) : nothing}
+    </div>
+  `;
+}
+
+/** Which part a narrow screen shows below the drawing. @param {View} view */
+function panels({ state, session, t }) {
+  return html`
+    <nav class="panels" aria-label=${t("panel.choose")}>
+      ${PANELS.map((panel) => html`
+        <button aria-pressed=${String(state.place.panel === panel)} @click=${() => session.move({ panel })}>${t(`panel.${panel}`)}</button>`)}
+    </nav>
+  `;
+}

@@ -1,0 +1,135 @@
+/** The plots: curves drawn once by Plotly, and above them a cursor that follows the clock. */
+
+import { domainsOf, layoutOf, MARGIN, rowsOf, timeScale, tracesOf } from "../model/plots.js";
+import { endOf } from "../model/trajectory.js";
+import { fixed } from "../model/numbers.js";
+
+/** @typedef {import("../model/types.js").Scene} Scene */
+/** @typedef {import("../model/types.js").Trajectory} Trajectory */
+/** @typedef {{scene: Scene, trajectory: Trajectory, duration: number, lang: string, theme: string}} Shown */
+
+/** Named in the import map, so that its address carries the version of the libraries. */
+const SOURCE = import.meta.resolve("plotly");
+/** Milliseconds between two redraws while a slider moves. */
+const PAUSE = 100;
+
+/** @type {Promise<void> | null} */
+let loading = null;
+
+/** Loads Plotly when the first plot is wanted. */
+function plotly() {
+  loading ??= new Promise((done, failed) => {
+    const script = document.createElement("script");
+    script.src = SOURCE;
+    script.onload = () => done();
+    script.onerror = () => failed(new Error(SOURCE));
+    document.head.append(script);
+  });
+  return loading;
+}
+
+/** Colours as the style sheets have them at this moment. @param {HTMLElement} root @returns {import("../model/plots.js").Palette} */
+function paletteOf(root) {
+  const probe = document.createElement("i");
+  root.append(probe);
+  const of = (/** @type {string} */ className) => {
+    probe.className = className;
+    return getComputedStyle(probe).color;
+  };
+  const palette = { ink: of("c-ink"), muted: of("c-muted"), grid: of("c-grid"), paper: of("c-paper") };
+  const named = new Map(["energy-kinetic", "energy-potential", "energy-balance", ...Array.from({ length: 24 }, (_, i) => `q-${i}`)].map((name) => [name, of(name)]));
+  probe.remove();
+  return { ...palette, of: (className) => named.get(className) ?? palette.ink };
+}
+
+/**
+ * @param {HTMLElement} root  holds .canvas, .rows, .cursor, .ghost and .beyond
+ * @param {{seek: (t: number) => void}} actions
+ */
+export function createPlots(root, { seek }) {
+  const part = (/** @type {string} */ name) => /** @type {HTMLElement} */ (root.querySelector(`.${name}`));
+  const [canvas, rowsLayer, cursor, ghost, beyond] = ["canvas", "rows", "cursor", "ghost", "beyond"].map(part);
+  /** @type {Shown | null} */
+  let shown = null;
+  let scale = timeScale(1, 0);
+  let visible = false;
+  let due = 0;
+
+  async function redraw() {
+    due = 0;
+    if (!shown || !visible || root.clientWidth === 0) return;
+    await plotly();
+    const { scene, trajectory, duration, lang } = shown;
+    const palette = paletteOf(root);
+    const rows = rowsOf(scene, trajectory);
+    const layout = { ...layoutOf(rows, duration, palette, lang, root.clientHeight), width: root.clientWidth, height: root.clientHeight };
+    await globalThis.Plotly.react(canvas, tracesOf(rows, trajectory, palette), layout, { staticPlot: true, displayModeBar: false });
+    scale = timeScale(root.clientWidth, duration);
+    label(rows);
+    const end = endOf(trajectory);
+    beyond.style.insetInlineStart = `${scale.pixel(end)}px`;
+    beyond.hidden = end >= duration * 0.999;
+    root.classList.add("ready");
+  }
+
+  /** @param {import("../model/plots.js").Row[]} rows */
+  function label(rows) {
+    const height = root.clientHeight - MARGIN.t - MARGIN.b;
+    const tops = domainsOf(rows.length, height).map(([, top]) => (1 - top) * height);
+    rowsLayer.replaceChildren(...rows.map((row, r) => legend(row, tops[r])));
+  }
+
+  function schedule() {
+    if (!due) due = window.setTimeout(() => void redraw(), PAUSE);
+  }
+
+  const xOf = (/** @type {PointerEvent} */ event) => event.clientX - root.getBoundingClientRect().left;
+  root.addEventListener("pointerdown", (event) => {
+    root.setPointerCapture(event.pointerId);
+    seek(scale.time(xOf(event)));
+  });
+  root.addEventListener("pointermove", (event) => {
+    ghost.style.transform = `translateX(${xOf(event)}px)`;
+    ghost.hidden = event.pointerType !== "mouse" || !shown;
+    ghost.textContent = shown ? `${fixed(scale.time(xOf(event)), 2, shown.lang)} s` : "";
+    if (event.buttons & 1) seek(scale.time(xOf(event)));
+  });
+  root.addEventListener("pointerleave", () => (ghost.hidden = true));
+  new ResizeObserver(schedule).observe(root);
+  new IntersectionObserver(([entry]) => {
+    visible = entry.isIntersecting;
+    if (visible) (window.requestIdleCallback ?? setTimeout)(() => schedule());
+  }).observe(root);
+
+  return {
+    /** @param {Shown | null} next */
+    show(next) {
+      const same = next && shown && Object.keys(next).every((key) => next[/** @type {keyof Shown} */ (key)] === shown?.[/** @type {keyof Shown} */ (key)]);
+      if (same) return;
+      shown = next;
+      schedule();
+    },
+    /** @param {number} t */
+    move(t) {
+      cursor.style.transform = `translateX(${scale.pixel(t).toFixed(1)}px)`;
+    },
+  };
+}
+
+/** The names of a row's curves, in their colours, with the unit. @param {import("../model/plots.js").Row} row @param {number} top */
+function legend(row, top) {
+  const line = document.createElement("div");
+  line.className = "legend";
+  line.style.top = `${top}px`;
+  for (const curve of row.curves) {
+    const name = document.createElement("span");
+    name.className = `key ${curve.className}`;
+    globalThis.katex.render(curve.latex, name, { throwOnError: false, strict: "ignore", maxExpand: 1000, maxSize: 10 });
+    line.append(name);
+  }
+  const unit = document.createElement("span");
+  unit.className = "unit";
+  unit.textContent = row.unit ? `in ${row.unit}` : "";
+  line.append(unit);
+  return line;
+}

@@ -1,0 +1,59 @@
+/** The present values of coordinates and energies, in their colours; written directly, twenty times a second at most. */
+
+import { fixed } from "../model/numbers.js";
+import { unitText } from "../model/numbers.js";
+import { snapshotAt } from "../model/trajectory.js";
+
+/** @typedef {import("../model/types.js").Scene} Scene */
+/** @typedef {import("../model/types.js").Trajectory} Trajectory */
+
+/** Milliseconds between two changes: faster ones cannot be read. */
+const PAUSE = 50;
+
+/** @param {HTMLElement} root */
+export function createReadouts(root) {
+  /** @type {{trajectory: Trajectory, lang: string, write: ((t: number) => void)} | null} */
+  let shown = null;
+  let written = -Infinity;
+
+  return {
+    /** @param {Scene | null} scene @param {Trajectory | null} trajectory @param {string} lang */
+    show(scene, trajectory, lang) {
+      if (!scene || !trajectory?.t.length) {
+        root.replaceChildren();
+        shown = null;
+      } else if (shown?.trajectory !== trajectory || shown.lang !== lang) {
+        shown = { trajectory, lang, write: fields(root, scene, trajectory, lang) };
+        written = -Infinity;
+      }
+    },
+    /** @param {number} t */
+    move(t) {
+      const now = performance.now();
+      if (!shown || now - written < PAUSE) return;
+      written = now;
+      shown.write(t);
+    },
+  };
+}
+
+/** @param {HTMLElement} root @param {Scene} scene @param {Trajectory} trajectory @param {string} lang */
+function fields(root, scene, trajectory, lang) {
+  const wanted = scene.coordinates.filter((c) => trajectory.coordinates[c.name]);
+  const cells = wanted.map((coordinate) => {
+    const line = document.createElement("div");
+    const [symbol, value] = [document.createElement("span"), document.createElement("span")];
+    line.className = `q-${scene.coordinates.indexOf(coordinate)}`;
+    value.className = "number";
+    globalThis.katex.render(`${coordinate.latex || coordinate.name} =`, symbol, { throwOnError: false, strict: "ignore", output: "html" });
+    line.append(symbol, value);
+    return { line, value, coordinate };
+  });
+  root.replaceChildren(...cells.map((cell) => cell.line));
+  return (/** @type {number} */ t) => {
+    const now = snapshotAt(trajectory, t);
+    for (const { value, coordinate } of cells) {
+      value.textContent = `${fixed(now.coordinates[coordinate.name], 3, lang)} ${unitText(coordinate.unit)}`;
+    }
+  };
+}

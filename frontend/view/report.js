@@ -1,0 +1,70 @@
+/** How the motion is to be computed, and how it was. */
+
+import { html, nothing } from "lit-html";
+import { live } from "lit-html/directives/live.js";
+import { icon } from "./icons.js";
+import { duration, fixed, significant } from "../model/numbers.js";
+import { endOf, largestError } from "../model/trajectory.js";
+
+/** @typedef {import("./page.js").View} View */
+
+const DURATIONS = [5, 10, 20, 40, 60];
+
+/** @param {View} view */
+export function report(view) {
+  return html`<div class="report">${numerics(view)}${status(view)}</div>`;
+}
+
+/** @param {View} view */
+function numerics({ state, session, t, methodTitle }) {
+  const chosen = (/** @type {Event} */ e) => /** @type {HTMLSelectElement} */ (e.target).value;
+  const { method, duration: seconds } = state.place;
+  const durations = [...new Set([...DURATIONS, seconds])].sort((a, b) => a - b);
+  return html`
+    <div class="numerics" role="group" aria-label=${t("numerics")}>
+      <label class="choice" title=${t("numerics.method")}><span class="unseen">${t("numerics.method")}</span>
+        <select .value=${live(method)} @change=${(/** @type {Event} */ e) => session.resimulate({ method: chosen(e) })}>
+          <option value="">${t("numerics.auto")}</option>
+          ${state.methods.map((m) => html`<option value=${m.id} ?selected=${m.id === method}>${methodTitle(m.id)}</option>`)}
+        </select>${icon("chevron")}</label>
+      <label class="choice" title=${t("numerics.duration")}><span class="unseen">${t("numerics.duration")}</span>
+        <select .value=${live(String(seconds))} @change=${(/** @type {Event} */ e) => session.resimulate({ duration: Number(chosen(e)) })}>
+          ${durations.map((d) => html`<option value=${d} ?selected=${d === seconds}>${d} s</option>`)}
+        </select>${icon("chevron")}</label>
+    </div>
+  `;
+}
+
+/** @param {View} view */
+function status(view) {
+  const { state, t } = view;
+  const { trajectory } = state;
+  if (!trajectory) return html`<p class="status">${state.simulating ? t("status.running") : nothing}</p>`;
+  return html`
+    ${trajectory.status === "ok" ? nothing : warning(trajectory, view)}
+    <p class="status ${state.simulating ? "busy" : ""}">${facts(trajectory, view).map((fact) => html`<span title=${fact.help ?? nothing}>${fact.text}</span>`)}</p>
+  `;
+}
+
+/**
+ * @param {import("../model/types.js").Trajectory} trajectory @param {View} view
+ * @returns {{text: string, help?: string}[]}
+ */
+function facts(trajectory, { state, t, methodTitle }) {
+  const { lang } = state.place;
+  const { cost } = trajectory;
+  const error = largestError(trajectory);
+  return [
+    { text: methodTitle(trajectory.method) },
+    ...(error === null ? [] : [{ text: t("status.error", { error: significant(error, 2, lang) }), help: t("status.error-help") }]),
+    ...(cost?.steps === undefined ? [] : [{ text: t("status.steps", { count: cost.steps }), help: t("status.rejected", { count: cost.rejected ?? 0 }) }]),
+    ...(cost?.wall_time === undefined ? [] : [{ text: duration(cost.wall_time, lang), help: t("status.time-help") }]),
+  ];
+}
+
+/** Why a motion is incomplete and what helps. @param {import("../model/types.js").Trajectory} trajectory @param {View} view */
+function warning(trajectory, { state, t }) {
+  const until = t("status.until", { time: fixed(endOf(trajectory), 2, state.place.lang) });
+  return html`<p class="warning" role="alert"><strong>${trajectory.reason || t("status.incomplete")}</strong>
+    ${trajectory.remedy ?? ""} <span>${until}</span></p>`;
+}

@@ -1,0 +1,112 @@
+/** The derivation as a list of steps, all up to the current one. */
+
+import { html, nothing } from "lit-html";
+import { repeat } from "lit-html/directives/repeat.js";
+import { displayed, prose } from "./formula.js";
+import { icon } from "./icons.js";
+import { indexOf } from "../model/reveal.js";
+
+/** @typedef {import("../model/types.js").Step} Step */
+/** @typedef {import("../model/reveal.js").Line} Line */
+/** @typedef {import("./page.js").View} View */
+
+/** @param {View} view */
+export function steps(view) {
+  const { state, t } = view;
+  if (!state.derivation) return html`<div class="steps waiting" role="status">${skeleton()}<span class="unseen">${t("derivation.loading")}</span></div>`;
+  if (!state.lines.length) return html`<p class="notice">${t("empty.steps")}</p>`;
+  const current = indexOf(state.lines, state.place.step);
+  const shown = state.lines.slice(0, current + 1);
+  return html`<ol class="steps">
+    ${repeat(shown, (line) => line.step.id, (line) => step(line, line.index === current, view))}
+  </ol>`;
+}
+
+const skeleton = () => [62, 88, 74].map((width) => html`<div class="bone" style="width:${width}%"></div>`);
+
+/** @param {Line} line @param {boolean} current @param {View} view */
+function step(line, current, view) {
+  const opens = line.number.endsWith(".1");
+  const { step: content, number } = line;
+  return html`
+    <li class="step ${opens ? "opens" : ""}" data-step=${content.id} aria-current=${current ? "step" : nothing}>
+      ${opens ? html`<h2 class="chapter"><span class="ordinal">${line.chapterIndex + 1}</span>${line.chapter.title}</h2>` : nothing}
+      <h3 class="title">
+        <a class="number" href=${view.link({ step: content.id })} title=${view.t("step.link")}
+          @click=${(/** @type {Event} */ event) => view.follow(event, () => view.session.goTo(content.id))}>${number}</a>
+        <span>${prose(content.title)}</span>
+        ${verdict(content, view)}
+      </h3>
+      ${content.text ? html`<p class="prose">${prose(content.text)}</p>` : nothing}
+      ${formulaOf(content)}
+      ${content.substeps.length ? substeps(content, view) : nothing}
+    </li>
+  `;
+}
+
+/** The marked form carries the colours; some steps are words only. @param {Step} content */
+function formulaOf({ marked, latex }) {
+  return marked || latex ? displayed(marked || latex) : nothing;
+}
+
+/** @param {Step} content @param {View} view */
+function verdict(content, { t }) {
+  return content.verified
+    ? html`<span class="verdict" title=${t("step.verified-why")}>${icon("verified")}<span>${t("step.verified")}</span></span>`
+    : html`<span class="verdict doubtful" title=${t("step.unverified-why")}><span>${t("step.unverified")}</span></span>`;
+}
+
+/** @param {Step} content @param {View} view @returns {import("lit-html").TemplateResult} */
+function substeps(content, view) {
+  const count = content.substeps.length;
+  return html`
+    <details class="substeps">
+      <summary>${icon("chevron")}${count === 1 ? view.t("step.substeps-one") : view.t("step.substeps", { count })}</summary>
+      <ol>
+        ${content.substeps.map((part) => html`
+          <li>
+            <p class="prose">${part.title ? html`<b>${prose(part.title)}</b>` : nothing} ${prose(part.text)}</p>
+            ${formulaOf(part)}
+            ${part.substeps?.length ? substeps(part, view) : nothing}
+          </li>`)}
+      </ol>
+    </details>
+  `;
+}
+
+/** Chapters as navigation. @param {View} view */
+export function chapters(view) {
+  const { state, t } = view;
+  const current = state.lines[indexOf(state.lines, state.place.step)];
+  return html`
+    <nav class="chapters" aria-label=${t("chapters")}>
+      <ol>
+        ${(state.derivation?.chapters ?? []).filter((chapter) => chapter.steps.length).map((chapter) => html`
+          <li>
+            <a href=${view.link({ step: chapter.steps[0].id })} aria-current=${chapter === current?.chapter ? "true" : nothing}
+              @click=${(/** @type {Event} */ event) => view.follow(event, () => view.session.goTo(chapter.steps[0].id))}>
+              <span class="ordinal">${(state.derivation?.chapters ?? []).indexOf(chapter) + 1}</span>${chapter.title}</a>
+          </li>`)}
+      </ol>
+    </nav>
+  `;
+}
+
+/** Back, where we are, on. @param {View} view */
+export function pager(view) {
+  const { state, session, t } = view;
+  const total = state.lines.length;
+  const position = indexOf(state.lines, state.place.step) + 1;
+  const last = position >= total;
+  return html`
+    <footer class="pager">
+      <button class="quiet" ?disabled=${position <= 1} @click=${() => session.go(-1)}>${icon("previous")}<span>${t("step.previous")}</span></button>
+      <div class="progress" aria-label=${t("step.progress", { position, total })} role="img">
+        <span class="track"><span class="done" style="transform:scaleX(${total ? position / total : 0})"></span></span>
+        <span class="count">${total ? `${position} / ${total}` : ""}</span>
+      </div>
+      <button class="quiet minor" ?disabled=${last} @click=${() => session.go(total)}>${t("step.all")}</button>
+      <button class="main" ?disabled=${last} @click=${() => session.go(1)}><span>${t("step.next")}</span>${icon("next")}</button>
+    </footer>
+  `;
+}

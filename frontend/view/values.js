@@ -1,0 +1,44 @@
+/** Sliders for parameters and initial values. */
+
+import { html } from "lit-html";
+import { live } from "lit-html/directives/live.js";
+import { inline } from "./formula.js";
+import { isChanged, slidersOf } from "../model/values.js";
+import { unitText } from "../model/numbers.js";
+
+/** @typedef {import("./page.js").View} View */
+/** @typedef {import("../model/values.js").Slider} Slider */
+
+/** @param {View} view */
+export function values(view) {
+  const { state, session, t } = view;
+  const sliders = state.scene ? slidersOf(state.scene, state.changes) : [];
+  const group = (/** @type {string} */ name) => sliders.filter((slider) => slider.group === name).map((slider) => row(slider, view));
+  return html`
+    <section class="values" aria-label=${t("values")}>
+      <div class="heading"><h2>${t("values.initial")}</h2>
+        <button class="quiet small" ?disabled=${!isChanged(state.changes)} @click=${session.reset}>${t("values.reset")}</button></div>
+      ${group("initial")}
+      <div class="heading"><h2>${t("values.parameters")}</h2></div>
+      ${group("parameter")}
+    </section>
+  `;
+}
+
+/** @param {Slider} slider @param {View} view */
+function row(slider, { session, t }) {
+  const kind = slider.group === "parameter" ? "values.parameter" : slider.field === "rate" ? "values.rate" : "values.value";
+  const label = t(kind, { name: slider.name });
+  const filled = (slider.value - slider.min) / (slider.max - slider.min || 1);
+  const moved = (/** @type {Event} */ e) => session.slide(slider, Number(/** @type {HTMLInputElement} */ (e.target).value));
+  return html`
+    <div class="row ${slider.className}" data-slider=${slider.key}>
+      <span class="symbol" title=${label}>${inline(slider.latex)}</span>
+      <input type="range" aria-label=${label} min=${slider.min} max=${slider.max} step=${slider.step}
+        style="--filled:${filled}" .value=${live(String(slider.value))} @input=${moved}>
+      <input type="number" aria-label=${`${label} (${unitText(slider.unit)})`} min=${slider.min} max=${slider.max} step="any"
+        .value=${live(String(Number(slider.value.toFixed(Math.max(slider.decimals, 2)))))} @change=${moved}>
+      <span class="unit">${unitText(slider.unit)}</span>
+    </div>
+  `;
+}

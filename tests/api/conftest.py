@@ -1,0 +1,33 @@
+"""The application under test, with real workers, and a client without a network between."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator, Iterator
+
+import httpx
+import pytest
+from fastapi import FastAPI
+
+from deltaq.api.app import create_app
+from deltaq.settings import Settings
+
+
+@pytest.fixture(scope="session")
+def anyio_backend() -> str:
+    return "asyncio"
+
+
+@pytest.fixture(scope="session")
+def app() -> Iterator[FastAPI]:
+    application = create_app(Settings(workers=2, simulation_deadline=120.0))
+    pool = application.state.service.pool
+    pool.start()
+    yield application
+    pool.stop()
+
+
+@pytest.fixture
+async def client(app: FastAPI) -> AsyncIterator[httpx.AsyncClient]:
+    transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
+    async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test", timeout=150) as one:
+        yield one

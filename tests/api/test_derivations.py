@@ -1,0 +1,150 @@
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+import httpx
+import pytest
+from fastapi import FastAPI
+
+from deltaq.api.wire.derivation import DerivationAnswer, DerivationRequest
+from deltaq.mechanics.library import scene_ids
+
+pytestmark = pytest.mark.anyio
+DERIVATIONS = "/api/v1/derivations"
+
+
+@pytest.mark.parametrize("language", ["de", "en"])
+@pytest.mark.parametrize("scene", scene_ids())
+async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, language: str) -> None:
+    response = await client.post(DERIVATIONS, json={"scene": scene, "lang": language})
+    assert response.status_code == 200, response.text
+    answer = DerivationAnswer.model_validate(response.json())
+    chapters = [chapter.id for chapter in answer.chapters]
+    assert chapters == ["configuration", "variation", "virtual-work", "kinetic-energy", "decomposition", "lagrange"]
+    assert all(chapter.steps for chapter in answer.chapters)
+    assert answer.result.keys() == {
+        "positions",
+        "virtual_displacements",
+        "virtual_work",
+        "kinetic_energy",
+        "potential_energy",
+        "generalized_forces",
+        "lagrangian",
+        "equations",
+        "mass_matrix",
+        "forcing",
+        "conserved",
+    }
+
+
+async def test_language_changes_the_texts_and_nothing_else(client: httpx.AsyncClient) -> None:
+    german, english = [
+        (await client.post(DERIVATIONS, json={"scene": "pendulum"}, headers={"Accept-Language": one})).json()
+        for one in ("de", "en")
+    ]
+    assert german["result"] == english["result"]
+    assert german["chapters"][0]["title"] != english["chapters"][0]["title"]
+    assert german["id"] != english["id"]
+
+
+async def test_answer_is_found_again_under_its_id(client: httpx.AsyncClient) -> None:
+    posted = await client.post(DERIVATIONS, json={"scene": "pendulum"})
+    place = posted.headers["content-location"]
+    assert place == f"{DERIVATIONS}/{posted.json()['id']}"
+    assert posted.headers["etag"] == f'"{posted.json()["id"]}"'
+    found = await client.get(place)
+    assert found.content == posted.content
+    assert found.headers["cache-control"] == "public, max-age=31536000, immutable"
+    known = await client.get(place, headers={"If-None-Match": found.headers["etag"]})
+    assert (known.status_code, known.content) == (304, b"")
+
+
+async def test_compressed_and_plain_answers_are_the_same(client: httpx.AsyncClient) -> None:
+    compressed = await client.post(DERIVATIONS, json={"scene": "pendulum"})
+    plain = await client.post(DERIVATIONS, json={"scene": "pendulum"}, headers={"Accept-Encoding": "identity"})
+    assert compressed.headers["content-encoding"] == "gzip"
+    assert "content-encoding" not in plain.headers
+    assert compressed.json() == plain.json()
+    assert int(compressed.headers["content-length"]) * 4 < int(plain.headers["content-length"])
+
+
+async def test_same_question_at_the_same_time_is_computed_once(client: httpx.AsyncClient, app: FastAPI) -> None:
+    pool, ran = app.state.service.pool, []
+    run = pool.run
+
+    async def counted(job: Any, document: Any) -> bytes:
+        ran.append(job)
+        answer: bytes = await run(job, document)
+        return answer
+
+    pool.run = counted
+    try:
+        question = {"scene": "pendulum", "parameters": {"m": 1.2345}}
+        answers = await asyncio.gather(*(client.post(DERIVATIONS, json=question) for _ in range(30)))
+    finally:
+        del pool.run
+    assert len(ran) == 1
+    assert {answer.content for answer in answers} == {answers[0].content}
+    assert answers[0].status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("question", "status", "pointer", "code"),
+    [
+        pytest.param({"scene": "nothing"}, 404, "/scene", "unknown-scene", id="unknown scene"),
+        pytest.param({"scene": "x" * 5000}, 404, "/scene", "unknown-scene", id="endless name"),
+        pytest.param({"scene": "../settings"}, 404, "/scene", "unknown-scene", id="path for a name"),
+        pytest.param(
+            {"scene": "pendulum", "formulation": "newton"}, 422, "/formulation", "request-not-one-of", id="formulation"
+        ),
+        pytest.param({"scene": "pendulum", "freeze": ["x"]}, 404, "/freeze/0", "unknown-coordinate", id="freeze"),
+        pytest.param(
+            {"scene": "pendulum", "parameters": {"m": -1}}, 422, "/parameters/m", "not-positive", id="negative mass"
+        ),
+        pytest.param(
+            {"scene": "base-pendulum", "guides": [{"coordinate": "y"}]},
+            422,
+            "/guides/0/value",
+            "missing-field",
+            id="guide without value",
+        ),
+        pytest.param({"scene": {"format": 1}}, 422, "/scene/bodies", "no-body", id="scene without bodies"),
+    ],
+)
+async def test_wrong_question(
+    client: httpx.AsyncClient, question: dict[str, Any], status: int, pointer: str, code: str
+) -> None:
+    response = await client.post(DERIVATIONS, json=question)
+    answer = response.json()
+    assert response.headers["content-type"] == "application/problem+json"
+    assert (response.status_code, answer["status"]) == (status, status)
+    assert (pointer, code) in [(one["pointer"], one["code"]) for one in answer["problems"]]
+    assert all(one["message"] != one["code"] for one in answer["problems"])
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param("__import__('os').system('id')", id="code"),
+        pytest.param("10^10^10", id="tower"),
+        pytest.param("1e1000000000", id="exponent"),
+        pytest.param("((((x+1)^64)^64)^64)", id="powers"),
+        pytest.param("(" * 1000 + "y" + ")" * 1000, id="brackets"),
+        pytest.param("factorial(10^9)", id="factorial"),
+        pytest.param("y\0", id="NUL"),
+        pytest.param("", id="empty"),
+    ],
+)
+async def test_hostile_expression_is_refused(client: httpx.AsyncClient, text: str) -> None:
+    question = {"scene": "base-pendulum", "guides": [{"coordinate": "y", "value": text}]}
+    response = await client.post(DERIVATIONS, json=question)
+    assert response.status_code == 422
+    assert response.json()["problems"][0]["pointer"] == "/guides/0/value"
+
+
+@pytest.mark.parametrize("number", range(len(DerivationRequest.model_config["json_schema_extra"]["examples"])))  # type: ignore[index, arg-type, call-overload]
+async def test_examples_of_the_documentation_work(client: httpx.AsyncClient, number: int) -> None:
+    schema = (await client.get("/api/v1/openapi.json")).json()["components"]["schemas"]["DerivationRequest"]
+    response = await client.post(DERIVATIONS, json=schema["examples"][number])
+    assert response.status_code == 200, response.text

@@ -1,0 +1,187 @@
+"""The page, its files, and what a browser is told about them."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import hashlib
+import re
+from collections.abc import AsyncIterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+from deltaq.api.app import create_app
+from deltaq.api.service import PACKAGE, static_root
+from deltaq.settings import Settings
+
+pytestmark = pytest.mark.anyio
+
+IMPORT_MAP = '{"imports": {"lit-html": "/vendor/lit-html/lit-html.js"}}'
+INDEX = f"""<!doctype html><link rel="stylesheet" href="/vendor/katex/katex.css">
+<script type="importmap">{IMPORT_MAP}</script><script type="module" src="/app.js"></script>"""
+
+
+@pytest.fixture
+def site(tmp_path: Path) -> Path:
+    """A small front end, with files beside it that nobody may get."""
+    files = {
+        "index.html": INDEX,
+        "app.js": "export const δq = 1;\n" * 100,
+        "view/drawing.js": "// drawing",
+        "icon.svg": "<svg/>",
+        "package.json": "{}",
+        ".npmrc": "secret",
+        "node_modules/x/index.js": "secret",
+        "tests/x.js": "secret",
+        "vendor/version.txt": "0123abcd",
+        "vendor/lit-html/lit-html.js": "// lit",
+        "vendor/katex/fonts/a.woff2": "font",
+        "vendor/katex/LICENSE": "MIT",
+    }
+    root = tmp_path / "site"
+    for name, content in files.items():
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(content, encoding="utf-8")
+    (tmp_path / "secret.js").write_text("secret", encoding="utf-8")
+    (root / "link.js").symlink_to(tmp_path / "secret.js")
+    return root
+
+
+@pytest.fixture
+async def browser(site: Path) -> AsyncIterator[httpx.AsyncClient]:
+    app = create_app(Settings(workers=1, static=str(site)))
+    transport = httpx.ASGITransport(app=app)
+    async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test") as client:
+        yield client
+
+
+async def test_page_names_the_libraries_by_version(browser: httpx.AsyncClient) -> None:
+    page = await browser.get("/")
+    assert page.headers["content-type"] == "text/html; charset=utf-8"
+    assert re.findall(r"/vendor/[^\"]*", page.text) == [
+        "/vendor/0123abcd/katex/katex.css",
+        "/vendor/0123abcd/lit-html/lit-html.js",
+    ]
+
+
+async def test_policy_allows_the_import_map_and_no_other_inline_script(browser: httpx.AsyncClient) -> None:
+    page = await browser.get("/")
+    inline = re.findall(r"<script type=\"importmap\">(.*?)</script>", page.text)
+    digest = base64.b64encode(hashlib.sha256(inline[0].encode()).digest()).decode()
+    assert page.headers["content-security-policy"] == (
+        f"default-src 'self'; script-src 'self' 'sha256-{digest}'; style-src 'self' 'unsafe-inline'; "
+        "img-src 'self' data: blob:; font-src 'self' data:; worker-src 'self' blob:; object-src 'none'; "
+        "base-uri 'none'; form-action 'self'; frame-ancestors 'self'"
+    )
+
+
+@pytest.mark.parametrize("path", ["/", "/app.js", "/api/v1/scenes", "/nothing", "/docs"])
+async def test_security_headers_are_on_everything(browser: httpx.AsyncClient, path: str) -> None:
+    headers = (await browser.get(path)).headers
+    assert headers["x-content-type-options"] == "nosniff"
+    assert headers["referrer-policy"] == "same-origin"
+    assert headers["cross-origin-opener-policy"] == "same-origin"
+    assert headers["content-security-policy"].startswith("default-src 'self'; script-src 'self'")
+    assert "unsafe-eval" not in headers["content-security-policy"]
+
+
+@pytest.mark.parametrize(
+    ("path", "media_type", "lasting"),
+    [
+        pytest.param("/app.js", "text/javascript; charset=utf-8", False, id="module"),
+        pytest.param("/view/drawing.js", "text/javascript; charset=utf-8", False, id="in a folder"),
+        pytest.param("/icon.svg", "image/svg+xml", False, id="picture"),
+        pytest.param("/vendor/0123abcd/lit-html/lit-html.js", "text/javascript; charset=utf-8", True, id="library"),
+        pytest.param("/vendor/0123abcd/katex/fonts/a.woff2", "font/woff2", True, id="font"),
+        pytest.param("/vendor/0123abcd/katex/LICENSE", "text/plain; charset=utf-8", True, id="licence"),
+        pytest.param("/vendor/lit-html/lit-html.js", "text/javascript; charset=utf-8", False, id="without version"),
+    ],
+)
+async def test_file(browser: httpx.AsyncClient, path: str, media_type: str, lasting: bool) -> None:
+    response = await browser.get(path)
+    assert response.status_code == 200
+    assert response.headers["content-type"] == media_type
+    wanted = "public, max-age=31536000, immutable" if lasting else "no-cache"
+    assert response.headers["cache-control"] == wanted
+    again = await browser.get(path, headers={"If-None-Match": response.headers["etag"]})
+    assert (again.status_code, again.content) == (304, b"")
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/package.json",
+        "/.npmrc",
+        "/node_modules/x/index.js",
+        "/tests/x.js",
+        "/view",
+        "/view/",
+        "/nothing.js",
+        "/link.js",
+        "/../secret.js",
+        "/..%2fsecret.js",
+        "/view/%2e%2e/%2e%2e/secret.js",
+        "/view/..%5c..%5csecret.js",
+        "//etc/passwd",
+        "/%00",
+        "/app.js%00.js",
+        "/" + "x" * 5000 + ".js",
+        "/vendor/ffffffff/lit-html/lit-html.js",
+        "/vendor/0123abcd/../../../secret.js",
+    ],
+)
+async def test_file_that_nobody_may_get(browser: httpx.AsyncClient, path: str) -> None:
+    request = browser.build_request("GET", "/")
+    request.url = request.url.copy_with(raw_path=path.encode())  # as it is, unlike what a client library makes of it
+    response = await browser.send(request)
+    assert response.status_code == 404
+    assert "secret" not in response.text
+
+
+async def test_file_is_compressed_and_read_again_when_it_changes(browser: httpx.AsyncClient, site: Path) -> None:
+    plain = await browser.get("/app.js", headers={"Accept-Encoding": "identity"})
+    packed = await browser.get("/app.js")
+    assert packed.headers["content-encoding"] == "gzip"
+    assert packed.content == plain.content
+    assert int(packed.headers["content-length"]) == len(gzip.compress(plain.content, 6))
+    (site / "app.js").write_text("changed", encoding="utf-8")
+    assert (await browser.get("/app.js")).text == "changed"
+
+
+async def test_head(browser: httpx.AsyncClient) -> None:
+    response = await browser.head("/app.js")
+    assert (response.status_code, response.content) == (200, b"")
+
+
+async def test_no_page_at_all(tmp_path: Path) -> None:
+    app = create_app(Settings(workers=1, static=str(tmp_path)))
+    transport = httpx.ASGITransport(app=app)
+    async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test") as client:
+        assert (await client.get("/")).status_code == 404
+
+
+async def test_documentation_needs_nothing_from_elsewhere(client: httpx.AsyncClient) -> None:
+    page = await client.get("/docs")
+    assert page.status_code == 200
+    sources = re.findall(r'(?:src|href)="([^"]+)"', page.text)
+    assert len(sources) >= 4
+    for source in sources:
+        assert source.startswith("/")
+        assert (await client.get(source)).status_code == 200, source
+    assert re.search(r"<script(?![^>]*src=)", page.text) is None
+
+
+async def test_real_page_and_all_that_it_names(client: httpx.AsyncClient) -> None:
+    page = await client.get("/")
+    assert page.status_code == 200
+    for source in re.findall(r'(?:src|href)="(/[^"]+)"', page.text):
+        assert (await client.get(source)).status_code == 200, source
+    for source in re.findall(r'": "(/[^"]+[^/"])"', page.text):
+        assert (await client.get(source)).status_code == 200, source
+
+
+async def test_static_root(root: Path, tmp_path: Path) -> None:
+    assert static_root(str(tmp_path)) == tmp_path
+    assert static_root("") in {root / "frontend", PACKAGE / "static"}

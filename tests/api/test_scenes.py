@@ -1,0 +1,134 @@
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import httpx
+import pytest
+
+from deltaq.api.wire.scene import EXAMPLE
+from deltaq.mechanics.library import load_scene, scene_ids
+
+pytestmark = pytest.mark.anyio
+SCENES = "/api/v1/scenes"
+
+
+async def test_list_has_every_scene_file(client: httpx.AsyncClient) -> None:
+    response = await client.get(SCENES)
+    assert response.status_code == 200
+    entries = response.json()["scenes"]
+    assert [entry["id"] for entry in entries] == list(scene_ids())
+    for entry in entries:
+        assert entry.keys() == {"id", "title", "summary", "degrees_of_freedom"}
+        assert entry["title"].keys() == entry["summary"].keys() == {"de", "en"}
+        assert entry["degrees_of_freedom"] == len(load_scene(entry["id"]).free)
+
+
+@pytest.mark.parametrize("identifier", scene_ids())
+async def test_scene_document_is_a_valid_scene_again(client: httpx.AsyncClient, identifier: str) -> None:
+    document = (await client.get(f"{SCENES}/{identifier}")).json()
+    assert document["id"] == identifier
+    assert document["format"] == 1
+    verdict = await client.post(f"{SCENES}/validate", json=document)
+    assert verdict.json() == {"valid": True, "problems": []}
+
+
+async def test_unknown_scene(client: httpx.AsyncClient) -> None:
+    response = await client.get(f"{SCENES}/pendulun", headers={"Accept-Language": "en"})
+    assert response.status_code == 404
+    assert response.headers["content-type"] == "application/problem+json"
+    message = f"There is no scene “pendulun”. There are: {', '.join(scene_ids())}. Did you mean “pendulum”?"
+    assert response.json() == {
+        "type": "/problems/unknown-name",
+        "title": "There is nothing of this name",
+        "status": 404,
+        "detail": message,
+        "problems": [{"pointer": "", "offset": None, "length": None, "code": "unknown-scene", "message": message}],
+    }
+
+
+def without(*path: str | int) -> dict[str, Any]:
+    """The example scene with the field at `path` taken out."""
+    document = json.loads(json.dumps(EXAMPLE))
+    place = document
+    for part in path[:-1]:
+        place = place[part]
+    del place[path[-1]]
+    return document
+
+
+def changed(value: Any, *path: str | int) -> dict[str, Any]:
+    """The example scene with another value at `path`."""
+    document = json.loads(json.dumps(EXAMPLE))
+    place = document
+    for part in path[:-1]:
+        place = place[part]
+    place[path[-1]] = value
+    return document
+
+
+async def test_example_of_the_documentation_is_valid(client: httpx.AsyncClient) -> None:
+    response = await client.post(f"{SCENES}/validate", json=EXAMPLE)
+    assert response.json() == {"valid": True, "problems": []}
+
+
+@pytest.mark.parametrize(
+    ("document", "pointer", "code", "offset"),
+    [
+        pytest.param(without("bodies"), "/bodies", "no-body", None, id="no body"),
+        pytest.param(without("bodies", 0, "mass"), "/bodies/0/mass", "missing-field", None, id="no mass"),
+        pytest.param(changed(3, "bodies", 0, "colour"), "/bodies/0/colour", "unknown-field", None, id="unknown field"),
+        pytest.param(changed("l*sin(phi", "bodies", 0, "position", 0), "/bodies/0/position/0", None, 5, id="syntax"),
+        pytest.param(changed("2*mas", "bodies", 0, "mass"), "/bodies/0/mass", None, 2, id="unknown name"),
+        pytest.param({}, "/coordinates", "no-free-coordinate", None, id="empty"),
+    ],
+)
+async def test_invalid_scene_says_where(
+    client: httpx.AsyncClient, document: dict[str, Any], pointer: str, code: str | None, offset: int | None
+) -> None:
+    response = await client.post(f"{SCENES}/validate", json=document)
+    assert response.status_code == 200
+    answer = response.json()
+    assert answer["valid"] is False
+    found = [one for one in answer["problems"] if one["pointer"] == pointer]
+    assert found, answer["problems"]
+    assert found[0].keys() == {"pointer", "offset", "length", "code", "message"}
+    assert found[0]["offset"] == offset
+    assert code in {None, found[0]["code"]}
+
+
+@pytest.mark.parametrize(
+    ("language", "message"),
+    [
+        pytest.param("en", "The field mass is missing.", id="English"),
+        pytest.param("de", "Das Feld mass fehlt.", id="German"),
+    ],
+)
+async def test_problems_of_a_scene_are_told_in_the_language_asked_for(
+    client: httpx.AsyncClient, language: str, message: str
+) -> None:
+    headers = {"Accept-Language": language}
+    response = await client.post(f"{SCENES}/validate", json=without("bodies", 0, "mass"), headers=headers)
+    assert response.json()["problems"][0]["message"] == message
+
+
+async def test_scene_must_be_an_object(client: httpx.AsyncClient) -> None:
+    response = await client.post(f"{SCENES}/validate", json=[1, 2])
+    assert response.status_code == 422
+    assert response.json()["problems"] == [
+        {
+            "pointer": "",
+            "offset": None,
+            "length": None,
+            "code": "request-not-object",
+            "message": "A JSON object is needed here.",
+        }
+    ]
+
+
+async def test_known_list_is_not_sent_again(client: httpx.AsyncClient) -> None:
+    first = await client.get(SCENES)
+    again = await client.get(SCENES, headers={"If-None-Match": f'W/{first.headers["etag"]}, "other"'})
+    assert (again.status_code, again.content) == (304, b"")
+    other = await client.get(SCENES, headers={"If-None-Match": '"other"'})
+    assert other.json() == first.json()

@@ -1,0 +1,113 @@
+"""Health, methods, catalogs, OpenAPI, and the life of the application."""
+
+from __future__ import annotations
+
+import asyncio
+import subprocess
+import sys
+
+import httpx
+import pytest
+from fastapi import FastAPI
+
+from deltaq import __version__
+from deltaq.api.app import create_app
+from deltaq.settings import Settings
+from deltaq.simulation.library import method_ids
+
+pytestmark = pytest.mark.anyio
+API = "/api/v1"
+
+
+async def test_health(client: httpx.AsyncClient) -> None:
+    await client.post(f"{API}/scenes/validate", json={})  # now a worker is up
+    answer = (await client.get(f"{API}/health")).json()
+    assert (answer["status"], answer["version"]) == ("ok", __version__)
+    assert answer["workers"].keys() == {"workers", "ready", "busy", "waiting", "kills"}
+    assert answer["workers"]["workers"] == 2
+    assert answer["cache"].keys() == {"entries", "bytes", "hits", "misses"}
+
+
+async def test_health_says_when_no_worker_is_up_yet() -> None:
+    transport = httpx.ASGITransport(app=create_app(Settings(workers=1)))
+    async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test") as client:
+        assert (await client.get(f"{API}/health")).json()["status"] == "starting"
+
+
+@pytest.mark.parametrize("language", ["de", "en"])
+async def test_methods(client: httpx.AsyncClient, language: str) -> None:
+    answer = (await client.get(f"{API}/methods", headers={"Accept-Language": language})).json()
+    assert [method["id"] for method in answer["methods"]] == list(method_ids())
+    for method in answer["methods"]:
+        assert method.keys() >= {"id", "title", "order", "stages", "family", "adaptive", "symplectic"}
+    rk4 = next(method for method in answer["methods"] if method["id"] == "rk4")
+    assert (rk4["order"], rk4["stages"], rk4["adaptive"], rk4["symplectic"]) == (4, 4, False, False)
+
+
+@pytest.mark.parametrize("language", ["de", "en"])
+async def test_catalog(client: httpx.AsyncClient, language: str) -> None:
+    response = await client.get(f"{API}/catalogs/{language}")
+    answer = response.json()
+    assert answer.keys() == {"rules", "errors", "statuses", "page", "methods"}
+    assert {"type", "request-scene-type", "missing-field"} <= answer["errors"].keys()  # of three files
+    again = await client.get(f"{API}/catalogs/{language}", headers={"If-None-Match": response.headers["etag"]})
+    assert again.status_code == 304
+
+
+async def test_catalog_of_a_language_we_do_not_speak(client: httpx.AsyncClient) -> None:
+    response = await client.get(f"{API}/catalogs/fr")
+    message = "There are no texts in fr; there are: de, en."
+    assert response.status_code == 404
+    assert response.json() == {
+        "type": "/problems/unknown-name",
+        "title": "There is nothing of this name",
+        "status": 404,
+        "detail": message,
+        "problems": [
+            {"pointer": "", "offset": None, "length": None, "code": "request-unknown-language", "message": message}
+        ],
+    }
+
+
+async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
+    description = (await client.get(f"{API}/openapi.json")).json()
+    calls = {
+        f"{method.upper()} {path.removeprefix(API)}"
+        for path, methods in description["paths"].items()
+        for method in methods
+    }
+    assert calls == {
+        "GET /catalogs/{lang}",
+        "POST /derivations",
+        "GET /derivations/{identifier}",
+        "GET /health",
+        "GET /methods",
+        "GET /scenes",
+        "GET /scenes/{identifier}",
+        "POST /scenes/validate",
+        "POST /simulations",
+    }
+    for path, methods in description["paths"].items():
+        for method, call in methods.items():
+            assert call["summary"], (path, method)
+            assert call["description"], (path, method)
+            assert "HTTPValidationError" not in str(call), (path, method)
+
+
+async def test_life_of_the_application() -> None:
+    app: FastAPI = create_app(Settings(workers=1))
+    async with app.router.lifespan_context(app):
+        transport = httpx.ASGITransport(app=app)
+        async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test", timeout=120) as client:
+            assert (await client.post(f"{API}/scenes/validate", json={})).status_code == 200
+        (lane,) = app.state.service.pool._lanes
+        assert lane.is_alive()
+    await asyncio.sleep(0.1)
+    assert not lane.is_alive()
+    assert lane.worker is None
+
+
+@pytest.mark.parametrize("module", ["sympy", "numpy", "numba", "symengine", "flint", "plotly"])
+async def test_web_process_does_not_load_the_libraries_of_the_workers(module: str) -> None:
+    code = f"import deltaq.api.app, sys; deltaq.api.app.create_app(); sys.exit({module!r} in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,0 +1,91 @@
+from __future__ import annotations
+
+from typing import Any
+
+import httpx
+import pytest
+
+from deltaq.api.wire.simulation import SimulationAnswer
+from deltaq.mechanics.library import load_scene, scene_ids
+
+pytestmark = pytest.mark.anyio
+SIMULATIONS = "/api/v1/simulations"
+
+
+async def simulated(client: httpx.AsyncClient, **question: Any) -> SimulationAnswer:
+    response = await client.post(SIMULATIONS, json=question)
+    assert response.status_code == 200, response.text
+    return SimulationAnswer.model_validate(response.json())
+
+
+@pytest.mark.parametrize("identifier", scene_ids())
+async def test_every_scene_is_simulated(client: httpx.AsyncClient, identifier: str) -> None:
+    answer = await simulated(client, scene=identifier, t_end=2.0, samples=21)
+    scene = load_scene(identifier)
+    assert answer.status == "ok"
+    assert answer.reason
+    assert answer.t == pytest.approx([0.1 * number for number in range(21)])
+    assert answer.coordinates is not None
+    assert answer.coordinates.keys() == {coordinate.name for coordinate in scene.coordinates}
+    assert answer.positions is not None
+    assert {body.name for body in scene.bodies} <= answer.positions.keys()
+    assert all(len(values) == 21 for values in answer.coordinates.values())
+    assert all(len(place) == scene.dimension for places in answer.positions.values() for place in places)
+    assert answer.energy is not None
+    assert len(answer.energy.balance) == 21
+
+
+@pytest.mark.parametrize(
+    ("language", "word"), [pytest.param("en", "The", id="English"), pytest.param("de", "Di", id="German")]
+)
+async def test_run_that_fails_is_an_answer_with_reason_and_remedy(
+    client: httpx.AsyncClient, language: str, word: str
+) -> None:
+    answer = await simulated(
+        client, scene="elastic-pendulum", t_end=200.0, samples=201, method="explicit-euler", step=0.5, lang=language
+    )
+    assert answer.status == "diverged"
+    assert len(answer.t) < 201
+    assert word in answer.reason
+    assert answer.remedy
+    assert "{" not in answer.reason + answer.remedy
+
+
+async def test_same_question_is_answered_from_memory(client: httpx.AsyncClient) -> None:
+    question = {"scene": "pendulum", "t_end": 1.5, "samples": 16}
+    first, second = [await client.post(SIMULATIONS, json=question) for _ in range(2)]
+    assert first.content == second.content  # the wall time in it, too
+    assert first.headers["etag"] == second.headers["etag"]
+
+
+@pytest.mark.parametrize(
+    ("question", "status", "pointer", "code"),
+    [
+        pytest.param({"scene": "nothing"}, 404, "/scene", "unknown-scene", id="unknown scene"),
+        pytest.param({"method": "newton"}, 404, "/method", "unknown-method", id="unknown method"),
+        pytest.param({"initial": {"x": {"value": 1}}}, 404, "/initial/x", "unknown-coordinate", id="coordinate"),
+        pytest.param({"parameters": {"q": 1}}, 404, "/parameters/q", "unknown-parameter", id="parameter"),
+        pytest.param({"include": ["all"]}, 422, "/include/0", "request-not-one-of", id="unknown part"),
+        pytest.param({"scene": {"format": 1}}, 422, "/scene/bodies", "no-body", id="scene without bodies"),
+        pytest.param({"step": 2.0}, 422, "/step", "request-outside", id="step longer than the run"),
+        pytest.param({"tolerance": 1e-30}, 422, "/tolerance", "request-too-small", id="tolerance below rounding"),
+    ],
+)
+async def test_wrong_question(
+    client: httpx.AsyncClient, question: dict[str, Any], status: int, pointer: str, code: str
+) -> None:
+    response = await client.post(SIMULATIONS, json={"scene": "pendulum", "t_end": 1.0} | question)
+    answer = response.json()
+    assert response.headers["content-type"] == "application/problem+json"
+    assert (response.status_code, answer["status"]) == (status, status)
+    assert [(one["pointer"], one["code"]) for one in answer["problems"]] == [
+        (pointer, code)
+    ] or pointer == "/scene/bodies"
+    assert (pointer, code) in [(one["pointer"], one["code"]) for one in answer["problems"]]
+    assert all(one["message"] != one["code"] for one in answer["problems"])
+
+
+async def test_examples_of_the_documentation_work(client: httpx.AsyncClient) -> None:
+    schema = (await client.get("/api/v1/openapi.json")).json()["components"]["schemas"]["SimulationRequest"]
+    for example in schema["examples"]:
+        assert (await simulated(client, **example)).status == "ok"

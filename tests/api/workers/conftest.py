@@ -1,0 +1,26 @@
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+
+import pytest
+
+from deltaq.api.workers.lane import Limits
+from deltaq.api.workers.pool import Pool
+
+MakePool = Callable[..., Pool]
+
+
+@pytest.fixture
+def make_pool() -> Iterator[MakePool]:
+    """Pools that are started here and stopped at the end of the test."""
+    with ExitStack() as stack:
+
+        def make(size: int = 1, queue_length: int = 100, **limits: float) -> Pool:
+            chosen = {"memory": 2**31, "jobs": 10_000, "start_timeout": 30.0, "patience": 30.0} | limits
+            pool = Pool(size, queue_length, Limits(**chosen))
+            pool.start()
+            stack.callback(pool.stop, 0.1)
+            return pool
+
+        yield make

@@ -1,0 +1,103 @@
+"""Jobs for the supervisor's tests: each misbehaves in its own way, in a worker process."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+from deltaq.errors import Problem, SceneError, UnknownNameError
+
+
+def echo(document: Any) -> Any:
+    return document
+
+
+def pid(document: Any) -> Any:
+    return {"pid": os.getpid()}
+
+
+def sleep(document: Any) -> Any:
+    time.sleep(document)
+    return {"slept": document}
+
+
+def spin(document: Any) -> Any:
+    """A computation that no Python signal handler can interrupt."""
+    return 10 ** (10**9)
+
+
+def ignore_signals(document: Any) -> Any:
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGALRM):
+        signal.signal(number, signal.SIG_IGN)
+    while True:
+        with contextlib.suppress(BaseException):
+            time.sleep(60)
+
+
+def wrong_scene(document: Any) -> Any:
+    raise SceneError(
+        Problem("unknown_name", "/bodies/0/mass", 2, 3, {"name": "mas", "suggestion": "m"}),
+        Problem("missing", "/title"),
+    )
+
+
+def unknown_name(document: Any) -> Any:
+    raise UnknownNameError(Problem("unknown_scene", "/scene", parameters={"name": "x"}))
+
+
+def divide_by_zero(document: Any) -> Any:
+    return 1 / 0
+
+
+class Unpicklable(Exception):
+    def __init__(self, one: Any, two: Any) -> None:
+        super().__init__("no way back")
+        self.held = lambda: (one, two)
+
+    def __str__(self) -> str:
+        raise RuntimeError("not even a text")
+
+
+def unpicklable(document: Any) -> Any:
+    raise Unpicklable(1, 2)
+
+
+def leave(document: Any) -> Any:
+    raise SystemExit(3)
+
+
+def hard_exit(document: Any) -> Any:
+    os._exit(7)
+
+
+def not_a_number(document: Any) -> Any:
+    return {"x": float("nan")}
+
+
+def not_json(document: Any) -> Any:
+    return {"x": object()}
+
+
+def eat_memory(document: Any) -> Any:
+    return len([bytes(2**24) for _ in range(10**6)])
+
+
+def recurse(document: Any) -> Any:
+    return recurse(document)
+
+
+def large(document: Any) -> Any:
+    return "x" * document
+
+
+def kill_self_once(document: Any) -> Any:
+    """Killed from outside the first time, fine the second; the marker file is the memory between the two."""
+    marker = Path(document["marker"])
+    marker.write_text(marker.read_text() + "x" if marker.exists() else "x")
+    if len(marker.read_text()) < document["times"] + 1:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return {"runs": len(marker.read_text())}

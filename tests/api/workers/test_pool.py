@@ -1,0 +1,301 @@
+"""The supervisor holds whatever a job does."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from deltaq.api.workers.job import DeadlineExceeded, Job, JobFailed, MemoryExceeded, Overloaded, WorkerDied
+from deltaq.api.workers.pool import Pool, PoolState
+from deltaq.errors import Problem, SceneError, UnknownNameError
+
+from .conftest import MakePool
+
+pytestmark = pytest.mark.anyio
+
+
+def job(name: str, deadline: float = 30.0, *, pure: bool = True) -> Job:
+    return Job(f"tests.api.workers.jobs:{name}", deadline, pure)
+
+
+async def run(pool: Pool, name: str, document: Any = None, deadline: float = 30.0) -> Any:
+    return json.loads(await pool.run(job(name, deadline), document))
+
+
+def is_alive(pid: int) -> bool:
+    try:
+        status = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return False
+    return status.rpartition(")")[2].split()[0] != "Z"
+
+
+def gone_within(pid: int, seconds: float) -> bool:
+    end = time.monotonic() + seconds
+    while is_alive(pid) and time.monotonic() < end:
+        time.sleep(0.01)
+    return not is_alive(pid)
+
+
+@pytest.mark.parametrize(
+    "document",
+    [
+        pytest.param(None, id="null"),
+        pytest.param({"a": [1, 2.5, "δq", None, True]}, id="mixed"),
+        pytest.param("x" * 3_000_000, id="larger than any pipe"),
+    ],
+)
+async def test_answer_is_the_documents_json(make_pool: MakePool, document: Any) -> None:
+    assert await run(make_pool(), "echo", document) == document
+
+
+async def test_answers_do_not_get_mixed_up(make_pool: MakePool) -> None:
+    pool = make_pool(3)
+    assert await asyncio.gather(*(run(pool, "echo", number) for number in range(60))) == list(range(60))
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "text"),
+    [
+        pytest.param("divide_by_zero", JobFailed, "ZeroDivisionError: division by zero", id="exception"),
+        pytest.param("unpicklable", JobFailed, "Unpicklable", id="exception that has no pickle and no text"),
+        pytest.param("leave", JobFailed, "SystemExit: 3", id="SystemExit"),
+        pytest.param("hard_exit", WorkerDied, "the worker process ended with exit code 7", id="os._exit"),
+        pytest.param(
+            "not_a_number", JobFailed, "ValueError: Out of range float values are not JSON compliant", id="NaN"
+        ),
+        pytest.param("not_json", JobFailed, "TypeError: Object of type object is not JSON serializable", id="not JSON"),
+        pytest.param("eat_memory", MemoryExceeded, "MemoryError: ", id="memory"),
+        pytest.param("recurse", MemoryExceeded, "RecursionError: maximum recursion depth exceeded", id="recursion"),
+        pytest.param(
+            "nothing",
+            JobFailed,
+            "AttributeError: module 'tests.api.workers.jobs' has no attribute 'nothing'",
+            id="no such job",
+        ),
+    ],
+)
+async def test_failure_is_data_and_the_next_job_is_served(
+    make_pool: MakePool, name: str, kind: type[Exception], text: str
+) -> None:
+    pool = make_pool()
+    with pytest.raises(kind) as caught:
+        await run(pool, name)
+    assert str(caught.value).partition(" in comparison")[0] == text
+    assert await run(pool, "echo", 1) == 1
+    assert pool.state == PoolState(workers=1, ready=1, busy=0, waiting=0, kills=1)
+
+
+async def test_trace_of_a_failure_names_the_line(make_pool: MakePool) -> None:
+    with pytest.raises(JobFailed) as caught:
+        await run(make_pool(), "divide_by_zero")
+    assert "return 1 / 0" in caught.value.trace
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "problems"),
+    [
+        pytest.param(
+            "wrong_scene",
+            SceneError,
+            (
+                Problem("unknown_name", "/bodies/0/mass", 2, 3, {"name": "mas", "suggestion": "m"}),
+                Problem("missing", "/title"),
+            ),
+            id="scene",
+        ),
+        pytest.param(
+            "unknown_name",
+            UnknownNameError,
+            (Problem("unknown_scene", "/scene", parameters={"name": "x"}),),
+            id="unknown name",
+        ),
+    ],
+)
+async def test_input_error_comes_back_as_it_was_raised(
+    make_pool: MakePool, name: str, kind: type[Exception], problems: tuple[Problem, ...]
+) -> None:
+    pool = make_pool()
+    with pytest.raises(kind) as caught:
+        await run(pool, name)
+    assert caught.type is kind
+    assert caught.value.args == problems
+    assert pool.state.kills == 0  # the user's mistake costs no worker
+
+
+@pytest.mark.parametrize("name", ["sleep", "spin", "ignore_signals"])
+async def test_deadline_kills_what_cannot_be_interrupted(make_pool: MakePool, name: str) -> None:
+    pool = make_pool()
+    old = (await run(pool, "pid"))["pid"]
+    begin = time.monotonic()
+    with pytest.raises(DeadlineExceeded, match=r"no answer within 0\.5 s"):
+        await run(pool, name, 60, deadline=0.5)
+    assert 0.5 <= time.monotonic() - begin < 2.0
+    assert not is_alive(old)
+    assert (await run(pool, "pid"))["pid"] != old
+
+
+async def test_processor_time_is_bounded_even_without_a_supervisor(make_pool: MakePool) -> None:
+    pool = make_pool()
+    pid = (await run(pool, "pid"))["pid"]
+    limits = Path(f"/proc/{pid}/limits").read_text(encoding="utf-8")
+    soft = next(line for line in limits.splitlines() if line.startswith("Max cpu time")).split()[3]
+    assert 31 <= int(soft) <= 34  # the deadline of 30 s, and what the process had used
+
+
+async def test_killed_while_idle_costs_nothing(make_pool: MakePool) -> None:
+    pool = make_pool()
+    old = (await run(pool, "pid"))["pid"]
+    os.kill(old, signal.SIGKILL)
+    assert (await run(pool, "pid"))["pid"] != old
+
+
+async def test_killed_while_busy_is_repeated(make_pool: MakePool) -> None:
+    pool = make_pool()
+    old = (await run(pool, "pid"))["pid"]
+    running = asyncio.create_task(run(pool, "sleep", 0.3))
+    await asyncio.sleep(0.1)
+    os.kill(old, signal.SIGKILL)
+    assert await running == {"slept": 0.3}
+
+
+@pytest.mark.parametrize(
+    ("times", "pure", "runs"),
+    [
+        pytest.param(1, False, 1, id="not pure: never repeated"),
+        pytest.param(2, True, 2, id="pure: repeated once only"),
+    ],
+)
+async def test_killed_too_often(make_pool: MakePool, tmp_path: Path, times: int, pure: bool, runs: int) -> None:
+    pool, marker = make_pool(), tmp_path / "marker"
+    with pytest.raises(WorkerDied, match="the worker process ended with exit code -9"):
+        await pool.run(job("kill_self_once", pure=pure), {"marker": str(marker), "times": times})
+    assert marker.read_text(encoding="utf-8") == "x" * runs
+    assert await run(pool, "echo", 1) == 1
+
+
+async def test_pure_job_survives_one_kill(make_pool: MakePool, tmp_path: Path) -> None:
+    answer = await run(make_pool(), "kill_self_once", {"marker": str(tmp_path / "marker"), "times": 1})
+    assert answer == {"runs": 2}
+
+
+async def test_no_answer_is_lost_or_wrong_while_workers_are_killed(make_pool: MakePool) -> None:
+    pool = make_pool(3)
+    stop = asyncio.Event()
+
+    async def kill() -> None:
+        while not stop.is_set():
+            for pid in pool.pids[:1]:
+                with suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGKILL)
+            await asyncio.sleep(0.05)
+
+    killer = asyncio.create_task(kill())
+    outcomes = await asyncio.gather(*(run(pool, "echo", n) for n in range(100)), return_exceptions=True)
+    stop.set()
+    await killer
+    lost = [outcome for outcome in outcomes if isinstance(outcome, BaseException)]
+    assert [n for n in outcomes if isinstance(n, int)] == [n for n in range(100) if isinstance(outcomes[n], int)]
+    assert all(isinstance(outcome, WorkerDied) for outcome in lost)
+    assert await run(pool, "echo", "still there") == "still there"
+
+
+async def test_full_queue_refuses_at_once(make_pool: MakePool) -> None:
+    pool = make_pool(1, queue_length=2)
+    await run(pool, "echo")
+    running = asyncio.create_task(run(pool, "sleep", 0.5))
+    await asyncio.sleep(0.1)
+    waiting = [asyncio.create_task(run(pool, "echo", number)) for number in range(2)]
+    await asyncio.sleep(0)
+    begin = time.monotonic()
+    with pytest.raises(Overloaded, match="the queue is full"):
+        await run(pool, "echo")
+    assert time.monotonic() - begin < 0.1
+    assert await asyncio.gather(running, *waiting) == [{"slept": 0.5}, 0, 1]
+
+
+async def test_job_that_waited_too_long_is_refused(make_pool: MakePool) -> None:
+    pool = make_pool(1, patience=0.2)
+    await run(pool, "echo")
+    running = asyncio.create_task(run(pool, "sleep", 0.5))
+    await asyncio.sleep(0.1)
+    with pytest.raises(Overloaded, match="waited too long"):
+        await run(pool, "echo")
+    assert await running == {"slept": 0.5}
+
+
+async def test_job_that_nobody_waits_for_any_more_is_not_run(make_pool: MakePool, tmp_path: Path) -> None:
+    pool = make_pool()
+    await run(pool, "echo")
+    running = asyncio.create_task(run(pool, "sleep", 0.3))
+    await asyncio.sleep(0.1)
+    marker = tmp_path / "marker"
+    given_up = asyncio.create_task(run(pool, "kill_self_once", {"marker": str(marker), "times": 0}))
+    await asyncio.sleep(0.05)
+    given_up.cancel()
+    assert await running == {"slept": 0.3}
+    assert await run(pool, "echo", 1) == 1
+    assert not marker.exists()
+
+
+async def test_worker_is_replaced_after_its_share_of_jobs(make_pool: MakePool) -> None:
+    pool = make_pool(1, jobs=2)
+    pids = [(await run(pool, "pid"))["pid"] for _ in range(4)]
+    assert pids[0] == pids[1] != pids[2] == pids[3]
+    assert pool.state.kills == 0
+
+
+async def test_stop_refuses_what_waits_and_leaves_no_process(make_pool: MakePool) -> None:
+    pool = make_pool(2)
+    pids = {(await run(pool, "pid"))["pid"] for _ in range(20)} | set(pool.pids)
+    running = [asyncio.create_task(run(pool, "sleep", 60)) for _ in range(2)]
+    await asyncio.sleep(0.2)
+    waiting = asyncio.create_task(run(pool, "echo"))
+    await asyncio.sleep(0.05)
+    await asyncio.to_thread(pool.stop, 0.1)
+    with pytest.raises(Overloaded, match="the service is stopping"):
+        await waiting
+    for task in running:
+        with pytest.raises((WorkerDied, Overloaded, JobFailed)):
+            await task
+    assert [pid for pid in pids if not gone_within(pid, 2.0)] == []
+
+
+ORPHAN = """
+import asyncio, json
+from deltaq.api.workers.job import Job
+from deltaq.api.workers.lane import Limits
+from deltaq.api.workers.pool import Pool
+
+async def main():
+    pool = Pool(1, 4, Limits(memory=2**31, jobs=10, start_timeout=30.0, patience=30.0))
+    pool.start()
+    print(json.loads(await pool.run(Job("tests.api.workers.jobs:pid", 30.0), None))["pid"], flush=True)
+    await pool.run(Job("tests.api.workers.jobs:spin", 60.0), None)
+
+asyncio.run(main())
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere only the bound on processor time ends an orphan")
+async def test_no_orphan_survives_the_kill_of_its_server(root: Path) -> None:
+    environment = os.environ | {"PYTHONPATH": f"{root}:{root / 'backend'}"}
+    with subprocess.Popen(
+        [sys.executable, "-c", ORPHAN], stdout=subprocess.PIPE, cwd=root, env=environment, text=True
+    ) as server:
+        assert server.stdout is not None
+        worker = int(server.stdout.readline())
+        time.sleep(0.2)
+        assert is_alive(worker)
+        server.kill()
+        assert gone_within(worker, 3.0)

@@ -1,0 +1,55 @@
+"""Starting workers: what does not come up is killed and tried again."""
+
+from __future__ import annotations
+
+import threading
+from queue import Queue
+
+import pytest
+
+from deltaq.api.workers import lane as lane_module
+from deltaq.api.workers.lane import Lane, Limits, Task
+from deltaq.api.workers.worker import Worker, start_worker
+
+LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, patience=30.0)
+
+
+def test_worker_that_is_not_ready_in_time_is_given_up() -> None:
+    with pytest.raises(TimeoutError, match=r"the worker was not ready after 0\.0 s"):
+        start_worker(2**31, 0.0)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        pytest.param(EOFError("killed while it started"), id="killed"),
+        pytest.param(OSError(12, "no memory"), id="no memory"),
+        pytest.param(TimeoutError("late"), id="late"),
+    ],
+)
+def test_lane_tries_again_until_a_worker_comes_up(monkeypatch: pytest.MonkeyPatch, error: Exception) -> None:
+    attempts: list[int] = []
+
+    def start_third_time(memory: int, timeout: float) -> Worker:
+        attempts.append(1)
+        if len(attempts) < 3:
+            raise error
+        return start_worker(memory, timeout)
+
+    monkeypatch.setattr(lane_module, "start_worker", start_third_time)
+    lane = Lane(Queue[Task | None](), LIMITS)
+    worker = lane.ready_worker()
+    assert worker is not None
+    assert worker.ask(b'["tests.api.workers.jobs:echo", 10, 5]', 10.0) == b"+5"
+    assert len(attempts) == 3
+    lane.drop_worker()
+
+
+def test_stopped_lane_gives_up_starting(monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(memory: int, timeout: float) -> Worker:
+        raise OSError("no more processes")
+
+    monkeypatch.setattr(lane_module, "start_worker", never)
+    lane = Lane(Queue[Task | None](), LIMITS)
+    threading.Timer(0.2, lane.stop).start()
+    assert lane.ready_worker() is None

@@ -1,0 +1,201 @@
+"""Scene documents: what is read, and every problem at its place."""
+
+from __future__ import annotations
+
+import copy
+import json
+import math
+from collections.abc import Callable
+
+import pytest
+
+from deltaq.errors import Problem, SceneError
+from deltaq.mechanics.document import read_scene
+from deltaq.mechanics.writing import write_scene
+
+PENDULUM: dict[str, object] = {
+    "format": 1,
+    "id": "mine",
+    "title": {"de": "Meins", "en": "Mine"},
+    "dimension": 2,
+    "coordinates": [{"name": "phi"}],
+    "parameters": [{"name": "m"}, {"name": "l"}, {"name": "g"}],
+    "points": [{"name": "pivot", "position": ["0", "0"]}],
+    "bodies": [{"name": "bob", "kind": "particle", "mass": "m", "position": ["l*sin(phi)", "l*cos(phi)"]}],
+    "loads": [{"kind": "gravity", "acceleration": ["0", "g"]}],
+    "drawing": {"vertical": "down", "elements": [{"kind": "rod", "from": "pivot", "to": "bob"}]},
+}
+
+
+def test_reads_what_it_writes() -> None:
+    scene = read_scene(PENDULUM)
+    assert read_scene(json.loads(json.dumps(write_scene(scene)))) == scene
+
+
+def test_defaults() -> None:
+    scene = read_scene(PENDULUM)
+    assert [load.name for load in scene.loads] == ["gravity"]
+    assert (scene.coordinates[0].value, scene.parameters[0].value, scene.parameters[0].positive) == (0.0, 1.0, True)
+    assert [coordinate.name for coordinate in scene.free] == ["phi"]
+
+
+def test_loads_of_one_kind_are_numbered() -> None:
+    document = copy.deepcopy(PENDULUM)
+    put("/loads/1", copy.deepcopy(document["loads"][0]))(document)  # type: ignore[index]
+    assert [load.name for load in read_scene(document).loads] == ["gravity-1", "gravity-2"]
+
+
+def put(path: str, value: object) -> Callable[[dict], None]:
+    """A change of the document at a JSON pointer."""
+    *parents, last = path.strip("/").split("/")
+
+    def change(document: dict) -> None:
+        place: object = document
+        for key in parents:
+            place = place[int(key) if isinstance(place, list) else key]  # type: ignore[index]
+        if isinstance(place, list):
+            place[int(last) : int(last) + 1] = [value]
+        else:
+            place[last] = value  # type: ignore[index]
+
+    return change
+
+
+WRONG = [
+    pytest.param(put("/bodies/0/mass", 3), Problem("not-text", "/bodies/0/mass"), id="number for an expression"),
+    pytest.param(
+        put("/bodies/0/mass", ""),
+        Problem("empty-expression", "/bodies/0/mass", parameters={"field": "mass"}),
+        id="empty expression",
+    ),
+    pytest.param(
+        put("/bodies/0/mass", None),
+        Problem("missing-field", "/bodies/0/mass", parameters={"field": "mass"}),
+        id="no mass",
+    ),
+    pytest.param(
+        put("/bodies/0/position", ["l"]),
+        Problem("wrong-dimension", "/bodies/0/position", parameters={"expected": 2, "found": 1}),
+        id="vector too short",
+    ),
+    pytest.param(
+        put("/bodies/0/position/1", "dot(phi)"),
+        Problem("position-with-rate", "/bodies/0/position/1", parameters={"coordinate": "phi"}),
+        id="position with a rate",
+    ),
+    pytest.param(
+        put("/bodies/0/position/0", "delta(phi)"), Problem("not-scalar", "/bodies/0/position/0"), id="a variation"
+    ),
+    pytest.param(put("/loads", 7), Problem("not-a-list", "/loads"), id="loads not a list"),
+    pytest.param(put("/loads/0", 7), Problem("not-a-table", "/loads/0"), id="load not a table"),
+    pytest.param(
+        put("/loads/0", {"kind": "gravty"}),
+        Problem(
+            "unknown-kind",
+            "/loads/0/kind",
+            parameters={"kind": "gravty", "known": "force, gravity, potential, spring"},
+        ),
+        id="unknown kind of load",
+    ),
+    pytest.param(
+        put("/loads/0", {"kind": "potential", "energy": "dot(phi)"}),
+        Problem("potential-with-rate", "/loads/0/energy", parameters={"coordinate": "phi"}),
+        id="potential with a rate",
+    ),
+    pytest.param(
+        put("/loads/0", {"kind": "force", "at": "bop", "force": ["0", "0"]}),
+        Problem("unknown-place", "/loads/0/at", parameters={"name": "bop", "suggestion": "bob"}),
+        id="unknown place",
+    ),
+    pytest.param(
+        put("/coordinates/0/value", math.nan), Problem("not-finite", "/coordinates/0/value"), id="initial value NaN"
+    ),
+    pytest.param(
+        put("/coordinates/0/rate", math.inf), Problem("not-finite", "/coordinates/0/rate"), id="initial rate infinite"
+    ),
+    pytest.param(
+        put("/parameters/0/value", 10**400), Problem("not-finite", "/parameters/0/value"), id="whole number too large"
+    ),
+    pytest.param(
+        put("/parameters/0/value", True), Problem("not-a-number", "/parameters/0/value"), id="flag for a number"
+    ),
+    pytest.param(
+        put("/parameters/0/value", -1.0),
+        Problem("not-positive", "/parameters/0/value", parameters={"name": "m", "value": -1.0}),
+        id="negative mass",
+    ),
+    pytest.param(
+        put("/parameters/0/min", 2.0),
+        Problem("outside-range", "/parameters/0/value", parameters={"value": 1.0, "min": "2.0", "max": "None"}),
+        id="value below its range",
+    ),
+    pytest.param(
+        put("/parameters/3", {"name": "m"}),
+        Problem("duplicate-name", "/parameters/3/name", parameters={"name": "m"}),
+        id="the same name twice",
+    ),
+    pytest.param(
+        put("/parameters/3", {"name": "sin"}),
+        Problem("reserved-name", "/parameters/3/name", parameters={"name": "sin"}),
+        id="a function's name",
+    ),
+    pytest.param(
+        put("/guides", [{"coordinate": "phi", "value": "sin(t)"}]),
+        Problem("no-free-coordinate", "/guides"),
+        id="nothing left to move",
+    ),
+    pytest.param(put("/dimension", 4), Problem("wrong-space", "/dimension"), id="four dimensions"),
+    pytest.param(put("/dimension", True), Problem("not-an-integer", "/dimension"), id="dimension a flag"),
+    pytest.param(put("/id", "../x"), Problem("invalid-id", "/id", parameters={"name": "../x"}), id="id with a path"),
+    pytest.param(put("/format", 2), Problem("unknown-format", "/format", parameters={"expected": 1}), id="format 2"),
+    pytest.param(
+        put("/bodys", []),
+        Problem("unknown-field", "/bodys", parameters={"field": "bodys", "suggestion": "bodies"}),
+        id="misspelt field",
+    ),
+    pytest.param(
+        put("/drawing/elements/0/to", "bop"),
+        Problem("unknown-place", "/drawing/elements/0/to", parameters={"name": "bop", "suggestion": "bob"}),
+        id="drawing hangs on nothing",
+    ),
+    pytest.param(
+        put("/drawing/elements/0", {"kind": "unicorn"}),
+        Problem("unknown-kind", "/drawing/elements/0/kind", parameters={"kind": "unicorn"}),
+        id="unknown element",
+    ),
+    pytest.param(put("/drawing/view", [1, 0, 0, 1]), Problem("invalid-view", "/drawing/view"), id="view inside out"),
+]
+
+
+@pytest.mark.parametrize(("change", "problem"), WRONG)
+def test_wrong_documents(change: Callable[[dict], None], problem: Problem) -> None:
+    document = copy.deepcopy(PENDULUM)
+    change(document)
+    with pytest.raises(SceneError) as caught:
+        read_scene(document)
+    assert problem in caught.value.problems, caught.value.problems
+    # Nothing else is complained about, unless an element of the wrong kind leaves its own fields unread.
+    others = [other for other in caught.value.problems if other != problem and other.code != "unknown-field"]
+    assert others == []
+
+
+def test_a_scene_needs_a_body() -> None:
+    with pytest.raises(SceneError) as caught:
+        read_scene({"coordinates": [{"name": "x"}]})
+    assert caught.value.problems == (Problem("no-body", "/bodies"),)
+
+
+def test_all_problems_are_found_at_once() -> None:
+    document = copy.deepcopy(PENDULUM)
+    put("/bodies/0/mass", "m*")(document)
+    put("/bodies/0/position/0", "l*sin(phj)")(document)
+    put("/coordinates/0/value", "zero")(document)
+    with pytest.raises(SceneError) as caught:
+        read_scene(document)
+    assert {problem.pointer for problem in caught.value.problems} == {
+        "/bodies/0/mass",
+        "/bodies/0/position/0",
+        "/coordinates/0/value",
+    }
+    misspelt = next(p for p in caught.value.problems if p.pointer == "/bodies/0/position/0")
+    assert (misspelt.offset, misspelt.length) == (6, 3)

@@ -1,0 +1,100 @@
+"""The catalogs: the same keys in every language, and a text for everything the code can say."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from importlib.resources import files
+from pathlib import Path
+from string import Formatter
+
+import pytest
+
+from deltaq.derivation.engine import derive
+from deltaq.errors import Problem
+from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.narration.catalog import LANGUAGES, catalog, filled, language_of, message, text
+from deltaq.packages import modules_of
+
+SOURCE = Path(str(files("deltaq")))
+CODE = re.compile(r'(?:Problem|complain|\.refuse|_refuse)\(\s*"([a-z-]+)"')
+
+
+def leaves(node: Mapping[str, object], path: str = "") -> Iterator[tuple[str, str]]:
+    for key, value in node.items():
+        if isinstance(value, Mapping):
+            yield from leaves(value, f"{path}{key}.")
+        else:
+            yield f"{path}{key}", str(value)
+
+
+def texts(language: str) -> dict[str, str]:
+    return dict(leaves(catalog(language)))
+
+
+def test_every_language_says_the_same() -> None:
+    english, german = texts("en"), texts("de")
+    assert english.keys() == german.keys()
+    for key, sentence in english.items():
+        assert fields(sentence) == fields(german[key]), f"{key} has other placeholders in German"
+        assert bool(sentence.strip()) is bool(german[key].strip()), f"{key} is empty in one language only"
+        assert sentence.strip() or key.endswith(".remedy"), f"{key} is empty"
+
+
+def fields(template: str) -> set[str]:
+    return {name for _, name, _, _ in Formatter().parse(template) if name is not None}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_problem_has_a_sentence(language: str) -> None:
+    codes = {code for file in SOURCE.rglob("*.py") for code in CODE.findall(file.read_text(encoding="utf-8"))}
+    assert len(codes) > 30, "the pattern no longer finds the codes"
+    errors = catalog(language)["errors"]
+    assert isinstance(errors, Mapping)
+    assert sorted(codes - errors.keys()) == []
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("identifier", scene_ids())
+def test_every_step_has_its_texts(language: str, identifier: str) -> None:
+    _, derivation = derive(load_scene(identifier))
+    for chapter in derivation.chapters:
+        assert text(language, f"rules.chapters.{chapter.id}")
+    for step in derivation.steps():
+        key = f"rules.steps.{step.rule}"
+        title = text(language, f"{key}.title", **step.about)
+        sentence = text(language, f"{key}.{step.about.get('outcome', 'text')}", **step.about)
+        assert "{" not in title
+        assert sentence.endswith(".")
+
+
+def test_every_rule_states_its_law_and_source() -> None:
+    rules = modules_of("deltaq.derivation.rules")
+    assert len(rules) >= 15
+    for module in rules:
+        assert module.__doc__ is not None
+        assert "Source:" in module.__doc__, f"{module.__name__} names no source"
+        text("en", f"rules.steps.{module.RULE}.title")
+
+
+def test_placeholders_are_filled_and_user_text_is_never_a_template() -> None:
+    assert filled("a {x} b {y}", {"x": "{y}", "y": 2}) == "a {y} b 2"
+
+
+def test_message_with_a_suggestion() -> None:
+    problem = Problem("unknown-place", parameters={"name": "bop", "suggestion": "bob"})
+    assert message("en", problem) == "There is no point or body “bop”. Did you mean “bob”?"
+    assert message("de", problem) == "Es gibt keinen Punkt oder Körper „bop“. Meinten Sie „bob“?"
+
+
+@pytest.mark.parametrize(
+    ("wanted", "language"),
+    [("de", "de"), ("de-CH", "de"), ("en-GB", "en"), ("fr", "en"), ("", "en"), (None, "en")],
+)
+def test_language_of(wanted: str | None, language: str) -> None:
+    assert language_of(wanted) == language
+
+
+def test_a_missing_text_is_our_bug() -> None:
+    with pytest.raises(KeyError, match=r"no text for rules\.steps\.none\.title in en"):
+        text("en", "rules.steps.none.title")
