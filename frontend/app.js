@@ -63,6 +63,13 @@ function view() {
   };
 }
 
+/** The moment as a sentence, for those who do not see it. @param {number} t @param {string} values */
+function moment(t, values) {
+  const { catalog, place } = store.get();
+  const say = translator(/** @type {Record<string, unknown>} */ (catalog.page ?? {}));
+  return say("drawing.moment", { time: fixed(t, 2, place.lang), values });
+}
+
 /** Shows the moment t everywhere. @param {number} t */
 function show(t) {
   if (!parts) return;
@@ -73,6 +80,7 @@ function show(t) {
   parts.scrub.value = String(t);
   parts.scrub.style.setProperty("--filled", String(clock.end ? t / clock.end : 0));
   parts.time.textContent = `${fixed(t, 2, lang)} s`;
+  if (!clock.playing) parts.scrub.setAttribute("aria-valuetext", moment(t, parts.readouts.text(t)));
 }
 
 function assemble() {

@@ -7,6 +7,7 @@ import errno
 import socket
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from . import __version__
@@ -73,7 +74,8 @@ def serve(host: str, port: int, *, open_page: bool) -> int:
         import webbrowser
 
         webbrowser.open(address)
-    _run(listener, settings)
+    with suppress(KeyboardInterrupt):
+        _run(listener, settings)
     return 0
 
 

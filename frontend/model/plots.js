@@ -11,6 +11,7 @@ import { unitText } from "./numbers.js";
 
 /** An error estimate above this share of a row's range is shown as a band. */
 const VISIBLE = 0.01;
+const LEAST_RANGE = 1e-3;
 
 /**
  * Coordinates of the same unit share a row; the energies have the last one.
@@ -85,7 +86,8 @@ export function tracesOf(rows, trajectory, palette) {
  */
 function bandOf(curve, trajectory, color, axis) {
   const error = trajectory.error?.estimate ?? [];
-  const range = Math.max(...curve.values) - Math.min(...curve.values);
+  // Below one a tolerance is absolute: a coordinate at rest has no range, and a small error there is none to show.
+  const range = Math.max(Math.max(...curve.values) - Math.min(...curve.values), LEAST_RANGE);
   if (!((largestError(trajectory) ?? 0) > VISIBLE * range)) return [];
   const wide = (/** @type {number} */ sign) => curve.values.map((v, i) => v + sign * Math.min(error[i] ?? range, range));
   const x = [...trajectory.t, ...[...trajectory.t].reverse()];

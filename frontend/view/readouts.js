@@ -1,7 +1,6 @@
 /** The present values of coordinates and energies, in their colours; written directly, twenty times a second at most. */
 
-import { fixed } from "../model/numbers.js";
-import { unitText } from "../model/numbers.js";
+import { fixed, unitText } from "../model/numbers.js";
 import { snapshotAt } from "../model/trajectory.js";
 
 /** @typedef {import("../model/types.js").Scene} Scene */
@@ -26,6 +25,11 @@ export function createReadouts(root) {
         shown = { trajectory, lang, write: fields(root, scene, trajectory, lang) };
         written = -Infinity;
       }
+    },
+    /** The same as a sentence's part. @param {number} t */
+    text(t) {
+      shown?.write(t);
+      return root.dataset.spoken ?? "";
     },
     /** @param {number} t */
     move(t) {
@@ -55,5 +59,6 @@ function fields(root, scene, trajectory, lang) {
     for (const { value, coordinate } of cells) {
       value.textContent = `${fixed(now.coordinates[coordinate.name], 3, lang)} ${unitText(coordinate.unit)}`;
     }
+    root.dataset.spoken = cells.map(({ value, coordinate }) => `${coordinate.name} = ${value.textContent}`).join(", ");
   };
 }

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import sympy as sp
+from tests.model.lagranges_method import lagranges_method
+from tests.simulation.scenes import all_scenes, get_scene, oscillator
 
 from deltaq.model.equations import equations
 from deltaq.model.model import compile_model
-from tests.model.lagranges_method import lagranges_method
-from tests.simulation.scenes import all_scenes, get_scene, oscillator
 
 POINTS = 5
 

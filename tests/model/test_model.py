@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.simulation.scenes import oscillator, scene
 
 from deltaq.errors import Problem, SceneError
 from deltaq.mechanics.changes import change
 from deltaq.mechanics.library import load_scene
 from deltaq.model.model import compile_model
-from tests.simulation.scenes import oscillator, scene
 
 
 def test_new_numbers_need_no_new_model() -> None:

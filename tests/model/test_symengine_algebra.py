@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 import symengine as se
+from tests.simulation.scenes import get_scene
 
 from deltaq.language.parser import parse
 from deltaq.language.tree import Vector
 from deltaq.model.symbols import Symbols
 from deltaq.model.symengine_algebra import to_symengine
-from tests.simulation.scenes import get_scene
 
 SCENE = get_scene("guided-pendulum")
 SYMBOLS = Symbols.of(SCENE)
@@ -41,7 +41,7 @@ def test_expressions(text: str, expected: object) -> None:
     ],
 )
 def test_what_a_model_has_no_place_for(text: str, message: str) -> None:
-    with pytest.raises(ValueError, match="^a model") as caught:
+    with pytest.raises(ValueError, match=r"^a model") as caught:
         to_symengine(parse(text, SCENE.names).tree, SYMBOLS)
     assert str(caught.value) == message
 

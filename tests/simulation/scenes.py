@@ -29,9 +29,7 @@ def scene(
             "coordinates": [{"name": n, "value": v, "rate": u, "unit": _unit(n)} for n, (v, u) in coordinates.items()],
             "parameters": [{"name": n, "value": v, "positive": False} for n, v in parameters.items()],
             "points": [{"name": n, "position": list(r)} for n, r in (points or {}).items()],
-            "bodies": [
-                {"name": n, "kind": "particle", "mass": m, "position": list(r)} for n, (m, r) in bodies.items()
-            ],
+            "bodies": [{"name": n, "kind": "particle", "mass": m, "position": list(r)} for n, (m, r) in bodies.items()],
             "loads": list(loads),
             "guides": [{"coordinate": n, "value": v} for n, v in (guides or {}).items()],
         }
@@ -39,7 +37,7 @@ def scene(
 
 
 def _unit(name: str) -> str:
-    return "rad" if name.startswith(("phi", "theta", "psi")) else "m"
+    return "rad" if name.startswith(("phi", "theta", "psi")) else ""
 
 
 WEIGHT = {"kind": "gravity", "acceleration": ["0", "g"]}
@@ -48,7 +46,7 @@ WEIGHT = {"kind": "gravity", "acceleration": ["0", "g"]}
 def double_pendulum() -> Scene:
     """Chaotic from these initial values on."""
     return scene(
-        {"phi1": (2.0, 0.0), "phi2": (1.5, 0.0)},
+        {"phi1": (2.0, 0.0), "phi2": (2.8, 0.0)},
         {"m1": 1.0, "m2": 0.7, "l1": 1.0, "l2": 0.8, "g": 9.81},
         {
             "upper": ("m1", ["l1*sin(phi1)", "l1*cos(phi1)"]),
@@ -97,9 +95,9 @@ def spherical_pendulum(theta: float = 1.0, rate: float = 2.0) -> Scene:
     )
 
 
-def massless() -> Scene:
-    """A coordinate that moves no mass."""
-    return scene({"x": (1.0, 0.0), "z": (0.0, 0.0)}, {"m": 1.0}, {"mass": ("m", ["x", "0"])})
+def standstill() -> Scene:
+    """At x = 0 the coordinate moves no mass: r = x² has no slope there."""
+    return scene({"x": (0.0, 1.0)}, {"m": 1.0, "a": 1.0}, {"mass": ("m", ["x^2", "a"])})
 
 
 OWN = {

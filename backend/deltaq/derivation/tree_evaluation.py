@@ -10,6 +10,8 @@ from typing import NoReturn
 
 from flint import arb
 
+from ..language.spelling import spell_rate
+
 FUNCTIONS: Mapping[str, Callable[..., arb]] = {
     "sin": arb.sin,
     "cos": arb.cos,
@@ -33,8 +35,6 @@ FUNCTIONS: Mapping[str, Callable[..., arb]] = {
     "abs": abs,
     "sign": arb.sgn,
 }
-
-RATES = {1: "dot({})", 2: "ddot({})"}
 
 
 def rational(value: Fraction) -> arb:
@@ -60,7 +60,7 @@ class ArbAlgebra:
         return arb.pi() if name == "pi" else self.point[name]
 
     def rate(self, name: str, order: int) -> arb:
-        return self.point[RATES[order].format(name)]
+        return self.point[spell_rate(name, order)]
 
     def variation(self, name: str) -> arb:
         return self.point[f"delta({name})"]

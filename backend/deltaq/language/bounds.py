@@ -61,6 +61,11 @@ def check_bounds(tree: Node) -> Shape:
     return _measure(tree).shape
 
 
+def shape_of(node: Node) -> Shape:
+    """The shape of a part alone."""
+    return _measure(node).shape
+
+
 def _check_depth(tree: Node) -> None:
     level: list[Node] = [tree]
     for _ in range(MAX_DEPTH):

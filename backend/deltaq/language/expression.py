@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .tree import Call, Differential, Equation, Name, Node, Rate, Variation, Vector, walk
+from .tree import (
+    Call,
+    Differential,
+    Equation,
+    Name,
+    Node,
+    PartialDerivative,
+    Rate,
+    TimeDerivative,
+    Variation,
+    Vector,
+    walk,
+)
 
 
 @dataclass(frozen=True)
@@ -39,3 +51,8 @@ class Expression:
     def is_scalar(self) -> bool:
         """Whether it is one number's worth: no vector, no equation, nothing virtual or infinitesimal."""
         return not any(isinstance(n, (Vector, Equation, Variation, Differential)) for n in walk(self.tree))
+
+    @property
+    def has_derivatives(self) -> bool:
+        """Whether derivatives are still to be taken, other than rates of coordinates."""
+        return any(isinstance(n, (TimeDerivative, PartialDerivative)) for n in walk(self.tree))

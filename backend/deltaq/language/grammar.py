@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import NoReturn
 
 from .arguments import Arguments
+from .bounds import shape_of
 from .cursor import Cursor
 from .names import Names
 from .operators import Operators
@@ -148,7 +149,7 @@ class Grammar:
             return self._power(left)
         if token.is_operator("'"):
             return self._prime(left)
-        if token.is_operator("*", "/") and binding < _PRODUCT:
+        if token.is_operator("*", "×", "/") and binding < _PRODUCT:
             return self._product_or_quotient(left)
         if token.is_operator("+", "-") and binding < _SUM:
             return self._sum(left)
@@ -185,9 +186,12 @@ class Grammar:
         return self.cursor.made(Sum(tuple(terms), between(left.span, terms[-1].span)))
 
     def _product_or_quotient(self, left: Node) -> Node:
-        if self.cursor.take().text == "*":
-            return self._times(left, self.expression(_PRODUCT))
+        sign = self.cursor.take()
         right = self.expression(_PRODUCT)
+        if sign.text == "×" and shape_of(left) and shape_of(right):
+            fail("cross-product", sign.span)
+        if sign.text != "/":
+            return self._times(left, right)
         quotient = self.cursor.made(Quotient(left, right, between(left.span, right.span)))
         if self.starts_factor():
             self._ambiguous_quotient(left, right)

@@ -216,7 +216,7 @@ class Operators:
         """What d/dt applies to: brackets, or one factor if nothing follows that it could apply to as well."""
         opening = self._cursor.token
         self._cursor.takes("*")
-        bracketed = opening.kind == "open"
+        bracketed = opening.kind == "open" and opening.text != ""
         operand = self._grammar.atom() if bracketed else self._grammar.factor()
         following = self._cursor.token
         divided = following.is_operator("^") if bracketed else following.is_operator("*", "/")

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from .names import Names
-from .spelling import GREEK, SUBSCRIPTS, SUPERSCRIPTS
+from .spelling import DOTTED_TWICE, GREEK, SUBSCRIPTS, SUPERSCRIPTS
 from .tokens import Token, fail
 from .tree import Span
 from .words import word_tokens
@@ -28,7 +28,7 @@ _TOKEN = re.compile(
       (?:(?P<marks>[\u0307\u0308]+){_INDEX}?)?)
   | (?P<power>[{"".join(SUPERSCRIPTS)}]+)
   | (?P<fraction>[½¼¾⅓⅔⅙⅚⅛⅜⅝⅞])
-  | (?P<operator>\*\*|[-+*/^,;=|'()\[\]]|[·⋅×∗∙•−–÷∕⁄′’″√∂δ≡])
+  | (?P<operator>\*\*|[-+*/^,;=|'()\[\]]|[·⋅×∗∙•−–÷∕⁄′’″√∂δ°])
     """,
     re.VERBOSE | re.ASCII,
 )
@@ -41,9 +41,8 @@ _OPERATORS = {
     "⁄": "/",
     "′": "'",
     "’": "'",
-    **dict.fromkeys("·⋅×∗∙•", "*"),
+    **dict.fromkeys("·⋅∗∙•", "*"),
 }
-_DOTTED_TWICE = "xywXYW"  # ä, ö and ü are letters of their own
 
 
 def plain_tokens(text: str, names: Names) -> Iterator[Token]:
@@ -68,7 +67,7 @@ def _expand(text: str) -> tuple[str, list[int]]:
     origin: list[int] = []
     for position, character in enumerate(text):
         parts = unicodedata.normalize("NFD", character)
-        dotted = len(parts) == 2 and (parts[1] == "\u0307" or (parts[1] == "\u0308" and parts[0] in _DOTTED_TWICE))
+        dotted = len(parts) == 2 and (parts[1] == "\u0307" or (parts[1] == "\u0308" and parts[0] in DOTTED_TWICE))
         parts = parts if dotted else "ℓ" if character == "ℓ" else character
         expanded.append(parts)
         origin += [position] * len(parts)
@@ -128,6 +127,8 @@ def operator_tokens(text: str, span: Span) -> Iterator[Token]:
             yield Token("partial", text, span)
         case "δ":
             yield Token("variation", text, span)
+        case "°":
+            fail("unit", span, name=text)
         case _:
             yield Token("operator", _OPERATORS.get(text, text), span)
 

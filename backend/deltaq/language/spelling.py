@@ -7,6 +7,8 @@ import unicodedata
 from collections.abc import Mapping
 from types import MappingProxyType
 
+_RATES = ("{}", "dot({})", "ddot({})", "dddot({})")
+
 GREEK: Mapping[str, str] = MappingProxyType(
     {
         "α": "alpha", "β": "beta", "γ": "gamma", "ε": "epsilon", "ϵ": "epsilon", "ζ": "zeta", "η": "eta",
@@ -20,6 +22,8 @@ GREEK: Mapping[str, str] = MappingProxyType(
 GREEK_NAMES = frozenset(GREEK.values()) | {"varphi", "varepsilon", "varpi", "varkappa"}
 SUBSCRIPTS: Mapping[str, str] = MappingProxyType(dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True)))
 SUPERSCRIPTS: Mapping[str, str] = MappingProxyType(dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789", strict=True)))
+# Letters on which two dots mean a second derivative; ä, ö and ü are letters of their own.
+DOTTED_TWICE = "xywXYW"
 
 # Variants that mean the same letter as long as a scene does not tell them apart.
 _VARIANTS: Mapping[str, str] = MappingProxyType(
@@ -30,6 +34,11 @@ _VARIANTS: Mapping[str, str] = MappingProxyType(
 )  # fmt: skip
 _LATEX_OF: Mapping[str, str] = MappingProxyType({"phi": r"\varphi", "epsilon": r"\varepsilon", "ell": r"\ell"})
 _WORD = re.compile(r"[A-Za-z]+|\d+")
+
+
+def spell_rate(name: str, order: int) -> str:
+    """The plain spelling of a time derivative; order 0 is the coordinate itself."""
+    return _RATES[order].format(name)
 
 
 def spelt_out(text: str) -> str:

@@ -7,13 +7,7 @@ from dataclasses import dataclass
 import sympy
 
 from .names import Names
-
-_RATES = ("{}", "dot({})", "ddot({})", "dddot({})")
-
-
-def spell_rate(name: str, order: int) -> str:
-    """The plain spelling of a time derivative; order 0 is the coordinate itself."""
-    return _RATES[order].format(name)
+from .spelling import spell_rate
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,9 @@ from .tree import Span
 
 UNITS = frozenset(
     {"m", "s", "kg", "g", "N", "J", "W", "Hz", "rad", "deg", "K", "A", "V", "C", "T", "Pa", "kN", "MPa", "GPa"}
-) | {"Nm", "cm", "mm", "km", "kHz", "ms", "kJ", "mN", "Ns", "grad"}
+) | {"Nm", "cm", "mm", "km", "kHz", "kJ", "Ns", "grad", "sec", "min"}
 _MAX_READINGS = 3
+_MAX_COMPOUND = 40
 _ACCENTS = ("ddot", "dot")
 
 
@@ -73,7 +74,7 @@ def _compound(word: str, span: Span, names: Names, *, after_number: bool) -> Ite
     if prefixed:
         yield from prefixed
         return
-    readings = _splits(word, names)
+    readings = _splits(word, names) if len(word) <= _MAX_COMPOUND else []
     if len(readings) > 1:
         first, second = ("*".join(part for part, _ in reading) for reading in readings[:2])
         fail("ambiguous-product", span, text=word, first=first, second=second)

@@ -21,6 +21,7 @@ from .parameter import Parameter
 from .point import Point
 from .reader import Context, Reader
 from .scene import Scene
+from .soundness import soundness_problems
 
 T = TypeVar("T")
 FORMAT = 1
@@ -31,12 +32,19 @@ IDENTIFIER = re.compile(r"[a-z0-9][a-z0-9-]{0,63}")
 
 def read_scene(document: Mapping[str, object]) -> Scene:
     """The scene a document describes. Raises SceneError with every problem found, each with its JSON pointer."""
-    problems: list[Problem] = []
-    scenes = list(_Tables(Reader(document, "", problems, used=set())).scene())
+    scene, problems = examine(document)
     errors = tuple(problem for problem in problems if problem.severity == "error")
-    if errors:
+    if scene is None or errors:
         raise SceneError(*errors)
-    return scenes[0]
+    return scene
+
+
+def examine(document: Mapping[str, object]) -> tuple[Scene | None, tuple[Problem, ...]]:
+    """The scene as far as it can be read, with all errors and warnings."""
+    problems: list[Problem] = []
+    for scene in list(_Tables(Reader(document, "", problems, used=set())).scene()):
+        return scene, (*problems, *(() if problems else soundness_problems(scene)))
+    return None, tuple(problems)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ..language.expression import Expression
 from .checks import demand, name_problem
@@ -13,7 +13,7 @@ class Point:
     """A place r(q, t) without mass: where springs end, forces act and the drawing hangs."""
 
     name: str
-    position: tuple[Expression, ...]
+    position: tuple[Expression, ...] = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         demand(name_problem(self.name))

@@ -137,9 +137,12 @@ class Reader:
         except InputError as error:
             self.problems.extend(problem.below(f"{self.pointer}/{key}") for problem in error.problems)
             return NOTHING
-        if expression.is_scalar:
+        if not expression.is_scalar:
+            self.complain("not-scalar", key)
+        elif expression.has_derivatives:
+            self.complain("derivative-in-scene", key)
+        else:
             return expression
-        self.complain("not-scalar", key)
         return NOTHING
 
     @property

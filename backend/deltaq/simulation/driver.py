@@ -141,10 +141,12 @@ def _trajectory(problem: Problem, method: Method, attempts: list[_Attempt], tole
     )
 
 
-def _merit(attempt: _Attempt) -> tuple[bool, int, float]:
-    """Complete before incomplete, then the one that came further, then the more accurate one."""
-    worst = attempt.estimate.worst if attempt.estimate else 0.0
-    return attempt.is_complete, len(attempt.chosen.times), -worst
+def _merit(attempt: _Attempt) -> tuple[bool, int, float, float]:
+    """Complete before incomplete, then the one that came further, is right for longer, and is more accurate."""
+    found = attempt.estimate
+    worst = found.worst if found else 0.0
+    horizon = np.inf if found is None or found.horizon is None else found.horizon
+    return attempt.is_complete, len(attempt.chosen.times), horizon, -worst
 
 
 def _reached(attempt: _Attempt) -> float:

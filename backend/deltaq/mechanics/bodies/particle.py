@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from ...language.expression import Expression
@@ -17,8 +17,8 @@ class Particle:
     kind: ClassVar[str] = "particle"
 
     name: str
-    mass: Expression
-    position: tuple[Expression, ...]
+    mass: Expression = field(metadata={"unit": "kg"})
+    position: tuple[Expression, ...] = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         demand(name_problem(self.name))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from ...language.expression import Expression
@@ -20,7 +20,7 @@ class Force:
 
     name: str
     at: str
-    force: tuple[Expression, ...]
+    force: tuple[Expression, ...] = field(metadata={"unit": "N"})
 
     @classmethod
     def read(cls, table: Reader) -> Force:

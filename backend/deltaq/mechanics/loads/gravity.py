@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from ...language.expression import Expression
@@ -20,7 +20,7 @@ class Gravity:
     kind: ClassVar[str] = "gravity"
 
     name: str
-    acceleration: tuple[Expression, ...]
+    acceleration: tuple[Expression, ...] = field(metadata={"unit": "m/s^2"})
 
     @classmethod
     def read(cls, table: Reader) -> Gravity:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from ...errors import Problem
@@ -21,7 +21,7 @@ class Potential:
     kind: ClassVar[str] = "potential"
 
     name: str
-    energy: Expression
+    energy: Expression = field(metadata={"unit": "J"})
 
     def __post_init__(self) -> None:
         rates = sorted(self.energy.rates)

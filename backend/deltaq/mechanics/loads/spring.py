@@ -25,8 +25,8 @@ class Spring:
     name: str
     start: str = field(metadata={"key": "from"})
     end: str = field(metadata={"key": "to"})
-    stiffness: Expression
-    rest_length: Expression
+    stiffness: Expression = field(metadata={"unit": "N/m"})
+    rest_length: Expression = field(metadata={"unit": "m"})
 
     @classmethod
     def read(cls, table: Reader) -> Spring:

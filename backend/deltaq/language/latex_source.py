@@ -1,0 +1,122 @@
+"""A stretch of LaTeX text and the reading position in it: spaces, arguments, groups, environments."""
+
+from __future__ import annotations
+
+import re
+
+from .tokens import fail
+from .tree import Span
+
+_SPACE = re.compile(
+    r"(?:[\s~\u200b\u2060-\u2064]|\\[,;:!> ]|\\(?:thinspace|medspace|thickspace|negthinspace|displaystyle"
+    r"|textstyle|limits|nolimits|nonumber|notag|hfill|allowbreak)(?![A-Za-z]))+"
+)
+_COMMAND = re.compile(r"\\(?:[A-Za-z]+\*?|.)", re.DOTALL)
+_ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z*]{1,20})\}")
+
+Range = tuple[int, int]
+
+
+class Source:
+    """Text between two offsets."""
+
+    def __init__(self, text: str, start: int, end: int) -> None:
+        self.text = text
+        self.at = start
+        self.end = end
+
+    def skip_space(self) -> None:
+        """Step over spaces and spacing commands."""
+        match = _SPACE.match(self.text, self.at, self.end)
+        if match:
+            self.at = match.end()
+
+    @property
+    def rest(self) -> bool:
+        """Whether anything is left."""
+        return self.at < self.end
+
+    def next(self) -> str:
+        """The character ahead after spaces, "" at the end."""
+        self.skip_space()
+        return self.text[self.at] if self.rest else ""
+
+    def match(self, pattern: re.Pattern[str]) -> re.Match[str] | None:
+        """Step over a pattern if it is ahead."""
+        found = pattern.match(self.text, self.at, self.end)
+        if found:
+            self.at = found.end()
+        return found
+
+    def command(self) -> str:
+        """Step over the command ahead; its name without backslash, "" if there is none."""
+        found = self.match(_COMMAND)
+        return found[0][1:] if found else ""
+
+    def peek_command(self) -> str:
+        """The name of the command ahead without stepping over it."""
+        found = _COMMAND.match(self.text, self.at, self.end)
+        return found[0][1:] if found else ""
+
+    def argument(self, owner: Span, name: str) -> Range:
+        """Step over an argument; where its content stands: a group, a command with its own arguments, or a character."""
+        ahead = self.next()
+        start = self.at
+        if ahead == "{":
+            return self.group()
+        if ahead == "\\":
+            command = self.command()
+            if command in ("mathrm", "text", "mathit", "operatorname", "dot", "ddot", "sqrt", "mathsf", "mathbf"):
+                self.argument(owner, command)
+            elif command in ("right", "end", "\\"):
+                fail("missing-argument", owner, name=name)
+            return start, self.at
+        if ahead in ("", "}", "&", "^", "_", ")", "]"):
+            fail("missing-argument", owner, name=name)
+        self.at += 1
+        return start, self.at
+
+    def group(self) -> Range:
+        """Step over {…}; where its content stands."""
+        start, depth = self.at, 0
+        position = start
+        while position < self.end:
+            character = self.text[position]
+            if character == "\\":
+                position += 1
+            elif character == "{":
+                depth += 1
+            elif character == "}":
+                depth -= 1
+                if depth == 0:
+                    self.at = position + 1
+                    return start + 1, position
+            position += 1
+        fail("unclosed-group", Span(start, 1))
+
+    def optional(self) -> Range | None:
+        """Step over […] after a command, if it is there."""
+        if self.next() != "[":
+            return None
+        close = self.text.find("]", self.at, self.end)
+        if close < 0:
+            fail("unclosed-bracket", Span(self.at, 1), bracket="[", wanted="]")
+        inside = self.at + 1, close
+        self.at = close + 1
+        return inside
+
+    def environment(self, start: int) -> tuple[str, Range]:
+        """Step over \\begin{name}…\\end{name}, which starts at `start`; its name and where its content stands."""
+        self.at = start
+        opening = self.match(_ENVIRONMENT)
+        if opening is None or opening[1] != "begin":
+            fail("unclosed-environment", Span(start, 6), name="")
+        depth, name = 1, opening[2]
+        for found in _ENVIRONMENT.finditer(self.text, opening.end(), self.end):
+            depth += 1 if found[1] == "begin" else -1
+            if depth == 0:
+                if found[2] != name:
+                    break
+                self.at = found.end()
+                return name, (opening.end(), found.start())
+        fail("unclosed-environment", Span(start, opening.end() - start), name=name)

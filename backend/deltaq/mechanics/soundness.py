@@ -1,0 +1,73 @@
+"""What can be wrong with a scene that reads well: idle parameters, units that do not fit, coordinates without mass."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+
+from ..errors import Problem
+from ..language.expression import Expression
+from .dimensions import dimension_problems
+from .inertia import inertia_problems
+from .scene import Scene
+from .units import Dimension, dimension_of
+
+
+@dataclass(frozen=True)
+class Field:
+    """One expression of a scene: where it stands, and the unit that its quantity has."""
+
+    pointer: str
+    expression: Expression
+    dimension: Dimension | None
+
+
+def soundness_problems(scene: Scene) -> Iterator[Problem]:
+    """Errors and warnings, in the order of the document."""
+    found = tuple(expressions(scene))
+    yield from _idle_parameters(scene, found)
+    yield from _units(scene, found)
+    yield from inertia_problems(scene)
+
+
+def expressions(scene: Scene) -> Iterator[Field]:
+    """Every expression of a scene with its JSON pointer."""
+    lists = {"points": scene.points, "bodies": scene.bodies, "loads": scene.loads}
+    for key, things in lists.items():
+        for index, thing in enumerate(things):
+            yield from _fields(f"/{key}/{index}", thing)
+    units = {coordinate.name: coordinate.unit for coordinate in scene.coordinates}
+    for index, guide in enumerate(scene.guides):
+        yield Field(f"/guides/{index}/value", guide.value, dimension_of(units[guide.coordinate]))
+
+
+def _fields(pointer: str, thing: object) -> Iterator[Field]:
+    for item in fields(thing):  # type: ignore[arg-type] # every kind of point, body and load is a dataclass
+        place = f"{pointer}/{item.metadata.get('key', item.name)}"
+        dimension = dimension_of(item.metadata.get("unit", ""))
+        match getattr(thing, item.name):
+            case Expression() as expression:
+                yield Field(place, expression, dimension)
+            case tuple(parts):
+                yield from (Field(f"{place}/{i}", part, dimension) for i, part in enumerate(parts))
+
+
+def _idle_parameters(scene: Scene, found: tuple[Field, ...]) -> Iterator[Problem]:
+    used = frozenset[str]().union(*(field.expression.names for field in found))
+    for index, parameter in enumerate(scene.parameters):
+        if parameter.name not in used:
+            parameters = {"name": parameter.name}
+            yield Problem("unused-parameter", f"/parameters/{index}", parameters=parameters, severity="warning")
+
+
+def _units(scene: Scene, found: tuple[Field, ...]) -> Iterator[Problem]:
+    coordinates = [(f"/coordinates/{i}/unit", c.name, c.unit) for i, c in enumerate(scene.coordinates)]
+    parameters = [(f"/parameters/{i}/unit", p.name, p.unit) for i, p in enumerate(scene.parameters)]
+    given = coordinates + parameters
+    for pointer, _, unit in given:
+        if unit and dimension_of(unit) is None:
+            yield Problem("unknown-unit", pointer, parameters={"unit": unit[:20]}, severity="warning")
+    units = {name: dimension_of(unit) for _, name, unit in given}
+    for field in found:
+        for problem in dimension_problems(field.expression, field.dimension, units):
+            yield problem.below(field.pointer)

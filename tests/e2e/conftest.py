@@ -1,0 +1,83 @@
+"""The real server and a real browser."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.lecture import Lecture
+
+
+@pytest.fixture(scope="session")
+def server(root: Path) -> Iterator[str]:
+    """The address of `deltaq serve` on a free port, with its kernels compiled."""
+    command = [sys.executable, "-m", "deltaq.cli", "serve", "--port", "0"]
+    with subprocess.Popen(command, cwd=root, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            address = re.search(r"http://\S+", process.stdout.readline())
+            assert address is not None, "the server did not say its address"
+            _warm_up(address[0])
+            yield address[0]
+        finally:
+            process.terminate()
+
+
+def _warm_up(address: str, patience: float = 240.0) -> None:
+    """Ask for a motion until there is one: the first one of a machine's life compiles the kernels."""
+    body = json.dumps({"scene": "elastic-pendulum", "t_end": 1.0}).encode()
+    request = urllib.request.Request(  # noqa: S310
+        f"{address}api/v1/simulations", body, {"content-type": "application/json"}
+    )
+    end = time.monotonic() + patience
+    while True:
+        try:
+            urllib.request.urlopen(request, timeout=patience).close()  # noqa: S310
+        except OSError:
+            if time.monotonic() > end:
+                raise
+            time.sleep(0.5)
+        else:
+            return
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    path = chromium()
+    if path is None:
+        pytest.skip(
+            "NO BROWSER, SO THE PAGE IS NOT TESTED: set CHROMIUM_PATH, or put chromium on PATH, "
+            "or let npm fetch @sparticuz/chromium"
+        )
+    with sync_playwright() as playwright:
+        # The fetched browser brings its libraries along, unpacked beside it.
+        environment = os.environ | {"LD_LIBRARY_PATH": f"{Path(path).parent}:{os.environ.get('LD_LIBRARY_PATH', '')}"}
+        browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS), env=environment)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def page(browser: Browser) -> Iterator[Page]:
+    context = browser.new_context(viewport={"width": 1366, "height": 768}, locale="de-DE")
+    yield context.new_page()
+    context.close()
+
+
+@pytest.fixture
+def lecture(page: Page, server: str) -> Iterator[Lecture]:
+    """The page with what went wrong on it: every test ends by looking at that."""
+    lecture = Lecture(page, server)
+    yield lecture
+    assert lecture.complaints == []

@@ -1,0 +1,61 @@
+"""The page in the hands of a lecturer: what tests do with it and read from it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import Any
+
+from playwright.sync_api import Locator, Page
+
+VIOLATIONS = "document.addEventListener('securitypolicyviolation', e => console.error('CSP ' + e.violatedDirective))"
+
+
+@dataclass
+class Lecture:
+    """A page of the server at `address`; `complaints` are console errors, exceptions and policy violations."""
+
+    page: Page
+    address: str
+    complaints: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.page.add_init_script(VIOLATIONS)
+        self.page.on("console", self._hear)
+        self.page.on("pageerror", lambda error: self.complaints.append(f"exception: {error}"))
+
+    def _hear(self, message: Any) -> None:
+        if message.type in ("error", "warning"):
+            self.complaints.append(f"{message.type}: {message.text}")
+
+    def open(self, query: str = "?scene=elastic-pendulum&lang=de") -> None:
+        """Load a place and wait for its first step and its drawing."""
+        self.page.goto(self.address + query)
+        self.steps.first.wait_for(state="attached")
+        self.bob.wait_for(state="attached")
+
+    @property
+    def steps(self) -> Locator:
+        return self.page.locator(".steps > .step")
+
+    @property
+    def bob(self) -> Locator:
+        return self.page.locator(".drawing path.bob").first
+
+    @property
+    def current_step(self) -> str:
+        return self.page.locator(".step[aria-current]").get_attribute("data-step") or ""
+
+    def bob_position(self) -> tuple[float, float]:
+        """Pixels of the bob in the drawing."""
+        place = re.search(r"translate\(([-\d.]+) ([-\d.]+)\)", self.bob.get_attribute("transform") or "")
+        assert place is not None
+        return float(place[1]), float(place[2])
+
+    def number_of_steps(self) -> int:
+        return int((self.page.locator(".progress .count").text_content() or "").split("/")[1])
+
+    def pause_at(self, seconds: float) -> None:
+        """Stop the motion at a moment, by the slider."""
+        scrub = self.page.locator(".scrub")
+        scrub.evaluate("(e, t) => { e.value = t; e.dispatchEvent(new Event('input', {bubbles: true})) }", seconds)

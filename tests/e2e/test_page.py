@@ -1,0 +1,189 @@
+"""The main job, in a real browser: read, reveal, watch, change, share."""
+
+from __future__ import annotations
+
+import re
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+from playwright.sync_api import Page, Response, expect
+
+from tests.e2e.lecture import Lecture
+
+pytestmark = pytest.mark.e2e
+
+BYTES_BEFORE_FIRST_PLOT = 300_000
+SCENES = ("elastic-pendulum", "base-pendulum", "guided-pendulum", "pendulum")
+
+
+def query_of(page: Page) -> dict[str, str]:
+    return {key: values[0] for key, values in parse_qs(urlsplit(page.url).query).items()}
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_all_steps_are_revealed_and_typeset(lecture: Lecture, scene: str) -> None:
+    lecture.open(f"?scene={scene}&lang=de")
+    total = lecture.number_of_steps()
+    assert total > 5
+    expect(lecture.steps).to_have_count(1)
+    for shown in range(2, total + 1):
+        lecture.page.keyboard.press("ArrowRight")
+        expect(lecture.steps).to_have_count(shown)
+    assert lecture.page.locator(".untypeset, .katex-error").count() == 0
+    assert lecture.page.locator(".step .formula .katex").count() >= total - 2
+    assert lecture.page.locator(".step .doubtful").count() == 0
+
+
+def test_keys_as_in_a_lecture(lecture: Lecture) -> None:
+    lecture.open()
+    press = lecture.page.keyboard.press
+    for key, shown in (("Space", 2), ("n", 3), ("ArrowRight", 4), ("p", 3), ("ArrowLeft", 2), ("Home", 1)):
+        press(key)
+        expect(lecture.steps).to_have_count(shown)
+    press("End")
+    expect(lecture.steps).to_have_count(lecture.number_of_steps())
+    press("b")
+    expect(lecture.page.locator(".black")).to_be_visible()
+    press("b")
+    expect(lecture.page.locator(".black")).to_have_count(0)
+    press("Escape")
+    expect(lecture.page.locator("dialog.overview")).to_be_visible()
+    press("Escape")
+    expect(lecture.page.locator("dialog.overview")).to_have_count(0)
+
+
+def test_keys_in_a_field_belong_to_the_field(lecture: Lecture) -> None:
+    lecture.open()
+    lecture.page.locator("[data-slider=parameter-l-value] input[type=range]").press("ArrowRight")
+    lecture.page.locator("[data-slider=parameter-l-value] input[type=number]").press("n")
+    expect(lecture.steps).to_have_count(1)
+
+
+def test_the_bob_moves_and_rests(lecture: Lecture) -> None:
+    lecture.open()
+    before = lecture.bob_position()
+    lecture.page.wait_for_timeout(400)
+    assert lecture.bob_position() != before
+    lecture.page.keyboard.press("k")
+    resting = lecture.bob_position()
+    lecture.page.wait_for_timeout(200)
+    assert lecture.bob_position() == resting
+
+
+def test_reduced_motion_begins_at_rest(lecture: Lecture) -> None:
+    lecture.page.emulate_media(reduced_motion="reduce")
+    lecture.open()
+    before = lecture.bob_position()
+    lecture.page.wait_for_timeout(300)
+    assert lecture.bob_position() == before
+
+
+def test_a_slider_changes_the_trajectory(lecture: Lecture) -> None:
+    lecture.open()
+    lecture.pause_at(0.0)
+    start = lecture.bob_position()
+    slider = lecture.page.locator("[data-slider=parameter-l-value] input[type=number]")
+    with lecture.page.expect_response("**/api/v1/simulations") as answer:
+        slider.fill("0.5")
+        slider.press("Tab")
+    assert answer.value.request.post_data_json["parameters"] == {"l": 0.5}
+    expect(lecture.bob).not_to_have_attribute("transform", f"translate({start[0]:.2f} {start[1]:.2f})")
+    with lecture.page.expect_response("**/api/v1/simulations"):
+        lecture.page.locator(".values .heading button").click()
+    expect(lecture.bob).to_have_attribute("transform", f"translate({start[0]:.2f} {start[1]:.2f})")
+
+
+def test_a_deep_link_leads_to_the_same_place(lecture: Lecture) -> None:
+    lecture.open("?scene=guided-pendulum&lang=en")
+    for _ in range(4):
+        lecture.page.keyboard.press("ArrowRight")
+    step = lecture.current_step
+    address = lecture.page.url
+    assert query_of(lecture.page) == {"scene": "guided-pendulum", "step": step, "lang": "en"}
+    lecture.page.goto("about:blank")
+    lecture.page.goto(address)
+    expect(lecture.steps).to_have_count(5)
+    assert lecture.current_step == step
+    expect(lecture.page.locator(".step[aria-current] .title")).to_be_in_viewport()
+
+
+def test_the_language_changes_everything_and_keeps_the_place(lecture: Lecture) -> None:
+    lecture.open("?scene=elastic-pendulum&lang=de&step=kinetic-energy")
+    step = lecture.current_step
+    title = lecture.page.locator(".step[aria-current] .title span").first
+    german = title.text_content() or ""
+    expect(lecture.page.locator(".pager .main")).to_contain_text("Weiter")
+    lecture.page.locator(".segments [lang=en]").click()
+    expect(lecture.page.locator(".pager .main")).to_contain_text("Next")
+    expect(title).not_to_have_text(german)
+    expect(lecture.page.locator("html")).to_have_attribute("lang", "en")
+    assert lecture.current_step == step
+
+
+def test_another_scene_begins_at_its_first_step(lecture: Lecture) -> None:
+    lecture.open("?scene=elastic-pendulum&lang=de&step=kinetic-energy")
+    lecture.page.locator(".scene select").select_option("pendulum")
+    expect(lecture.steps).to_have_count(1)
+    expect(lecture.page).to_have_url(re.compile("scene=pendulum"))
+    expect(lecture.page.locator(".readouts > div")).to_have_count(1)
+
+
+def test_the_plot_and_the_drawing_share_a_clock(lecture: Lecture) -> None:
+    lecture.open()
+    lecture.page.locator(".plots.ready").wait_for()
+    assert lecture.page.locator(".plots .scatterlayer .trace").count() >= 5
+    box = lecture.page.locator(".plots").bounding_box()
+    assert box is not None
+    lecture.page.mouse.click(box["x"] + box["width"] * 0.3, box["y"] + box["height"] * 0.5)
+    early = (lecture.bob_position(), lecture.page.locator(".time").text_content())
+    lecture.page.mouse.click(box["x"] + box["width"] * 0.8, box["y"] + box["height"] * 0.5)
+    late = (lecture.bob_position(), lecture.page.locator(".time").text_content())
+    assert early[0] != late[0]
+    assert early[1] != late[1]
+
+
+def test_one_quantity_has_one_colour(lecture: Lecture) -> None:
+    lecture.open()
+    lecture.page.locator(".plots.ready").wait_for()
+    colour = "element => getComputedStyle(element).color"
+    places = (".formula .q-1", ".labels .q-1", ".drawing path.q-1", ".legend .q-1", ".row.q-1", ".readouts .q-1")
+    colours = {place: lecture.page.locator(place).first.evaluate(colour) for place in places}
+    assert len(set(colours.values())) == 1, colours
+
+
+def test_a_phone_does_not_scroll_sideways(lecture: Lecture) -> None:
+    lecture.page.set_viewport_size({"width": 360, "height": 740})
+    lecture.open()
+    lecture.page.keyboard.press("End")
+    for panel in range(3):
+        lecture.page.locator(".panels button").nth(panel).click()
+        assert lecture.page.evaluate("document.documentElement.scrollWidth") == 360
+        expect(lecture.bob).to_be_in_viewport()
+    wide = "[...document.querySelectorAll('#page *')].filter(e => e.getBoundingClientRect().right > 361 "
+    wide += "&& !e.closest('.chapters, .formula, .unseen, dialog')).map(e => e.className)"
+    assert lecture.page.evaluate(wide) == []
+
+
+def test_an_unknown_scene_is_said_in_sentences(page: Page, server: str) -> None:
+    page.goto(f"{server}?scene=no-such-scene&lang=de")
+    failure = page.locator(".derivation .failure")
+    expect(failure).to_be_visible()
+    assert len(failure.locator("p").first.text_content() or "") > 20
+
+
+def test_bytes_before_the_first_plot(lecture: Lecture) -> None:
+    received: list[tuple[str, int]] = []
+
+    def count(response: Response) -> None:
+        sizes = response.request.sizes()
+        received.append((urlsplit(response.url).path, sizes["responseBodySize"] + sizes["responseHeadersSize"]))
+
+    lecture.page.on("requestfinished", lambda request: count(request.response()))
+    lecture.open()
+    lecture.page.locator(".plots.ready").wait_for()
+    lecture.page.wait_for_load_state("networkidle")
+    before = [(path, size) for path, size in received if "plotly" not in path]
+    total = sum(size for _, size in before)
+    print(f"{len(before)} requests, {total} bytes before the first plot")
+    assert len(before) > 10
+    assert total < BYTES_BEFORE_FIRST_PLOT, sorted(before, key=lambda entry: -entry[1])[:12]

@@ -1,0 +1,49 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { ApiError, createApi, failureOf } from "../../frontend/model/api.js";
+
+const answer = (/** @type {number} */ status, /** @type {string} */ body) => async () => new Response(body, { status });
+const failureFrom = async (/** @type {any} */ send) => {
+  try {
+    await createApi(send).scenes();
+  } catch (error) {
+    assert.ok(error instanceof ApiError);
+    return error.failure;
+  }
+  return assert.fail("no failure");
+};
+
+test("a problem becomes a failure with its sentences", async () => {
+  const problem = { title: "Unknown", status: 404, detail: "There is no such scene.", problems: [{ message: "Did you mean pendulum?", pointer: "/scene" }] };
+  const failure = await failureFrom(answer(404, JSON.stringify(problem)));
+  assert.deepEqual(failure, { title: "Unknown", detail: "There is no such scene.", status: 404, problems: problem.problems });
+});
+
+test("a page of a proxy becomes a failure without words", async () => {
+  assert.deepEqual(await failureFrom(answer(502, "<html>")), { title: "", detail: "", status: 502, problems: [] });
+});
+
+test("an answer that is no JSON is a failure even with status 200", async () => {
+  assert.equal((await failureFrom(answer(200, "<html>"))).status, 200);
+});
+
+test("no answer has status 0", async () => {
+  assert.equal((await failureFrom(async () => Promise.reject(new TypeError("failed to fetch")))).status, 0);
+});
+
+test("an abort stays an abort", async () => {
+  const aborted = new DOMException("aborted", "AbortError");
+  await assert.rejects(createApi(async () => Promise.reject(aborted)).scenes(), (error) => error === aborted);
+});
+
+test("problems without a message are left out", () => {
+  assert.deepEqual(failureOf(422, { problems: [{ code: "x" }, null, { message: "m" }] }).problems, [{ message: "m" }]);
+});
+
+test("names in addresses are escaped", async () => {
+  /** @type {string[]} */
+  const asked = [];
+  const send = async (/** @type {any} */ url) => (asked.push(url), new Response("{}"));
+  await createApi(send).scene("a/b?c");
+  assert.deepEqual(asked, ["/api/v1/scenes/a%2Fb%3Fc"]);
+});

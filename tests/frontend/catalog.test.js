@@ -1,0 +1,44 @@
+import { strict as assert } from "node:assert";
+import { readdirSync, readFileSync } from "node:fs";
+import { test } from "node:test";
+import { inLanguage, translator } from "../../frontend/model/catalog.js";
+
+const FRONTEND = new URL("../../frontend/", import.meta.url);
+const LOCALES = new URL("../../backend/deltaq/narration/locales/", import.meta.url);
+
+test("a text by flat key, by nested key, with parameters, and an absent one", () => {
+  const t = translator({ "a.b": "flat {n}", c: { d: "nested" } });
+  assert.equal(t("a.b", { n: 3 }), "flat 3");
+  assert.equal(t("a.b"), "flat {n}");
+  assert.equal(t("c.d"), "nested");
+  assert.equal(t("c.x.y"), "c.x.y");
+});
+
+test("a text in the asked language, else in English, else in any", () => {
+  assert.equal(inLanguage({ de: "ja", en: "yes" }, "de"), "ja");
+  assert.equal(inLanguage({ en: "yes" }, "de"), "yes");
+  assert.equal(inLanguage({ de: "ja" }, "en"), "ja");
+  assert.equal(inLanguage(undefined, "en"), "");
+});
+
+const source = ["app.js", ...["view", "model"].flatMap((folder) => readdirSync(new URL(folder, FRONTEND)).filter((f) => f.endsWith(".js")).map((f) => `${folder}/${f}`))]
+  .map((file) => readFileSync(new URL(file, FRONTEND), "utf8")).join("\n");
+const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, JSON.parse(readFileSync(new URL(`${lang}/page.json`, LOCALES), "utf8"))]));
+
+test("both languages have the same texts with the same parameters", () => {
+  const holes = (/** @type {string} */ text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort().join();
+  const shape = (/** @type {Record<string, string>} */ catalog) => Object.entries(catalog).map(([key, text]) => `${key} ${holes(text)}`).sort();
+  assert.deepEqual(shape(catalogs.de), shape(catalogs.en));
+});
+
+test("every text that the page asks for is there", () => {
+  const asked = [...source.matchAll(/\b(?:t|say)\("([a-z][\w.-]*)"/g)].map((match) => match[1]);
+  assert.ok(asked.length > 30);
+  assert.deepEqual(asked.filter((key) => !(key in catalogs.en)), []);
+});
+
+test("every text that is there is used", () => {
+  const composed = ["theme.", "panel.", "language."];
+  const unused = Object.keys(catalogs.en).filter((key) => !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
+  assert.deepEqual(unused, []);
+});

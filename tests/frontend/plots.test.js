@@ -1,0 +1,54 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { domainsOf, layoutOf, MARGIN, rowsOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
+import { scene, trajectory } from "./fixtures.js";
+
+const palette = { ink: "black", muted: "gray", grid: "silver", paper: "white", of: (/** @type {string} */ name) => `colour of ${name}` };
+
+test("a row for each unit, and one for the energies", () => {
+  assert.deepEqual(rowsOf(scene, trajectory).map((row) => [row.unit, row.curves.map((curve) => curve.key)]), [
+    ["m", ["y"]], ["rad", ["phi"]], ["J", ["kinetic", "potential", "balance"]],
+  ]);
+});
+
+test("coordinates of one unit share a row, each in its own colour", () => {
+  const twins = { ...scene, coordinates: scene.coordinates.map((c) => ({ ...c, unit: "m" })) };
+  assert.deepEqual(rowsOf(twins, trajectory)[0].curves.map((curve) => curve.className), ["q-0", "q-1"]);
+});
+
+test("rows fill the height from the top, without overlap", () => {
+  const domains = domainsOf(3, 300);
+  assert.equal(domains[0][1], 1);
+  assert.ok(Math.abs(domains[2][0]) < 1e-12);
+  assert.ok(domains[0][0] > domains[1][1] && domains[1][0] > domains[2][1]);
+});
+
+test("traces carry the colours of their quantities", () => {
+  const traces = tracesOf(rowsOf(scene, trajectory), trajectory, palette);
+  assert.deepEqual(traces.map((trace) => trace.line.color), ["q-0", "q-1", "energy-kinetic", "energy-potential", "energy-balance"].map(palette.of));
+});
+
+test("an error that can be seen is a band around the curve; a small one is none", () => {
+  const bands = (/** @type {number} */ e) => tracesOf(rowsOf(scene, trajectory), { ...trajectory, error: { estimate: trajectory.t.map(() => e) } }, palette);
+  const uncertain = { ...trajectory, error: { estimate: trajectory.t.map(() => 0.1) } };
+  const traces = tracesOf(rowsOf(scene, uncertain), uncertain, palette);
+  const band = traces.find((trace) => "fill" in trace && trace.yaxis === "y2");
+  assert.deepEqual(band?.y.slice(0, 2).map((/** @type {number} */ y) => Math.round(y * 1000) / 1000), [0.1, 0.35]);
+  assert.equal(bands(1e-6).filter((trace) => "fill" in trace).length, 0);
+});
+
+test("a constant curve has a range of its own", () => {
+  const layout = /** @type {any} */ (layoutOf(rowsOf(scene, trajectory), 4, palette, "de", 300));
+  assert.ok(layout.yaxis.range[0] < 0 && layout.yaxis.range[1] > 0);
+  assert.equal(layout.separators, ",.");
+  assert.deepEqual(layout.xaxis.range, [0, 4]);
+});
+
+test("pixels and times are inverse to each other, and held at the ends", () => {
+  const { pixel, time } = timeScale(500, 10);
+  assert.equal(pixel(0), MARGIN.l);
+  assert.equal(pixel(10), 500 - MARGIN.r);
+  assert.ok(Math.abs(time(pixel(3.7)) - 3.7) < 1e-12);
+  assert.equal(time(-50), 0);
+  assert.equal(time(9999), 10);
+});

@@ -1,0 +1,59 @@
+"""The JavaScript of the page: its types, its unit tests, its lockfile."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.frontend.node import run
+
+
+@pytest.fixture(scope="session")
+def frontend(root: Path) -> Path:
+    """The front end's folder with its development tools; they are fetched once if they are missing."""
+    folder = root / "frontend"
+    with (folder / "package.json").open("rb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # tests may run in several processes
+        if not (folder / "node_modules" / "typescript").is_dir():
+            done = run("npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", cwd=folder)
+            assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+def test_types(frontend: Path) -> None:
+    done = run("node", "node_modules/typescript/bin/tsc", "--noEmit", "--project", ".", cwd=frontend)
+    assert done.returncode == 0, done.stdout
+
+
+def test_units(root: Path) -> None:
+    files = sorted(str(path) for path in (root / "tests" / "frontend").glob("*.test.js"))
+    assert len(files) >= 10
+    done = run("node", "--test", *files, cwd=root)
+    assert done.returncode == 0, done.stdout
+
+
+def test_lockfile_names_no_registry(root: Path) -> None:
+    lock = json.loads((root / "frontend" / "package-lock.json").read_text(encoding="utf-8"))
+    addresses = {name: package["resolved"] for name, package in lock["packages"].items() if "resolved" in package}
+    assert addresses == {}
+
+
+def test_versions_are_exact(root: Path) -> None:
+    package = json.loads((root / "frontend" / "package.json").read_text(encoding="utf-8"))
+    loose = {
+        name: version
+        for kind in ("dependencies", "devDependencies")
+        for name, version in package[kind].items()
+        if not version[0].isdecimal()
+    }
+    assert loose == {}
+
+
+def test_what_is_served_comes_with_its_licence(root: Path) -> None:
+    allowed = json.loads((root / "frontend" / "vendor.json").read_text(encoding="utf-8"))
+    dependencies = json.loads((root / "frontend" / "package.json").read_text(encoding="utf-8"))["dependencies"]
+    assert set(allowed) == set(dependencies)
+    assert [package for package, files in allowed.items() if "LICENSE" not in files] == []

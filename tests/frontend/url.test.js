@@ -1,0 +1,36 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { HOME, readPlace, startLanguage, writePlace } from "../../frontend/model/url.js";
+
+const PLACES = [
+  ["nothing said", "", HOME],
+  ["scene and step", "?scene=pendulum&step=virtual-displacement:bob", { ...HOME, scene: "pendulum", step: "virtual-displacement:bob" }],
+  ["everything", "?scene=a&step=b&lang=de&theme=dark&method=rk4&duration=20&panel=plots",
+    { scene: "a", step: "b", lang: "de", theme: "dark", method: "rk4", duration: 20, panel: "plots" }],
+];
+
+for (const [name, query, place] of PLACES) {
+  test(`address: ${name}`, () => {
+    assert.deepEqual(readPlace(query), place);
+    assert.equal(writePlace(place), query);
+  });
+}
+
+const STRANGE = [
+  ["an unknown language", "?lang=xx"],
+  ["an unknown theme", "?theme=pink"],
+  ["markup as a scene", "?scene=%3Cscript%3E"],
+  ["a negative duration", "?duration=-3"],
+  ["an endless duration", "?duration=1e9"],
+  ["a duration without number", "?duration=long"],
+];
+
+for (const [name, query] of STRANGE) {
+  test(`address: ${name} is passed over`, () => assert.deepEqual(readPlace(query), HOME));
+}
+
+test("the language: asked for, then the browser's first known one, then English", () => {
+  assert.equal(startLanguage("de", ["en-GB"]), "de");
+  assert.equal(startLanguage("", ["fr-FR", "de-AT", "en"]), "de");
+  assert.equal(startLanguage("", ["fr"]), "en");
+});

@@ -1,0 +1,47 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { changed, dotted, isChanged, slidersOf, UNCHANGED } from "../../frontend/model/values.js";
+import { scene } from "./fixtures.js";
+
+const sliderOf = (/** @type {string} */ key) => /** @type {import("../../frontend/model/values.js").Slider} */ (slidersOf(scene, UNCHANGED).find((s) => s.key === key));
+
+test("value and rate of every coordinate, and every parameter", () => {
+  assert.deepEqual(slidersOf(scene, UNCHANGED).map((s) => s.key), [
+    "initial-y-value", "initial-y-rate", "initial-phi-value", "initial-phi-rate", "parameter-m-value", "parameter-g-value",
+  ]);
+});
+
+test("a guided coordinate has no initial value", () => {
+  const guided = { ...scene, guides: [{ coordinate: "y", value: "sin(t)" }] };
+  assert.deepEqual(slidersOf(guided, UNCHANGED).filter((s) => s.group === "initial").map((s) => s.name), ["phi", "phi"]);
+});
+
+test("ranges come from the scene, else from the value; an angle has a full turn", () => {
+  assert.deepEqual([sliderOf("parameter-m-value").min, sliderOf("parameter-m-value").max], [0.1, 5]);
+  assert.deepEqual([sliderOf("parameter-g-value").min, sliderOf("parameter-g-value").max], [0, 4 * 9.81]);
+  assert.deepEqual([sliderOf("initial-phi-value").min, sliderOf("initial-phi-value").max], [-Math.PI, Math.PI]);
+});
+
+test("a slider carries the colour of its coordinate", () => {
+  assert.equal(sliderOf("initial-phi-rate").className, "q-1");
+  assert.equal(sliderOf("parameter-m-value").className, "");
+});
+
+test("one change keeps the others", () => {
+  const first = changed(scene, UNCHANGED, sliderOf("initial-phi-value"), 0.5);
+  const second = changed(scene, first, sliderOf("initial-phi-rate"), 2);
+  const third = changed(scene, second, sliderOf("parameter-m-value"), 3);
+  assert.deepEqual(third, { initial: { phi: { value: 0.5, rate: 2 } }, parameters: { m: 3 } });
+  assert.equal(isChanged(third), true);
+  assert.equal(isChanged(UNCHANGED), false);
+});
+
+test("what is typed outside of the range is held at its end; what is no number changes nothing", () => {
+  assert.equal(changed(scene, UNCHANGED, sliderOf("parameter-m-value"), 99).parameters.m, 5);
+  assert.equal(changed(scene, UNCHANGED, sliderOf("parameter-m-value"), NaN), UNCHANGED);
+});
+
+const DOTS = [["q_1", "\\dot{q}_1"], ["\\varphi", "\\dot{\\varphi}"], ["x", "\\dot{x}"], ["q_{12}", "\\dot{q}_{12}"], ["x'", "\\dot{x'}"]];
+for (const [latex, expected] of DOTS) {
+  test(`the rate of ${latex}`, () => assert.equal(dotted(latex), expected));
+}

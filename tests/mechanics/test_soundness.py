@@ -1,0 +1,148 @@
+"""Scenes that read well and still are wrong: units, inertia, idle parameters."""
+
+from __future__ import annotations
+
+import copy
+
+import pytest
+
+from deltaq.errors import Problem
+from deltaq.language.names import Names, Symbol
+from deltaq.language.parser import parse
+from deltaq.mechanics.dimensions import dimension_problems
+from deltaq.mechanics.document import examine
+from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.units import Dimension, dimension_of
+
+
+def document(**changes: object) -> dict[str, object]:
+    """A bob that may move in the plane, with changes."""
+    base: dict[str, object] = {
+        "coordinates": [{"name": "x", "unit": "m"}, {"name": "phi", "unit": "rad"}],
+        "parameters": [{"name": "m", "unit": "kg"}, {"name": "l", "unit": "m"}],
+        "bodies": [{"name": "bob", "kind": "particle", "mass": "m", "position": ["x + l*sin(phi)", "l*cos(phi)"]}],
+    }
+    return copy.deepcopy(base | changes)
+
+
+def bob(*position: str, mass: str = "m") -> list[dict[str, object]]:
+    return [{"name": "bob", "kind": "particle", "mass": mass, "position": list(position)}]
+
+
+def units(term: str, found: str, expected: str) -> dict[str, str]:
+    return {"term": term, "found": found, "expected": expected}
+
+
+CASES = [
+    pytest.param({}, (), id="nothing wrong"),
+    pytest.param(
+        {"parameters": [{"name": "m", "unit": "kg"}, {"name": "l", "unit": "m"}, {"name": "k"}]},
+        (Problem("unused-parameter", "/parameters/2", parameters={"name": "k"}, severity="warning"),),
+        id="unused parameter",
+    ),
+    pytest.param(
+        {"coordinates": [{"name": "x", "unit": "furlong"}, {"name": "phi"}]},
+        (Problem("unknown-unit", "/coordinates/0/unit", parameters={"unit": "furlong"}, severity="warning"),),
+        id="unknown unit",
+    ),
+    pytest.param(
+        {"bodies": bob("x + sin(phi)", "l*cos(phi)")},
+        (Problem("inconsistent-units", "/bodies/0/position/0", 4, 8, units("sin(phi)", "1", "m")),),
+        id="length plus a bare sine",
+    ),
+    pytest.param(
+        {"bodies": bob("x + l*sin(phi)", "l*cos(x)")},
+        (Problem("inconsistent-units", "/bodies/0/position/1", 6, 1, units("x", "m", "1")),),
+        id="cosine of a length",
+    ),
+    pytest.param(
+        {"bodies": bob("x + l*sin(phi)", "m*cos(phi)")},
+        (Problem("inconsistent-units", "/bodies/0/position/1", 0, 10, units("m*cos(phi)", "kg", "m")),),
+        id="position in kilograms",
+    ),
+    pytest.param(
+        {"coordinates": [{"name": "x", "unit": "cm"}, {"name": "phi", "unit": "rad"}]},
+        (Problem("inconsistent-units", "/bodies/0/position/0", 0, 1, units("x", "0.01 m", "m")),),
+        id="centimetres plus metres",
+    ),
+    pytest.param(
+        {"bodies": bob("l*sin(phi)", "l*cos(phi)")},
+        (Problem("coordinate-without-inertia", "/coordinates/0", parameters={"name": "x", "names": "x"}),),
+        id="coordinate that moves nothing",
+    ),
+    pytest.param(
+        {"bodies": bob("x + l*phi", "0")},
+        (Problem("dependent-coordinates", "/coordinates/1", parameters={"name": "phi", "names": "x, phi"}),),
+        id="coordinates that move together",
+    ),
+    pytest.param(
+        {"bodies": bob("x + l*sin(phi)", "l*cos(phi)", mass="m - 2*m")},
+        (Problem("mass-not-positive", "/bodies/0/mass", parameters={"name": "bob", "value": "-1"}),),
+        id="negative mass",
+    ),
+]
+
+
+@pytest.mark.parametrize(("changes", "problems"), CASES)
+def test_problems(changes: dict, problems: tuple[Problem, ...]) -> None:
+    _, found = examine(document(**changes))
+    assert found == problems
+
+
+@pytest.mark.parametrize("identifier", scene_ids())
+def test_library_scenes_have_no_problem(identifier: str) -> None:
+    from deltaq.mechanics.writing import write_scene
+
+    assert examine(write_scene(load_scene(identifier)))[1] == ()
+
+
+UNITS = [
+    ("kg", "kg"),
+    ("m/s^2", "m s^-2"),
+    ("m/s²", "m s^-2"),
+    ("m s⁻²", "m s^-2"),
+    ("N/m", "kg s^-2"),
+    ("N m", "kg m^2 s^-2"),
+    ("N·m·s/rad", "kg m^2 s^-1"),
+    ("1/s", "s^-1"),
+    ("cm", "0.01 m"),
+    ("km/h", "0.277778 m s^-1"),
+    ("rad", "1"),
+]
+
+
+@pytest.mark.parametrize(("unit", "dimension"), UNITS)
+def test_units(unit: str, dimension: str) -> None:
+    assert str(dimension_of(unit)) == dimension
+
+
+@pytest.mark.parametrize("unit", ["", "furlong", "m/", "m^x", "m^99", "//"])
+def test_unknown_units(unit: str) -> None:
+    assert dimension_of(unit) is None
+
+
+NAMES = Names((Symbol("x", "coordinate"), Symbol("l", "parameter"), Symbol("k", "parameter"), Symbol("a", "parameter")))
+KNOWN: dict[str, Dimension | None] = {
+    "x": dimension_of("m"),
+    "l": dimension_of("m"),
+    "k": dimension_of("N/m"),
+    "a": None,
+}
+DIMENSIONS = [
+    pytest.param("k*x^2/2", "J", (), id="energy"),
+    pytest.param("sqrt(x^2 + l^2)", "m", (), id="root of squares"),
+    pytest.param("dot(x)*t + 2*l", "m", (), id="rate times time"),
+    pytest.param("a*x + 3", "N", (), id="what is not known fits"),
+    pytest.param("x^(1/2)*l^(1/2)", "m", (), id="fractional powers"),
+    pytest.param("atan2(x, l)", "rad", (), id="angle of two lengths"),
+    pytest.param("k*x", "J", ("k*x",), id="force for energy"),
+    pytest.param("x + l^2 + k", "m", ("l^2", "k"), id="two wrong terms"),
+    pytest.param("exp(-x)", "1", ("-x",), id="exponential of a length"),
+    pytest.param("ddot(x) + dot(x)", "m/s^2", ("dot(x)",), id="acceleration plus rate"),
+]
+
+
+@pytest.mark.parametrize(("text", "unit", "terms"), DIMENSIONS)
+def test_dimensions(text: str, unit: str, terms: tuple[str, ...]) -> None:
+    problems = dimension_problems(parse(text, NAMES), dimension_of(unit), KNOWN)
+    assert tuple(problem.parameters["term"] for problem in problems) == terms

@@ -1,0 +1,220 @@
+"""Motions against closed forms and references; statuses; what a tolerance means."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.simulation.references import pendulum_angle, simulated, true_errors, trusted
+from tests.simulation.scenes import double_pendulum, get_scene, oscillator, scene, spherical_pendulum, standstill
+
+from deltaq.mechanics.changes import change
+from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.simulation.driver import simulate
+from deltaq.simulation.library import get_method, method_ids
+from deltaq.simulation.service import problem_of
+
+ADAPTIVE = [identifier for identifier in method_ids() if get_method(identifier).is_adaptive]
+
+
+def pendulum(amplitude: float) -> object:
+    swing = load_scene("pendulum")
+    return replace(swing, coordinates=(replace(swing.coordinates[0], value=amplitude),))
+
+
+@pytest.mark.parametrize("amplitude", [0.1, 1.0, 2.5, 3.1])
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
+def test_pendulum_is_the_elliptic_function(amplitude: float, tolerance: float) -> None:
+    found = simulated(pendulum(amplitude), "dop853", 20.0, tolerance=tolerance)
+    true = np.abs(found.values[:, 0] - pendulum_angle(found.times, amplitude, np.sqrt(9.81)))
+    assert found.outcome.status == "ok"
+    assert found.tolerance_reached
+    assert true.max() <= tolerance
+    assert np.all(true <= found.estimate.errors + 1e-14)
+
+
+def test_pendulum_long_after() -> None:
+    """A thousand seconds at the default tolerance: where solve_ivp at its defaults reports success and 260 % error."""
+    found = simulated(pendulum(2.0), "dop853", 1000.0, 2001, tolerance=1e-6)
+    true = np.abs(found.values[:, 0] - pendulum_angle(found.times, 2.0, np.sqrt(9.81)))
+    assert found.outcome.status == "ok"
+    assert true.max() <= 1e-6
+
+
+@pytest.mark.parametrize("identifier", method_ids())
+def test_damped_driven_oscillator_is_its_closed_form(identifier: str) -> None:
+    """m x″ + c x′ + k x = F₀ cos ωt: every method reaches a moderate tolerance."""
+    found = simulated(get_scene("damped-oscillator"), identifier, 10.0, tolerance=1e-3)
+    k, c, force, omega = 4.0, 0.3, 2.0, 1.7
+    response = force / complex(k - omega**2, c * omega)
+    root = complex(-c / 2, np.sqrt(k - c**2 / 4))
+    start, slope = 1.0 - response.real, -(1j * omega * response).real
+    free = complex(start, (root.real * start - slope) / root.imag)
+    expected = (response * np.exp(1j * omega * found.times) + free * np.exp(root * found.times)).real
+    assert found.outcome.status == "ok"
+    assert np.abs(found.values[:, 0] - expected).max() <= 1e-3
+
+
+CASES = [
+    pytest.param(name, identifier, tolerance, id=f"{name} {identifier} {tolerance:g}")
+    for name in (*scene_ids(), "driven-by-everything", "damped-oscillator", "spherical-pendulum")
+    for identifier in ADAPTIVE
+    for tolerance in ([1e-3, 1e-6, 1e-9] if identifier != "bogacki-shampine-32" else [1e-2, 1e-4])
+]
+
+
+@pytest.mark.parametrize(("name", "identifier", "tolerance"), CASES)
+def test_a_tolerance_is_the_error_of_the_answer(name: str, identifier: str, tolerance: float) -> None:
+    """True error ≤ estimate ≤ tolerance at every sample, and the estimate is not 100 × too large."""
+    sought = get_scene(name)
+    found, reference = simulated(sought, identifier, 10.0, tolerance=tolerance), trusted(sought, 10.0)
+    true = true_errors(found, reference)
+    assert found.outcome.status == "ok"
+    assert found.tolerance_reached
+    assert np.all(true <= found.estimate.errors + 2e-13)
+    assert np.all(found.estimate.errors <= tolerance * np.maximum(1.0, np.abs(found.values).max()))
+    assert np.median(found.estimate.errors[1:] / np.maximum(true[1:], 1e-15)) <= 100
+
+
+@pytest.mark.parametrize("identifier", method_ids())
+def test_fixed_steps_know_their_error(identifier: str) -> None:
+    for name in ("pendulum", "elastic-pendulum", "guided-pendulum"):
+        sought = get_scene(name)
+        found, reference = simulated(sought, identifier, 5.0, step=0.005), trusted(sought, 5.0)
+        true, told = true_errors(found, reference), found.estimate.errors
+        assert np.all(true <= told + 1e-13), name
+        assert np.median(told[1:] / np.maximum(true[1:], 1e-16)) <= 100, name
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
+def test_chaos_has_a_horizon_and_no_false_confidence(tolerance: float) -> None:
+    """No run can follow the double pendulum for 100 s; up to the horizon the estimate holds, beyond it says so."""
+    found = simulated(double_pendulum(), "dop853", 100.0, 1001, tolerance=tolerance)
+    reference = trusted(double_pendulum(), 100.0, 1001)
+    assert (found.outcome.status, found.outcome.code) == ("horizon_reached", "horizon_reached")
+    assert found.tolerance_reached is False
+    assert found.trusted_until == found.estimate.horizon
+    assert 10 < found.estimate.horizon < 45
+    assert reference.estimate.horizon >= found.estimate.horizon - 3
+    known = found.times < min(found.estimate.horizon, reference.estimate.horizon)
+    slack = reference.estimate.errors[known] + 1e-13
+    assert np.all(true_errors(found, reference)[known] <= found.estimate.errors[known] + slack)
+    assert np.all(found.estimate.errors[found.times > found.estimate.horizon] >= 0.5)
+
+
+@pytest.mark.parametrize("name", [*scene_ids(), "driven-by-everything", "damped-oscillator", "spherical-pendulum"])
+def test_energy_balance_holds(name: str) -> None:
+    """E + V − ∫P dt stays put, for guided, driven and damped scenes too."""
+    problem = problem_of(get_scene(name), 10.0)
+    found = simulate(problem, get_method("dop853"), tolerance=1e-10)
+    seen = problem.model.observe(problem.inputs(found.times, np.hstack([found.values, found.rates])))
+    balance = seen.kinetic + seen.potential - found.work
+    assert np.ptp(balance) <= 1e-9 * np.max(np.abs(seen.kinetic) + np.abs(seen.potential))
+    if problem.model.layout.is_powered:
+        assert np.ptp(seen.kinetic + seen.potential) > 1e-2
+
+
+def kicked(force: str, x: float = 1.0) -> object:
+    return oscillator(force, x=x)
+
+
+STATUSES = [
+    pytest.param(
+        oscillator(), "explicit-euler", {"step": 1.1}, 200.0, "diverged", "diverged", id="unstable step"
+    ),
+    pytest.param(kicked("m*x^3"), "dop853", {"tolerance": 1e-6}, 10.0, "diverged", "diverged", id="blow-up"),
+    pytest.param(
+        kicked("-m*sqrt(x)"), "dop853", {"tolerance": 1e-6}, 10.0, "diverged", "not_finite", id="leaves the domain"
+    ),
+    pytest.param(
+        kicked("-m/x"), "dormand-prince-54", {"tolerance": 1e-6}, 10.0, "diverged", "step_underflow", id="collision"
+    ),
+    pytest.param(
+        kicked("m/x", x=0.0), "rk4", {"step": 0.1}, 1.0, "diverged", "not_finite", id="nothing finite"
+    ),
+    pytest.param(
+        standstill(), "dop853", {"tolerance": 1e-6}, 1.0, "singular_mass_matrix", "singular_mass_matrix", id="dead point"
+    ),
+    pytest.param(
+        spherical_pendulum(theta=0.0), "rk4", {"step": 0.01}, 1.0, "singular_mass_matrix", "singular_mass_matrix",
+        id="at the pole",
+    ),
+    pytest.param(
+        oscillator(), "explicit-euler", {"tolerance": 1e-9}, 10.0, "tolerance_missed", "tolerance_missed", id="too much"
+    ),
+    pytest.param(
+        oscillator(), "explicit-euler", {"step": 0.05}, 50.0, "horizon_reached", "horizon_reached", id="growing"
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("sought", "identifier", "accuracy", "t_end", "status", "code"), STATUSES)
+def test_failures_are_results(
+    sought: object, identifier: str, accuracy: dict[str, float], t_end: float, status: str, code: str
+) -> None:
+    found = simulated(sought, identifier, t_end, **accuracy)
+    assert (found.outcome.status, found.outcome.code) == (status, code)
+    assert len(found.times) == len(found.values) == len(found.estimate.errors) >= 1
+    for array in (found.times, found.values, found.rates, found.work, found.estimate.errors):
+        assert np.isfinite(array).all()
+
+
+def test_blow_up_keeps_the_good_part() -> None:
+    """x″ = 2x³ from x = x′ = 1 is x = 1/(1 − t)."""
+    found = simulated(oscillator("2*m*x^3", u=1.0), "dop853", 2.0, 2001, tolerance=1e-6)
+    good = found.times < 0.9
+    np.testing.assert_allclose(found.values[good, 0], 1 / (1 - found.times[good]), rtol=1e-6)
+    assert found.reached == pytest.approx(1.0, abs=1e-3)
+    assert found.times[-1] < 1.0
+
+
+def test_pole_at_speed_is_survived() -> None:
+    """The spherical pendulum passes close to the pole; its angular momentum about the vertical is kept."""
+    found = simulated(spherical_pendulum(theta=1.5, rate=1e-3), "dop853", 20.0, tolerance=1e-6)
+    momentum = np.sin(found.values[:, 0]) ** 2 * found.rates[:, 1]
+    np.testing.assert_allclose(momentum, momentum[0], rtol=1e-4)
+
+
+def test_step_limit() -> None:
+    problem = replace(problem_of(load_scene("pendulum"), 10.0), step_limit=100)
+    found = simulate(problem, get_method("rk4"), step=0.01)
+    assert found.outcome.status == "step_limit"
+    assert dict(found.outcome.parameters) == {"method": "rk4", "t": 0.5, "t_end": 10.0, "steps": 100}
+    assert found.reached == pytest.approx(0.5)
+    assert found.times[-1] == pytest.approx(0.5)
+
+
+def test_cancelled() -> None:
+    flag = np.ones(1, dtype=np.int64)
+    found = simulate(problem_of(load_scene("pendulum"), 10.0), get_method("rk4"), step=0.01, cancelled=flag)
+    assert (found.outcome.status, found.cost.steps) == ("cancelled", 0)
+
+
+@pytest.mark.parametrize("samples", [2, 3, 7, 201, 1500])
+def test_samples_do_not_change_the_motion(samples: int) -> None:
+    few = simulated(double_pendulum(), "dormand-prince-54", 3.0, samples, step=0.01)
+    assert few.times.tolist() == pytest.approx(np.linspace(0, 3, samples).tolist())
+    np.testing.assert_array_equal(
+        few.values[-1], simulated(double_pendulum(), "dormand-prince-54", 3.0, step=0.01).values[-1]
+    )
+
+
+def test_a_late_event_after_rest_is_not_jumped_over() -> None:
+    """At rest for 5 s, then pushed for a moment: the steps must not have grown past it."""
+    pushed = oscillator("F0*exp(-50*(t - 5)^2)", x=0.0)
+    found = simulated(pushed, "dop853", 10.0, tolerance=1e-8)
+    momentum = 2.0 * np.sqrt(np.pi / 50)
+    assert found.rates[-1, 0] == pytest.approx(momentum, abs=1e-6)
+
+
+def test_freezing_and_guiding_agree() -> None:
+    base = load_scene("base-pendulum")
+    frozen = simulated(change(base, freeze=["y"]), "dop853", 5.0, tolerance=1e-9)
+    guided = simulated(change(base, guides=[{"coordinate": "y", "value": "0.1"}]), "dop853", 5.0, tolerance=1e-9)
+    np.testing.assert_allclose(frozen.values, guided.values, atol=1e-9)
+
+
+def test_step_and_tolerance_exclude_each_other() -> None:
+    with pytest.raises(ValueError, match="either a step or a tolerance"):
+        simulated(scene({"x": (0, 1)}, {"m": 1}, {"b": ("m", ["x", "0"])}), "rk4", 1.0)

@@ -1,0 +1,50 @@
+"""The compiled kernels, piece by piece."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from deltaq.simulation.kernels.compiler import source_stamp
+from deltaq.simulation.kernels.explicit_runge_kutta import integrate
+from deltaq.simulation.kernels.motion import SMALLEST_PIVOT, factor, solve
+
+
+def packed(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    return np.concatenate([matrix[np.tril_indices(len(matrix))], right])
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 7, 20])
+def test_cholesky_solves(n: int) -> None:
+    random = np.random.default_rng(n)
+    square = random.normal(size=(n, n))
+    matrix, right = square @ square.T + n * np.eye(n), random.normal(size=n)
+    numbers = packed(matrix, right)
+    assert factor(numbers, n) > SMALLEST_PIVOT
+    solve(numbers, n)
+    np.testing.assert_allclose(numbers[-n:], np.linalg.solve(matrix, right), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [
+        pytest.param([[0.0]], id="nothing"),
+        pytest.param([[1.0, 1.0], [1.0, 1.0]], id="rank one"),
+        pytest.param([[1.0, 0.0], [0.0, 1e-15]], id="no mass but rounding"),
+        pytest.param([[1.0, 2.0], [2.0, 1.0]], id="indefinite"),
+        pytest.param([[-1.0]], id="negative"),
+    ],
+)
+def test_singular_matrices_are_found(matrix: list[list[float]]) -> None:
+    square = np.array(matrix)
+    assert factor(packed(square, np.zeros(len(square))), len(square)) <= SMALLEST_PIVOT
+
+
+def test_nan_is_told_from_singular() -> None:
+    assert np.isnan(factor(np.array([np.nan, 0.0]), 1))
+
+
+def test_a_cached_kernel_is_valid_for_the_code_of_all_kernels() -> None:
+    """Numba by itself would look at one file only and run a kernel whose inner functions have changed since."""
+    assert integrate._cache._cache_file._source_stamp == source_stamp()
+    assert len(source_stamp()) == 64

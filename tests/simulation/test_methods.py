@@ -1,0 +1,162 @@
+"""Each method is what its file says: coefficients, order, stability."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.integrate import DOP853, RK23, RK45
+from scipy.integrate._ivp import dop853_coefficients as published
+from tests.simulation.references import simulated, trusted
+from tests.simulation.scenes import get_scene
+
+from deltaq.errors import Problem, UnknownNameError
+from deltaq.packages import modules_of
+from deltaq.simulation.library import get_method, method_ids
+from deltaq.simulation.method import Method
+from deltaq.simulation.run import weights_of
+
+METHODS = [pytest.param(get_method(identifier), id=identifier) for identifier in method_ids()]
+
+
+def test_ids_by_rising_order() -> None:
+    expected = ("explicit-euler", "heun", "bogacki-shampine-32", "rk4", "dormand-prince-54", "dop853")
+    assert method_ids() == expected
+
+
+def test_unknown_method_names_the_nearest() -> None:
+    with pytest.raises(UnknownNameError) as caught:
+        get_method("dopri853")
+    parameters = {"name": "dopri853", "suggestion": "dop853", "known": ", ".join(method_ids())}
+    assert caught.value.problems == (Problem("unknown-method", "/method", parameters=parameters),)
+
+
+@pytest.mark.parametrize("module", modules_of("deltaq.simulation.methods"), ids=lambda module: module.__name__)
+def test_docstrings_say_what_is_known(module: object) -> None:
+    text = module.__doc__ or ""
+    assert all(word in text for word in ("rder", "stage", "tab", "symplectic", "Source:")), text
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_each_stage_starts_where_its_weights_say(method: Method) -> None:
+    t = method.tableau
+    for row, c in zip((*t.a, *t.extra_a), (*t.c, *t.extra_c), strict=True):
+        assert abs(sum(row) - c) < Fraction(1, 10**25)
+
+
+def full(rows: tuple[tuple[Fraction, ...], ...], width: int) -> np.ndarray:
+    matrix = np.full((len(rows), width), Fraction(0))
+    for i, row in enumerate(rows):
+        matrix[i, : len(row)] = row
+    return matrix
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_order_conditions(method: Method) -> None:
+    """Of rooted trees up to order 5 (Butcher), and of quadrature up to the order stated, in exact arithmetic."""
+    t = method.tableau
+    a, b, c = full(t.a, t.stages), np.array(t.b), np.array(t.c)
+    conditions = [(k, b @ c ** (k - 1), Fraction(1, k)) for k in range(1, method.order + 1)]
+    conditions += [
+        (3, b @ a @ c, Fraction(1, 6)),
+        (4, (b * c) @ a @ c, Fraction(1, 8)),
+        (4, b @ a @ c**2, Fraction(1, 12)),
+        (4, b @ a @ a @ c, Fraction(1, 24)),
+        (5, (b * c**2) @ a @ c, Fraction(1, 10)),
+        (5, b @ (a @ c) ** 2, Fraction(1, 20)),
+        (5, (b * c) @ a @ c**2, Fraction(1, 15)),
+        (5, b @ a @ c**3, Fraction(1, 20)),
+        (5, (b * c) @ a @ a @ c, Fraction(1, 30)),
+        (5, b @ a @ (c * (a @ c)), Fraction(1, 40)),
+        (5, b @ a @ a @ c**2, Fraction(1, 60)),
+        (5, b @ a @ a @ a @ c, Fraction(1, 120)),
+    ]
+    for order, found, wanted in conditions:
+        assert order > method.order or abs(found - wanted) < Fraction(1, 10**24), (order, float(found), wanted)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_error_weights_vanish_on_constants(method: Method) -> None:
+    assert all(abs(sum(row)) < Fraction(1, 10**25) for row in method.tableau.error)
+
+
+@pytest.mark.parametrize(
+    ("identifier", "solver"), [("bogacki-shampine-32", RK23), ("dormand-prince-54", RK45), ("dop853", DOP853)]
+)
+def test_coefficients_are_the_published_ones(identifier: str, solver: type) -> None:
+    weights, stages = weights_of(get_method(identifier)), solver.n_stages
+    width = solver.A.shape[1]
+    np.testing.assert_allclose(weights.a[:, :width], solver.A[1:stages, :stages], rtol=1e-15)
+    np.testing.assert_allclose(weights.b, solver.B, rtol=1e-15)
+    np.testing.assert_allclose(weights.c, solver.C[1:stages], rtol=1e-15)
+    if identifier != "dop853":
+        np.testing.assert_allclose(np.abs(weights.error[0]), np.abs(solver.E), rtol=1e-14)
+
+
+def test_dop853_error_and_extension_are_the_published_ones() -> None:
+    weights = weights_of(get_method("dop853"))
+    np.testing.assert_allclose(weights.error, [published.E5, published.E3], rtol=1e-15, atol=1e-16)
+    np.testing.assert_allclose(weights.dense, published.D, rtol=1e-15)
+    np.testing.assert_allclose(weights.extra_a, published.A[13:16], rtol=1e-15)
+    np.testing.assert_allclose(weights.extra_c, published.C[13:16], rtol=1e-15)
+
+
+STEPS = {
+    "explicit-euler": (200, 1600),
+    "heun": (100, 800),
+    "bogacki-shampine-32": (100, 800),
+    "rk4": (200, 1600),
+    "dormand-prince-54": (40, 240),
+    "dop853": (8, 24),
+}
+
+
+FASTER = {"double-pendulum": 2}
+
+
+@pytest.mark.parametrize("identifier", method_ids())
+@pytest.mark.parametrize("name", ["double-pendulum", "driven-by-everything"])
+def test_error_falls_with_the_order_stated(identifier: str, name: str) -> None:
+    """Slope of log error over log step on a nonlinear and a driven scene, at the end of one second."""
+    scene, counts = get_scene(name), FASTER.get(name, 1) * np.geomspace(*STEPS[identifier], 4).astype(int)
+    end = trusted(scene, 1.0, 2).values[-1]
+    errors = [np.abs(simulated(scene, identifier, 1.0, 2, step=1.0 / n).values[-1] - end).max() for n in counts]
+    slope = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
+    assert slope == pytest.approx(get_method(identifier).order, abs=0.45), errors
+
+
+@pytest.mark.parametrize(
+    ("identifier", "order"), [("rk4", 4), ("dormand-prince-54", 5), ("dop853", 7), ("bogacki-shampine-32", 3)]
+)
+def test_samples_between_steps_are_as_good_as_the_extension(identifier: str, order: int) -> None:
+    """The largest error over the samples inside the steps falls with the order of the extension."""
+    scene, counts = get_scene("double-pendulum"), np.geomspace(*STEPS[identifier], 4).astype(int)
+    reference = trusted(scene, 1.0, 1018).values
+    errors = [np.abs(simulated(scene, identifier, 1.0, 1018, step=1 / n).values - reference).max() for n in counts]
+    slope = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
+    assert slope > order - 0.5, errors
+
+
+def stability(method: Method, z: complex) -> float:
+    t = method.tableau
+    a, b = full(t.a, t.stages).astype(float), np.array(t.b, dtype=float)
+    return float(abs(1 + z * (b @ np.linalg.solve(np.eye(t.stages) - z * a, np.ones(t.stages)))))
+
+
+@pytest.mark.parametrize(
+    ("identifier", "real", "imaginary"),
+    [
+        ("explicit-euler", 2.0, 0.0),
+        ("heun", 2.0, 0.0),
+        ("bogacki-shampine-32", 2.513, 1.732),
+        ("rk4", 2.785, 2.828),
+        ("dormand-prince-54", 3.307, 1.0),
+        ("dop853", 6.39, 5.96),
+    ],
+)
+def test_stability_intervals_are_those_of_the_docstrings(identifier: str, real: float, imaginary: float) -> None:
+    method = get_method(identifier)
+    assert stability(method, -real + 0.01) <= 1 < stability(method, -real - 0.01)
+    assert stability(method, 1j * (imaginary + 0.02)) > 1
+    assert stability(method, 1j * (imaginary - 0.01)) <= 1 + 1e-12 or imaginary == 0.0

@@ -1,0 +1,280 @@
+"""Requests answered: the fields of the answer, and every way to ask wrongly."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from tests.simulation.scenes import double_pendulum, oscillator
+
+from deltaq.errors import InputError, Problem, RequestError, SceneError, UnknownNameError
+from deltaq.mechanics.library import scene_ids
+from deltaq.mechanics.writing import write_scene
+from deltaq.narration.catalog import LANGUAGES, message, text
+from deltaq.simulation.choice import AUTO
+from deltaq.simulation.library import method_ids
+from deltaq.simulation.outcome import codes
+from deltaq.simulation.service import run, warm
+
+FIELDS = {
+    *("status", "reason", "remedy", "method", "choice", "t", "t_reached", "trusted_until", "condition", "cost"),
+    *("coordinates", "rates", "positions", "loads", "energy", "error"),
+}
+
+
+def ask(**fields: object) -> dict[str, object]:
+    answer = run({"scene": "pendulum", "t_end": 2.0, "samples": 21, **fields})
+    json.dumps(answer, allow_nan=False)
+    return answer
+
+
+@pytest.mark.parametrize("scene", scene_ids())
+@pytest.mark.parametrize("accuracy", [{}, {"tolerance": 1e-9}, {"step": 0.01}], ids=["default", "tolerance", "step"])
+def test_every_scene_answers_in_full(scene: str, accuracy: dict[str, float]) -> None:
+    answer = ask(scene=scene, **accuracy)
+    assert set(answer) == FIELDS
+    assert answer["status"] == "ok"
+    assert answer["reason"] == {"code": "ok", "parameters": answer["reason"]["parameters"]}
+    assert len(answer["t"]) == 21
+    assert answer["t"][-1] == 2.0
+    for part in ("coordinates", "rates", "positions", "loads"):
+        assert all(len(values) == 21 for values in answer[part].values())
+    assert all(len(answer["energy"][key]) == 21 for key in ("kinetic", "potential", "work", "balance"))
+    assert len(answer["error"]["estimate"]) == 21
+    assert set(answer["cost"]) >= {"steps", "rejected", "rhs_evaluations", "wall_time", "compile_time"}
+
+
+def test_guided_coordinate_is_shown_like_the_others() -> None:
+    answer = ask(scene="guided-pendulum")
+    assert list(answer["coordinates"]) == ["y", "phi"]
+    assert answer["coordinates"]["y"][1] == pytest.approx(0.15 * math.sin(0.5))
+    assert answer["rates"]["y"][0] == pytest.approx(0.75)
+    assert answer["positions"]["pivot"][1] == pytest.approx([0.0, 0.15 * math.sin(0.5)])
+
+
+def test_loads_are_arrows() -> None:
+    answer = ask(scene="elastic-pendulum", initial={"phi": {"value": 0.0}})
+    assert answer["loads"]["drive"][0] == [2.0, 0.0]
+    assert answer["loads"]["weight"][0] == [0.0, 9.81]
+    assert "suspension" not in answer["loads"]
+
+
+def test_parameters_and_initial_values_are_taken() -> None:
+    answer = ask(parameters={"l": 0.25}, initial={"phi": {"value": 0.01}}, t_end=math.pi * math.sqrt(0.25 / 9.81))
+    assert answer["coordinates"]["phi"][-1] == pytest.approx(-0.01, rel=1e-4)
+    assert answer["positions"]["bob"][0] == pytest.approx([0.25 * math.sin(0.01), 0.25 * math.cos(0.01)])
+
+
+def test_initial_value_beyond_the_slider_is_allowed() -> None:
+    assert ask(initial={"phi": {"value": 10.0, "rate": -3.0}})["rates"]["phi"][0] == -3.0
+
+
+def test_initial_value_of_a_frozen_coordinate_is_where_it_is_held() -> None:
+    answer = ask(scene="base-pendulum", freeze=["y"], initial={"y": {"value": 0.3}})
+    assert set(answer["coordinates"]["y"]) == {0.3}
+
+
+def test_guides_of_the_request() -> None:
+    guide = {"coordinate": "y", "value": "y0*sin(omega*t)"}
+    parameters = {"y0": 0.15, "omega": 5.0}
+    changed = ask(scene="base-pendulum", guides=[guide], parameters=parameters, initial={"phi": {"value": 0.4}})
+    expected = ask(scene="guided-pendulum")["coordinates"]["phi"]
+    np.testing.assert_allclose(changed["coordinates"]["phi"], expected, atol=1e-6)
+
+
+def test_scene_documents_are_taken() -> None:
+    assert ask(scene=write_scene(double_pendulum()))["status"] == "ok"
+
+
+def test_include_limits_the_answer_and_saves_the_second_run() -> None:
+    answer = ask(include=["coordinates"])
+    assert set(answer) & {"coordinates", "rates", "positions", "loads", "energy", "error"} == {"coordinates"}
+    assert answer["cost"]["runs"] == 1
+    assert ask(include=["error"])["cost"]["runs"] > 1
+
+
+def test_numbers_are_as_long_as_their_error_allows() -> None:
+    answer = ask(tolerance=1e-3)
+    longest = max(len(repr(value).lstrip("-0.")) for value in answer["coordinates"]["phi"][1:])
+    exact = ask(tolerance=1e-12)["coordinates"]["phi"]
+    assert longest <= 12
+    assert np.all(
+        np.abs(np.array(answer["coordinates"]["phi"]) - exact) <= np.array(answer["error"]["estimate"]) * 1.01
+    )
+
+
+def test_a_diverging_run_gives_its_good_part() -> None:
+    answer = ask(scene=write_scene(oscillator("m*x^3")), t_end=10.0, samples=1001)
+    assert answer["status"] == "diverged"
+    assert 0 < len(answer["t"]) == len(answer["coordinates"]["x"]) < 1001
+    assert answer["t_reached"] < 10.0
+
+
+def test_a_position_with_a_pole_ends_the_answer() -> None:
+    """The motion is harmless, but a point of the drawing runs to infinity (exactly at a sample)."""
+    document = write_scene(oscillator("0", x=-1.0, u=1.0))
+    document["points"] = [{"name": "image", "position": ["1/x", "0"]}]
+    answer = ask(scene=document, t_end=2.0, samples=3, step=1.0)
+    assert (answer["status"], answer["reason"]["code"]) == ("diverged", "not_finite")
+    assert answer["t"] == [0.0]
+
+
+@pytest.mark.parametrize(
+    ("fields", "method", "reason"),
+    [
+        pytest.param({}, "dop853", "auto_smooth", id="smooth"),
+        pytest.param({"step": 0.01}, "rk4", "auto_fixed_step", id="fixed step"),
+        pytest.param({"scene": write_scene(oscillator("-k*abs(x)*x"))}, "dormand-prince-54", "auto_kinks", id="kinks"),
+        pytest.param({"method": "heun"}, "heun", None, id="chosen by the user"),
+    ],
+)
+def test_auto_says_why(fields: dict[str, object], method: str, reason: str | None) -> None:
+    answer = ask(**fields)
+    assert answer["method"] == method
+    assert answer["choice"] == ({"code": reason, "parameters": {}} if reason else None)
+
+
+def error(code: str, pointer: str, **parameters: object) -> Problem:
+    return Problem(code, pointer, parameters=parameters)
+
+
+KNOWN_METHODS = ", ".join(method_ids())
+PARTS = "coordinates, rates, positions, loads, energy, error"
+HOSTILE = [
+    pytest.param({"t_end": None}, RequestError, error("missing-field", "/t_end", field="t_end"), id="no end"),
+    pytest.param({"t_end": math.nan}, RequestError, error("request-not-finite", "/t_end"), id="NaN"),
+    pytest.param({"t_end": math.inf}, RequestError, error("request-not-finite", "/t_end"), id="infinity"),
+    pytest.param({"t_end": 10**400}, RequestError, error("request-not-finite", "/t_end"), id="huge integer"),
+    pytest.param({"t_end": "10"}, RequestError, error("request-not-number", "/t_end"), id="text for a number"),
+    pytest.param({"t_end": True}, RequestError, error("request-not-number", "/t_end"), id="flag for a number"),
+    pytest.param({"t_end": -1}, RequestError, error("request-outside", "/t_end", value=-1.0, min=0.0, max=1e5), id="p"),
+    pytest.param({"t_end": 0}, RequestError, error("request-outside", "/t_end", value=0.0, min=0.0, max=1e5), id="now"),
+    pytest.param(
+        {"t_end": 1e6}, RequestError, error("request-outside", "/t_end", value=1e6, min=0.0, max=1e5), id="too long"
+    ),
+    pytest.param(
+        {"samples": 1}, RequestError, error("request-outside", "/samples", value="1", min=2, max=20001), id="one sample"
+    ),
+    pytest.param(
+        {"samples": 10**9}, RequestError, error("request-outside", "/samples", value="1000000000", min=2, max=20001),
+        id="too many samples",
+    ),
+    pytest.param({"samples": 10.5}, RequestError, error("request-not-integer", "/samples"), id="half a sample"),
+    pytest.param(
+        {"step": 0.1, "tolerance": 1e-3}, RequestError, error("request-step-and-tolerance", "/tolerance"), id="both"
+    ),
+    pytest.param(
+        {"step": 3.0}, RequestError, error("request-outside", "/step", value=3.0, min=0.0, max=2.0), id="giant step"
+    ),
+    pytest.param(
+        {"step": 0.0}, RequestError, error("request-outside", "/step", value=0.0, min=0.0, max=2.0), id="no step"
+    ),
+    pytest.param(
+        {"tolerance": 1e-15}, RequestError,
+        error("request-outside", "/tolerance", value=1e-15, min=1e-13, max=0.1), id="beyond doubles",
+    ),
+    pytest.param(
+        {"method": "rk5"}, UnknownNameError,
+        error("unknown-method", "/method", name="rk5", suggestion="rk4", known=KNOWN_METHODS), id="unknown method",
+    ),
+    pytest.param({"method": 4}, RequestError, error("request-not-text", "/method"), id="number for a method"),
+    pytest.param(
+        {"scene": "pendulun"}, UnknownNameError,
+        error("unknown-scene", "/scene", name="pendulun", suggestion="pendulum", known=", ".join(scene_ids())),
+        id="unknown scene",
+    ),
+    pytest.param({"scene": 5}, RequestError, error("request-scene-type", "/scene"), id="number for a scene"),
+    pytest.param({"scene": None}, RequestError, error("request-scene-type", "/scene"), id="no scene"),
+    pytest.param(
+        {"initial": {"x/~y": {"value": 1}}}, UnknownNameError,
+        error("unknown-coordinate", "/initial/x~1~0y", name="x/~y", known="phi"), id="unknown coordinate",
+    ),
+    pytest.param(
+        {"initial": {"phi": {"value": "1"}}}, RequestError, error("request-not-number", "/initial/phi/value"),
+        id="text for an initial value",
+    ),
+    pytest.param(
+        {"initial": {"phi": {"rate": math.nan}}}, RequestError, error("request-not-finite", "/initial/phi/rate"),
+        id="NaN for a rate",
+    ),
+    pytest.param({"initial": {"phi": 1.0}}, RequestError, error("request-not-object", "/initial/phi"), id="bare"),
+    pytest.param(
+        {"initial": {"phi": {"velocity": 1}}}, RequestError,
+        error("unknown-field", "/initial/phi/velocity", field="velocity"), id="unknown field of an initial value",
+    ),
+    pytest.param(
+        {"scene": "guided-pendulum", "initial": {"y": {"value": 1}}}, RequestError,
+        error("guided-coordinate", "/initial/y", name="y"), id="initial value of a guided coordinate",
+    ),
+    pytest.param(
+        {"scene": "base-pendulum", "freeze": ["y"], "initial": {"y": {"rate": 1}}}, RequestError,
+        error("frozen-rate", "/initial/y/rate", name="y"), id="rate of a frozen coordinate",
+    ),
+    pytest.param(
+        {"parameters": {"q": 1}}, UnknownNameError,
+        error("unknown-parameter", "/parameters/q", name="q", known="m, l, g"),
+        id="unknown parameter",
+    ),
+    pytest.param(
+        {"parameters": {"m": -1}}, SceneError, error("not-positive", "/parameters/m", name="m", value=-1.0),
+        id="negative mass",
+    ),
+    pytest.param({"parameters": {"m": math.inf}}, RequestError, error("request-not-finite", "/parameters/m"), id="inf"),
+    pytest.param({"parameters": [1]}, RequestError, error("request-not-object", "/parameters"), id="list"),
+    pytest.param({"freeze": "phi"}, RequestError, error("request-not-array", "/freeze"), id="text to freeze"),
+    pytest.param({"guides": [5]}, RequestError, error("request-not-object", "/guides/0"), id="number for a guide"),
+    pytest.param(
+        {"include": ["all"]}, RequestError, error("request-not-one-of", "/include/0", expected=PARTS), id="unknown part"
+    ),
+    pytest.param({"tend": 3}, RequestError, error("unknown-field", "/tend", field="tend"), id="misspelt field"),
+    pytest.param(
+        {"scene": write_scene(oscillator("x/(x - x)"))}, SceneError,
+        error("not-computable", "/scene", detail="LLVMDouble can only represent real valued infinity"),
+        id="force without value",
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("fields", "kind", "problem"), HOSTILE)
+def test_wrong_requests_are_told_where_and_why(
+    fields: dict[str, object], kind: type[InputError], problem: Problem
+) -> None:
+    with pytest.raises(InputError) as caught:
+        ask(**fields)
+    assert type(caught.value) is kind
+    assert problem in caught.value.problems
+    assert all(message(language, told) for told in caught.value.problems for language in LANGUAGES)
+
+
+def test_all_problems_are_told_at_once() -> None:
+    with pytest.raises(RequestError) as caught:
+        ask(t_end="x", samples=0, initial={"phi": {"value": math.nan}})
+    assert [problem.pointer for problem in caught.value.problems] == ["/t_end", "/samples", "/initial/phi/value"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_status_and_method_has_its_sentences(language: str) -> None:
+    for code in (*codes(), "auto_smooth", "auto_kinks", "auto_fixed_step"):
+        assert text(language, f"statuses.{code}.reason")
+        assert text(language, f"statuses.{code}.remedy") or code == "ok" or code.startswith("auto")
+    for identifier in (*method_ids(), AUTO):
+        assert text(language, f"methods.{identifier}.title")
+        assert text(language, f"methods.{identifier}.summary")
+
+
+def test_running_needs_no_sympy() -> None:
+    program = "import sys; from deltaq.simulation.service import run; run({'scene': 'pendulum', 't_end': 1.0}); "
+    program += "sys.exit('sympy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
+
+
+def test_one_compiled_kernel_serves_all_methods_and_scenes() -> None:
+    from deltaq.simulation.kernels.explicit_runge_kutta import integrate
+
+    warm()
+    ask(scene="elastic-pendulum")
+    assert len(integrate.signatures) == 1

@@ -1,0 +1,108 @@
+"""The command line, run as a user runs it."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+
+import httpx
+import pytest
+
+from deltaq import __version__
+from deltaq.cli import main
+
+COMMAND = [sys.executable, "-m", "deltaq.cli"]
+
+
+def command(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [*COMMAND, *arguments],
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+
+
+@pytest.fixture
+def busy_port() -> Iterator[int]:
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        listener.listen()
+        yield listener.getsockname()[1]
+
+
+def test_serve_prints_the_address_serves_and_ends_on_interrupt() -> None:
+    with subprocess.Popen(
+        [*COMMAND, "serve", "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as server:
+        assert server.stdout is not None
+        found = re.fullmatch(r"δq is at (http://127\.0\.0\.1:\d+/)  \(Ctrl-C ends it\)\n", server.stdout.readline())
+        assert found is not None
+        try:
+            answer = httpx.get(f"{found[1]}api/v1/health", timeout=30)
+            assert answer.json()["version"] == __version__
+            assert "server" not in answer.headers
+        finally:
+            server.send_signal(signal.SIGINT)
+            _, errors = server.communicate(timeout=30)
+        assert errors == ""
+        assert server.returncode in {0, -signal.SIGINT}
+
+
+def test_busy_port_names_the_remedy(busy_port: int) -> None:
+    ended = command("serve", "--port", str(busy_port))
+    assert (ended.returncode, ended.stdout) == (2, "")
+    remedy = f"deltaq serve --port {busy_port + 1}"
+    assert ended.stderr == f"deltaq: port {busy_port} is in use. Take another one: {remedy}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        pytest.param(
+            ["serve", "--port", "99999"], "a port is a number from 0 to 65535, not 99999", id="too large"
+        ),
+        pytest.param(["serve", "--port", "http"], "a port is a number from 0 to 65535, not http", id="port is a word"),
+        pytest.param(["serv"], "invalid choice: 'serv'", id="misspelt command"),
+    ],
+)
+def test_wrong_arguments(arguments: list[str], message: str) -> None:
+    ended = command(*arguments)
+    assert ended.returncode == 2
+    assert message in ended.stderr
+
+
+def test_wrong_setting_is_told_without_a_trace() -> None:
+    ended = command("serve", "--port", "0", DELTAQ_WORKERS="none")
+    assert (ended.returncode, ended.stderr) == (2, "deltaq: DELTAQ_WORKERS must be a number, not 'none'\n")
+
+
+def test_host_that_does_not_exist() -> None:
+    ended = command("serve", "--host", "192.0.2.1", "--port", "0")
+    assert ended.returncode == 2
+    assert re.fullmatch(r"deltaq: cannot listen at 192\.0\.2\.1: .+\n", ended.stderr)
+
+
+def test_version(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["--version"])
+    assert ended.value.code == 0
+    assert capsys.readouterr().out == f"deltaq {__version__}\n"
+
+
+def test_no_command_shows_the_help(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 0
+    assert "serve the page and the API" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("module", ["fastapi", "uvicorn", "sympy", "numpy", "asyncio"])
+def test_command_line_itself_loads_nothing_heavy(module: str) -> None:
+    code = f"import deltaq.cli, sys; sys.exit({module!r} in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

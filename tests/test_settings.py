@@ -1,0 +1,42 @@
+from __future__ import annotations
+
+import pytest
+
+from deltaq.settings import Settings, SettingsError
+
+
+def test_defaults_need_no_environment() -> None:
+    assert Settings.from_environment({}) == Settings()
+    assert Settings().workers >= 2
+
+
+def test_environment_changes_what_it_names() -> None:
+    settings = Settings.from_environment(
+        {"DELTAQ_WORKERS": "7", "DELTAQ_QUEUE_PATIENCE": "0.5", "DELTAQ_STATIC": "/srv/page", "HOME": "/"}
+    )
+    assert settings == Settings(workers=7, queue_patience=0.5, static="/srv/page")
+
+
+@pytest.mark.parametrize(
+    ("variable", "value", "message"),
+    [
+        pytest.param("DELTAQ_WORKERS", "many", "DELTAQ_WORKERS must be a number, not 'many'", id="not a number"),
+        pytest.param("DELTAQ_WORKERS", "0", "DELTAQ_WORKERS must be at least 1", id="no workers"),
+        pytest.param("DELTAQ_QUEUE_LENGTH", "-5", "DELTAQ_QUEUE_LENGTH must be at least 1", id="negative"),
+        pytest.param(
+            "DELTAQ_WORKER_MEMORY",
+            "300000000",
+            "DELTAQ_WORKER_MEMORY must be at least 1073741824: the libraries need it",
+            id="too little memory",
+        ),
+    ],
+)
+def test_wrong_value(variable: str, value: str, message: str) -> None:
+    with pytest.raises(SettingsError) as caught:
+        Settings.from_environment({variable: value})
+    assert str(caught.value) == message
+
+
+def test_misspelt_setting_is_not_ignored() -> None:
+    with pytest.raises(SettingsError, match=r"^unknown settings: DELTAQ_WORKER; known are DELTAQ_WORKERS, "):
+        Settings.from_environment({"DELTAQ_WORKER": "3"})
