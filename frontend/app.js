@@ -59,7 +59,7 @@ function view() {
       event.preventDefault();
       go();
     },
-    retry: () => void session.start(state.place),
+    reload: () => void session.start(state.place),
   };
 }
 
@@ -110,7 +110,9 @@ function update() {
   parts ??= assemble();
   parts.drawing.show(scene, trajectory, clock.time);
   parts.readouts.show(scene, trajectory, place.lang);
-  parts.plots.show(scene && trajectory ? { scene, trajectory, duration: place.duration, lang: place.lang, theme } : null);
+  // The first step is to be read before the plots cost anything.
+  const readable = state.lines.length > 0 || state.failures.derivation;
+  parts.plots.show(readable && scene && trajectory ? { scene, trajectory, duration: place.duration, lang: place.lang, theme } : null);
   show(clock.time);
   history.replaceState(null, "", location.pathname + writePlace(place));
   if (reach(place.step, still.matches)) announce(state.lines, place.step, current.t);

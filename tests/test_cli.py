@@ -66,9 +66,7 @@ def test_busy_port_names_the_remedy(busy_port: int) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        pytest.param(
-            ["serve", "--port", "99999"], "a port is a number from 0 to 65535, not 99999", id="too large"
-        ),
+        pytest.param(["serve", "--port", "99999"], "a port is a number from 0 to 65535, not 99999", id="too large"),
         pytest.param(["serve", "--port", "http"], "a port is a number from 0 to 65535, not http", id="port is a word"),
         pytest.param(["serv"], "invalid choice: 'serv'", id="misspelt command"),
     ],

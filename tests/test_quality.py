@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-LONGEST_FILE = 200
+LONGEST_FILE = 300
 
 
 @pytest.mark.parametrize(

@@ -20,12 +20,12 @@ class Settings:
     """How the service is run. Times are in seconds, sizes in bytes."""
 
     workers: int = field(default_factory=lambda: max(2, os.cpu_count() or 2))
-    queue_length: int = 256
+    queue_length: int = 1024
     queue_patience: float = 15.0
     start_timeout: float = 60.0
     derivation_deadline: float = 5.0
     simulation_deadline: float = 20.0
-    worker_memory: int = 3072 * MEBIBYTE
+    worker_memory: int = 2048 * MEBIBYTE
     jobs_per_worker: int = 1000
     cache_size: int = 128 * MEBIBYTE
     largest_body: int = MEBIBYTE

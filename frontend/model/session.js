@@ -32,7 +32,8 @@ export const START = {
 
 /** Milliseconds between two simulations while a slider moves, samples per second, and the step where one is asked for. */
 const PAUSE = 100;
-const RATE = 40;
+const RATE = 30;
+const PARTS = ["coordinates", "positions", "loads", "energy", "error"];
 const STEP = 0.01;
 
 /**
@@ -76,7 +77,8 @@ export function createSession(store, api, clock) {
     const { place, changes, methods } = get();
     const method = methods.find((candidate) => candidate.id === place.method);
     simulations.ask({
-      scene: place.scene, ...changes, t_end: place.duration, samples: Math.min(2001, place.duration * RATE + 1), lang: place.lang,
+      scene: place.scene, ...changes, t_end: place.duration, samples: Math.min(2001, place.duration * RATE + 1), include: PARTS,
+      lang: place.lang,
       ...(method ? { method: method.id } : {}),
       ...(method && method.adaptive === false ? { step: STEP } : {}),
     });

@@ -64,7 +64,7 @@ export function snapshotAt(trajectory, t) {
   return {
     t,
     coordinates: mapped(trajectory.coordinates, scalar),
-    rates: mapped(trajectory.rates, scalar),
+    rates: mapped(trajectory.rates ?? {}, scalar),
     positions: mapped(trajectory.positions, vector),
     loads: mapped(trajectory.loads ?? {}, vector),
     energy: energy

@@ -24,7 +24,7 @@
  * @typedef {{id: string, title?: string, adaptive?: boolean, order?: number}} Method
  * @typedef {{kinetic: number[], potential: number[], balance: number[]}} Energy
  * @typedef {{status: string, reason?: string | null, remedy?: string | null, t: number[],
- *   coordinates: Record<string, number[]>, rates: Record<string, number[]>,
+ *   coordinates: Record<string, number[]>, rates?: Record<string, number[]>,
  *   positions: Record<string, number[][]>, loads?: Record<string, number[][]>, energy?: Energy,
  *   error?: {estimate?: (number | null)[] | null, horizon?: number | null},
  *   cost?: {steps?: number, rejected?: number, rhs_evaluations?: number, wall_time?: number},

@@ -22,7 +22,7 @@ import { inLanguage } from "../model/catalog.js";
  * @property {() => void} togglePlay
  * @property {(t: number) => void} scrub
  * @property {() => void} fullscreen
- * @property {() => void} retry
+ * @property {() => void} reload
  */
 
 const PANELS = /** @type {const} */ (["derivation", "plots", "values"]);
@@ -38,8 +38,8 @@ export function page(view) {
       <section class="derivation" id="derivation" aria-label=${t("derivation")}>
         ${chapters(view)}
         <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
-          ${failures.page ? failure(failures.page, t("failure.page"), view.retry, t)
-            : failures.derivation ? failure(failures.derivation, t("failure.derivation"), view.retry, t) : steps(view)}
+          ${failures.page ? failure(failures.page, t("failure.page"), view.reload, t)
+            : failures.derivation ? failure(failures.derivation, t("failure.derivation"), view.reload, t) : steps(view)}
         </div>
         ${pager(view)}
       </section>
@@ -60,7 +60,7 @@ export function page(view) {
 }
 
 /** @param {View} view */
-function drawing({ state, t, retry }) {
+function drawing({ state, session, t }) {
   const { lang } = state.place;
   const title = inLanguage(state.scene?.title, lang);
   const summary = inLanguage(state.scene?.summary, lang);
@@ -71,7 +71,7 @@ function drawing({ state, t, retry }) {
       <div class="labels" aria-hidden="true"></div>
       <div class="readouts" aria-hidden="true"></div>
       ${waiting ? html`<p class="unseen">${t("drawing.loading")}</p>` : nothing}
-      ${state.failures.simulation ? failure(state.failures.simulation, t("failure.simulation"), retry, t) : nothing}
+      ${state.failures.simulation ? failure(state.failures.simulation, t("failure.simulation"), () => session.resimulate({}), t) : nothing}
     </div>
   `;
 }

@@ -13,19 +13,21 @@ const SOURCE = import.meta.resolve("plotly");
 /** Milliseconds between two redraws while a slider moves. */
 const PAUSE = 100;
 
-/** @type {Promise<void> | null} */
-let loading = null;
-
-/** Loads Plotly when the first plot is wanted. */
-function plotly() {
-  loading ??= new Promise((done, failed) => {
+/** Plotly, fetched only when the first plot is wanted; false if it cannot be had. @returns {Promise<boolean>} */
+function fetchPlotly() {
+  return new Promise((done) => {
     const script = document.createElement("script");
     script.src = SOURCE;
-    script.onload = () => done();
-    script.onerror = () => failed(new Error(SOURCE));
+    script.onload = () => done(true);
+    script.onerror = () => done(false);
     document.head.append(script);
   });
-  return loading;
+}
+
+/** @param {() => void} task */
+function whenIdle(task) {
+  if (window.requestIdleCallback) window.requestIdleCallback(task, { timeout: 500 });
+  else task();
 }
 
 /** Colours as the style sheets have them at this moment. @param {HTMLElement} root @returns {import("../model/plots.js").Palette} */
@@ -54,11 +56,14 @@ export function createPlots(root, { seek }) {
   let scale = timeScale(1, 0);
   let visible = false;
   let due = 0;
+  /** @type {Promise<boolean> | null} */
+  let plotly = null;
 
   async function redraw() {
     due = 0;
     if (!shown || !visible || root.clientWidth === 0) return;
-    await plotly();
+    plotly ??= fetchPlotly();
+    if (!(await plotly) || !shown) return;
     const { scene, trajectory, duration, lang } = shown;
     const palette = paletteOf(root);
     const rows = rowsOf(scene, trajectory);
@@ -80,7 +85,7 @@ export function createPlots(root, { seek }) {
   }
 
   function schedule() {
-    if (!due) due = window.setTimeout(() => void redraw(), PAUSE);
+    if (!due) due = window.setTimeout(() => whenIdle(() => void redraw()), PAUSE);
   }
 
   const xOf = (/** @type {PointerEvent} */ event) => event.clientX - root.getBoundingClientRect().left;
@@ -98,7 +103,7 @@ export function createPlots(root, { seek }) {
   new ResizeObserver(schedule).observe(root);
   new IntersectionObserver(([entry]) => {
     visible = entry.isIntersecting;
-    if (visible) (window.requestIdleCallback ?? setTimeout)(() => schedule());
+    if (visible) schedule();
   }).observe(root);
 
   return {
@@ -107,6 +112,7 @@ export function createPlots(root, { seek }) {
       const same = next && shown && Object.keys(next).every((key) => next[/** @type {keyof Shown} */ (key)] === shown?.[/** @type {keyof Shown} */ (key)]);
       if (same) return;
       shown = next;
+      if (!shown) root.classList.remove("ready");
       schedule();
     },
     /** @param {number} t */

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import AsyncIterator, Iterator
 from typing import Any
@@ -229,6 +230,21 @@ async def test_body_too_large(client: httpx.AsyncClient, content: Any, headers: 
     assert response.status_code == 413
     assert response.json() == TOO_LARGE
     assert response.headers["connection"] == "close"
+
+
+async def drip() -> AsyncIterator[bytes]:
+    yield b'{"scene": '
+    await asyncio.sleep(30)
+    yield b'"pendulum"}'
+
+
+async def test_body_too_slow() -> None:
+    transport = httpx.ASGITransport(app=create_app(Settings(workers=1, body_timeout=0.2)))
+    async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test") as client:
+        response = await client.post(SIMULATIONS, content=drip(), headers=JSON)
+    assert response.json() == document(
+        "body-too-slow", 408, "The body came too slowly", detail="It must be complete within 0.2 seconds."
+    )
 
 
 BUSY = document(

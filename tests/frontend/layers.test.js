@@ -22,3 +22,9 @@ test("no file is longer than 200 lines", () => {
   const long = ["app.js", ...files("model"), ...files("view")].filter((file) => source(file).split("\n").length > 201);
   assert.deepEqual(long, []);
 });
+
+test("every module is asked for at once, and none that is not there", () => {
+  const asked = [...source("index.html").matchAll(/rel="modulepreload" href="\/((?:model|view)\/[^"]+)"/g)].map((match) => match[1]);
+  const there = [...files("model"), ...files("view")].filter((file) => file !== "model/types.js");
+  assert.deepEqual(asked.sort(), there.sort());
+});

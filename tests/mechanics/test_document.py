@@ -12,6 +12,7 @@ import pytest
 from deltaq.errors import Problem, SceneError
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.writing import write_scene
+from deltaq.packages import classes_of
 
 PENDULUM: dict[str, object] = {
     "format": 1,
@@ -93,7 +94,7 @@ WRONG = [
         Problem(
             "unknown-kind",
             "/loads/0/kind",
-            parameters={"kind": "gravty", "known": "force, gravity, potential, spring"},
+            parameters={"kind": "gravty", "known": ", ".join(classes_of("deltaq.mechanics.loads", "kind"))},
         ),
         id="unknown kind of load",
     ),

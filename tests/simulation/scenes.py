@@ -79,7 +79,7 @@ def driven_by_everything() -> Scene:
             WEIGHT,
             {"kind": "potential", "name": "spring", "energy": "k/2*(s - a*cos(omega*t))^2"},
             {"kind": "force", "name": "drag", "at": "bob", "force": ["-c*dot(phi)", "-c*dot(s) + c*dot(y)"]},
-            {"kind": "force", "name": "follower", "at": "cart", "force": ["F0*cos(phi)", "F0*sin(t)"]},
+            {"kind": "force", "name": "follower", "at": "cart", "force": ["F0*cos(phi)", "F0*sin(omega*t)"]},
         ],
         guides={"y": "a*sin(omega*t)^2"},
     )

@@ -24,7 +24,7 @@ def pendulum(amplitude: float) -> object:
 
 
 @pytest.mark.parametrize("amplitude", [0.1, 1.0, 2.5, 3.1])
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-9])
 def test_pendulum_is_the_elliptic_function(amplitude: float, tolerance: float) -> None:
     found = simulated(pendulum(amplitude), "dop853", 20.0, tolerance=tolerance)
     true = np.abs(found.values[:, 0] - pendulum_angle(found.times, amplitude, np.sqrt(9.81)))
@@ -134,7 +134,7 @@ STATUSES = [
         kicked("m/x", x=0.0), "rk4", {"step": 0.1}, 1.0, "diverged", "not_finite", id="nothing finite"
     ),
     pytest.param(
-        standstill(), "dop853", {"tolerance": 1e-6}, 1.0, "singular_mass_matrix", "singular_mass_matrix", id="dead point"
+        standstill(), "dop853", {"tolerance": 1e-6}, 1.0, "singular_mass_matrix", "singular_mass_matrix", id="dead"
     ),
     pytest.param(
         spherical_pendulum(theta=0.0), "rk4", {"step": 0.01}, 1.0, "singular_mass_matrix", "singular_mass_matrix",
@@ -202,9 +202,9 @@ def test_samples_do_not_change_the_motion(samples: int) -> None:
 
 def test_a_late_event_after_rest_is_not_jumped_over() -> None:
     """At rest for 5 s, then pushed for a moment: the steps must not have grown past it."""
-    pushed = oscillator("F0*exp(-50*(t - 5)^2)", x=0.0)
+    pushed = oscillator("F0*exp(-20*(omega*t - 8.5)^2)", x=0.0)
     found = simulated(pushed, "dop853", 10.0, tolerance=1e-8)
-    momentum = 2.0 * np.sqrt(np.pi / 50)
+    momentum = 2.0 * np.sqrt(np.pi / (20 * 1.7**2))
     assert found.rates[-1, 0] == pytest.approx(momentum, abs=1e-6)
 
 

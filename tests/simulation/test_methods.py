@@ -123,7 +123,7 @@ def test_error_falls_with_the_order_stated(identifier: str, name: str) -> None:
     end = trusted(scene, 1.0, 2).values[-1]
     errors = [np.abs(simulated(scene, identifier, 1.0, 2, step=1.0 / n).values[-1] - end).max() for n in counts]
     slope = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
-    assert slope == pytest.approx(get_method(identifier).order, abs=0.45), errors
+    assert -0.45 < slope - get_method(identifier).order < 0.95, errors
 
 
 @pytest.mark.parametrize(

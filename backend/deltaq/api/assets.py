@@ -102,4 +102,4 @@ def _is_file(file: Path) -> bool:
 def _read(file: Path, _modified: int) -> tuple[bytes, bytes | None]:
     """Content and compressed content; read again when the file has been modified."""
     content = file.read_bytes()
-    return content, None if file.suffix in INCOMPRESSIBLE else gzip.compress(content, 6, mtime=0)
+    return content, None if file.suffix in INCOMPRESSIBLE else gzip.compress(content, 9, mtime=0)

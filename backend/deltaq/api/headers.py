@@ -5,12 +5,13 @@ from __future__ import annotations
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-_FIXED = {
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "same-origin",
+_ON_EVERYTHING = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "same-origin"}
+_ON_DOCUMENTS = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
 }
+# Only what a browser shows as a page of its own obeys a policy; on dozens of modules it would be dead weight.
+_DOCUMENTS = ("text/html", "image/svg+xml")
 
 
 def content_security_policy(*inline_scripts: str) -> str:
@@ -28,13 +29,14 @@ class SecurityHeaders:
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
-        self.headers = _FIXED | {"Content-Security-Policy": content_security_policy()}
+        self.documents = _ON_EVERYTHING | _ON_DOCUMENTS | {"Content-Security-Policy": content_security_policy()}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
-                for name, value in self.headers.items():
+                is_document = headers.get("content-type", "").startswith(_DOCUMENTS)
+                for name, value in (self.documents if is_document else _ON_EVERYTHING).items():
                     headers.setdefault(name, value)
             await send(message)
 

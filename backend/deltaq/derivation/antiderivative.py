@@ -9,14 +9,24 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ..errors import InputError, Problem
 from ..language.canonical import canonical
 from ..language.symbols import Symbols
+from .formula import Bounds
 
 
 def antiderivative(integrand: sp.Expr, x: sp.Symbol, symbols: Symbols) -> sp.Expr:
     """F with ∂F/∂x = integrand, term by term of the canonical form."""
     terms = sp.Add.make_args(canonical(integrand, symbols).expand())
     return sp.Add(*(_of_term(term, x) for term in terms))
+
+
+def definite_integral(integrand: sp.Expr, bounds: Bounds, symbols: Symbols) -> sp.Expr:
+    """∫ from the lower to the upper bound. Raises InputError if there is no closed form."""
+    whole = antiderivative(integrand, bounds.symbol, symbols)
+    if whole.has(sp.Integral):
+        raise InputError(Problem("no-closed-integral", parameters={"name": bounds.symbol.name}))
+    return whole.xreplace({bounds.symbol: bounds.upper}) - whole.xreplace({bounds.symbol: bounds.lower})
 
 
 def _of_term(term: sp.Expr, x: sp.Symbol) -> sp.Expr:

@@ -10,7 +10,6 @@ from typing import TypeVar
 import sympy as sp
 
 from ..language import canonical
-from ..language.expression import Expression
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import time_derivative, to_sympy
 from ..language.tree import Node
@@ -78,9 +77,8 @@ class Calculus:
     def vector(self, nodes: Iterable[Node]) -> sp.ImmutableMatrix:
         return column(self.expression(node) for node in nodes)
 
-    def given(self, expressions: Iterable[Expression]) -> Given:
+    def given(self, trees: tuple[Node, ...]) -> Given:
         """A vector as the scene states it."""
-        trees = tuple(expression.tree for expression in expressions)
         return Given(trees, self.vector(trees))
 
     @cached_property

@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping
 import sympy as sp
 from flint import arb
 
-from ..language.tree import fold
 from .formula import (
     Dot,
     Equation,
@@ -16,6 +15,7 @@ from .formula import (
     Formula,
     Gateaux,
     Given,
+    Integral,
     Named,
     Partial,
     Plus,
@@ -25,12 +25,11 @@ from .formula import (
     Times,
     Value,
 )
-from .tree_evaluation import FUNCTIONS, ArbAlgebra, power
+from .points import STEP, Point, along_motion, shifted, varied
+from .quadrature import integral
+from .tree_evaluation import FUNCTIONS, power, tree_value
 
-Point = Mapping[str, arb]
 Numbers = tuple[arb, ...]  # one for a scalar, several for a vector
-
-STEP = arb(2) ** -128
 
 # Operations by the names of SymPy's classes.
 BY_CLASS: Mapping[str, Callable[..., arb]] = {
@@ -51,11 +50,11 @@ def evaluate(formula: Formula, point: Point) -> Numbers:
 
     match formula:
         case Given(trees):
-            return tuple(fold(tree, ArbAlgebra(point)) for tree in trees)
+            return tuple(tree_value(tree, point) for tree in trees)
         case Explicit(value) | Named(_, value):
             return components(value, point)
         case Partial(of, by):
-            return difference(at, of, lambda h: _moved(point, {by.name: h}))
+            return difference(at, of, lambda h: shifted(point, {by.name: h}))
         case Rate(of):
             return difference(at, of, lambda h: along_motion(point, h))
         case Gateaux(of):
@@ -69,6 +68,8 @@ def evaluate(formula: Formula, point: Point) -> Numbers:
             return (sum((a * b for a, b in pairs), arb(0)),)
         case Plus(terms):
             return _sum([tuple(term.sign * part for part in evaluate(term.formula, point)) for term in terms])
+        case Integral(of, material):
+            return integral(lambda inside: evaluate(of, inside), material, point, number)
         case Equation(left, right):
             return _sum([evaluate(left, point), tuple(-part for part in evaluate(right, point))])
         case Substituted(of, values):
@@ -89,22 +90,6 @@ def difference(
     return tuple((a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True))
 
 
-def along_motion(point: Point, h: arb) -> Point:
-    """Where the system is a time h later: q + q̇h + q̈h²/2, and its rates."""
-    moved = {"t": point["t"] + h}
-    for name in point:
-        speed, acceleration = point.get(f"dot({name})"), point.get(f"ddot({name})")
-        if speed is not None and acceleration is not None:
-            moved[name] = point[name] + speed * h + acceleration * h * h / 2
-            moved[f"dot({name})"] = speed + acceleration * h
-    return {**point, **moved}
-
-
-def varied(point: Point, h: arb) -> Point:
-    """The neighbouring configuration q + h δq at the same time."""
-    return _moved(point, {name: h * point[f"delta({name})"] for name in point if f"delta({name})" in point})
-
-
 def number(expression: sp.Basic, point: Point) -> arb:
     """The expression's value, evaluated from the leaves up."""
     if isinstance(expression, sp.Symbol):
@@ -115,10 +100,6 @@ def number(expression: sp.Basic, point: Point) -> arb:
         return CONSTANTS[expression]()
     arguments = [number(argument, point) for argument in expression.args]
     return BY_CLASS[type(expression).__name__](*arguments)
-
-
-def _moved(point: Point, shifts: Mapping[str, arb]) -> Point:
-    return {**point, **{name: point[name] + shift for name, shift in shifts.items()}}
 
 
 def _product(factors: list[Numbers]) -> Numbers:

@@ -125,6 +125,23 @@ class Substituted:
 
 
 @dataclass(frozen=True)
+class Bounds:
+    """A material coordinate and the interval it runs over."""
+
+    symbol: sp.Symbol
+    lower: sp.Expr
+    upper: sp.Expr
+
+
+@dataclass(frozen=True)
+class Integral:
+    """∫ of over material coordinates, the last one innermost."""
+
+    of: Formula
+    material: tuple[Bounds, ...]
+
+
+@dataclass(frozen=True)
 class Equation:
     """left = right as a condition on the motion, not an identity; its value is left − right."""
 
@@ -132,7 +149,7 @@ class Equation:
     right: Formula
 
 
-Formula = Given | Explicit | Named | Partial | Rate | Gateaux | Shifted | Times | Dot | Plus | Substituted | Equation
+Formula = Given | Explicit | Named | Partial | Rate | Gateaux | Shifted | Times | Dot | Plus | Substituted | Integral | Equation
 
 
 def minus(formula: Formula, *sources: str) -> Term:

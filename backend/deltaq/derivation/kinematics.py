@@ -6,8 +6,12 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..language.tree import Node
+from ..mechanics.contributions import DistributedForce
+from ..mechanics.material import Material
+from .antiderivative import definite_integral
 from .calculus import Calculus, column
-from .formula import Named, Quantity
+from .formula import Bounds, Named, Quantity
 from .memory import kept
 
 
@@ -17,12 +21,32 @@ class Kinematics(Calculus):
 
     def source(self, place: str) -> str:
         """The name under which a place is the source of a term."""
-        kind = "body" if any(body.name == place for body in self.scene.bodies) else "point"
-        return f"{kind}:{place}"
+        if any(body.name == place for body in self.scene.bodies):
+            return f"body:{place}"
+        return f"point:{place}" if place in self.scene.places else f"load:{place}"
+
+    def trees(self, place: str) -> tuple[Node, ...]:
+        """The position as the scene states it: of a point, of a body, or of the particles that a load acts on."""
+        for load in self.scene.contributions:
+            if isinstance(load, DistributedForce) and load.place == place:
+                return load.position
+        return tuple(component.tree for component in self.scene.place(place))
 
     @kept
     def position(self, place: str) -> sp.ImmutableMatrix:
-        return self.guided(self.vector(component.tree for component in self.scene.place(place)))
+        return self.guided(self.vector(self.trees(place)))
+
+    def bounds(self, material: tuple[Material, ...]) -> tuple[Bounds, ...]:
+        """The material coordinates as symbols, with their intervals."""
+        return tuple(
+            Bounds(self.q(m.name), self.expression(m.lower.tree), self.expression(m.upper.tree)) for m in material
+        )
+
+    def integrated(self, density: sp.Expr, material: tuple[Material, ...]) -> sp.Expr:
+        """∫ density over the material coordinates, in closed form."""
+        for bounds in reversed(self.bounds(material)):
+            density = definite_integral(density, bounds, self.symbols)
+        return self.display(density)
 
     def named_position(self, place: str) -> Named:
         """r with what it depends on: r(q₁, q₂, t)."""

@@ -8,9 +8,12 @@ from itertools import combinations
 
 import sympy as sp
 
+from ..language.tree import Node
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import PotentialEnergy
+from ..mechanics.kinetics import Distribution, Kinetics, Rotation, Translation
 from .antiderivative import antiderivative
+from .formula import Formula, Given, Named, Quantity, Substituted
 from .memory import kept
 from .work import Work
 
@@ -20,7 +23,18 @@ class System(Work):
     """Everything the rules ask of a scene. Results are kept, so that each is computed once in a derivation."""
 
     def mass(self, body: Body) -> sp.Expr:
-        return self.expression(body.mass.tree)
+        """m of a particle or rigid body."""
+        (mass,) = (part.mass for part in body.kinetics if isinstance(part, Translation))
+        return self.expression(mass)
+
+    def angular_velocity(self, part: Rotation) -> tuple[sp.Expr, ...]:
+        """ω in the body frame of principal axes, or the one rate of turning in the plane; guides put in."""
+        return tuple(self.display(self.guided(self.expression(omega))) for omega in part.angular_velocity)
+
+    def given_rate(self, tree: Node) -> Formula:
+        """A rate as the scene states it, with the guides put in where there are any."""
+        stated = Given((tree,), self.expression(tree))
+        return Substituted(stated, self.guides) if self.guides else stated
 
     @property
     def body_sources(self) -> tuple[str, ...]:
@@ -28,9 +42,25 @@ class System(Work):
 
     @kept
     def kinetic_energy_of(self, body: Body) -> sp.Expr:
-        """E = m/2 v · v"""
-        velocity = self.velocity(body.name)
-        return self.display(self.mass(body) / 2 * self.dot(velocity, velocity))
+        """The sum over what the body's kinetic energy comes down to."""
+        return self.display(sp.Add(*(self._kinetic_energy(part) for part in body.kinetics)))
+
+    def _kinetic_energy(self, part: Kinetics) -> sp.Expr:
+        velocity = self.velocity(part.body) if not isinstance(part, Rotation) else sp.ImmutableMatrix([])
+        square = self.dot(velocity, velocity).expand()
+        match part:
+            case Translation(mass=mass):
+                return self.expression(mass) * square / 2
+            case Rotation(inertia=inertia):
+                squares = (omega**2 for omega in self.angular_velocity(part))
+                return sp.Add(*(self.expression(j) * w / 2 for j, w in zip(inertia, squares, strict=True)))
+            case Distribution(density=density, material=material):
+                return self.integrated(self.expression(density) * square / 2, material)
+
+    def named_kinetic_energy(self, body: Body) -> Named:
+        """E, or E of this body where there are several."""
+        of = body.name if len(self.scene.bodies) > 1 else ""
+        return Named(Quantity("kinetic-energy", of), self.kinetic_energy_of(body))
 
     @cached_property
     def kinetic_energy(self) -> sp.Expr:
@@ -54,7 +84,7 @@ class System(Work):
     def load_potential(self, load: str) -> sp.Expr:
         """V of a conservative load: as given, or by line integral along the axes; up to a function of time."""
         parts = [part for part in self.scene.contributions if part.source == load]
-        given = [self.potential(part) for part in parts if isinstance(part, PotentialEnergy)]
+        given = [self.energy(part) for part in parts if isinstance(part, PotentialEnergy)]
         if len(given) == len(parts):
             return self.display(sp.Add(*given))
         return self.display(self._line_integral({self.q(q): -self.load_force(load, q) for q in self.free}))

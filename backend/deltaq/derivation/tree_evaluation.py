@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import NoReturn
+from typing import NoReturn, TypeAlias
 
 from flint import arb
 
 from ..language.spelling import spell_rate
+from ..language.tree import Node, fold
+from .points import Point, along_motion, central_difference
+
+At: TypeAlias = Callable[[Point], arb]
 
 FUNCTIONS: Mapping[str, Callable[..., arb]] = {
     "sin": arb.sin,
@@ -47,53 +50,55 @@ def power(base: arb, exponent: arb) -> arb:
     return base**exponent if whole is None else base**whole
 
 
-@dataclass(frozen=True)
-class ArbAlgebra:
-    """Numbers at a point, whose keys are names, `dot(name)` and `delta(name)`."""
+def tree_value(tree: Node, point: Point) -> arb:
+    """The tree's value; derivatives with respect to time are differences along the motion."""
+    return fold(tree, FunctionAlgebra())(point)
 
-    point: Mapping[str, arb]
 
-    def number(self, value: Fraction) -> arb:
-        return rational(value)
+class FunctionAlgebra:
+    """Each node becomes a function of the point, so that derivatives can look beside it."""
 
-    def name(self, name: str) -> arb:
-        return arb.pi() if name == "pi" else self.point[name]
+    def number(self, value: Fraction) -> At:
+        return lambda _: rational(value)
 
-    def rate(self, name: str, order: int) -> arb:
-        return self.point[spell_rate(name, order)]
+    def name(self, name: str) -> At:
+        return (lambda _: arb.pi()) if name == "pi" else (lambda point: point[name])
 
-    def variation(self, name: str) -> arb:
-        return self.point[f"delta({name})"]
+    def rate(self, name: str, order: int) -> At:
+        return lambda point: point[spell_rate(name, order)]
 
-    def differential(self, name: str) -> arb:
-        return self.point[f"d({name})"]
+    def variation(self, name: str) -> At:
+        return lambda point: point[f"delta({name})"]
 
-    def sum(self, terms: tuple[arb, ...]) -> arb:
-        return sum(terms, arb(0))
+    def differential(self, name: str) -> At:
+        return lambda point: point[f"d({name})"]
 
-    def product(self, factors: tuple[arb, ...]) -> arb:
-        return math.prod(factors, start=arb(1))
+    def sum(self, terms: tuple[At, ...]) -> At:
+        return lambda point: sum((term(point) for term in terms), arb(0))
 
-    def quotient(self, numerator: arb, denominator: arb) -> arb:
-        return numerator / denominator
+    def product(self, factors: tuple[At, ...]) -> At:
+        return lambda point: math.prod((factor(point) for factor in factors), start=arb(1))
 
-    def negation(self, operand: arb) -> arb:
-        return -operand
+    def quotient(self, numerator: At, denominator: At) -> At:
+        return lambda point: numerator(point) / denominator(point)
 
-    def power(self, base: arb, exponent: arb) -> arb:
-        return power(base, exponent)
+    def negation(self, operand: At) -> At:
+        return lambda point: -operand(point)
 
-    def call(self, function: str, arguments: tuple[arb, ...]) -> arb:
-        return FUNCTIONS[function](*arguments)
+    def power(self, base: At, exponent: At) -> At:
+        return lambda point: power(base(point), exponent(point))
 
-    def time_derivative(self, operand: arb) -> NoReturn:
-        raise NotImplementedError("scene expressions hold no derivatives but rates")
+    def call(self, function: str, arguments: tuple[At, ...]) -> At:
+        return lambda point: FUNCTIONS[function](*(argument(point) for argument in arguments))
 
-    def partial_derivative(self, operand: arb, variable: arb) -> NoReturn:
-        raise NotImplementedError("scene expressions hold no derivatives but rates")
+    def time_derivative(self, operand: At) -> At:
+        return lambda point: central_difference(lambda h: operand(along_motion(point, h)))
 
-    def vector(self, components: tuple[arb, ...]) -> NoReturn:
+    def partial_derivative(self, _operand: At, _variable: At) -> NoReturn:
+        raise NotImplementedError("scene expressions hold no partial derivatives")
+
+    def vector(self, _components: tuple[At, ...]) -> NoReturn:
         raise NotImplementedError("a vector is evaluated component by component")
 
-    def equation(self, left: arb, right: arb) -> NoReturn:
+    def equation(self, _left: At, _right: At) -> NoReturn:
         raise NotImplementedError("an equation has no value")

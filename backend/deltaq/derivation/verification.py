@@ -18,8 +18,9 @@ from itertools import islice
 
 from flint import arb, ctx
 
-from .evaluation import Point, evaluate
+from .evaluation import evaluate
 from .formula import Formula
+from .points import Point
 from .step import Chapter, Derivation, Relation, Step
 from .system import System
 

@@ -7,7 +7,14 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..mechanics.contributions import Contribution, PointForce, PotentialEnergy
+from ..mechanics.contributions import (
+    Contribution,
+    DissipationFunction,
+    DistributedForce,
+    Moment,
+    PointForce,
+    PotentialEnergy,
+)
 from .kinematics import Kinematics
 from .memory import kept
 
@@ -22,22 +29,48 @@ class Work(Kinematics):
 
     def place_of(self, load: Contribution) -> str:
         """The place that tells two forces of one load apart (the weights of two bodies)."""
-        return load.place if isinstance(load, PointForce) else ""
+        return load.place if isinstance(load, PointForce | DistributedForce) else ""
 
-    def force(self, load: PointForce) -> sp.ImmutableMatrix:
-        """F(q, q̇, t) with the guides put in."""
-        return self.guided(self.vector(load.force))
+    def force(self, load: PointForce | DistributedForce) -> sp.ImmutableMatrix:
+        """F(q, q̇, t), or the density f of a distributed force, with the guides put in."""
+        return self.guided(self.vector(load.force if isinstance(load, PointForce) else load.density))
 
-    def potential(self, load: PotentialEnergy) -> sp.Expr:
+    def energy(self, load: PotentialEnergy) -> sp.Expr:
         """V(q, t) with the guides put in."""
         return self.display(self.guided(self.expression(load.energy)))
 
+    def dissipation(self, load: DissipationFunction) -> sp.Expr:
+        """R(q, q̇, t) with the guides put in."""
+        return self.display(self.guided(self.expression(load.function)))
+
+    def angle(self, load: Moment) -> sp.Expr:
+        """The angle φ(q, t) that a moment turns, with the guides put in."""
+        return self.display(self.guided(self.expression(load.angle)))
+
+    def moment(self, load: Moment) -> sp.Expr:
+        """M(q, q̇, t) with the guides put in."""
+        return self.display(self.guided(self.expression(load.moment)))
+
     @kept
     def virtual_work(self, load: Contribution) -> sp.Expr:
-        """δW = F · δr, or −δV."""
-        if isinstance(load, PointForce):
-            return self.collected(self.dot(self.force(load), self.virtual_displacement(load.place)))
-        return self.collected(-self.vary(self.potential(load)))
+        """δW of one contribution, collected by the δq."""
+        match load:
+            case PointForce():
+                work = self.dot(self.force(load), self.virtual_displacement(load.place))
+            case Moment():
+                work = self.moment(load) * self.vary(self.angle(load))
+            case PotentialEnergy():
+                work = -self.vary(self.energy(load))
+            case DissipationFunction():
+                work = self._dissipated(self.dissipation(load))
+            case DistributedForce():
+                density = self.dot(self.force(load), self.virtual_displacement(load.place))
+                work = self.integrated(density, load.material)
+        return self.collected(work)
+
+    def _dissipated(self, function: sp.Expr) -> sp.Expr:
+        """−∂R/∂q̇ᵢ δqᵢ"""
+        return -sp.Add(*(function.diff(self.rate(q)) * self.variation(q) for q in self.free))
 
     def share(self, load: Contribution, coordinate: str) -> sp.Expr:
         """What the load contributes to Qᵢ: the coefficient of δqᵢ."""

@@ -29,7 +29,7 @@ class Arguments:
         token = self._cursor.take()
         power = self._power_after_name(token)
         opening = self._cursor.token
-        if opening.kind == "open" and opening.text == "(":
+        if opening.kind == "open" and opening.text in ("(", "|"):
             arguments = self._bracketed(token)
             span = between(token.span, self._cursor.previous.span)
         else:
@@ -97,10 +97,13 @@ class Arguments:
         """Refuse what could belong to the argument or to the call: a further name, a bracket, `^`, `/`, a prime."""
         ahead = self._cursor.token
         if ahead.kind in ("name", "open") and not (ahead.kind == "open" and ahead.text == "["):
-            self._ambiguous(function, argument, f"*{self._rest()}", f" {self._rest()}")
+            rest = self._grammar.factor()
+            self._ambiguous(function, argument, f"*{self._cursor.slice(rest.span)}", between(argument.span, rest.span))
         if ahead.is_operator("^", "/"):
-            rest = f"{ahead.text}{self._cursor.slice(self._cursor.ahead().span)}"
-            self._ambiguous(function, argument, rest, rest)
+            self._cursor.take()
+            rest = self._grammar.factor()
+            self._ambiguous(function, argument, f"{ahead.text}{self._cursor.slice(rest.span)}",
+                            between(argument.span, rest.span))  # fmt: skip
         parameters = [n.name for n in walk(argument) if isinstance(n, Name)]
         several = len(set(parameters)) > 1 and not self._ends([argument])
         if several and isinstance(argument, Product):
@@ -109,15 +112,10 @@ class Arguments:
             first, second = f"{function.text}({near})*{far}", f"{function.text}({self._cursor.slice(argument.span)})"
             fail("ambiguous", between(function.span, argument.span), first=first, second=second)
 
-    def _rest(self) -> str:
-        ahead = self._cursor.token
-        return "(…)" if ahead.kind == "open" else self._cursor.slice(ahead.span)
-
-    def _ambiguous(self, function: Token, argument: Node, outside: str, inside: str) -> NoReturn:
+    def _ambiguous(self, function: Token, argument: Node, outside: str, inside: Span) -> NoReturn:
         near = self._cursor.slice(argument.span)
-        first, second = f"{function.text}({near}){outside}", f"{function.text}({near}{inside})"
-        span = between(function.span, self._cursor.token.span)
-        fail("ambiguous", span, first=first, second=second)
+        first, second = f"{function.text}({near}){outside}", f"{function.text}({self._cursor.slice(inside)})"
+        fail("ambiguous", between(function.span, inside), first=first, second=second)
 
 
 def _is_minus_one(node: Node) -> bool:

@@ -201,7 +201,7 @@ def _call(node: Call) -> Measure:
         return Measure(max(degree, 1))
     values = [float(a.value) for a in arguments if a.value is not None]
     if node.function == "exp" and abs(values[0]) > MAX_EXPONENTIAL:
-        fail("value-too-large", node.span, limit="exp(700)")
+        fail("value-too-large" if values[0] > 0 else "value-too-small", node.span, limit="exp(±700)")
     try:
         value = FUNCTIONS[node.function].evaluate(*values)
     except OverflowError:

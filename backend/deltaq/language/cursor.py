@@ -63,7 +63,7 @@ class Cursor:
         if self.token.kind == "close" and self.token.text == wanted:
             return between(opening.span, self.take().span)
         if self.token.kind in ("end", "close"):
-            fail("unclosed-bracket", opening.span, bracket=opening.text, wanted=wanted)
+            fail("unclosed-bracket", opening.span, bracket=self.slice(opening.span), wanted=wanted)
         return self.unexpected()
 
     def unexpected(self) -> NoReturn:
@@ -71,7 +71,9 @@ class Cursor:
         token = self.token
         if token.kind == "end":
             fail("unexpected-end", Span(len(self.text), 0))
-        if token.kind == "close":
+        if token.kind == "close" and self.previous.kind == "open":
+            fail("empty-brackets", between(self.previous.span, token.span))
+        if token.kind == "close" and not self.previous.is_operator(",", ";", "+", "-", "*", "/", "^", "="):
             fail("unopened-bracket", token.span, bracket=token.text)
         fail("unexpected-symbol", token.span, symbol=self.slice(token.span))
 

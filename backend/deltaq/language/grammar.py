@@ -129,7 +129,7 @@ class Grammar:
         """`(9,81)` is a decimal comma, `(a, b)` a vector in the wrong brackets."""
         if self.cursor.token.is_operator(","):
             self._decimal_comma()
-            fail("vector-brackets", opening.span)
+            fail("vector-brackets", between(opening.span, self.cursor.token.span))
         if self.cursor.token.is_operator("=", ";"):
             self.unexpected()
 
@@ -220,11 +220,10 @@ class Grammar:
         self.unexpected()
 
     def _decimal_comma(self) -> None:
-        comma, before, after = self.cursor.token, self.cursor.previous, self.cursor.ahead()
+        before, after = self.cursor.previous, self.cursor.ahead()
         if before.kind == "number" and after.kind == "number":
             number = f"{self.cursor.slice(before.span)}.{self.cursor.slice(after.span)}"
             fail("decimal-comma", between(before.span, after.span), suggestion=number)
-        fail("unexpected-symbol", comma.span, symbol=",")
 
     def unexpected(self) -> NoReturn:
         """Report the token ahead, which cannot stand here."""

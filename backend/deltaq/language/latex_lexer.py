@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
@@ -25,23 +26,64 @@ _PRIMES = re.compile(r"\s*((?:\\prime|')\s*)+\Z")
 
 _OPERATORS: Mapping[str, str] = MappingProxyType(
     {
-
-            "cdot": "*",
-            "ast": "*",
-            "times": "×",
-            "div": "/",
-            "lbrack": "[",
-            "rbrack": "]",
-            "lparen": "(",
-            "rparen": ")"
-        ,
-        "prime": "'", "{": "(", "}": ")", "lbrace": "(", "rbrace": ")", "\\": ";", "lvert": "|", "rvert": "|",
-        "vert": "|", "mid": "|", "minus": "-", "partial": "∂", "delta": "δ", "variation": "δ",
+        "cdot": "*",
+        "ast": "*",
+        "times": "×",
+        "div": "/",
+        "lbrack": "[",
+        "rbrack": "]",
+        "lparen": "(",
+        "rparen": ")",
+        "prime": "'",
+        "{": "(",
+        "}": ")",
+        "lbrace": "(",
+        "rbrace": ")",
+        "\\": ";",
+        "lvert": "|",
+        "rvert": "|",
+        "vert": "|",
+        "mid": "|",
+        "minus": "-",
+        "partial": "∂",
+        "delta": "δ",
+        "variation": "δ",
     }
 )
-_SIZES = frozenset(["left", "right", "mleft", "mright", "big", "Big", "bigg", "Bigg", "bigl", "bigr", "Bigl", "Bigr", "biggl", "biggr", "Biggl", "Biggr"])
+_SIZES = frozenset(
+    [
+        "left",
+        "right",
+        "mleft",
+        "mright",
+        "big",
+        "Big",
+        "bigg",
+        "Bigg",
+        "bigl",
+        "bigr",
+        "Bigl",
+        "Bigr",
+        "biggl",
+        "biggr",
+        "Biggl",
+        "Biggr",
+    ]
+)
 _UPRIGHT = frozenset(
-    ["mathrm", "text", "textrm", "operatorname", "operatorname*", "mathit", "mathsf", "mathbf", "mathnormal", "boldsymbol", "vec"]
+    [
+        "mathrm",
+        "text",
+        "textrm",
+        "operatorname",
+        "operatorname*",
+        "mathit",
+        "mathsf",
+        "mathbf",
+        "mathnormal",
+        "boldsymbol",
+        "vec",
+    ]
 )
 _DIFFERENTIAL = frozenset({"differentialD", "dd"})
 
@@ -203,7 +245,7 @@ class LatexLexer:
             self._unknown(name, span)
 
     def _unknown(self, name: str, span: Span) -> None:
-        suggestions = [s for s in self.names.suggestions(name) if s in SPELLINGS or s in GREEK_NAMES]
+        suggestions = difflib.get_close_matches(name[:40], [*SPELLINGS, *sorted(GREEK_NAMES)], n=1, cutoff=0.75)
         if suggestions:
             fail("unknown-command", span, name="\\" + name, suggestion="\\" + suggestions[0])
         fail("unknown-command", span, name="\\" + name)
@@ -228,9 +270,9 @@ class LatexLexer:
 
     def _bar(self, size: str, span: Span) -> None:
         if size in ("left", "mleft"):
-            self.found += [Token("function", "abs", span), Token("open", "(", span)]
+            self.found += [Token("function", "abs", span), Token("open", "|", span)]
         elif size in ("right", "mright"):
-            self.found.append(Token("close", ")", span))
+            self.found.append(Token("close", "|", span))
         else:
             self.found.append(Token("operator", "|", span))
 

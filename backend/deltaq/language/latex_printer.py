@@ -119,24 +119,23 @@ class _Latex:
         if len(rest) == 1 and not numbers and (rest[0] is sympy.pi or rest[0].is_Symbol):
             numbers, rest = rest, []
         fraction = rf"\frac{{{self.factors(numbers)}}}{{{self.factors(lower)}}}"
-        return f"{fraction} {self.factors(rest)}" if rest else fraction
+        following = self.factors(rest)
+        return f"{fraction}{_joint(' ', following)}{following}" if rest else fraction
 
     def factors(self, factors: list[sympy.Expr]) -> str:
         """A product; a thin space stands before δ and d, and a function's argument is closed before a bracket."""
         ordered = self._order.factors(factors)
         text = ""
-        for position, factor in enumerate(ordered):
-            following = ordered[position + 1] if position + 1 < len(ordered) else None
-            close = following is not None and base_exponent(following)[0].is_Add
-            alone = len(ordered) == 1
-            printed = self._factor(factor, closed=close, alone=alone)
+        space = ""
+        for factor in reversed(ordered):
+            printed = self._factor(factor, closed=text.startswith(("(", r"\left(")), alone=len(ordered) == 1)
+            text = f"{printed}{_joint(space, text)}{text}" if text else printed
             space = r" \, " if _is_infinitesimal(factor) else " "
-            text = f"{text}{space}{printed}" if text else printed
         return text or "1"
 
     def _factor(self, factor: sympy.Expr, *, closed: bool, alone: bool) -> str:
         base, exponent = base_exponent(factor)
-        if _is_function(base) and (exponent.is_Integer and exponent > 0):
+        if _takes_power(base, exponent):
             return self.call(base, exponent, closed=closed)
         if factor.is_Symbol:
             return self._typography.symbol(factor.name)
@@ -148,7 +147,7 @@ class _Latex:
             return rf"\frac{{1}}{{{self.text(base**-exponent, 0)}}}"
         if exponent == sympy.Rational(1, 2):
             return rf"\sqrt{{{self.text(base, 0)}}}"
-        if _is_function(base) and exponent.is_Integer:
+        if _takes_power(base, exponent):
             return self.call(base, exponent)
         return f"{self.text(base, ATOM)}^{{{self._exponent(exponent)}}}"
 
@@ -173,8 +172,17 @@ def _spaced(argument: str) -> str:
     return argument if argument.startswith("\\") else f" {argument}"
 
 
-def _is_function(expr: sympy.Expr) -> bool:
-    return bool(expr.is_Function) and not isinstance(expr, sympy.exp)
+def _takes_power(base: sympy.Expr, exponent: sympy.Expr) -> bool:
+    """Whether this is a function whose power stands after its name, as in sin² x."""
+    known = FUNCTIONS.get(_NAMES.get(type(base).__name__, type(base).__name__))
+    if known is None or known.name == "exp" or not base.is_Function:
+        return False
+    return bool(exponent == 1 or (known.name != "sign" and exponent.is_Integer and exponent > 0))
+
+
+def _joint(space: str, following: str) -> str:
+    """What stands between two factors: a sign if the second starts with a digit."""
+    return r" \cdot " if following[0].isdigit() else space
 
 
 def _is_infinitesimal(factor: sympy.Expr) -> bool:

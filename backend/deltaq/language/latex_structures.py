@@ -18,6 +18,7 @@ _D = re.compile(
     r"\s*(?:(?P<total>d|\\(?:mathrm|text|operatorname|mathit)\s*(?:\{\s*d\s*\}|d)|\\differentialD(?![A-Za-z])|\\dd(?![A-Za-z]))"
     r"|(?P<partial>\\partial(?![A-Za-z])|∂))\s*(?:\^\s*(?P<order>\{\s*\d\s*\}|\d))?(?:\\[,;!: ]|\s)*"
 )
+_VARIABLES = re.compile(r"[^+\-*/=]*\Z|\s*[({].*\Z", re.DOTALL)
 _ORDER = re.compile(r"\s*\^\s*(?:\{\s*(\d)\s*\}|(\d))\s*\Z")
 _MATRICES = frozenset({"matrix", "pmatrix", "bmatrix", "Bmatrix", "smallmatrix", "array"})
 _SYSTEMS = frozenset(
@@ -47,7 +48,7 @@ def _read_derivative(lexer: LatexLexer, upper: Range, lower: Range, span: Span) 
     if above is None or below is None:
         return False
     kind, order, rest = above
-    if kind != below[0]:
+    if kind != below[0] or not _VARIABLES.match(lexer.source.text, *below[2]):
         return False
     variables = _variables(lexer, below[2], span)
     if sum(times for _, times in variables) != order or order > 2:

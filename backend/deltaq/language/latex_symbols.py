@@ -42,8 +42,7 @@ def read_letters(lexer: LatexLexer) -> None:
         read_exponential_power(lexer, start)
         return
     letters_end = lexer.source.at
-    index, power = _index_and_power(lexer)
-    span = lexer.since(start)
+    index, power, span = _index_and_power(lexer, start)
     if len(run) > 1:
         single = [lexer.names.resolve(letter) for letter in run[:-1]] + [lexer.names.resolve(run[-1] + index)]
         whole = lexer.names.candidates(run + index) or (run in SPELLINGS and not index)
@@ -53,9 +52,8 @@ def read_letters(lexer: LatexLexer) -> None:
                 fail("ambiguous-product", span, text=run + index, first=product, second=run + index)
             _check_unit(lexer, run, span)
             for i, symbol in enumerate(single):
-                where = (
-                    Span(start + i, 1) if i < len(run) - 1 else Span(letters_end - 1, lexer.source.at - letters_end + 1)
-                )
+                last = Span(letters_end - 1, span.offset + span.length - letters_end + 1)
+                where = Span(start + i, 1) if i < len(run) - 1 else last
                 lexer.found.append(Token("name", symbol.name if symbol else "", where))
             lexer.found += power
             return
@@ -79,23 +77,24 @@ def read_symbol(lexer: LatexLexer, base: str, start: int, before: tuple[Token, .
         if order > 2:
             fail("derivative-order", lexer.since(start), order=order)
         before = (*before, Token("dot", str(order), lexer.since(start)))
-    index, power = _index_and_power(lexer)
+    index, power, span = _index_and_power(lexer, start)
     word = key(base.strip().removeprefix("\\")) + index
-    lexer.found += [*before, *word_tokens(word, lexer.since(start), lexer.names), *power]
+    lexer.found += [*before, *word_tokens(word, span, lexer.names), *power]
 
 
-def _index_and_power(lexer: LatexLexer) -> tuple[str, list[Token]]:
-    """The index and the power after a symbol, in either order."""
+def _index_and_power(lexer: LatexLexer, begin: int) -> tuple[str, list[Token], Span]:
+    """The index and the power after a symbol, in either order; where the symbol stands without its power."""
     index = _index(lexer)
+    span = lexer.since(begin)
     if lexer.source.next() != "^":
-        return index, []
+        return index, [], span
     mark = len(lexer.found)
     start = lexer.source.at
     lexer.source.at += 1
     lexer.superscript(start)
     power = lexer.found[mark:]
     del lexer.found[mark:]
-    return index or _index(lexer), power
+    return index or _index(lexer), power, span
 
 
 def _index(lexer: LatexLexer) -> str:
@@ -136,17 +135,22 @@ def read_upright(lexer: LatexLexer, start: int) -> None:
         read_exponential_power(lexer, start)
     elif word in SPELLINGS:
         lexer.found.append(Token("function", SPELLINGS[word].name, span))
-    elif word in UNITS and (lexer.after_number() or lexer.names.resolve(word) is None):
+    elif word in UNITS and lexer.source.next() != "_" and not _is_typeset_upright(lexer, word):
         fail("unit", span, name=word)
     else:
         _read_upright_symbol(lexer, word, inside, start)
 
 
+def _is_typeset_upright(lexer: LatexLexer, word: str) -> bool:
+    """Whether the scene itself writes this symbol upright; else upright letters are units."""
+    return any("rm" in s.typeset for s in lexer.names.candidates(word))
+
+
 def _read_upright_symbol(lexer: LatexLexer, word: str, inside: Range, start: int) -> None:
     if not re.fullmatch(r"\\?[A-Za-z][A-Za-z0-9]*", word):
         fail("unexpected-symbol", Span(inside[0], max(inside[1] - inside[0], 1)), symbol=word[:40])
-    index, power = _index_and_power(lexer)
-    lexer.found += [*word_tokens(key(word) + index, lexer.since(start), lexer.names), *power]
+    index, power, span = _index_and_power(lexer, start)
+    lexer.found += [*word_tokens(key(word) + index, span, lexer.names), *power]
 
 
 def read_exponential_power(lexer: LatexLexer, start: int) -> None:

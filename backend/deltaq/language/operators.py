@@ -221,9 +221,14 @@ class Operators:
         following = self._cursor.token
         divided = following.is_operator("^") if bracketed else following.is_operator("*", "/")
         if divided or (not bracketed and self._grammar.starts_factor()):
-            sign, near = self._cursor.slice(token.span), self._cursor.slice(operand.span)
-            first, second = f"({sign} {near}) …", f"{sign} ({near} …)"
-            fail("ambiguous", between(token.span, following.span), first=first, second=second)
+            if following.kind == "operator":
+                self._cursor.take()
+            rest = self._grammar.factor().span
+            sign = self._cursor.slice(Span(token.span.offset, operand.span.offset - token.span.offset))
+            near, all_ = self._cursor.slice(operand.span), between(operand.span, rest)
+            after = self._cursor.slice(between(following.span, rest))
+            first, second = f"({sign} {near}) {after}", f"{sign} ({self._cursor.slice(all_)})"
+            fail("ambiguous", between(token.span, rest), first=first, second=second)
         return operand
 
     def _expect_operand(self, token: Token) -> None:

@@ -76,6 +76,10 @@ class _Plain:
     def _product(self, expr: sympy.Expr) -> tuple[str, int]:
         sign, upper, lower = fraction_parts(expr)
         above = "*".join(self.text(f, PRODUCT) for f in self._order.factors(upper)) or "1"
+        if len(lower) == 2 and lower[0].is_Rational and lower[1].is_Add:
+            # Not 1/(2*(a + b)): the computer algebra would multiply this out when it is read back.
+            above += f"/{lower[0]}"
+            lower = lower[1:]
         if lower:
             below = "*".join(self.text(f, PRODUCT) for f in self._order.factors(lower))
             above += f"/({below})" if len(lower) > 1 else f"/{self.text(lower[0], POWER)}"

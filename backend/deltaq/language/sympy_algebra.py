@@ -25,6 +25,7 @@ _FUNCTIONS: Mapping[str, Callable[..., Any]] = MappingProxyType(
     {name: getattr(sympy, name) for name in _SAME_NAME} | {"abs": sympy.Abs}
 )
 _UNDEFINED = (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo)
+_NOT_A_VALUE = (*_UNDEFINED, sympy.AccumBounds)
 
 
 def to_sympy(node: Node, symbols: Symbols) -> Value:
@@ -35,7 +36,7 @@ def to_sympy(node: Node, symbols: Symbols) -> Value:
     value = fold(node, SympyAlgebra(symbols))
     if value.has(sympy.I):
         _refuse("not-real")
-    if value.has(*_UNDEFINED):
+    if value.has(*_NOT_A_VALUE):
         _refuse("division-by-zero")
     return value
 

@@ -7,7 +7,7 @@ from typing import NoReturn
 
 from .functions import OPERATORS, REFUSED_FUNCTIONS, SPELLINGS
 from .names import Names, Symbol
-from .spelling import folded
+from .spelling import GREEK_NAMES, folded
 from .tokens import Token, fail
 from .tree import Span
 
@@ -74,7 +74,8 @@ def _compound(word: str, span: Span, names: Names, *, after_number: bool) -> Ite
     if prefixed:
         yield from prefixed
         return
-    readings = _splits(word, names) if len(word) <= _MAX_COMPOUND else []
+    one_word = len(word) > _MAX_COMPOUND or word in REFUSED_FUNCTIONS or word in GREEK_NAMES
+    readings = [] if one_word else _splits(word, names)
     if len(readings) > 1:
         first, second = ("*".join(part for part, _ in reading) for reading in readings[:2])
         fail("ambiguous-product", span, text=word, first=first, second=second)
@@ -99,7 +100,7 @@ def _prefixed(word: str, span: Span, names: Names) -> Iterator[Token]:
 
 
 def _splits(word: str, names: Names) -> list[tuple[tuple[str, Symbol | str], ...]]:
-    """All ways (up to three) to read a word as a product of known symbols, the last part may be a function."""
+    """All ways (up to three) to read a word as a product of different symbols, the last part may be a function."""
     ways: list[list[tuple[tuple[str, Symbol | str], ...]]] = [[] for _ in range(len(word) + 1)]
     ways[len(word)] = [()]
     for start in range(len(word) - 1, -1, -1):
@@ -113,7 +114,7 @@ def _splits(word: str, names: Names) -> list[tuple[tuple[str, Symbol | str], ...
             if meaning is not None and not part.endswith("_"):
                 ways[start] += [((part, meaning), *rest) for rest in ways[end]]
         del ways[start][_MAX_READINGS:]
-    return ways[0]
+    return [way for way in ways[0] if len({part for part, _ in way}) == len(way)]
 
 
 def _accented(word: str, names: Names) -> tuple[str, ...]:

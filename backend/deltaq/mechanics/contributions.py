@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..language.tree import Node
+from .material import Material
 
 
 @dataclass(frozen=True)
@@ -17,6 +18,15 @@ class PointForce:
 
 
 @dataclass(frozen=True)
+class Moment:
+    """A moment M about the axis of an angle φ(q, t): δW = M δφ."""
+
+    source: str
+    angle: Node
+    moment: Node
+
+
+@dataclass(frozen=True)
 class PotentialEnergy:
     """A potential V(q, t): δW = −δV, with the time frozen."""
 
@@ -24,4 +34,23 @@ class PotentialEnergy:
     energy: Node
 
 
-Contribution = PointForce | PotentialEnergy
+@dataclass(frozen=True)
+class DissipationFunction:
+    """Rayleigh's function R(q, q̇, t): δW = −∂R/∂q̇ᵢ δqᵢ."""
+
+    source: str
+    function: Node
+
+
+@dataclass(frozen=True)
+class DistributedForce:
+    """A force density f over material coordinates: δW = ∫ f · δr d(material). `place` is a body, or the load itself."""
+
+    source: str
+    place: str
+    density: tuple[Node, ...]
+    position: tuple[Node, ...]
+    material: tuple[Material, ...]
+
+
+Contribution = PointForce | Moment | PotentialEnergy | DissipationFunction | DistributedForce

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import TypeVar, cast
 
@@ -26,7 +24,6 @@ from .soundness import soundness_problems
 T = TypeVar("T")
 FORMAT = 1
 KINDS: Mapping[str, Kind] = {"coordinates": "coordinate", "parameters": "parameter"}
-LIMIT = 64  # tables of one kind in a scene
 IDENTIFIER = re.compile(r"[a-z0-9][a-z0-9-]{0,63}")
 
 
@@ -42,129 +39,108 @@ def read_scene(document: Mapping[str, object]) -> Scene:
 def examine(document: Mapping[str, object]) -> tuple[Scene | None, tuple[Problem, ...]]:
     """The scene as far as it can be read, with all errors and warnings."""
     problems: list[Problem] = []
-    for scene in list(_Tables(Reader(document, "", problems, used=set())).scene()):
+    for scene in list(_scene(Reader(document, "", problems, used=set()))):
         return scene, (*problems, *(() if problems else soundness_problems(scene)))
     return None, tuple(problems)
 
 
-@dataclass(frozen=True)
-class _Tables:
-    """The lists of tables of a document, on their way to a scene."""
+def _scene(root: Reader) -> Iterator[Scene]:
+    """The scene, if all its parts are sound; what it says of itself (no body, no freedom) only matters then."""
+    if root.get("format", int, FORMAT) != FORMAT:
+        root.complain("unknown-format", "format", expected=FORMAT)
+    context = Context(_names(root), _place_names(root), _dimension(root))
+    make = partial(
+        Scene,
+        _identifier(root),
+        _translated(root, "title"),
+        _translated(root, "summary"),
+        context.dimension,
+        _each(root.tables("coordinates"), read_coordinate),
+        _each(root.tables("parameters"), read_parameter),
+        _each(root.tables("points", context), read_point),
+        _each(root.tables("bodies", context), read_body),
+        _each(root.tables("loads", context), read_load),
+        _each(root.tables("guides", context), read_guide),
+        _drawing(root, context),
+    )
+    yield from root.build(lambda _: make()) if not root.problems else ()
 
-    root: Reader
 
-    def scene(self) -> Iterator[Scene]:
-        root = self.root
-        if root.get("format", int, FORMAT) != FORMAT:
-            root.complain("unknown-format", "format", expected=FORMAT)
-        coordinates = self.each("coordinates", read_coordinate)
-        parameters = self.each("parameters", read_parameter)
-        names = self._names()
-        dimension = root.get("dimension", int, 2)
-        if dimension not in (2, 3):
-            root.complain("wrong-space", "dimension")
-            dimension = 2
-        context = Context(names, self._place_names(), dimension)
-        make = partial(
-            Scene,
-            self._identifier(),
-            self._translated("title"),
-            self._translated("summary"),
-            dimension,
-            coordinates,
-            parameters,
-            self.each("points", read_point, context),
-            self.each("bodies", read_body, context),
-            self.each("loads", read_load, context),
-            self.each("guides", read_guide, context),
-            next(self._drawing(context), Drawing()),
-        )
-        # What the scene says of itself (no body, no freedom) only matters once its parts are sound.
-        sound = not root.problems
-        yield from root.build(lambda _: make()) if sound else ()
+def _each(tables: tuple[Reader, ...], make: Callable[[Reader], T]) -> tuple[T, ...]:
+    return tuple(thing for table in tables for thing in table.build(make))
 
-    def _identifier(self) -> str:
-        identifier = self.root.text("id", "scene")
-        if not IDENTIFIER.fullmatch(identifier):
-            self.root.complain("invalid-id", "id", name=identifier[:40])
-        return identifier
 
-    def _names(self) -> Names:
-        """The names that expressions may use; a coordinate with a wrong value still has its name."""
-        named = [
-            (f"/{key}/{index}/name", Symbol(name, kind, _text(table, "latex"), table.get("positive", True) is True))
-            for key, kind in KINDS.items()
-            for index, table in enumerate(self._tables(key))
-            if is_name(name := _text(table, "name"))
-        ]
-        try:
-            return Names(tuple(symbol for _, symbol in named))
-        except InputError as error:
-            bad = {(p.code, p.parameters.get("name")) for p in error.problems}
-        # Go on with the names that are sound, so that what uses them is not called unknown as well.
-        sound: dict[str, Symbol] = {}
-        for pointer, symbol in named:
-            code = "duplicate-name" if symbol.name in sound else "reserved-name"
-            if (code, symbol.name) in bad:
-                self.root.problems.append(Problem(code, pointer, parameters={"name": symbol.name}))
-            else:
-                sound[symbol.name] = symbol
-        return Names(tuple(sound.values()))
+def _dimension(root: Reader) -> int:
+    dimension = root.get("dimension", int, 2) or 2
+    if dimension in (2, 3):
+        return dimension
+    root.complain("wrong-space", "dimension")
+    return 2
 
-    def _tables(self, key: str) -> tuple[Mapping[str, object], ...]:
-        """The well-formed tables of a list."""
-        value = self.root.table.get(key)
-        return tuple(table for table in value if isinstance(table, Mapping)) if isinstance(value, list | tuple) else ()
 
-    def _place_names(self) -> tuple[str, ...]:
-        return tuple(str(table.get("name", "")) for key in ("points", "bodies") for table in self._tables(key))
+def _identifier(root: Reader) -> str:
+    identifier = root.text("id", "scene")
+    if not IDENTIFIER.fullmatch(identifier):
+        root.complain("invalid-id", "id", name=identifier[:40])
+    return identifier
 
-    def _translated(self, key: str) -> Mapping[str, str]:
-        found = self.root.get(key, (Mapping, str), {}) or {}
-        texts = {"en": found, "de": found} if isinstance(found, str) else found
-        return {str(lang): str(text)[:1000] for lang, text in cast("Mapping[str, object]", texts).items()}
 
-    def each(self, key: str, make: Callable[[Reader], T], context: Context | None = None) -> tuple[T, ...]:
-        self.root.used.add(key)
-        value = self.root.table.get(key, [])
-        if not isinstance(value, list | tuple):
-            self.root.complain("not-a-list", key)
-            return ()
-        if len(value) > LIMIT:
-            self.root.complain("too-many", key, field=key, limit=LIMIT)
-            return ()
-        pointer = f"{self.root.pointer}/{key}"
-        return tuple(
-            thing for i, table in enumerate(value) for thing in self._one(f"{pointer}/{i}", table, make, context)
-        )
+def _translated(root: Reader, key: str) -> Mapping[str, str]:
+    found = root.get(key, (Mapping, str), {}) or {}
+    texts = {"en": found, "de": found} if isinstance(found, str) else found
+    return {str(lang): str(text)[:1000] for lang, text in cast("Mapping[str, object]", texts).items()}
 
-    def _one(self, pointer: str, table: object, make: Callable[[Reader], T], context: Context | None) -> Iterator[T]:
-        if isinstance(table, Mapping):
-            reader = Reader(table, pointer, self.root.problems, context, default_name=self._default_name(table))
-            yield from reader.build(make)
+
+def _names(root: Reader) -> Names:
+    """The names that expressions may use; a coordinate with a wrong value still has its name."""
+    named = [
+        (f"/{key}/{index}/name", Symbol(name, kind, _text(table, "latex"), _is_positive(kind, table)))
+        for key, kind in KINDS.items()
+        for index, table in enumerate(_well_formed(root, key))
+        if is_name(name := _text(table, "name"))
+    ]
+    try:
+        return Names(tuple(symbol for _, symbol in named))
+    except InputError as error:
+        bad = {(p.code, p.parameters.get("name")) for p in error.problems}
+    # Go on with the names that are sound, so that what uses them is not called unknown as well.
+    sound: dict[str, Symbol] = {}
+    for pointer, symbol in named:
+        code = "duplicate-name" if symbol.name in sound else "reserved-name"
+        if (code, symbol.name) in bad:
+            root.problems.append(Problem(code, pointer, parameters={"name": symbol.name}))
         else:
-            self.root.problems.append(Problem("not-a-table", pointer))
+            sound[symbol.name] = symbol
+    return Names(tuple(sound.values()))
 
-    def _default_name(self, table: Mapping[str, object]) -> str:
-        """A load without a name is called by its kind, with a number where there are several."""
-        kind = str(table.get("kind", ""))
-        loads = [load for load in self._tables("loads") if load.get("kind") == kind]
-        alone = Counter(str(load.get("kind")) for load in loads)[kind] < 2
-        places = [index for index, load in enumerate(loads) if load is table]
-        return kind if alone or not places else f"{kind}-{places[0] + 1}"
 
-    def _drawing(self, context: Context) -> Iterator[Drawing]:
-        self.root.used.add("drawing")
-        table = self.root.table.get("drawing", {})
+def _is_positive(kind: Kind, table: Mapping[str, object]) -> bool:
+    return kind == "parameter" and table.get("positive", True) is True
 
-        def make(reader: Reader) -> Drawing:
-            vertical = cast("Vertical", reader.text("vertical", "up"))
-            view = reader.get("view", list, []) or []
-            numbers = tuple(float(number) if isinstance(number, int | float) else float("nan") for number in view)
-            reader.used.add("elements")
-            return Drawing(vertical, numbers or None, _Tables(reader).each("elements", Element.read, context))
 
-        yield from self._one("/drawing", table, make, context)
+def _well_formed(root: Reader, key: str) -> tuple[Mapping[str, object], ...]:
+    """The tables of a list that are tables."""
+    value = root.table.get(key)
+    return tuple(table for table in value if isinstance(table, Mapping)) if isinstance(value, list | tuple) else ()
+
+
+def _place_names(root: Reader) -> tuple[str, ...]:
+    """Points and bodies; a continuum is no place, for it is everywhere."""
+    tables = (table for key in ("points", "bodies") for table in _well_formed(root, key))
+    return tuple(str(table.get("name", "")) for table in tables if "material" not in table)
+
+
+def _drawing(root: Reader, context: Context) -> Drawing:
+    table = root.get("drawing", Mapping, {}) or {}
+    reader = Reader(table, "/drawing", root.problems, context)
+    return next(iter([*reader.build(read_drawing)]), Drawing())
+
+
+def read_drawing(table: Reader) -> Drawing:
+    vertical = cast("Vertical", table.text("vertical", "up"))
+    view = table.get("view", list, []) or []
+    numbers = tuple(float(number) if isinstance(number, int | float) else float("nan") for number in view)
+    return Drawing(vertical, numbers or None, _each(table.tables("elements"), Element.read))
 
 
 def read_coordinate(table: Reader) -> Coordinate:

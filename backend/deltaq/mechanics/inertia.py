@@ -13,46 +13,100 @@ from collections.abc import Iterator, Mapping
 
 from ..errors import Problem
 from ..language.floats import evaluate
+from ..language.tree import Node, TimeDerivative
+from .bodies import Body
+from .kinetics import Distribution, Kinetics, Rotation, Translation
+from .material import Material
 from .scene import Scene
 
 POINTS = 5
 STEP = 1e-5
 NOTHING = 1e-7  # the differences are good to about 1e-10
+GAUSS = ((0.5 - math.sqrt(0.15), 5 / 18), (0.5, 8 / 18), (0.5 + math.sqrt(0.15), 5 / 18))  # on the unit interval
 
 Matrix = list[list[float]]
 Point = Mapping[str, float]
+Share = tuple[float, list[list[float]]]  # an inertia, and the velocity it has for each unit rate
 
 
 def inertia_problems(scene: Scene) -> Iterator[Problem]:
     """Bodies whose mass is not positive, and coordinates that move no mass of their own."""
     values = {p.name: p.value for p in scene.parameters} | {c.name: c.value for c in scene.coordinates} | {"t": 0.0}
-    for index, body in enumerate(scene.bodies):
-        mass = evaluate(body.mass.tree, values)
-        if mass <= 0:
-            parameters = {"name": body.name, "value": f"{mass:g}"}
-            yield Problem("mass-not-positive", f"/bodies/{index}/mass", parameters=parameters)
-            return
+    light = [problem for index, body in enumerate(scene.bodies) for problem in _light(index, body, values)]
+    if light:
+        yield from light
+        return
     matrices = [matrix for point in _points(scene) if (matrix := mass_matrix(scene, point)) is not None]
     dependent = [_dependent(matrix) for matrix in matrices]
     if matrices and all(dependent):
         yield from _singular(scene, min(dependent, key=len))
 
 
+def _light(index: int, body: Body, values: Point) -> Iterator[Problem]:
+    for part in body.kinetics:
+        if isinstance(part, Translation) and not (mass := evaluate(part.mass, values)) > 0:
+            parameters = {"name": body.name, "value": f"{mass:g}"}
+            yield Problem("mass-not-positive", f"/bodies/{index}/mass", parameters=parameters)
+
+
 def mass_matrix(scene: Scene, point: Point) -> Matrix | None:
     """M at a point, by central differences; None where a position is not defined."""
-    names = [coordinate.name for coordinate in scene.free]
-    total = [[0.0] * len(names) for _ in names]
+    size = range(len(scene.free))
+    total = [[0.0] * len(size) for _ in size]
     for body in scene.bodies:
-        mass = evaluate(body.mass.tree, _guided(scene, point))
-        ahead = [_position(scene, body.name, {**point, name: point[name] + STEP}) for name in names]
-        behind = [_position(scene, body.name, {**point, name: point[name] - STEP}) for name in names]
-        tangents = [
-            [(a - b) / (2 * STEP) for a, b in zip(p, q, strict=True)] for p, q in zip(ahead, behind, strict=True)
-        ]
-        for i, first in enumerate(tangents):
-            for j, second in enumerate(tangents):
-                total[i][j] += mass * sum(a * b for a, b in zip(first, second, strict=True))
+        for part in body.kinetics:
+            for inertia, columns in _shares(part, scene, point):
+                for i in size:
+                    for j in size:
+                        total[i][j] += inertia * sum(a * b for a, b in zip(columns[i], columns[j], strict=True))
     return total if all(math.isfinite(entry) for row in total for entry in row) else None
+
+
+def _shares(part: Kinetics, scene: Scene, point: Point) -> Iterator[Share]:
+    """The part as inertias, each with its velocity for unit rates of the free coordinates."""
+    match part:
+        case Translation(mass=mass, position=position):
+            yield evaluate(mass, _guided(scene, point)), _tangents(position, scene, point)
+        case Rotation(inertia=inertia, angular_velocity=angular_velocity):
+            for moment, omega in zip(inertia, angular_velocity, strict=True):
+                yield evaluate(moment, _guided(scene, point)), _turning(omega, scene, point)
+        case Distribution(density=density, position=position, material=material):
+            for weight, inside in _nodes(material, point):
+                yield weight * evaluate(density, _guided(scene, inside)), _tangents(position, scene, inside)
+
+
+def _tangents(position: tuple[Node, ...], scene: Scene, point: Point) -> list[list[float]]:
+    """∂r/∂q for every free coordinate."""
+
+    def moved(name: str, step: float) -> list[float]:
+        values = _guided(scene, {**point, name: point[name] + step})
+        return [evaluate(component, values) for component in position]
+
+    pairs = [(moved(c.name, STEP), moved(c.name, -STEP)) for c in scene.free]
+    return [[(a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True)] for ahead, behind in pairs]
+
+
+def _turning(omega: Node, scene: Scene, point: Point) -> list[list[float]]:
+    """∂ω/∂q̇ for every free coordinate; ω is the rate of an angle, or given with rates."""
+    if isinstance(omega, TimeDerivative):
+        return _tangents((omega.operand,), scene, point)
+    rest = {f"dot({c.name})": 0.0 for c in scene.coordinates}
+    at_rest = evaluate(omega, _guided(scene, {**point, **rest}))
+    units = [{**point, **rest, f"dot({c.name})": 1.0} for c in scene.free]
+    return [[evaluate(omega, _guided(scene, unit)) - at_rest] for unit in units]
+
+
+def _nodes(material: tuple[Material, ...], point: Point) -> Iterator[tuple[float, Point]]:
+    """Gauss points of the material coordinates with their weights."""
+    if not material:
+        yield 1.0, point
+        return
+    first, *rest = material
+    lower, upper = evaluate(first.lower.tree, point), evaluate(first.upper.tree, point)
+    for place, weight in GAUSS:
+        inner = {**point, first.name: lower + place * (upper - lower)}
+        for other, inside in _nodes(tuple(rest), inner):
+            yield weight * (upper - lower) * other, inside
 
 
 def _singular(scene: Scene, columns: tuple[int, ...]) -> Iterator[Problem]:
@@ -73,11 +127,6 @@ def _points(scene: Scene) -> Iterator[Point]:
 
 def _guided(scene: Scene, point: Point) -> Point:
     return {**point, **{guide.coordinate: evaluate(guide.value.tree, point) for guide in scene.guides}}
-
-
-def _position(scene: Scene, place: str, point: Point) -> list[float]:
-    values = _guided(scene, point)
-    return [evaluate(component.tree, values) for component in scene.place(place)]
 
 
 def _dependent(matrix: Matrix) -> tuple[int, ...]:

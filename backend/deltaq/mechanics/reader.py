@@ -27,6 +27,7 @@ NOT_OF: Mapping[type, str] = {
     list: "not-a-list",
     Mapping: "not-a-table",
 }
+LIMIT = 64  # tables in a list
 NOTHING = Expression("0", Number(Fraction(0)))
 
 
@@ -99,6 +100,23 @@ class Reader:
         self.complain(NOT_OF[str], key)
         return "0"
 
+    def tables(self, key: str, context: Context | None = None) -> tuple[Reader, ...]:
+        """The tables of a list, each to be read by itself; those that are none are complained about."""
+        values = self.get(key, (list, tuple), [])
+        if values is None or len(values) > LIMIT:
+            self.complain("too-many", key, field=key, limit=LIMIT)
+            return ()
+        kinds = [str(value.get("kind", "")) if isinstance(value, Mapping) else "" for value in values]
+        pointer = f"{self.pointer}/{key}"
+        self.problems += [
+            Problem("not-a-table", f"{pointer}/{i}") for i, v in enumerate(values) if not isinstance(v, Mapping)
+        ]
+        return tuple(
+            Reader(value, f"{pointer}/{i}", self.problems, context or self.context, default_name=_numbered(kinds, i))
+            for i, value in enumerate(values)
+            if isinstance(value, Mapping)
+        )
+
     def expression(self, key: str, default: str | None = None) -> Expression:
         text = self.text(key, default)
         return self.parsed(text, key) if text else self._empty(key)
@@ -110,7 +128,7 @@ class Reader:
 
     def vector(self, key: str) -> tuple[Expression, ...]:
         texts = self.strings(key)
-        dimension = self._context.dimension
+        dimension = self.named.dimension
         if key in self.table and len(texts) != dimension:
             self.complain("wrong-dimension", key, expected=dimension, found=len(texts))
         parsed = tuple(self.parsed(text, f"{key}/{i}") for i, text in enumerate(texts[:dimension]))
@@ -126,14 +144,14 @@ class Reader:
 
     def place(self, key: str) -> str:
         name = self.text(key)
-        if name and name not in self._context.places:
-            near = get_close_matches(name, self._context.places, n=1)
+        if name and name not in self.named.places:
+            near = get_close_matches(name, self.named.places, n=1)
             self.complain("unknown-place", key, name=name, suggestion=near[0] if near else "")
         return name
 
     def parsed(self, text: str, key: str) -> Expression:
         try:
-            expression = parse(text, self._context.names)
+            expression = parse(text, self.named.names)
         except InputError as error:
             self.problems.extend(problem.below(f"{self.pointer}/{key}") for problem in error.problems)
             return NOTHING
@@ -146,7 +164,8 @@ class Reader:
         return NOTHING
 
     @property
-    def _context(self) -> Context:
+    def named(self) -> Context:
+        """The context, once names are known."""
         if self.context is None:
             raise LookupError("names are read before expressions")
         return self.context
@@ -162,3 +181,9 @@ class Reader:
         for key in self.table.keys() - self.used:
             near = get_close_matches(key, self.used, n=1)
             self.complain("unknown-field", key, field=key[:40], suggestion=near[0] if near else "")
+
+
+def _numbered(kinds: list[str], index: int) -> str:
+    """A thing without a name is called by its kind, with a number where there are several of the kind."""
+    kind = kinds[index]
+    return kind if kinds.count(kind) < 2 else f"{kind}-{kinds[: index + 1].count(kind)}"

@@ -13,11 +13,12 @@ from ..language.expression import Expression
 from ..language.names import Names, Symbol
 from .bodies import Body
 from .checks import demand
-from .contributions import Contribution
+from .contributions import Contribution, DistributedForce
 from .coordinate import Coordinate
 from .drawing import Drawing
 from .guide import Guide
 from .loads import Load
+from .material import Material
 from .parameter import Parameter
 from .point import Point
 
@@ -67,8 +68,15 @@ class Scene:
 
     @cached_property
     def names(self) -> Names:
-        """What its expressions may refer to."""
-        return names_of(self.coordinates, self.parameters)
+        """What its expressions may refer to, material coordinates included."""
+        return names_of(self.coordinates, self.parameters, self.material)
+
+    @cached_property
+    def material(self) -> tuple[Material, ...]:
+        """The material coordinates of its continua and distributed forces, each name once."""
+        loads = (part.material for part in self.contributions if isinstance(part, DistributedForce))
+        found = (coordinate for each in (*(body.material for body in self.bodies), *loads) for coordinate in each)
+        return tuple({coordinate.name: coordinate for coordinate in found}.values())
 
     @cached_property
     def free(self) -> tuple[Coordinate, ...]:
@@ -78,12 +86,14 @@ class Scene:
 
     @cached_property
     def places(self) -> Mapping[str, tuple[Expression, ...]]:
-        """Positions of all points and bodies by name."""
+        """Positions of all points and bodies without material coordinates, by name."""
         points = {point.name: point.position for point in self.points}
-        return MappingProxyType(points | {body.name: body.position for body in self.bodies})
+        return MappingProxyType(points | {body.name: body.position for body in self.bodies if not body.material})
 
     def place(self, name: str) -> tuple[Expression, ...]:
-        return self.places[name]
+        """The position of a place, or the position field of a continuum."""
+        fields = {body.name: body.position for body in self.bodies if body.material}
+        return fields[name] if name in fields else self.places[name]
 
     @cached_property
     def contributions(self) -> tuple[Contribution, ...]:
@@ -99,11 +109,14 @@ class Scene:
         return Scene, (*fields, self.points, self.bodies, self.loads, self.guides, self.drawing)
 
 
-def names_of(coordinates: tuple[Coordinate, ...], parameters: tuple[Parameter, ...]) -> Names:
+def names_of(
+    coordinates: tuple[Coordinate, ...], parameters: tuple[Parameter, ...], material: tuple[Material, ...] = ()
+) -> Names:
     """The names of coordinates (in their order) and parameters. Raises InputError for repeated and reserved ones."""
     return Names(
         tuple(Symbol(c.name, "coordinate", c.latex) for c in coordinates)
         + tuple(Symbol(p.name, "parameter", p.latex, p.positive) for p in parameters)
+        + tuple(Symbol(m.name, "material") for m in material)
     )
 
 

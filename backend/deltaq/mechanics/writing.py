@@ -10,6 +10,7 @@ from .coordinate import Coordinate
 from .document import FORMAT
 from .guide import Guide
 from .loads import Load
+from .material import Material
 from .parameter import Parameter
 from .point import Point
 from .scene import Scene
@@ -47,4 +48,6 @@ def _write(thing: Coordinate | Parameter | Point | Body | Load | Guide) -> dict[
 def _plain(value: object) -> object:
     if isinstance(value, Expression):
         return value.text
+    if isinstance(value, Material):
+        return value.write()
     return [_plain(item) for item in value] if isinstance(value, tuple) else value

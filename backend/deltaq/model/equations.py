@@ -16,10 +16,11 @@ from dataclasses import dataclass
 
 import symengine as se
 
+from ..language.expression import Expression
 from ..mechanics.scene import Scene
 from .functions import Expr
-from .kinetic import Vector, kinetic_energy, position
-from .loads import ZERO, Work, works
+from .kinetic import ZERO, Vector, components, kinetic_energy
+from .loads import Work, works
 from .symbols import CLOCK, Symbols
 from .symengine_algebra import to_symengine
 
@@ -51,7 +52,7 @@ def equations(scene: Scene) -> Equations:
     """The model of a scene."""
     symbols = Symbols.of(scene)
     guides = _Guides.of(scene, symbols)
-    kinetic = sum((kinetic_energy(body, symbols) for body in scene.bodies), ZERO)
+    kinetic = sum((kinetic_energy(part, symbols) for body in scene.bodies for part in body.kinetics), ZERO)
     loads = works(scene, symbols)
     rows = _rows(kinetic, loads, symbols)
     count = len(symbols.free)
@@ -66,9 +67,13 @@ def equations(scene: Scene) -> Equations:
         guides.into((power,))[0],
         guides.into(acceleration_power),
         {name: guides.motion(name) for name in symbols.guided},
-        {name: guides.into(position(place, symbols)) for name, place in scene.places.items()},
+        {name: guides.into(_position(place, symbols)) for name, place in scene.places.items()},
         {name: guides.into(force) for name, force in _arrows(scene, loads).items()},
     )
+
+
+def _position(place: tuple[Expression, ...], symbols: Symbols) -> Vector:
+    return components(tuple(x.tree for x in place), symbols)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Kinetic energies of the bodies: E = ∫ ½ v·v dm, one function for each kind of body."""
+"""Kinetic energies: E = ∫ ½ v·v dm, one function for each of the kinds that bodies come down to."""
 
 from __future__ import annotations
 
@@ -6,35 +6,62 @@ from functools import singledispatch
 
 import symengine as se
 
-from ..language.expression import Expression
-from ..mechanics.bodies.particle import Particle
+from ..language.tree import Node
+from ..mechanics.kinetics import Distribution, Rotation, Translation
 from .functions import Expr
-from .symbols import Symbols
+from .quadrature import integral
+from .symbols import CLOCK, Symbols
 from .symengine_algebra import to_symengine
 
+ZERO = se.Integer(0)
 Vector = tuple[Expr, ...]
 
 
-def position(expressions: tuple[Expression, ...], symbols: Symbols) -> Vector:
-    """A position field, in components."""
-    return tuple(to_symengine(expression.tree, symbols) for expression in expressions)
+def components(nodes: tuple[Node, ...], symbols: Symbols) -> Vector:
+    """A vector, in components."""
+    return tuple(to_symengine(node, symbols) for node in nodes)
 
 
 def velocity(r: Vector, symbols: Symbols) -> Vector:
     """v = Σ ∂r/∂qⱼ q̇ⱼ over all that moves; for the clock this is ∂r/∂t times its rate."""
-    return tuple(
-        sum((x.diff(symbols.values[name]) * symbols.rates[name] for name in symbols.moving), se.Integer(0)) for x in r
-    )
+    return tuple(sum((x.diff(symbols.values[name]) * symbols.rates[name] for name in symbols.moving), ZERO) for x in r)
 
 
 @singledispatch
-def kinetic_energy(body: object, _symbols: Symbols) -> Expr:
-    """The kinetic energy of a body in q, q̇, t."""
-    raise TypeError(f"no kinetic energy is known for {type(body).__name__}")
+def kinetic_energy(kinetics: object, _symbols: Symbols) -> Expr:
+    """The kinetic energy in q, q̇, t; homogeneous of degree 2 in all rates, that of the clock included."""
+    raise TypeError(f"no kinetic energy is known for {type(kinetics).__name__}")
 
 
 @kinetic_energy.register
-def _of_particle(body: Particle, symbols: Symbols) -> Expr:
+def _of_translation(kinetics: Translation, symbols: Symbols) -> Expr:
     """E = m/2 v·v"""
-    speeds = velocity(position(body.position, symbols), symbols)
-    return to_symengine(body.mass.tree, symbols) * sum((v**2 for v in speeds), se.Integer(0)) / 2
+    v = velocity(components(kinetics.position, symbols), symbols)
+    return to_symengine(kinetics.mass, symbols) * _square(v) / 2
+
+
+@kinetic_energy.register
+def _of_rotation(kinetics: Rotation, symbols: Symbols) -> Expr:
+    """E = 1/2 Σ Jₖ ωₖ²"""
+    moments = components(kinetics.inertia, symbols)
+    spins = (_homogeneous(spin, symbols) for spin in components(kinetics.angular_velocity, symbols))
+    return sum((moment * spin**2 for moment, spin in zip(moments, spins, strict=True)), ZERO) / 2
+
+
+@kinetic_energy.register
+def _of_distribution(kinetics: Distribution, symbols: Symbols) -> Expr:
+    """E = ∫ 1/2 v·v dm"""
+    inside = symbols.within(kinetics.material)
+    v = velocity(components(kinetics.position, inside), inside)
+    return integral(to_symengine(kinetics.density, inside) * _square(v) / 2, kinetics.material, inside)
+
+
+def _square(v: Vector) -> Expr:
+    return sum((x**2 for x in v), ZERO)
+
+
+def _homogeneous(spin: Expr, symbols: Symbols) -> Expr:
+    """An angular velocity, affine in the rates, with the clock's rate at the part that none of them causes."""
+    clock = symbols.rates[CLOCK]
+    slowed = {symbols.rates[name]: symbols.rates[name] / clock for name in symbols.moving if name != CLOCK}
+    return se.expand(clock * spin.subs(slowed))

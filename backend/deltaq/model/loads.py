@@ -5,22 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import singledispatch
 
-import symengine as se
-
-from ..language.tree import Node
-from ..mechanics.contributions import PointForce, PotentialEnergy
+from ..mechanics.contributions import DissipationFunction, DistributedForce, Moment, PointForce, PotentialEnergy
 from ..mechanics.scene import Scene
 from .functions import Expr
-from .kinetic import Vector, position, velocity
+from .kinetic import ZERO, Vector, components, velocity
+from .quadrature import integral
 from .symbols import Symbols
 from .symengine_algebra import to_symengine
-
-ZERO = se.Integer(0)
 
 
 @dataclass(frozen=True)
 class Work:
-    """What one contribution does: V (its potential energy) or Q (generalized forces, of all that moves) and P = Q·q̇."""
+    """What one contribution does: V (its potential energy) or Q (generalized forces, of all that moves) and P = Q·q̇.
+
+    A load that depends on nothing that moves is uniform, and has a potential: −F·r, −M φ.
+    """
 
     potential: Expr
     forces: Vector
@@ -46,14 +45,45 @@ def _of_potential(contribution: PotentialEnergy, _scene: Scene, symbols: Symbols
 
 @_work.register
 def _of_force(contribution: PointForce, scene: Scene, symbols: Symbols) -> Work:
-    """δW = F·δr. A uniform force (one that depends on nothing that moves) has the potential V = −F·r."""
-    force = _components(contribution.force, symbols)
-    r = position(scene.place(contribution.place), symbols)
+    """δW = F·δr"""
+    force = components(contribution.force, symbols)
+    r = components(tuple(x.tree for x in scene.place(contribution.place)), symbols)
     arrow = (contribution.place, force)
     if _is_uniform(force, symbols):
         return _conservative(-_dot(force, r), symbols, arrow)
-    forces = tuple(_dot(force, tuple(x.diff(symbols.values[name]) for x in r)) for name in symbols.moving)
-    return Work(ZERO, forces, _dot(force, velocity(r, symbols)), arrow)
+    return Work(ZERO, _along(force, r, symbols), _dot(force, velocity(r, symbols)), arrow)
+
+
+@_work.register
+def _of_moment(contribution: Moment, _scene: Scene, symbols: Symbols) -> Work:
+    """δW = M δφ"""
+    moment, angle = (to_symengine(contribution.moment, symbols),), (to_symengine(contribution.angle, symbols),)
+    if _is_uniform(moment, symbols):
+        return _conservative(-moment[0] * angle[0], symbols)
+    return Work(ZERO, _along(moment, angle, symbols), _dot(moment, velocity(angle, symbols)))
+
+
+@_work.register
+def _of_dissipation(contribution: DissipationFunction, _scene: Scene, symbols: Symbols) -> Work:
+    """δW = −∂R/∂q̇ᵢ δqᵢ"""
+    function = to_symengine(contribution.function, symbols)
+    forces = tuple(-function.diff(symbols.rates[name]) for name in symbols.moving)
+    return Work(ZERO, forces, _dot(forces, tuple(symbols.rates[name] for name in symbols.moving)))
+
+
+@_work.register
+def _of_distributed_force(contribution: DistributedForce, _scene: Scene, symbols: Symbols) -> Work:
+    """δW = ∫ f·δr d(material)"""
+    inside = symbols.within(contribution.material)
+    density, r = components(contribution.density, inside), components(contribution.position, inside)
+
+    def total(part: Expr) -> Expr:
+        return integral(part, contribution.material, inside)
+
+    if _is_uniform(density, inside):
+        return _conservative(total(-_dot(density, r)), symbols)
+    forces = tuple(total(part) for part in _along(density, r, inside))
+    return Work(ZERO, forces, total(_dot(density, velocity(r, inside))))
 
 
 def _conservative(potential: Expr, symbols: Symbols, arrow: tuple[str, Vector] | None = None) -> Work:
@@ -61,8 +91,9 @@ def _conservative(potential: Expr, symbols: Symbols, arrow: tuple[str, Vector] |
     return Work(potential, gradient, ZERO, arrow)
 
 
-def _components(force: tuple[Node, ...], symbols: Symbols) -> Vector:
-    return tuple(to_symengine(component, symbols) for component in force)
+def _along(force: Vector, r: Vector, symbols: Symbols) -> Vector:
+    """Q = F·∂r/∂q for all that moves."""
+    return tuple(_dot(force, tuple(x.diff(symbols.values[name]) for x in r)) for name in symbols.moving)
 
 
 def _dot(a: Vector, b: Vector) -> Expr:

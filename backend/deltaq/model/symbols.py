@@ -7,12 +7,13 @@ and a power like everything else.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import symengine as se
 
+from ..mechanics.material import Material
 from ..mechanics.scene import Scene
 from .functions import Expr
 
@@ -26,6 +27,7 @@ class Symbols:
     free: tuple[str, ...]
     guided: tuple[str, ...]
     parameters: tuple[str, ...]
+    material: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, scene: Scene) -> Symbols:
@@ -35,15 +37,20 @@ class Symbols:
             tuple(parameter.name for parameter in scene.parameters),
         )
 
+    def within(self, material: Sequence[Material]) -> Symbols:
+        """The symbols inside a continuum, where each particle has its material coordinates."""
+        return replace(self, material=tuple(coordinate.name for coordinate in material))
+
     @cached_property
     def moving(self) -> tuple[str, ...]:
         return (*self.free, *self.guided, CLOCK)
 
     @cached_property
     def values(self) -> Mapping[str, Expr]:
-        """The symbol of every coordinate, parameter and the time, and the number π."""
+        """The symbol of every coordinate, parameter, material coordinate and the time, and the number π."""
         coordinates, parameters = self._numbered("q", self.moving[:-1]), self._numbered("p", self.parameters)
-        return {**coordinates, **parameters, CLOCK: self.time, "pi": se.pi}
+        material = self._numbered("s", self.material)
+        return {**coordinates, **parameters, **material, CLOCK: self.time, "pi": se.pi}
 
     @cached_property
     def rates(self) -> Mapping[str, Expr]:

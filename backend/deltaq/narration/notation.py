@@ -9,12 +9,14 @@ from itertools import groupby
 import sympy as sp
 
 from ..derivation.formula import (
+    Bounds,
     Dot,
     Equation,
     Explicit,
     Formula,
     Gateaux,
     Given,
+    Integral,
     Named,
     Partial,
     Plus,
@@ -66,6 +68,8 @@ class Notation:
                 return self._sum(terms)
             case Substituted(of, values):
                 return self._substituted(of, values)
+            case Integral(of, material):
+                return self._integral(of, material)
             case Equation(left, right):
                 return f"{self.formula(left)} = {self.formula(right)}"
 
@@ -87,6 +91,11 @@ class Notation:
     def _bare(self, of: Formula) -> str:
         """The name without its arguments, for the numerator of a derivative."""
         return self.symbols.latex(of.quantity) if isinstance(of, Named) else self._factor(of)
+
+    def _integral(self, of: Formula, material: tuple[Bounds, ...]) -> str:
+        signs = "".join(rf"\int_{{{self.value(b.lower)}}}^{{{self.value(b.upper)}}} " for b in material)
+        elements = "".join(rf"\,\mathrm{{d}}{self.value(b.symbol)}" for b in reversed(material))
+        return f"{signs}{self._factor(of)}{elements}"
 
     def _factor(self, formula: Formula) -> str:
         """In parentheses where it is a sum of its own."""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
 
 from ..language.tree import Call, Node, walk
-from ..mechanics.contributions import PointForce, PotentialEnergy
+from ..mechanics.contributions import Contribution
 from ..mechanics.scene import Scene
 from .library import get_method
 from .method import Method
@@ -44,9 +45,8 @@ def _has_kinks(scene: Scene) -> bool:
     return any(isinstance(n, Call) and n.function in KINKED for tree in guides + forces for n in walk(tree))
 
 
-def _nodes(part: PointForce | PotentialEnergy) -> tuple[Node, ...]:
-    match part:
-        case PointForce(force=force):
-            return force
-        case PotentialEnergy(energy=energy):
-            return (energy,)
+def _nodes(part: Contribution) -> Iterator[Node]:
+    """All expressions of a contribution, whatever its kind."""
+    for item in fields(part):
+        value = getattr(part, item.name)
+        yield from (node for node in (value if isinstance(value, tuple) else (value,)) if isinstance(node, Node))

@@ -46,6 +46,9 @@ class Method:
     family: str = field(default="explicit-runge-kutta", init=False)
     is_symplectic: bool = field(default=False, init=False)  # no explicit Runge–Kutta method is
 
+    def __hash__(self) -> int:
+        return hash(self.id)  # the many fractions of a tableau take long
+
     @property
     def is_adaptive(self) -> bool:
         """Whether it has an embedded error estimate to choose its steps by."""

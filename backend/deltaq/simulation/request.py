@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 from ..errors import InputError, Problem, RequestError, UnknownNameError
@@ -55,10 +56,17 @@ def read_request(document: Mapping[str, object]) -> Request:
 
 
 def _scene(given: object) -> Scene:
-    try:
+    with inside("/scene"):
         return load_scene(given) if isinstance(given, str) else read_scene(given)  # type: ignore[arg-type]
+
+
+@contextmanager
+def inside(pointer: str) -> Iterator[None]:
+    """Problems raised within are told as seen from the request, in which their document stands at `pointer`."""
+    try:
+        yield
     except InputError as error:
-        raise type(error)(*(problem.below("/scene") for problem in error.problems)) from None
+        raise type(error)(*(problem.below(pointer) for problem in error.problems)) from None
 
 
 def _with_initial(scene: Scene, initial: Mapping[str, Mapping[str, float]], freeze: tuple[str, ...]) -> Scene:

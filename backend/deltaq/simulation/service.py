@@ -17,7 +17,7 @@ from .driver import simulate
 from .library import get_method, method_ids
 from .outcome import Outcome
 from .problem import Problem
-from .request import Request, read_request
+from .request import Request, inside, read_request
 from .trajectory import Trajectory
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
@@ -37,7 +37,8 @@ def run(document: Mapping[str, object]) -> Document:
 def simulate_request(request: Request, choice: Choice) -> Document:
     """The answer to a request that has been read, by the method chosen."""
     start = perf_counter()
-    model = compile_model(request.scene)
+    with inside("/scene"):
+        model = compile_model(request.scene)
     compile_time = perf_counter() - start
     problem = problem_of(request.scene, request.t_end, request.samples)
     trajectory = simulate(

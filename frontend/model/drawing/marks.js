@@ -138,7 +138,7 @@ export function dimension(element, stage, now, key) {
   const className = coordinateClass(stage.scene, element.coordinate);
   const past = scaled(unit(offset), stage.unit * 0.5);
   const size = Math.min(stage.unit * 0.8, lengthOf(span) * 0.6);
-  const aside = scaled(unit(offset), stage.unit * 1.1);
+  const aside = scaled(unit(offset), stage.unit * 1.4);
   return {
     shapes: [
       { key: `${key}-from`, d: line(from, add(a, past)), className: "reference" },

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
+import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,10 @@ def echo(document: Any) -> Any:
 
 def pid(document: Any) -> Any:
     return {"pid": os.getpid()}
+
+
+def family(document: Any) -> Any:
+    return {"parent": os.getppid()}
 
 
 def sleep(document: Any) -> Any:
@@ -101,3 +106,17 @@ def kill_self_once(document: Any) -> Any:
     if len(marker.read_text()) < document["times"] + 1:
         os.kill(os.getpid(), signal.SIGKILL)
     return {"runs": len(marker.read_text())}
+
+
+def birth(document: Any) -> Any:
+    """What the worker was born with."""
+
+    def threads(pid: int | str) -> int:
+        return len(list(Path(f"/proc/{pid}/task").iterdir()))
+
+    libraries = {"sympy", "numba", "symengine", "numpy"}
+    return {
+        "threads_of_parent": threads(os.getppid()),
+        "threads": threads("self"),
+        "loaded": sorted(libraries & sys.modules.keys()),
+    }

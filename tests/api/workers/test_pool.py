@@ -271,6 +271,16 @@ async def test_stop_refuses_what_waits_and_leaves_no_process(make_pool: MakePool
     assert [pid for pid in pids if not gone_within(pid, 2.0)] == []
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere workers outlive the fork server")
+async def test_kill_of_the_fork_server_itself_is_survived(make_pool: MakePool) -> None:
+    pool = make_pool(2)
+    old = (await run(pool, "family"))["parent"]
+    os.kill(old, signal.SIGKILL)
+    assert gone_within(old, 2.0)
+    assert [await run(pool, "echo", number) for number in range(5)] == list(range(5))
+    assert (await run(pool, "family"))["parent"] != old
+
+
 ORPHAN = """
 import asyncio, json
 from deltaq.api.workers.job import Job

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from queue import Full, Queue
 from typing import Any
@@ -48,8 +49,9 @@ class Pool:
             task = self._tasks.get_nowait()
             if task is not None and task.answer.set_running_or_notify_cancel():
                 task.answer.set_exception(Overloaded("the service is stopping"))
-        for _ in self._lanes:
-            self._tasks.put(None)
+        for _ in self._lanes:  # wake those that wait for a task; with a full queue nobody does
+            with suppress(Full):
+                self._tasks.put_nowait(None)
         for lane in self._lanes:
             lane.join(timeout)
             lane.drop_worker()

@@ -1,4 +1,4 @@
-"""Imported once by the fork server, so that each worker is born with the libraries in place.
+"""Imported once by the fork server, so that each worker is born with the libraries loaded and warm.
 
 The one module whose import has an effect, which is its purpose: the fork server knows no other way.
 """
@@ -9,14 +9,32 @@ import gc
 import os
 from contextlib import suppress
 from importlib import import_module
+from pathlib import Path
 
-# A worker is one thread; and the thread pools of these libraries do not survive a fork.
-for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
-    os.environ[variable] = "1"
+SCENE = "pendulum"
 
-for module in ("deltaq.api.jobs", "deltaq.narration.derive", "deltaq.simulation.service"):
-    with suppress(Exception):  # whoever needs it will report it
-        import_module(module)
 
-gc.collect()
-gc.freeze()  # what is there now is shared by all workers; the collector must not touch its pages
+def load() -> None:
+    """Import what the jobs need and run it once; what fails here is reported by the job that needs it."""
+    # A worker is one thread; and thread pools do not survive a fork.
+    for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
+        os.environ[variable] = "1"
+    with suppress(Exception):
+        import_module("deltaq.api.jobs")
+    with suppress(Exception):
+        import_module("deltaq.narration.derive").derive_request({"scene": SCENE})
+    with suppress(Exception):
+        service = import_module("deltaq.simulation.service")
+        if kernels_are_compiled():
+            service.warm()
+    gc.collect()
+    gc.freeze()  # what is there now is shared by all workers; the collector must not touch its pages
+
+
+def kernels_are_compiled() -> bool:
+    """Whether Numba's cache has something to load; compiling it here would keep all workers waiting."""
+    beside = Path(str(import_module("deltaq.simulation.kernels").__file__)).with_name("__pycache__")
+    return any(Path(os.environ.get("NUMBA_CACHE_DIR", beside)).rglob("*.nbi"))
+
+
+load()

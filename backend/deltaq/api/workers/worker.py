@@ -17,7 +17,8 @@ from .runner import run
 
 _CONTEXT = get_context("forkserver")  # forks from a process of one thread; the web process has many
 _PROCESSES = Lock()  # multiprocessing keeps a list of children that is not made for several threads
-_KILLED_FROM_OUTSIDE = frozenset({-signal.SIGKILL, -signal.SIGTERM})
+_FORK_SERVER_GONE = 255  # who would have told the exit code; it takes its workers along
+_KILLED_FROM_OUTSIDE = frozenset({-signal.SIGKILL, -signal.SIGTERM, _FORK_SERVER_GONE})
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...mechanics.contributions import PointForce
 from ..rules import (
     curl_test,
     decomposition,
     generalized_force,
     guide,
     guided_position,
-    kinetic_energy,
     lagrange_equation,
     lagrange_function,
     position,
@@ -25,9 +23,8 @@ from ..rules import (
     total_virtual_work,
     velocity,
     virtual_displacement,
-    work_of_force,
-    work_of_potential,
 )
+from ..rules._choice import energy_rule_of, rule_of
 from ..step import Chapter, Derivation, Step
 from ..system import System
 
@@ -50,8 +47,8 @@ def derive(system: System) -> Derivation:
 def _places(system: System) -> tuple[str, ...]:
     """The places whose motion matters: bodies, and points where forces act."""
     bodies = (body.name for body in system.scene.bodies)
-    points = (load.place for load in system.scene.contributions if isinstance(load, PointForce))
-    return tuple(dict.fromkeys((*bodies, *points)))
+    points = (system.place_of(load) for load in system.scene.contributions)
+    return tuple(place for place in dict.fromkeys((*bodies, *points)) if place)
 
 
 def _configuration(system: System) -> Iterator[Step]:
@@ -75,10 +72,7 @@ def _virtual_work(system: System) -> Iterator[Step]:
     for load in loads:
         several = sum(other.source == load.source for other in loads) > 1
         subject = f"{load.source}:{system.place_of(load)}" if several else load.source
-        if isinstance(load, PointForce):
-            yield work_of_force.apply(system, load, subject)
-        else:
-            yield work_of_potential.apply(system, load, subject)
+        yield rule_of(load).apply(system, load, subject)
     yield total_virtual_work.apply(system)
     yield generalized_force.apply(system)
 
@@ -86,7 +80,7 @@ def _virtual_work(system: System) -> Iterator[Step]:
 def _kinetic_energy(system: System) -> Iterator[Step]:
     for body in system.scene.bodies:
         yield velocity.apply(system, body.name)
-        yield kinetic_energy.apply(system, body)
+        yield energy_rule_of(body).apply(system, body)
     if len(system.scene.bodies) > 1:
         yield total_kinetic_energy.apply(system)
 

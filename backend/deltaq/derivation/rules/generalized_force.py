@@ -1,15 +1,16 @@
 """Comparison of coefficients: the δqᵢ are independent, so δW = Qᵢ δqᵢ for all of them determines every Qᵢ.
 
-Qᵢ is the coefficient of δqᵢ, which is also Qᵢ = Σ F · ∂r/∂qᵢ for forces and −∂V/∂qᵢ for potentials.
+Qᵢ is the coefficient of δqᵢ, which is also Qᵢ = Σ F · ∂r/∂qᵢ for forces, ∫ f · ∂r/∂qᵢ dS for force densities, M ∂φ/∂qᵢ
+for moments, −∂V/∂qᵢ for potentials and −∂R/∂q̇ᵢ for dissipation.
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., eq. 1.49; the lecture's definition of Qᵢ.
 """
 
 from __future__ import annotations
 
-from ...mechanics.contributions import Contribution, PointForce
-from ..formula import Dot, Explicit, Formula, Named, Partial, Plus, Quantity, Term, Times
+from ..formula import Explicit, Named, Plus, Quantity, Term, Times
 from ..step import Relation, Step
 from ..system import System
+from ._choice import rule_of
 
 RULE = "generalized-forces"
 EACH = "generalized-force"
@@ -35,18 +36,8 @@ def one(system: System, coordinate: str) -> Step:
     """Qᵢ as the sum of what each load contributes."""
     force = system.generalized_force(coordinate)
     loads = [load for load in system.scene.contributions if system.share(load, coordinate) != 0]
-    by_law = tuple(_term(system, load, coordinate) for load in loads)
+    by_law = tuple(rule_of(load).share(system, load, coordinate) for load in loads)
     written = tuple(Term(Explicit(system.share(load, coordinate)), (f"load:{load.source}",)) for load in loads)
     lines = (Plus(by_law), Plus(written)) if loads else ()
     line = Relation((Named(Quantity("generalized-force", coordinate), force), *lines, Explicit(force)))
     return Step(EACH, coordinate, (line,), tuple(t.sources[0] for t in written), {"coordinate": coordinate})
-
-
-def _term(system: System, load: Contribution, coordinate: str) -> Term:
-    """F · ∂r/∂q, or −∂V/∂q."""
-    q, source = system.q(coordinate), (f"load:{load.source}",)
-    if isinstance(load, PointForce):
-        force = Named(Quantity("force", load.source, load.place), system.force(load))
-        lever: Formula = Partial(system.named_position(load.place), q)
-        return Term(Dot(force, lever), source)
-    return Term(Partial(Named(Quantity("potential-energy", load.source), system.potential(load)), q), source, -1)

@@ -13,7 +13,7 @@ RULE = "guided-position"
 
 
 def apply(system: System, place: str) -> Step:
-    free = system.given(system.scene.place(place))
+    free = system.given(system.trees(place))
     substituted = Substituted(free, system.guides)
     line = Relation((system.named_position(place), substituted, Explicit(system.position(place))))
     about = {"place": place, "coordinate": ", ".join(guide.coordinate for guide in system.scene.guides)}

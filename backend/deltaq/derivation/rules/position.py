@@ -13,7 +13,7 @@ RULE = "position"
 
 
 def apply(system: System, place: str) -> Step:
-    given = system.given(system.scene.place(place))
+    given = system.given(system.trees(place))
     arguments = tuple(system.q(name) for name in system.coordinates if given.value.has(system.q(name)))
     name = Named(Quantity("position", place), given.value, arguments)
     return Step(RULE, place, (Relation((name, given)),), (system.source(place),), {"place": place})

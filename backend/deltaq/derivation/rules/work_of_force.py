@@ -6,26 +6,31 @@ Source: Szabó, Höhere Technische Mechanik, §I.4; the lecture's δW_a for a si
 from __future__ import annotations
 
 from ...mechanics.contributions import PointForce
-from ..formula import Dot, Explicit, Named, Quantity
+from ..formula import Dot, Explicit, Named, Partial, Quantity, Term
 from ..step import Relation, Step
 from ..system import System
 
 RULE = "work-of-force"
+LOAD = PointForce
 
 
 def apply(system: System, load: PointForce, subject: str) -> Step:
-    force = system.force(load)
     displacement = system.virtual_displacement(load.place)
-    work = system.collected(system.dot(force, displacement))
-    symbols = Dot(
-        Named(Quantity("force", load.source, load.place), force),
-        Named(Quantity("virtual-displacement", load.place), displacement),
-    )
     members = (
-        Named(Quantity("virtual-work", load.source, load.place), work),
-        symbols,
-        Dot(Explicit(force), Explicit(displacement)),
-        Explicit(work),
+        Named(Quantity("virtual-work", load.source, load.place), system.virtual_work(load)),
+        Dot(_force(system, load), Named(Quantity("virtual-displacement", load.place), displacement)),
+        Dot(Explicit(system.force(load)), Explicit(displacement)),
+        Explicit(system.virtual_work(load)),
     )
     about = {"load": load.source, "place": load.place}
     return Step(RULE, subject, (Relation(members),), (f"load:{load.source}",), about)
+
+
+def share(system: System, load: PointForce, coordinate: str) -> Term:
+    """F · ∂r/∂qᵢ"""
+    lever = Partial(system.named_position(load.place), system.q(coordinate))
+    return Term(Dot(_force(system, load), lever), (f"load:{load.source}",))
+
+
+def _force(system: System, load: PointForce) -> Named:
+    return Named(Quantity("force", load.source, load.place), system.force(load))

@@ -6,28 +6,33 @@ Source: Lanczos, The Variational Principles of Mechanics, ch. I.7.
 from __future__ import annotations
 
 from ...mechanics.contributions import PotentialEnergy
-from ..formula import Explicit, Gateaux, Given, Named, Plus, Quantity, Substituted, Term
+from ..formula import Explicit, Gateaux, Given, Named, Partial, Plus, Quantity, Substituted, Term, minus
 from ..step import Relation, Step
 from ..system import System
 
 RULE = "work-of-potential"
+LOAD = PotentialEnergy
 
 
 def apply(system: System, load: PotentialEnergy, subject: str) -> Step:
-    source = (f"load:{load.source}",)
-    energy = system.potential(load)
+    source = f"load:{load.source}"
+    energy = _energy(system, load)
     stated = Given((load.energy,), system.expression(load.energy))
-    energies = (Substituted(stated, system.guides), Explicit(energy)) if system.guides else (stated,)
-    potential = Named(Quantity("potential-energy", load.source), energy)
-    work = system.collected(-system.vary(energy))
+    stages = (Substituted(stated, system.guides), Explicit(energy.value)) if system.guides else (stated,)
+    work = Explicit(system.virtual_work(load))
     lines = (
-        Relation((potential, *energies)),
+        Relation((energy, *stages)),
         Relation(
-            (
-                Named(Quantity("virtual-work", load.source), work),
-                Plus((Term(Gateaux(potential), source, -1),)),
-                Explicit(work),
-            )
+            (Named(Quantity("virtual-work", load.source), work.value), Plus((minus(Gateaux(energy), source),)), work)
         ),
     )
-    return Step(RULE, subject, lines, source, {"load": load.source})
+    return Step(RULE, subject, lines, (source,), {"load": load.source})
+
+
+def share(system: System, load: PotentialEnergy, coordinate: str) -> Term:
+    """−∂V/∂qᵢ"""
+    return minus(Partial(_energy(system, load), system.q(coordinate)), f"load:{load.source}")
+
+
+def _energy(system: System, load: PotentialEnergy) -> Named:
+    return Named(Quantity("potential-energy", load.source), system.energy(load))

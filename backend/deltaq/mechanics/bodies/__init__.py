@@ -1,24 +1,33 @@
-"""Bodies: material with a position field. One kind, one file."""
+"""Bodies: material with a position field. One kind, one file.
+
+A kind is a frozen dataclass with a `kind`, a way to `read` it from its table, the `kinetics` that its kinetic energy
+comes down to, and its `weight` in a field of gravity.
+"""
 
 from __future__ import annotations
 
 from typing import ClassVar, Protocol, Self
 
 from ...language.expression import Expression
+from ..contributions import DistributedForce, PointForce
+from ..kinetics import Kinetics
+from ..material import Material
 from ..reader import Reader
 
 
 class Body(Protocol):
-    """What every kind of body has. `position` is the place that loads act at (the centre of mass)."""
+    """What every kind of body has. Without material coordinates its position is a place (the centre of mass)."""
 
     kind: ClassVar[str]
 
     @classmethod
     def read(cls, table: Reader, /) -> Self: ...
-
     @property
     def name(self) -> str: ...
     @property
-    def mass(self) -> Expression: ...
-    @property
     def position(self) -> tuple[Expression, ...]: ...
+    @property
+    def material(self) -> tuple[Material, ...]: ...
+    @property
+    def kinetics(self) -> tuple[Kinetics, ...]: ...
+    def weight(self, source: str, acceleration: tuple[Expression, ...], /) -> PointForce | DistributedForce: ...

@@ -6,7 +6,11 @@ from dataclasses import dataclass, field
 from typing import ClassVar
 
 from ...language.expression import Expression
+from ...language.tree import Product
 from ..checks import demand, name_problem
+from ..contributions import PointForce
+from ..kinetics import Translation
+from ..material import Material
 from ..reader import Reader
 
 
@@ -15,6 +19,7 @@ class Particle:
     """A mass m at r(q, t): kinetic energy E = m/2 v·v."""
 
     kind: ClassVar[str] = "particle"
+    material: ClassVar[tuple[Material, ...]] = ()
 
     name: str
     mass: Expression = field(metadata={"unit": "kg"})
@@ -26,3 +31,11 @@ class Particle:
     @classmethod
     def read(cls, table: Reader) -> Particle:
         return cls(table.name(), table.expression("mass"), table.position("position"))
+
+    @property
+    def kinetics(self) -> tuple[Translation]:
+        return (Translation(self.name, self.mass.tree, tuple(x.tree for x in self.position)),)
+
+    def weight(self, source: str, acceleration: tuple[Expression, ...]) -> PointForce:
+        """m g at the particle."""
+        return PointForce(source, self.name, tuple(Product((self.mass.tree, g.tree)) for g in acceleration))

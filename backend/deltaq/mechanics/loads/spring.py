@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import ClassVar
 
 from ...language.expression import Expression
-from ...language.tree import Call, Negation, Node, Number, Power, Product, Quotient, Sum
+from ...language.tree import Negation, Node, Power, Product, Quotient, Sum
 from ..bodies import Body
 from ..contributions import PotentialEnergy
+from ..lengths import TWO, ZERO, distance, squared_distance
 from ..reader import Reader
 from . import Places
-
-ZERO, TWO = Number(Fraction(0)), Number(Fraction(2))
 
 
 @dataclass(frozen=True)
@@ -30,24 +28,14 @@ class Spring:
 
     @classmethod
     def read(cls, table: Reader) -> Spring:
-        return cls(
-            table.name(),
-            table.place("from"),
-            table.place("to"),
-            table.expression("stiffness"),
-            table.expression("rest_length", default="0"),
-        )
+        start, end = table.place("from"), table.place("to")
+        return cls(table.name(), start, end, table.expression("stiffness"), table.expression("rest_length", "0"))
 
     def contributions(self, places: Places, _bodies: tuple[Body, ...], /) -> tuple[PotentialEnergy, ...]:
         stretch_squared = self._stretch_squared(places[self.start], places[self.end])
-        energy = Product((Quotient(self.stiffness.tree, TWO), stretch_squared))
-        return (PotentialEnergy(self.name, energy),)
+        return (PotentialEnergy(self.name, Product((Quotient(self.stiffness.tree, TWO), stretch_squared))),)
 
     def _stretch_squared(self, start: tuple[Expression, ...], end: tuple[Expression, ...]) -> Node:
-        length_squared = Sum(
-            tuple(Power(Sum((b.tree, Negation(a.tree))), TWO) for a, b in zip(start, end, strict=True))
-        )
         if self.rest_length.tree == ZERO:
-            return length_squared  # no root, so the energy stays smooth where the length is zero
-        length = Call("sqrt", (length_squared,))
-        return Power(Sum((length, Negation(self.rest_length.tree))), TWO)
+            return squared_distance(start, end)  # no root, so the energy stays smooth where the length is zero
+        return Power(Sum((distance(start, end), Negation(self.rest_length.tree))), TWO)

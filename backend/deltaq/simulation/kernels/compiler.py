@@ -20,8 +20,17 @@ def kernel(function: F) -> F:
     of the time, since each array passed on would cost two atomic operations. The cache is beside the source, or in
     the user's cache directory where that is not writable.
     """
+    return _compiled(function, forceinline=False)
+
+
+def inner(function: F) -> F:
+    """A part of a kernel: always inlined, since a call would pass seven words for each array."""
+    return _compiled(function, forceinline=True)
+
+
+def _compiled(function: F, *, forceinline: bool) -> F:
     options: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "_nrt": False}
-    compiled: Any = njit(fastmath={"contract"}, **options)(function)
+    compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, **options)(function)
     # Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
     compiled._cache._cache_file._source_stamp = source_stamp()  # noqa: SLF001
     return cast("F", compiled)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import kernel
+from .compiler import inner, kernel
 from .extension import sample
 from .motion import CANCELLED, FINE, NOT_FINITE, STEP_LIMIT, STEP_UNDERFLOW, Floats, Motion, slope
 from .step import Room, Weights, accept, attempt
@@ -27,7 +27,7 @@ class Result(NamedTuple):
     reached: float
 
 
-@kernel
+@inner
 def interruption(control: Control, tries: int, cancelled: NDArray[np.int64]) -> int:
     """Whether to stop before the next step, and why."""
     if cancelled[0] != 0:

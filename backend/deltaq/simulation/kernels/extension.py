@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from .compiler import kernel
+from .compiler import inner
 from .motion import FINE, Floats, Motion
 from .step import Room, Weights, stages
 
 
-@kernel
+@inner
 def extend(dense: Floats, h: float, end: int, room: Room) -> None:
     """The continuous extension of a step: cubic Hermite, then the method's own terms."""
     for d in range(room.old.size):
@@ -23,7 +23,7 @@ def extend(dense: Floats, h: float, end: int, room: Room) -> None:
             room.extension[3 + r, d] = h * term
 
 
-@kernel
+@inner
 def interpolate(theta: float, room: Room, out: Floats) -> None:
     """y(t + θh) = y + θ(F₀ + (1−θ)(F₁ + θ(F₂ + (1−θ)(F₃ + …)))) into `out`."""
     last = room.extension.shape[0] - 1
@@ -34,7 +34,7 @@ def interpolate(theta: float, room: Room, out: Floats) -> None:
         out[d] = room.old[d] + value
 
 
-@kernel
+@inner
 def sample(
     motion: Motion, weights: Weights, t: float, h: float, times: Floats, out: Floats, first: int, room: Room
 ) -> tuple[int, int]:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import kernel
+from .compiler import inner
 from .pointer import call
 
 Floats = NDArray[np.float64]
@@ -35,11 +35,13 @@ class Motion(NamedTuple):
     conditioning: Floats
 
 
-@kernel
+@inner
 def factor(m: Floats, n: int) -> float:
-    """Cholesky factor of the packed lower triangle m in place; returns smallest pivot / largest diagonal entry.
+    """Cholesky factors L D Lᵀ of the packed lower triangle m in place, 1/D on the diagonal.
 
-    The result is at most SMALLEST_PIVOT if M is singular or indefinite, and NaN if it is not finite.
+    Without square roots, since those and divisions cost more than all the rest for a small matrix. Returns smallest
+    pivot / largest diagonal entry: at most SMALLEST_PIVOT if M is singular or indefinite, NaN if it is not finite.
+    Source: Golub, Van Loan, Matrix Computations, 4th ed., §4.1.
     """
     largest = 0.0
     for i in range(n):
@@ -47,36 +49,38 @@ def factor(m: Floats, n: int) -> float:
     smallest = largest
     for i in range(n):
         row = i * (i + 1) // 2
+        pivot = m[row + i]
         for j in range(i):
             column = j * (j + 1) // 2
+            scaled = m[row + j]  # L times D, until its column is done
             for k in range(j):
-                m[row + j] -= m[row + k] * m[column + k]
-            m[row + j] /= m[column + j]
-        pivot = m[row + i]
-        for k in range(i):
-            pivot -= m[row + k] * m[row + k]
+                scaled -= m[row + k] * m[column + k]
+            m[row + j] = scaled
+        for j in range(i):
+            scaled = m[row + j]
+            m[row + j] = scaled * m[j * (j + 1) // 2 + j]
+            pivot -= scaled * m[row + j]
         if not pivot > SMALLEST_PIVOT * largest:
             return pivot if np.isnan(pivot) else 0.0
         smallest = min(smallest, pivot)
-        m[row + i] = np.sqrt(pivot)
+        m[row + i] = 1.0 / pivot
     return smallest / largest
 
 
-@kernel
+@inner
 def solve(m: Floats, n: int) -> None:
-    """Solves L Lᵀ x = f in place for the packed factor L at the start of m and f right behind it."""
+    """Solves L D Lᵀ x = f in place for the factors at the start of m and f right behind them."""
     x = n * (n + 1) // 2
     for i in range(n):
         for k in range(i):
             m[x + i] -= m[i * (i + 1) // 2 + k] * m[x + k]
-        m[x + i] /= m[i * (i + 1) // 2 + i]
     for i in range(n - 1, -1, -1):
+        m[x + i] *= m[i * (i + 1) // 2 + i]
         for k in range(i + 1, n):
             m[x + i] -= m[k * (k + 1) // 2 + i] * m[x + k]
-        m[x + i] /= m[i * (i + 1) // 2 + i]
 
 
-@kernel
+@inner
 def slope(motion: Motion, t: float, state: Floats, out: Floats) -> int:
     """d/dt of the state (q, q̇, ∫P dt) into `out`; returns FINE, SINGULAR or NOT_FINITE."""
     n = motion.degrees

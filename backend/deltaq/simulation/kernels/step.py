@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import kernel
+from .compiler import inner
 from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, slope
 
 LARGEST_VALUE = 1e15  # beyond, nothing in a mechanical scene has a meaning
@@ -50,27 +50,23 @@ def make_room(state: Floats, weights: Weights) -> Room:
     )
 
 
-@kernel
+@inner
 def stages(motion: Motion, a: Floats, c: Floats, first: int, t: float, h: float, room: Room) -> int:
     """Slopes number `first` and on, one for each row of a; returns how it went."""
     width = room.old.size
     for s in range(c.size):
         for d in range(width):
-            room.stage[d] = 0.0
-        for j in range(first + s):
-            weight = a[s, j]
-            if weight != 0.0:
-                for d in range(width):
-                    room.stage[d] += weight * room.slopes[j, d]
-        for d in range(width):
-            room.stage[d] = room.old[d] + h * room.stage[d]
+            change = 0.0
+            for j in range(first + s):
+                change += a[s, j] * room.slopes[j, d]
+            room.stage[d] = room.old[d] + h * change
         outcome = slope(motion, t + c[s] * h, room.stage, room.slopes[first + s])
         if outcome != FINE:
             return outcome
     return FINE
 
 
-@kernel
+@inner
 def advance(b: Floats, h: float, room: Room) -> int:
     """The new state from the slopes, with compensation; returns how it went."""
     for d in range(room.old.size):
@@ -85,7 +81,7 @@ def advance(b: Floats, h: float, room: Room) -> int:
     return FINE
 
 
-@kernel
+@inner
 def attempt(motion: Motion, weights: Weights, t: float, h: float, room: Room) -> int:
     """All stages of one step, the new state and the slope there; returns how it went."""
     outcome = stages(motion, weights.a, weights.c, 1, t, h, room)
@@ -96,7 +92,7 @@ def attempt(motion: Motion, weights: Weights, t: float, h: float, room: Room) ->
     return outcome
 
 
-@kernel
+@inner
 def accept(end: int, room: Room) -> None:
     """The new state becomes the old one."""
     for d in range(room.old.size):

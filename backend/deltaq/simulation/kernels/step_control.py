@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import kernel
+from .compiler import inner
 from .motion import FINE, Floats, Motion, slope
 from .step import Room
 
@@ -27,7 +27,7 @@ class Control(NamedTuple):
     step_limit: int
 
 
-@kernel
+@inner
 def error_norm(error: Floats, tolerance: float, h: float, degrees: int, room: Room) -> float:
     """The estimated error of the step over what is tolerated (root mean square); 1 is just good enough.
 
@@ -47,7 +47,7 @@ def error_norm(error: Floats, tolerance: float, h: float, degrees: int, room: Ro
     return h * fine / np.sqrt(joined * 2 * degrees) if joined > 0.0 else 0.0
 
 
-@kernel
+@inner
 def first_step(motion: Motion, control: Control, t: float, room: Room) -> float:
     """A first step size (Hairer, Nørsett, Wanner I, II.4): an Euler step tells how the slope changes."""
     width = 2 * motion.degrees
@@ -70,7 +70,7 @@ def first_step(motion: Motion, control: Control, t: float, room: Room) -> float:
     return max(min(100.0 * h, wanted, control.largest_step), 1e-12 * control.largest_step)
 
 
-@kernel
+@inner
 def grown(control: Control, h: float, error: float, before: float, growth: float) -> float:
     """The next step after an accepted one: PI control by this error and the one before, growing by `growth` at most."""
     if control.tolerance == 0.0:
@@ -80,7 +80,7 @@ def grown(control: Control, h: float, error: float, before: float, growth: float
     return float(min(h * min(max(factor, LARGEST_SHRINK), growth), control.largest_step))
 
 
-@kernel
+@inner
 def shrunk(control: Control, h: float, error: float) -> float:
     """The step to try again with; `error` is NaN if a stage failed."""
     if not error < np.inf:

@@ -1,0 +1,41 @@
+"""Integrals over material coordinates as numbers: Gauss–Legendre quadrature in ball arithmetic.
+
+With n = 48 nodes it is exact for polynomials up to degree 95, and for sines and cosines good to far more than the
+tolerance of the verification. Source: Golub, Welsch, Math. Comp. 23 (1969), 221.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import sympy as sp
+from flint import arb
+
+from .formula import Bounds
+from .points import Point
+
+NODES = 48
+
+Numbers = tuple[arb, ...]
+
+
+def integral(
+    of: Callable[[Point], Numbers],
+    material: tuple[Bounds, ...],
+    point: Point,
+    number: Callable[[sp.Expr, Point], arb],
+) -> Numbers:
+    """The integral of each component over all material coordinates, the last one innermost."""
+    if not material:
+        return of(point)
+    first, *rest = material
+    lower, upper = number(first.lower, point), number(first.upper, point)
+    half, middle = (upper - lower) / 2, (upper + lower) / 2
+    total: Numbers = ()
+    for node in range(NODES):
+        place, weight = arb.legendre_p_root(NODES, node, weight=True)
+        inside = {**point, first.symbol.name: middle + half * place}
+        values = integral(of, tuple(rest), inside, number)
+        summands = [half * weight * value for value in values]
+        total = tuple(a + b for a, b in zip(total or [arb(0)] * len(summands), summands, strict=True))
+    return total

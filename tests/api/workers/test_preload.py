@@ -1,0 +1,53 @@
+"""Workers are born warm, from a process of one thread."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from deltaq.api.workers.preload import kernels_are_compiled
+
+PROBE = """
+import asyncio, json
+from deltaq.api.workers.job import Job
+from deltaq.api.workers.lane import Limits
+from deltaq.api.workers.pool import Pool
+
+async def main():
+    pool = Pool(1, 4, Limits(2**31, 10, 60.0, 60.0), ["deltaq.api.workers.preload"])
+    pool.start()
+    print((await pool.run(Job("tests.api.workers.jobs:birth", 60.0), None)).decode())
+    pool.stop()
+
+asyncio.run(main())
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_workers_are_born_with_the_libraries_from_a_process_of_one_thread(root: Path) -> None:
+    probe = subprocess.run([sys.executable, "-c", PROBE], cwd=root, capture_output=True, text=True, check=True)
+    assert json.loads(probe.stdout) == {
+        "threads_of_parent": 1,
+        "threads": 1,
+        "loaded": ["numba", "numpy", "symengine", "sympy"],
+    }
+
+
+@pytest.mark.parametrize(
+    ("file", "expected"),
+    [
+        pytest.param("kernels_1/integrate.nbi", True, id="an index"),
+        pytest.param("kernels_1/readme.txt", False, id="something else"),
+    ],
+)
+def test_compiled_kernels_are_looked_for_in_the_cache(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: str, expected: bool
+) -> None:
+    (tmp_path / file).parent.mkdir()
+    (tmp_path / file).touch()
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert kernels_are_compiled() is expected

@@ -1,0 +1,186 @@
+"""The canonical form is unique, the zero test is right, and both agree with SymPy's numerical values."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import pytest
+import sympy
+from deltaq.errors import ExpressionError, Problem
+from deltaq.language.canonical import Decision, canonical, display, is_zero, zero_test
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.language.scene_names import DOUBLE, DOUBLE_KINETIC_ENERGY, NAMES, SYMBOLS, Symbols, read
+
+EQUAL = [
+    ("sin(phi)^2 + cos(phi)^2", "1"),
+    ("2*sin(phi)*cos(phi)", "sin(2*phi)"),
+    ("cos(phi)*cos(x) + sin(phi)*sin(x)", "cos(phi - x)"),
+    ("cos(phi)^4 - sin(phi)^4", "cos(2*phi)"),
+    ("sin(3*phi)", "3*sin(phi) - 4*sin(phi)^3"),
+    ("sin(omega*t + phi)", "sin(omega*t)*cos(phi) + cos(omega*t)*sin(phi)"),
+    ("sin(phi + pi/2)", "cos(phi)"),
+    ("cos(phi + pi/3)", "cos(phi)/2 - sqrt(3)*sin(phi)/2"),
+    ("cos(phi + pi)", "-cos(phi)"),
+    ("sin(phi/2)^2", "(1 - cos(phi))/2"),
+    ("tan(phi/2)", "sin(phi)/(1 + cos(phi))"),
+    ("1 + tan(phi)^2", "1/cos(phi)^2"),
+    ("1 + cot(phi)^2", "csc(phi)^2"),
+    ("sec(phi)*cos(phi)", "1"),
+    ("(x + y)^3", "x^3 + 3*x^2*y + 3*x*y^2 + y^3"),
+    ("1/(1 + x) + x/(1 + x)", "1"),
+    ("1/(x*(x + 1))", "1/x - 1/(x + 1)"),
+    ("(x^2 - y^2)/(x - y)", "x + y"),
+    ("cosh(x)^2 - sinh(x)^2", "1"),
+    ("tanh(x)", "(exp(2*x) - 1)/(exp(2*x) + 1)"),
+    ("exp(x)*exp(-x)", "1"),
+    ("exp(-c*t)*exp(c*t/2)", "exp(-c*t/2)"),
+    ("sqrt(2)*sqrt(3)", "sqrt(6)"),
+    ("1/sqrt(2)", "sqrt(2)/2"),
+    ("sqrt(m)*sqrt(k)", "sqrt(k*m)"),
+    ("sqrt(x^2 + y^2)^3", "(x^2 + y^2)*sqrt(y^2 + x^2)"),
+    ("(x^2 + y^2)/sqrt(x^2 + y^2)", "sqrt(x^2 + y^2)"),
+    ("sqrt(l^2*(sin(phi)^2 + cos(phi)^2))", "l"),
+    ("sqrt(4*x^2 + 4)", "2*sqrt(x^2 + 1)"),
+    ("1/(1/x)", "x"),
+    ("0.1 + 0.2", "0.3"),
+    ("d/dt (l*sin(phi))", "l*cos(phi)*dot(phi)"),
+]
+
+DIFFERENT = [
+    ("sin(phi)", "phi"),
+    ("sin(phi)^2", "cos(phi)^2"),
+    ("sin(phi)", "sin(phi) + 0.000000000000000000000000000001"),
+    ("m*l", "m*y0"),
+    ("sqrt(x^2)", "x"),
+    ("cos(phi - x)", "cos(phi + x)"),
+    ("tan(phi)", "sin(phi)"),
+    ("exp(x)", "1 + x"),
+    ("1/(x + 1)", "1/x + 1"),
+    ("sqrt(x^2 + y^2)", "x + y"),
+    ("sin(1)", "0.841470984807896506652502321630"),
+    ("pi", "3.14159265358979323846264338328"),
+    ("sqrt(2)", "1.41421356237309504880168872421"),
+    ("exp(-1000*x^2 - 700)", "0"),
+    ("log(x^2 + 2)", "log(x^2 + 1)"),
+]
+
+SEEN_BY_SAMPLING = [
+    ("sqrt((x^2 + 1)^2)", "x^2 + 1", True),
+    ("sqrt(x^2 + 2*x + 1)", "abs(x + 1)", True),
+    ("log(exp(x)*m)", "x + log(m)", True),
+    ("atan2(sin(0.5), cos(0.5))", "0.5", None),
+    ("asin(sin(phi))", "phi", False),
+    ("sqrt(sqrt(x^4 + 4*x^2 + 4))", "sqrt(x^2 + 2)", True),
+    ("atan(x) + atan(1/x)", "pi/2", False),
+    ("sign(x)*abs(x)", "x", True),
+]
+
+
+@pytest.mark.parametrize(("left", "right"), EQUAL, ids=[left for left, _ in EQUAL])
+def test_equal_by_normal_form(left: str, right: str) -> None:
+    assert zero_test(read(left) - read(right), SYMBOLS) == Decision(outcome=True, how="normal form")
+
+
+@pytest.mark.parametrize(("left", "right"), DIFFERENT, ids=[left for left, _ in DIFFERENT])
+def test_different(left: str, right: str) -> None:
+    assert is_zero(read(left) - read(right), SYMBOLS) is False
+
+
+@pytest.mark.parametrize(("left", "right", "outcome"), SEEN_BY_SAMPLING, ids=[row[0] for row in SEEN_BY_SAMPLING])
+def test_what_only_values_show(left: str, right: str, outcome: bool | None) -> None:
+    decision = zero_test(read(left) - read(right), SYMBOLS)
+    assert decision.how != "normal form"
+    assert decision.outcome is outcome or (outcome is None and decision.outcome is not False)
+
+
+def test_undecided_outside_the_domain() -> None:
+    decision = zero_test(read("log(-1 - x^2) - log(-1 - x^2 - y^2/1000)"), SYMBOLS)
+    assert decision == Decision(outcome=None, how="none")
+
+
+@pytest.mark.parametrize(("left", "right"), EQUAL[:13], ids=[left for left, _ in EQUAL[:13]])
+def test_equal_expressions_have_the_same_canonical_form(left: str, right: str) -> None:
+    first, second = canonical(read(left), SYMBOLS), canonical(read(right), SYMBOLS)
+    assert is_zero(first - second, SYMBOLS) is True
+    if not read(left).has(sympy.tan, sympy.sec, sympy.csc, sympy.cot):
+        assert first == second
+
+
+def test_matrix_is_zero_if_all_entries_are() -> None:
+    zero, other = read("sin(phi)^2 + cos(phi)^2 - 1"), read("x")
+    assert is_zero(sympy.Matrix([zero, zero]), SYMBOLS) is True
+    assert is_zero(sympy.Matrix([zero, other]), SYMBOLS) is False
+
+
+def test_equation_is_zero_if_its_sides_are_equal() -> None:
+    assert is_zero(read("2*sin(phi)*cos(phi) = sin(2*phi)"), SYMBOLS) is True
+
+
+@pytest.mark.parametrize("function", [canonical, display, zero_test])
+def test_hidden_division_by_zero(function: Any) -> None:
+    with pytest.raises(ExpressionError) as caught:
+        function(1 / (read("sin(phi)^2") + read("cos(phi)^2") - 1), SYMBOLS)
+    assert caught.value.problems == (Problem("division-by-zero"),)
+
+
+def test_too_large_expressions_come_back_as_they_are() -> None:
+    large = read("(x + y + phi + m + l + g + k + c + omega + a + s + 1)^32")
+    assert canonical(large, SYMBOLS) == large
+    assert display(large, SYMBOLS) == large
+    assert is_zero(large - large.subs(SYMBOLS.name("x"), SYMBOLS.name("x") + 1), SYMBOLS) is False
+
+
+_waves = st.tuples(st.sampled_from((sympy.sin, sympy.cos)), st.integers(-3, 3), st.integers(-2, 2), st.booleans()).map(
+    lambda w: w[0](w[1] * SYMBOLS.name("phi") + w[2] * SYMBOLS.name("x") + (SYMBOLS.time * SYMBOLS.name("omega")) * w[3])
+)
+_letters = st.sampled_from(
+    [SYMBOLS.name("m"), SYMBOLS.name("l"), SYMBOLS.rate("phi"), SYMBOLS.variation("x"), sympy.Rational(3, 2), sympy.pi]
+)
+trigonometric = st.recursive(
+    st.one_of(_waves, _letters),
+    lambda parts: st.one_of(
+        st.lists(parts, min_size=2, max_size=3).map(lambda p: sympy.Add(*p)),
+        st.lists(parts, min_size=2, max_size=3).map(lambda p: sympy.Mul(*p)),
+        parts.map(lambda p: p**2),
+    ),
+    max_leaves=8,
+)
+
+
+def value_at(expr: Any, seed: int) -> Any:
+    generator = random.Random(seed)
+    symbols = sorted(expr.free_symbols, key=str)
+    return expr.subs({s: sympy.Rational(generator.randint(1, 400), 197) for s in symbols}).evalf(40)
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(trigonometric, st.integers(0, 99))
+def test_canonical_and_display_keep_the_value(expr: Any, seed: int) -> None:
+    free = sorted(expr.free_symbols, key=str)
+    generator = random.Random(seed)
+    point = {s: sympy.Rational(generator.randint(1, 400), 197) for s in free}
+    wanted = expr.subs(point).evalf(40)
+    for found in (canonical(expr, SYMBOLS), display(expr, SYMBOLS)):
+        assert abs(found.subs(point).evalf(40) - wanted) < 1e-25 * (1 + abs(wanted))
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(trigonometric)
+def test_canonical_is_idempotent_and_blind_to_expansion(expr: Any) -> None:
+    once = canonical(expr, SYMBOLS)
+    assert canonical(once, SYMBOLS) == once
+    assert canonical(sympy.expand(expr), SYMBOLS) == once
+
+
+def test_double_pendulum_kinetic_energy() -> None:
+    symbols = Symbols(DOUBLE)
+    energy = read(DOUBLE_KINETIC_ENERGY, names=DOUBLE)
+    short = read(
+        "(m1 + m2)*l1^2*dot(phi1)^2/2 + m2*l1*l2*cos(phi1 - phi2)*dot(phi1)*dot(phi2) + m2*l2^2*dot(phi2)^2/2",
+        names=DOUBLE,
+    )
+    assert canonical(energy, symbols) == canonical(short, symbols)
+    assert NAMES is not DOUBLE

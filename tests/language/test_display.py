@@ -1,0 +1,98 @@
+"""Results are shown in the form in which a person writes them."""
+
+from __future__ import annotations
+
+import pytest
+import sympy
+from deltaq.language.canonical import display, is_zero
+from deltaq.language.names import Names
+from deltaq.language.order import Order
+from deltaq.language.plain_printer import plain
+
+from tests.language.scene_names import DOUBLE, DOUBLE_KINETIC_ENERGY, NAMES, SYMBOLS, Symbols, read
+
+ROWS = [
+    pytest.param(
+        "[F0*cos(phi), -F0*sin(phi)]*[l*cos(phi)*delta(phi), delta(y) - l*sin(phi)*delta(phi)]",
+        "-F0*sin(phi)*delta(y) + F0*l*delta(phi)",
+        id="the lecture's virtual work",
+    ),
+    pytest.param(
+        "m*((l*cos(phi)*dot(phi))^2 + (dot(y) - l*sin(phi)*dot(phi))^2)/2",
+        "m*(dot(y)^2 - 2*l*sin(phi)*dot(y)*dot(phi) + l^2*dot(phi)^2)/2",
+        id="kinetic energy of the elastic pendulum",
+    ),
+    pytest.param(
+        "m*((l*cos(phi)*dot(phi))^2 + (y0*omega*cos(omega*t) - l*sin(phi)*dot(phi))^2)/2",
+        "m*(l^2*dot(phi)^2 - 2*l*y0*omega*sin(phi)*cos(omega*t)*dot(phi) + y0^2*omega^2*cos(omega*t)^2)/2",
+        id="kinetic energy of the guided pendulum",
+    ),
+    pytest.param("k*y^2/2 - m*g*(y + l*cos(phi))", "k*y^2/2 - m*g*(y + l*cos(phi))", id="potential"),
+    pytest.param(
+        "d/dt (m*l^2*dot(phi) - m*l*sin(phi)*dot(y)) + m*l*cos(phi)*dot(y)*dot(phi) + m*g*l*sin(phi)",
+        "m*l^2*ddot(phi) - m*l*sin(phi)*ddot(y) + m*g*l*sin(phi)",
+        id="equation of the pendulum",
+    ),
+    pytest.param("-k*y*delta(y) + m*g*delta(y)", "(m*g - k*y)*delta(y)", id="terms of one virtual displacement"),
+    pytest.param("-l*sin(phi)*d(phi) + y0*omega*cos(omega*t)*d(t)",
+                 "-l*sin(phi)*d(phi) + y0*omega*cos(omega*t)*d(t)", id="differential"),
+    pytest.param("sin(phi)^2", "sin(phi)^2", id="square of a sine"),
+    pytest.param("1 - cos(phi)^2", "sin(phi)^2", id="hidden square of a sine"),
+    pytest.param("sin(phi)*cos(phi)", "sin(phi)*cos(phi)", id="product"),
+    pytest.param("sin(phi)*sin(x)", "sin(phi)*sin(x)", id="product of two angles"),
+    pytest.param("cos(phi)*cos(x) + sin(phi)*sin(x)", "cos(phi - x)", id="difference of two angles"),
+    pytest.param("tan(phi)*cos(phi)", "sin(phi)", id="tangent"),
+    pytest.param("k*(x - y)^2/2", "k*(x - y)^2/2", id="a square stays a square"),
+    pytest.param("k*(sqrt(x^2 + y^2) - l)^2/2", "k*(sqrt(y^2 + x^2) - l)^2/2", id="spring"),
+    pytest.param("m*l^2 + m1*l^2", "(m + m1)*l^2", id="equal factors"),
+    pytest.param("m*g - m*g", "0", id="nothing left"),
+    pytest.param("9.81*m*(1 + 1)", "19.62*m", id="decimal"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "shown"), ROWS)
+def test_shown_as(text: str, shown: str) -> None:
+    assert plain(display(read(text), SYMBOLS), Order(NAMES)) == shown
+
+
+DOUBLE_ROWS = [
+    pytest.param(
+        DOUBLE_KINETIC_ENERGY,
+        "(m1 + m2)*l1^2*dot(phi1)^2/2 + m2*l1*l2*cos(phi1 - phi2)*dot(phi1)*dot(phi2) + m2*l2^2*dot(phi2)^2/2",
+        id="kinetic energy",
+    ),
+    pytest.param(
+        f"diff({DOUBLE_KINETIC_ENERGY}, dot(phi1))",
+        "(m1 + m2)*l1^2*dot(phi1) + m2*l1*l2*cos(phi1 - phi2)*dot(phi2)",
+        id="momentum",
+    ),
+    pytest.param(
+        f"d/dt (diff({DOUBLE_KINETIC_ENERGY}, dot(phi1))) - diff({DOUBLE_KINETIC_ENERGY}, phi1)"
+        " + (m1 + m2)*g*l1*sin(phi1)",
+        "(m1 + m2)*l1^2*ddot(phi1) + m2*l1*l2*cos(phi1 - phi2)*ddot(phi2)"
+        " + m2*l1*l2*sin(phi1 - phi2)*dot(phi2)^2 + (m1 + m2)*g*l1*sin(phi1)",
+        id="first equation",
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "shown"), DOUBLE_ROWS)
+def test_double_pendulum(text: str, shown: str) -> None:
+    assert plain(display(read(text, names=DOUBLE), Symbols(DOUBLE)), Order(DOUBLE)) == shown
+
+
+def test_entries_and_sides_are_shown_each() -> None:
+    column = display(read("[sin(phi)^2 + cos(phi)^2, x]"), SYMBOLS)
+    assert column == sympy.ImmutableMatrix([1, SYMBOLS.name("x")])
+    equation = display(read("sin(phi)^2 + cos(phi)^2 = x + x - x"), SYMBOLS)
+    assert equation == sympy.Eq(sympy.Integer(1), SYMBOLS.name("x"), evaluate=False)
+
+
+def test_display_keeps_the_value_of_what_it_cannot_expand() -> None:
+    expr = read("sqrt(sin(phi)^2 + cos(phi)^2 + x^2)*log(x^2 + 1) + abs(x)*atan2(y, x)")
+    assert is_zero(display(expr, SYMBOLS) - expr, SYMBOLS) is True
+
+
+def test_without_names_latin_coordinates_come_before_greek_ones() -> None:
+    assert plain(read("delta(phi) + delta(y)")) == "delta(y) + delta(phi)"
+    assert plain(read("delta(phi) + delta(y)"), Order(Names())) == "delta(y) + delta(phi)"

@@ -1,0 +1,63 @@
+"""LaTeX as the lecture writes it."""
+
+from __future__ import annotations
+
+import pytest
+from deltaq.language.latex_printer import Typography, latex
+from deltaq.language.names import Names, Symbol
+
+from tests.language.scene_names import read
+
+LECTURE = Names(
+    (
+        Symbol("y", "coordinate", "q_1"),
+        Symbol("phi", "coordinate", "q_2"),
+        *(Symbol(name, "parameter", positive=True) for name in ("m", "g", "k", "y0", "omega", "F0")),
+        Symbol("l", "parameter", r"\ell", positive=True),
+    )
+)
+
+ROWS = [
+    pytest.param("m*l^2*ddot(phi)", r"m \ell^{2} \ddot{q}_2", id="acceleration"),
+    pytest.param("l*sin(phi)", r"\ell \sin q_2", id="no needless parentheses"),
+    pytest.param("sin(omega*t)", r"\sin(\omega t)", id="parentheses around a product"),
+    pytest.param("cos(2*phi)", r"\cos(2 q_2)", id="double angle"),
+    pytest.param("sin(phi)^2", r"\sin^{2} q_2", id="power of a function"),
+    pytest.param("sin(phi/2)", r"\sin\left(\frac{q_2}{2}\right)", id="half angle"),
+    pytest.param("m*dot(y)^2/2", r"\frac{1}{2} m \dot{q}_1^{2}", id="one half in front"),
+    pytest.param("k*y/m", r"\frac{k q_1}{m}", id="quotient of symbols"),
+    pytest.param("3*m/2", r"\frac{3}{2} m", id="three halves"),
+    pytest.param("pi/2", r"\frac{\pi}{2}", id="half of pi"),
+    pytest.param("-m*g*(y + l*cos(phi))", r"-m g (q_1 + \ell \cos q_2)", id="bracket"),
+    pytest.param("9.81*m", "9.81 m", id="decimal"),
+    pytest.param("delta(y) - l*sin(phi)*delta(phi)", r"\delta q_1 - \ell \sin q_2 \, \delta q_2", id="variation"),
+    pytest.param("y0*omega*cos(omega*t)*d(t)", r"y_{0} \omega \cos(\omega t) \, \mathrm{d}t", id="time differential"),
+    pytest.param("[l*cos(phi), -l*sin(phi)]", r"\begin{bmatrix} \ell \cos q_2 \\ -\ell \sin q_2 \end{bmatrix}", id="column"),
+    pytest.param("[[m, 0], [0, k]]", r"\begin{bmatrix} m & 0 \\ 0 & k \end{bmatrix}", id="matrix"),
+    pytest.param("m*ddot(y) = m*g", r"m \ddot{q}_1 = m g", id="equation"),
+    pytest.param("y = 0; phi = 0", r"\begin{aligned} q_1 &= 0 \\ q_2 &= 0 \end{aligned}", id="system"),
+    pytest.param("exp(-k*t)", r"\mathrm{e}^{-k t}", id="exponential"),
+    pytest.param("exp(1)", r"\mathrm{e}^{1}", id="e"),
+    pytest.param("sqrt(y^2 + l^2)", r"\sqrt{q_1^{2} + \ell^{2}}", id="root"),
+    pytest.param("1/sqrt(m)", r"\frac{1}{\sqrt{m}}", id="root below the line"),
+    pytest.param("m^(1/3)", r"m^{1/3}", id="cube root"),
+    pytest.param("abs(y)^3", r"\left|q_1\right|^{3}", id="absolute value"),
+    pytest.param("atan2(y, l)", r"\operatorname{atan2}(q_1, \ell)", id="two arguments"),
+    pytest.param("sin(phi)*(m + k)*(dot(y) + 1)", r"(k + m) \sin(q_2) (\dot{q}_1 + 1)", id="function before a bracket"),
+    pytest.param("2*2^(1/3)", r"2 \cdot 2^{1/3}", id="digits side by side"),
+    pytest.param("sign(y)^2*m", r"m (\operatorname{sgn}(q_1))^{2}", id="no power after sgn"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "written"), ROWS)
+def test_written_as(text: str, written: str) -> None:
+    assert latex(read(text, names=LECTURE), Typography(LECTURE)) == written
+
+
+def test_marks_wrap_each_symbol() -> None:
+    typography = Typography(LECTURE, lambda name, written: rf"\htmlClass{{{name}}}{{{written}}}")
+    assert latex(read("m*dot(y)", names=LECTURE), typography) == r"\htmlClass{m}{m} \htmlClass{dot(y)}{\dot{q}_1}"
+
+
+def test_a_symbol_by_its_plain_name() -> None:
+    assert Typography(LECTURE).symbol("delta(phi)") == r"\delta q_2"

