@@ -52,7 +52,7 @@ EQUAL = [
 DIFFERENT = [
     ("sin(phi)", "phi"),
     ("sin(phi)^2", "cos(phi)^2"),
-    ("sin(phi)", "sin(phi) + 0.000000000000000000000000000001"),
+    ("sin(phi)", "sin(phi) + 1e-30"),
     ("m*l", "m*y0"),
     ("sqrt(x^2)", "x"),
     ("cos(phi - x)", "cos(phi + x)"),
@@ -60,7 +60,7 @@ DIFFERENT = [
     ("exp(x)", "1 + x"),
     ("1/(x + 1)", "1/x + 1"),
     ("sqrt(x^2 + y^2)", "x + y"),
-    ("sin(1)", "0.841470984807896506652502321630"),
+    ("sin(1)", "0.84147098480789650665250232163"),
     ("pi", "3.14159265358979323846264338328"),
     ("sqrt(2)", "1.41421356237309504880168872421"),
     ("exp(-1000*x^2 - 700)", "0"),
@@ -68,7 +68,7 @@ DIFFERENT = [
 ]
 
 SEEN_BY_SAMPLING = [
-    ("sqrt((x^2 + 1)^2)", "x^2 + 1", True),
+    ("sqrt(x^4 + 2*x^2 + 1)", "x^2 + 1", True),
     ("sqrt(x^2 + 2*x + 1)", "abs(x + 1)", True),
     ("log(exp(x)*m)", "x + log(m)", True),
     ("atan2(sin(0.5), cos(0.5))", "0.5", None),
@@ -134,7 +134,9 @@ def test_too_large_expressions_come_back_as_they_are() -> None:
 
 
 _waves = st.tuples(st.sampled_from((sympy.sin, sympy.cos)), st.integers(-3, 3), st.integers(-2, 2), st.booleans()).map(
-    lambda w: w[0](w[1] * SYMBOLS.name("phi") + w[2] * SYMBOLS.name("x") + (SYMBOLS.time * SYMBOLS.name("omega")) * w[3])
+    lambda w: w[0](
+        w[1] * SYMBOLS.name("phi") + w[2] * SYMBOLS.name("x") + (SYMBOLS.time * SYMBOLS.name("omega")) * int(w[3])
+    )
 )
 _letters = st.sampled_from(
     [SYMBOLS.name("m"), SYMBOLS.name("l"), SYMBOLS.rate("phi"), SYMBOLS.variation("x"), sympy.Rational(3, 2), sympy.pi]

@@ -41,9 +41,9 @@ ROWS = [
     pytest.param("sqrt(y^2 + l^2)", r"\sqrt{q_1^{2} + \ell^{2}}", id="root"),
     pytest.param("1/sqrt(m)", r"\frac{1}{\sqrt{m}}", id="root below the line"),
     pytest.param("m^(1/3)", r"m^{1/3}", id="cube root"),
-    pytest.param("abs(y)^3", r"\left|q_1\right|^{3}", id="absolute value"),
-    pytest.param("atan2(y, l)", r"\operatorname{atan2}(q_1, \ell)", id="two arguments"),
-    pytest.param("sin(phi)*(m + k)*(dot(y) + 1)", r"(k + m) \sin(q_2) (\dot{q}_1 + 1)", id="function before a bracket"),
+    pytest.param("abs(y)", r"\left|q_1\right|", id="absolute value"),
+    pytest.param("atan2(l, y)", r"\operatorname{atan2}(\ell, q_1)", id="two arguments"),
+    pytest.param("sin(phi)*(m + k)*(dot(y) + 1)", r"(m + k) \sin(q_2) (\dot{q}_1 + 1)", id="function before a bracket"),
     pytest.param("2*2^(1/3)", r"2 \cdot 2^{1/3}", id="digits side by side"),
     pytest.param("sign(y)^2*m", r"m (\operatorname{sgn}(q_1))^{2}", id="no power after sgn"),
 ]  # fmt: skip

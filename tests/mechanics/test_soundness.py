@@ -66,6 +66,19 @@ CASES = [
         id="centimetres plus metres",
     ),
     pytest.param(
+        {"bodies": bob("x + l*sin(phi + t)", "l*cos(phi)")},
+        (Problem("inconsistent-units", "/bodies/0/position/0", 16, 1, units("t", "s", "1")),),
+        id="sine of a time",
+    ),
+    pytest.param(
+        {
+            "parameters": [{"name": "m"}, {"name": "l", "unit": "m"}],
+            "bodies": bob("x + l*sin(phi + t)", "l*cos(phi)"),
+        },
+        (),
+        id="sine of a time where not all units are given",
+    ),
+    pytest.param(
         {"bodies": bob("l*sin(phi)", "l*cos(phi)")},
         (Problem("coordinate-without-inertia", "/coordinates/0", parameters={"name": "x", "names": "x"}),),
         id="coordinate that moves nothing",
@@ -127,6 +140,7 @@ KNOWN: dict[str, Dimension | None] = {
     "l": dimension_of("m"),
     "k": dimension_of("N/m"),
     "a": None,
+    "t": dimension_of("s"),
 }
 DIMENSIONS = [
     pytest.param("k*x^2/2", "J", (), id="energy"),

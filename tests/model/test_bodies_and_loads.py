@@ -34,6 +34,8 @@ CONTINUUM = {
     "position": STRAIGHT,
 }
 
+Described = tuple[Mapping[str, object], Sequence[Mapping[str, object]]]  # and the dimension, if 3
+
 
 def rod(body: Mapping[str, object], loads: Sequence[Mapping[str, object]], dimension: int = 2) -> Scene:
     """A body that turns by φ; `psi` and `theta` only where it is in space."""
@@ -63,15 +65,15 @@ def outputs(scene: Scene) -> np.ndarray:
 
 
 SAME = [
-    pytest.param(rod(RIGID, [GRAVITY]), rod(CONTINUUM, [GRAVITY]), id="rigid rod and continuum"),
+    pytest.param((RIGID, [GRAVITY]), (CONTINUUM, [GRAVITY]), id="rigid rod and continuum"),
     pytest.param(
-        rod(RIGID, [GRAVITY]),
-        rod(RIGID, [{"kind": "potential", "energy": "-m*g*l/2*cos(phi)"}]),
+        (RIGID, [GRAVITY]),
+        (RIGID, [{"kind": "potential", "energy": "-m*g*l/2*cos(phi)"}]),
         id="weight and its potential",
     ),
     pytest.param(
-        rod(CONTINUUM, [GRAVITY]),
-        rod(
+        (CONTINUUM, [GRAVITY]),
+        (
             CONTINUUM,
             [
                 {
@@ -85,28 +87,30 @@ SAME = [
         id="weight and force density",
     ),
     pytest.param(
-        rod(RIGID, [{"kind": "moment", "angle": "phi", "moment": "-c*dot(phi)"}]),
-        rod(RIGID, [{"kind": "dissipation", "function": "c*dot(phi)^2/2"}]),
+        (RIGID, [{"kind": "moment", "angle": "phi", "moment": "-c*dot(phi)"}]),
+        (RIGID, [{"kind": "dissipation", "function": "c*dot(phi)^2/2"}]),
         id="moment and dissipation function",
     ),
     pytest.param(
-        rod(RIGID, [{"kind": "moment", "angle": "phi", "moment": "M0"}]),
-        rod(RIGID, [{"kind": "potential", "energy": "-M0*phi"}]),
+        (RIGID, [{"kind": "moment", "angle": "phi", "moment": "M0"}]),
+        (RIGID, [{"kind": "potential", "energy": "-M0*phi"}]),
         id="constant moment and its potential",
     ),
     pytest.param(
-        rod(RIGID, [{"kind": "force", "at": "tip", "force": ["M0/l*cos(phi)", "-M0/l*sin(phi)"]}, GRAVITY]),
-        rod(RIGID, [{"kind": "moment", "angle": "phi", "moment": "M0 + c*(dot(phi) - dot(phi))"}, GRAVITY]),
+        (RIGID, [{"kind": "force", "at": "tip", "force": ["M0/l*cos(phi)", "-M0/l*sin(phi)"]}, GRAVITY]),
+        (RIGID, [{"kind": "moment", "angle": "phi", "moment": "M0 + c*(dot(phi) - dot(phi))"}, GRAVITY]),
         id="follower force and moment",
     ),
     pytest.param(
-        rod(RIGID, [{"kind": "damper", "from": "support", "to": "tip", "coefficient": "c"}]),
-        rod(
+        (RIGID, [{"kind": "damper", "from": "support", "to": "tip", "coefficient": "c"}]),
+        (
             RIGID,
             [
                 {
                     "kind": "dissipation",
-                    "function": "c/2*diff(sqrt((l*sin(phi) - a*sin(omega*t))^2 + (l*cos(phi) + a)^2), t)^2",
+                    "function": "c/2*((l*sin(phi) - a*sin(omega*t))*(l*cos(phi)*dot(phi) - a*omega*cos(omega*t))"
+                    " - (l*cos(phi) + a)*l*sin(phi)*dot(phi))^2"
+                    "/((l*sin(phi) - a*sin(omega*t))^2 + (l*cos(phi) + a)^2)",
                 }
             ],
         ),
@@ -116,14 +120,14 @@ SAME = [
 
 
 @pytest.mark.parametrize(("one", "other"), SAME)
-def test_two_descriptions_of_one_system(one: Scene, other: Scene) -> None:
-    moves = outputs(one)[:, :3]
-    np.testing.assert_allclose(moves, outputs(other)[:, :3], rtol=1e-12, atol=1e-12)
+def test_two_descriptions_of_one_system(one: Described, other: Described) -> None:
+    moves = outputs(rod(*one))[:, :3]
+    np.testing.assert_allclose(moves, outputs(rod(*other))[:, :3], rtol=1e-12, atol=1e-12)
 
 
 @pytest.mark.parametrize(("one", "other"), SAME[:3])
-def test_and_of_one_energy(one: Scene, other: Scene) -> None:
-    np.testing.assert_allclose(outputs(one), outputs(other), rtol=1e-12)
+def test_and_of_one_energy(one: Described, other: Described) -> None:
+    np.testing.assert_allclose(outputs(rod(*one)), outputs(rod(*other)), rtol=1e-12)
 
 
 TOP = {
@@ -141,25 +145,23 @@ TOP = {
 SPUN = TOP | {"angular_velocity": [*TOP["angular_velocity"][:2], "dot(phi)*cos(theta) + dot(psi) + omega"]}
 FALLING = {"kind": "gravity", "acceleration": ["0", "0", "-g"]}
 BALANCED = [
-    pytest.param(rod(TOP, [FALLING], 3), id="heavy top"),
-    pytest.param(rod(SPUN, [FALLING], 3), id="top on a motor"),
+    pytest.param((TOP, [FALLING], 3), id="heavy top"),
+    pytest.param((SPUN, [FALLING], 3), id="top on a motor"),
+    pytest.param((CONTINUUM, [GRAVITY, {"kind": "dissipation", "function": "c*dot(phi)^2/2"}]), id="damped continuum"),
     pytest.param(
-        rod(CONTINUUM, [GRAVITY, {"kind": "dissipation", "function": "c*dot(phi)^2/2"}]), id="damped continuum"
-    ),
-    pytest.param(
-        rod(RIGID, [GRAVITY, {"kind": "damper", "from": "support", "to": "tip", "coefficient": "c"}]),
+        (RIGID, [GRAVITY, {"kind": "damper", "from": "support", "to": "tip", "coefficient": "c"}]),
         id="damper to a moving support",
     ),
     pytest.param(
-        rod(RIGID | {"angle": "phi + a*sin(omega*t)"}, [{"kind": "moment", "angle": "2*phi", "moment": "M0*sin(phi)"}]),
+        (RIGID | {"angle": "phi + a*sin(omega*t)"}, [{"kind": "moment", "angle": "2*phi", "moment": "M0*sin(phi)"}]),
         id="angle that depends on time",
     ),
 ]
 
 
-@pytest.mark.parametrize("scene", BALANCED)
-def test_energy_balance_holds(scene: Scene) -> None:
-    problem = problem_of(scene, 3.0, 101)
+@pytest.mark.parametrize("described", BALANCED)
+def test_energy_balance_holds(described: Described) -> None:
+    problem = problem_of(rod(*described), 3.0, 101)
     found = simulate(problem, get_method("dop853"), tolerance=1e-10)
     seen = problem.model.observe(problem.inputs(found.times, np.hstack([found.values, found.rates])))
     assert np.ptp(seen.kinetic + seen.potential - found.work) < 1e-9 * np.abs(seen.kinetic).max()

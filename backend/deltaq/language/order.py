@@ -26,6 +26,8 @@ _LATE = ("omega", "Omega", "nu", "f", "alpha", "beta", "gamma", "eta", "tau", "T
 
 _FUNCTION_RANK: Mapping[str, int] = MappingProxyType({"sin": 0, "cos": 1})
 
+_RATE = 1
+
 Key = tuple[Any, ...]
 
 
@@ -112,10 +114,11 @@ class Order:
         return (*by_kind, acceleration, *rest, len(functions), sorted(functions), sorted(parameters))
 
     def terms(self, sum_: sympy.Expr) -> list[sympy.Expr]:
-        """The terms of a sum in writing order; no needless minus in front of a sum of parameters."""
+        """The terms of a sum in writing order; no needless minus in front, but δq, dq and q̈ keep their order."""
         terms = sorted(sympy.Add.make_args(sum_), key=self.term)
         leading = terms[0]
-        if leading.could_extract_minus_sign() and not any(map(self.is_moving, leading.free_symbols)):
+        fixed = any(split_symbol(s.name)[0] > _RATE for s in leading.free_symbols)
+        if leading.could_extract_minus_sign() and not fixed:
             positive = next((t for t in terms if not t.could_extract_minus_sign()), leading)
             terms.remove(positive)
             terms.insert(0, positive)

@@ -43,7 +43,7 @@ class DimensionCheck:
             case Number() | Name(name="pi"):
                 return NUMBER
             case Name(name=name):
-                return SECOND if name == "t" else self.units.get(name)
+                return self.units.get(name)
             case Rate(name=name, order=order):
                 unit = self.units.get(name)
                 return None if unit is None else unit.times(SECOND.to(Fraction(-order)))

@@ -7,8 +7,9 @@ from dataclasses import dataclass, fields
 
 from ..errors import Problem
 from ..language.expression import Expression
-from .dimensions import dimension_problems
+from .dimensions import SECOND, dimension_problems
 from .inertia import inertia_problems
+from .material import Material
 from .scene import Scene
 from .units import Dimension, dimension_of
 
@@ -49,7 +50,16 @@ def _fields(pointer: str, thing: object) -> Iterator[Field]:
             case Expression() as expression:
                 yield Field(place, expression, dimension)
             case tuple(parts):
-                yield from (Field(f"{place}/{i}", part, dimension) for i, part in enumerate(parts))
+                yield from (each for i, part in enumerate(parts) for each in _parts(f"{place}/{i}", part, dimension))
+
+
+def _parts(place: str, part: object, dimension: Dimension | None) -> Iterator[Field]:
+    match part:
+        case Expression():
+            yield Field(place, part, dimension)
+        case Material(lower=lower, upper=upper):
+            yield Field(f"{place}/from", lower, None)
+            yield Field(f"{place}/to", upper, None)
 
 
 def _idle_parameters(scene: Scene, found: tuple[Field, ...]) -> Iterator[Problem]:
@@ -68,6 +78,7 @@ def _units(scene: Scene, found: tuple[Field, ...]) -> Iterator[Problem]:
         if unit and dimension_of(unit) is None:
             yield Problem("unknown-unit", pointer, parameters={"unit": unit[:20]}, severity="warning")
     units = {name: dimension_of(unit) for _, name, unit in given}
+    units["t"] = SECOND if all(units.values()) else None  # who writes no units may write sin(t)
     for field in found:
         for problem in dimension_problems(field.expression, field.dimension, units):
             yield problem.below(field.pointer)

@@ -104,10 +104,14 @@ class _Work:
         while len(attempts) < TRIES and _can_improve(attempts[-1], tolerance, self.problem):
             if self.refinement.is_finest(resolution):
                 break
-            worst = attempts[-1].estimate.worst if attempts[-1].estimate else 1.0
-            resolution = self.refinement.next(resolution, worst / tolerance)
+            resolution = self.refinement.next(resolution, _excess(attempts[-1], tolerance))
             attempts.append(self.pair(resolution, returns_fine=True))
         return attempts
+
+
+def _excess(attempt: _Attempt, tolerance: float) -> float:
+    """How many times too large the error is; without limit if the runs did not even come to the end."""
+    return attempt.estimate.worst / tolerance if attempt.is_complete and attempt.estimate else np.inf
 
 
 def _can_improve(attempt: _Attempt, tolerance: float, problem: Problem) -> bool:
@@ -141,12 +145,12 @@ def _trajectory(problem: Problem, method: Method, attempts: list[_Attempt], tole
     )
 
 
-def _merit(attempt: _Attempt) -> tuple[bool, int, float, float]:
-    """Complete before incomplete, then the one that came further, is right for longer, and is more accurate."""
+def _merit(attempt: _Attempt) -> tuple[float, bool, float]:
+    """What is right for longer comes first, then what is complete, then what is more accurate."""
     found = attempt.estimate
     worst = found.worst if found else 0.0
     horizon = np.inf if found is None or found.horizon is None else found.horizon
-    return attempt.is_complete, len(attempt.chosen.times), horizon, -worst
+    return min(horizon, _reached(attempt)), attempt.is_complete, -worst
 
 
 def _reached(attempt: _Attempt) -> float:
