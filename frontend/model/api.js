@@ -52,8 +52,8 @@ export function createApi(send, base = "/api/v1") {
   return {
     /** @returns {Promise<{scenes: import("./types.js").SceneEntry[]}>} */
     scenes: () => call("/scenes"),
-    /** @param {string} id @returns {Promise<import("./types.js").Scene>} */
-    scene: (id) => call(`/scenes/${encodeURIComponent(id)}`),
+    /** @param {string} id @param {string} lang of what may go wrong @returns {Promise<import("./types.js").Scene>} */
+    scene: (id, lang) => call(`/scenes/${encodeURIComponent(id)}?lang=${lang}`),
     /** @returns {Promise<{methods: import("./types.js").Method[]}>} */
     methods: () => call("/methods"),
     /** @param {string} lang @returns {Promise<import("./types.js").Catalog>} */

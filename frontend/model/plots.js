@@ -46,19 +46,20 @@ function energyRow({ energy }) {
   return [{ key: "energy", unit: "J", curves }];
 }
 
-/** Pixels between two rows: room for the names of the curves. */
-const GAP = 24;
+/** Between two rows there is room for the names of the curves: this many times the page's type size. */
+const GAP = 1.5;
 
 /**
  * The rows' parts of the height, from the top, with a gap between them.
- * @param {number} count @param {number} pixels the height
+ * @param {number} count @param {number} height in pixels @param {number} em the page's type size in pixels
  */
-export function domainsOf(count, pixels) {
-  const gap = Math.min(0.15, GAP / Math.max(pixels, 1));
-  const height = (1 - gap * (count - 1)) / count;
+export function domainsOf(count, height, em) {
+  const inner = height - marginsOf(em).t - marginsOf(em).b;
+  const gap = Math.min(0.15, (GAP * em) / Math.max(inner, 1));
+  const share = (1 - gap * (count - 1)) / count;
   return Array.from({ length: count }, (_, i) => {
-    const top = 1 - i * (height + gap);
-    return [Math.max(0, top - height), top];
+    const top = 1 - i * (share + gap);
+    return [Math.max(0, top - share), top];
   });
 }
 
@@ -96,25 +97,25 @@ function bandOf(curve, trajectory, color, axis) {
   return [{ type: "scatter", mode: "lines", x, y, fill: "toself", fillcolor: color, opacity: 0.18, line, hoverinfo: "skip", ...axis }];
 }
 
-/** Margins of the plots in pixels; the cursor and the scrub slider use them as well. */
-export const MARGIN = { l: 46, r: 10, t: 24, b: 24 };
+/** Margins of the plots in pixels; the style sheet places cursor and names by the same. @param {number} em */
+export const marginsOf = (em) => ({ l: 2.9 * em, r: 0.65 * em, t: 1.5 * em, b: 1.5 * em });
 
 /**
  * Plotly layout: one time axis at the bottom, one value axis per row.
  * @param {readonly Row[]} rows @param {number} end @param {Palette} palette @param {string} lang
- * @param {number} height in pixels
+ * @param {number} height in pixels @param {number} em the page's type size in pixels
  */
-export function layoutOf(rows, end, palette, lang, height) {
-  const font = { family: "system-ui, sans-serif", size: 11, color: palette.muted };
-  const line = { gridcolor: palette.grid, zeroline: false, ticks: "", fixedrange: true, automargin: false };
-  const axes = domainsOf(rows.length, height - MARGIN.t - MARGIN.b).map((domain, r) => [
+export function layoutOf(rows, end, palette, lang, height, em) {
+  const font = { family: "system-ui, sans-serif", size: 0.7 * em, color: palette.muted };
+  const line = { gridcolor: palette.grid, zeroline: false, ticks: "", fixedrange: true, exponentformat: "power" };
+  const axes = domainsOf(rows.length, height, em).map((domain, r) => [
     r === 0 ? "yaxis" : `yaxis${r + 1}`,
     { ...line, domain, nticks: 4, zeroline: true, zerolinecolor: palette.grid, zerolinewidth: 1.5, ...rangeOf(rows[r]) },
   ]);
   return {
     ...Object.fromEntries(axes),
     xaxis: { ...line, range: [0, end || 1], anchor: rows.length > 1 ? `y${rows.length}` : "y", nticks: 8 },
-    margin: { ...MARGIN, pad: 4 },
+    margin: { ...marginsOf(em), pad: em / 4 },
     showlegend: false,
     hovermode: false,
     dragmode: false,
@@ -125,30 +126,38 @@ export function layoutOf(rows, end, palette, lang, height) {
   };
 }
 
+/** A runaway curve leaves the frame when its outermost values lie this many times further out than the rest. */
+const RUNAWAY = 4;
+
+/** The range of the values, without the last few of them if they have run away. @param {readonly number[]} sorted */
+function usual(sorted) {
+  const at = (/** @type {number} */ part) => sorted[Math.round((sorted.length - 1) * part)];
+  const span = Math.max(at(0.97) - at(0.03), 1e-9);
+  const held = (/** @type {number} */ extreme, /** @type {number} */ usual) => (Math.abs(extreme - usual) > RUNAWAY * span ? usual : extreme);
+  return [held(at(0), at(0.03)), held(at(1), at(0.97))];
+}
+
 /**
  * A little room on both sides; a constant curve gets a range that shows it as constant.
  * @param {Row} row
  */
 function rangeOf(row) {
   const values = row.curves.flatMap((curve) => curve.values).filter(Number.isFinite);
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values) {
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-  }
-  if (!(low <= high)) return {};
+  if (!values.length) return {};
+  const [low, high] = usual(values.sort((a, b) => a - b));
   const span = Math.max(high - low, 1e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
   return { range: [low - 0.08 * span, high + 0.08 * span] };
 }
 
 /**
  * Pixels of a time on the plots, and back.
- * @param {number} width @param {number} end
+ * @param {number} width @param {number} end @param {number} em
  */
-export function timeScale(width, end) {
-  const inner = Math.max(1, width - MARGIN.l - MARGIN.r);
+export function timeScale(width, end, em) {
+  const { l, r } = marginsOf(em);
+  const inner = Math.max(1, width - l - r);
   return {
-    pixel: (/** @type {number} */ t) => MARGIN.l + (end > 0 ? t / end : 0) * inner,
-    time: (/** @type {number} */ x) => Math.max(0, Math.min(end, ((x - MARGIN.l) / inner) * end)),
+    pixel: (/** @type {number} */ t) => l + (end > 0 ? t / end : 0) * inner,
+    time: (/** @type {number} */ x) => Math.max(0, Math.min(end, ((x - l) / inner) * end)),
   };
 }

@@ -19,15 +19,18 @@ import { HOME } from "./url.js";
  * @property {import("./reveal.js").Line[]} lines  the derivation's steps in order
  * @property {import("./types.js").Trajectory | null} trajectory
  * @property {import("./types.js").Changes} changes
- * @property {{page: Failure | null, derivation: Failure | null, simulation: Failure | null}} failures
+ * @property {{page: Failure | null, scene: Failure | null, derivation: Failure | null, simulation: Failure | null}} failures
  * @property {boolean} simulating
  * @property {"" | "overview" | "help" | "black"} overlay
  */
 
+/** @type {State["failures"]} */
+const NO_FAILURES = { page: null, scene: null, derivation: null, simulation: null };
+
 /** @type {State} */
 export const START = {
   place: HOME, catalog: {}, scenes: [], methods: [], scene: null, derivation: null, lines: [], trajectory: null,
-  changes: UNCHANGED, failures: { page: null, derivation: null, simulation: null }, simulating: false, overlay: "",
+  changes: UNCHANGED, failures: NO_FAILURES, simulating: false, overlay: "",
 };
 
 /** Milliseconds between two simulations while a slider moves, samples per second, and the step where one is asked for. */
@@ -99,11 +102,11 @@ export function createSession(store, api, clock) {
   async function choose(id, step = "") {
     simulations.cancel();
     clock.seek(0);
-    set({ scene: null, derivation: null, lines: [], trajectory: null, changes: UNCHANGED });
+    set({ scene: null, derivation: null, lines: [], trajectory: null, changes: UNCHANGED, failures: NO_FAILURES });
     move({ scene: id, step });
     askSimulation();
-    await attempt("page", async () => {
-      const [scene] = await Promise.all([api.scene(id), derive()]);
+    await attempt("scene", async () => {
+      const [scene] = await Promise.all([api.scene(id, get().place.lang), derive()]);
       if (get().place.scene === id) set({ scene });
     });
   }

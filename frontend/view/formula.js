@@ -4,7 +4,7 @@ import { html, nothing } from "lit-html";
 import { Directive, directive } from "lit-html/directive.js";
 
 /** Display formulas shrink to this part of their size before they scroll. */
-const SMALLEST = 0.72;
+const SMALLEST = 0.66;
 
 /** @param {{command: string}} context  only classes, which carry the colours, and only in LaTeX from the server */
 const onlyClasses = (context) => context.command === "\\htmlClass";

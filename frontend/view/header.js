@@ -1,6 +1,6 @@
 /** The top line: which scene, which language, which appearance. */
 
-import { html } from "lit-html";
+import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
@@ -46,12 +46,13 @@ function sceneChooser({ state, session, t }) {
         <label class="choice">
           <span class="unseen">${t("scene.choose")}</span>
           <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => session.choose(chosen(e))}>
+            ${entry ? nothing : html`<option value=${scene} selected>${t("scene.choose")}</option>`}
             ${state.scenes.map((s) => html`<option value=${s.id} ?selected=${s.id === scene}>${inLanguage(s.title, lang)}</option>`)}
           </select>${icon("chevron")}
         </label>
       </h1>
       <p class="summary">${entry ? (freedoms === 1 ? t("scene.freedoms-one") : t("scene.freedoms", { count: freedoms })) : ""}
-        <span class="more">${inLanguage(entry?.summary, lang)}</span></p>
+        ${entry ? html`<span class="more">${inLanguage(entry.summary, lang)}</span>` : nothing}</p>
     </div>
   `;
 }

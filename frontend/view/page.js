@@ -38,8 +38,7 @@ export function page(view) {
       <section class="derivation" id="derivation" aria-label=${t("derivation")}>
         ${chapters(view)}
         <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
-          ${failures.page ? failure(failures.page, t("failure.page"), view.reload, t)
-            : failures.derivation ? failure(failures.derivation, t("failure.derivation"), view.reload, t) : steps(view)}
+          ${trouble(view) ?? steps(view)}
         </div>
         ${pager(view)}
       </section>
@@ -59,6 +58,27 @@ export function page(view) {
   `;
 }
 
+/** What stands in the derivation's place when there is none. @param {View} view */
+function trouble(view) {
+  const { page, scene, derivation } = view.state.failures;
+  const { reload, t } = view;
+  if (page) return failure(page, t("failure.page"), reload, t);
+  if (scene?.status === 404) return unknownScene(view);
+  if (scene) return failure(scene, t("failure.page"), reload, t);
+  return derivation && failure(derivation, t("failure.derivation"), reload, t);
+}
+
+/** An unknown scene is answered with those there are. @param {View} view */
+function unknownScene({ state, link, follow, session, t }) {
+  return html`
+    <div class="failure" role="alert">
+      <h2>${t("failure.scene")}</h2>
+      <ul>${state.scenes.map(({ id, title }) => html`<li><a href=${link({ scene: id, step: "" })}
+        @click=${(/** @type {Event} */ event) => follow(event, () => session.choose(id))}>${inLanguage(title, state.place.lang)}</a></li>`)}</ul>
+    </div>
+  `;
+}
+
 /** @param {View} view */
 function drawing({ state, session, t }) {
   const { lang } = state.place;
@@ -70,8 +90,8 @@ function drawing({ state, session, t }) {
       <svg role="img" aria-label=${t("drawing.description", { title, summary })}></svg>
       <div class="labels" aria-hidden="true"></div>
       <div class="readouts" aria-hidden="true"></div>
-      ${waiting ? html`<p class="unseen">${t("drawing.loading")}</p>` : nothing}
-      ${state.failures.simulation ? failure(state.failures.simulation, t("failure.simulation"), () => session.resimulate({}), t) : nothing}
+      ${waiting ? html`<p class="patience" role="status">${t("drawing.loading")}</p>` : nothing}
+      ${state.failures.simulation && !state.failures.scene ? failure(state.failures.simulation, t("failure.simulation"), () => session.resimulate({}), t) : nothing}
     </div>
   `;
 }

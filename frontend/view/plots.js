@@ -1,6 +1,6 @@
 /** The plots: curves drawn once by Plotly, and above them a cursor that follows the clock. */
 
-import { domainsOf, layoutOf, MARGIN, rowsOf, timeScale, tracesOf } from "../model/plots.js";
+import { domainsOf, layoutOf, marginsOf, rowsOf, timeScale, tracesOf } from "../model/plots.js";
 import { endOf } from "../model/trajectory.js";
 import { fixed } from "../model/numbers.js";
 
@@ -53,7 +53,7 @@ export function createPlots(root, { seek }) {
   const [canvas, rowsLayer, cursor, ghost, beyond] = ["canvas", "rows", "cursor", "ghost", "beyond"].map(part);
   /** @type {Shown | null} */
   let shown = null;
-  let scale = timeScale(1, 0);
+  let scale = timeScale(1, 0, 16);
   let visible = false;
   let due = 0;
   /** @type {Promise<boolean> | null} */
@@ -66,21 +66,22 @@ export function createPlots(root, { seek }) {
     if (!(await plotly) || !shown) return;
     const { scene, trajectory, duration, lang } = shown;
     const palette = paletteOf(root);
+    const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
     const rows = rowsOf(scene, trajectory);
-    const layout = { ...layoutOf(rows, duration, palette, lang, root.clientHeight), width: root.clientWidth, height: root.clientHeight };
+    const layout = { ...layoutOf(rows, duration, palette, lang, root.clientHeight, em), width: root.clientWidth, height: root.clientHeight };
     await globalThis.Plotly.react(canvas, tracesOf(rows, trajectory, palette), layout, { staticPlot: true, displayModeBar: false });
-    scale = timeScale(root.clientWidth, duration);
-    label(rows);
+    scale = timeScale(root.clientWidth, duration, em);
+    label(rows, em);
     const end = endOf(trajectory);
     beyond.style.insetInlineStart = `${scale.pixel(end)}px`;
     beyond.hidden = end >= duration * 0.999;
     root.classList.add("ready");
   }
 
-  /** @param {import("../model/plots.js").Row[]} rows */
-  function label(rows) {
-    const height = root.clientHeight - MARGIN.t - MARGIN.b;
-    const tops = domainsOf(rows.length, height).map(([, top]) => (1 - top) * height);
+  /** @param {import("../model/plots.js").Row[]} rows @param {number} em */
+  function label(rows, em) {
+    const { t, b } = marginsOf(em);
+    const tops = domainsOf(rows.length, root.clientHeight, em).map(([, top]) => (1 - top) * (root.clientHeight - t - b));
     rowsLayer.replaceChildren(...rows.map((row, r) => legend(row, tops[r])));
   }
 

@@ -16,9 +16,13 @@ function reachChapter(root) {
 /** @param {HTMLElement} root */
 export function createReach(root) {
   let reached = "";
+  let steps = 0;
+  // Full screen or a turned phone must not lose the step that is being read.
+  window.addEventListener("resize", () => requestAnimationFrame(() => stepElement(root, reached)?.scrollIntoView({ block: "nearest" })));
 
   /**
    * Scrolls a step into view when it has become the current one.
+   * Only the way to a neighbour is shown as a motion; further ones would take too long.
    * @param {string} id @param {boolean} still without motion
    * @returns {boolean} whether it is new
    */
@@ -26,7 +30,9 @@ export function createReach(root) {
     const element = stepElement(root, id);
     if (!element) reached = "";
     if (!element || reached === id) return false;
-    const behavior = still || reached === "" ? "instant" : "smooth";
+    const shown = root.querySelectorAll(".step").length;
+    const behavior = Math.abs(shown - steps) === 1 && !still ? "smooth" : "instant";
+    steps = shown;
     reached = id;
     requestAnimationFrame(() => {
       element.scrollIntoView({ block: "nearest", behavior });

@@ -4,7 +4,7 @@ import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { icon } from "./icons.js";
 import { duration, fixed, significant } from "../model/numbers.js";
-import { endOf, largestError } from "../model/trajectory.js";
+import { largestError } from "../model/trajectory.js";
 
 /** @typedef {import("./page.js").View} View */
 
@@ -54,17 +54,18 @@ function facts(trajectory, { state, t, methodTitle }) {
   const { lang } = state.place;
   const { cost } = trajectory;
   const error = largestError(trajectory);
+  const horizon = trajectory.error?.horizon ?? null;
   return [
     { text: methodTitle(trajectory.method) },
     ...(error === null ? [] : [{ text: t("status.error", { error: significant(error, 2, lang) }), help: t("status.error-help") }]),
+    ...(horizon !== null && horizon < state.place.duration ? [{ text: t("status.until", { time: fixed(horizon, 1, lang) }), help: t("status.until-help") }] : []),
     ...(cost?.steps === undefined ? [] : [{ text: t("status.steps", { count: cost.steps }), help: t("status.rejected", { count: cost.rejected ?? 0 }) }]),
     ...(cost?.wall_time === undefined ? [] : [{ text: duration(cost.wall_time, lang), help: t("status.time-help") }]),
   ];
 }
 
 /** Why a motion is incomplete and what helps. @param {import("../model/types.js").Trajectory} trajectory @param {View} view */
-function warning(trajectory, { state, t }) {
-  const until = t("status.until", { time: fixed(endOf(trajectory), 2, state.place.lang) });
+function warning(trajectory, { t }) {
   return html`<p class="warning" role="alert"><strong>${trajectory.reason || t("status.incomplete")}</strong>
-    ${trajectory.remedy ?? ""} <span>${until}</span></p>`;
+    ${trajectory.remedy ?? ""}</p>`;
 }

@@ -12,7 +12,8 @@ import { unitText } from "../model/numbers.js";
 /** @param {View} view */
 export function values(view) {
   const { state, session, t } = view;
-  const sliders = state.scene ? slidersOf(state.scene, state.changes) : [];
+  if (!view.state.scene) return html`<section class="values" aria-label=${t("values")}></section>`;
+  const sliders = slidersOf(view.state.scene, state.changes);
   const group = (/** @type {string} */ name) => sliders.filter((slider) => slider.group === name).map((slider) => row(slider, view));
   return html`
     <section class="values" aria-label=${t("values")}>

@@ -40,7 +40,9 @@ def _fetched() -> str | None:
     folder = cache_home / "deltaq" / "browser"
     folder.mkdir(parents=True, exist_ok=True)
     if not (folder / "node_modules" / "@sparticuz" / "chromium").is_dir():
-        done = run("npm", "install", "--ignore-scripts", "--no-audit", "--no-fund", "--prefix", ".", PACKAGE, cwd=folder)
+        done = run(
+            "npm", "install", "--ignore-scripts", "--no-audit", "--no-fund", "--prefix", ".", PACKAGE, cwd=folder
+        )
         if done.returncode:
             return None
     path = run("node", "--eval", SCRIPT, cwd=folder).stdout.strip()

@@ -14,7 +14,6 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
-
 from tests.e2e.browser import FLAGS, chromium
 from tests.e2e.lecture import Lecture
 
@@ -37,13 +36,11 @@ def server(root: Path) -> Iterator[str]:
 def _warm_up(address: str, patience: float = 240.0) -> None:
     """Ask for a motion until there is one: the first one of a machine's life compiles the kernels."""
     body = json.dumps({"scene": "elastic-pendulum", "t_end": 1.0}).encode()
-    request = urllib.request.Request(  # noqa: S310
-        f"{address}api/v1/simulations", body, {"content-type": "application/json"}
-    )
+    request = urllib.request.Request(f"{address}api/v1/simulations", body, {"content-type": "application/json"})
     end = time.monotonic() + patience
     while True:
         try:
-            urllib.request.urlopen(request, timeout=patience).close()  # noqa: S310
+            urllib.request.urlopen(request, timeout=patience).close()
         except OSError:
             if time.monotonic() > end:
                 raise
@@ -62,7 +59,8 @@ def browser() -> Iterator[Browser]:
         )
     with sync_playwright() as playwright:
         # The fetched browser brings its libraries along, unpacked beside it.
-        environment = os.environ | {"LD_LIBRARY_PATH": f"{Path(path).parent}:{os.environ.get('LD_LIBRARY_PATH', '')}"}
+        environment: dict[str, str | float | bool] = {**os.environ}
+        environment["LD_LIBRARY_PATH"] = f"{Path(path).parent}:{os.environ.get('LD_LIBRARY_PATH', '')}"
         browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS), env=environment)
         yield browser
         browser.close()

@@ -44,6 +44,6 @@ test("names in addresses are escaped", async () => {
   /** @type {string[]} */
   const asked = [];
   const send = async (/** @type {any} */ url) => (asked.push(url), new Response("{}"));
-  await createApi(send).scene("a/b?c");
-  assert.deepEqual(asked, ["/api/v1/scenes/a%2Fb%3Fc"]);
+  await createApi(send).scene("a/b?c", "de");
+  assert.deepEqual(asked, ["/api/v1/scenes/a%2Fb%3Fc?lang=de"]);
 });

@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { domainsOf, layoutOf, MARGIN, rowsOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
+import { domainsOf, layoutOf, marginsOf, rowsOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
 import { scene, trajectory } from "./fixtures.js";
 
 const palette = { ink: "black", muted: "gray", grid: "silver", paper: "white", of: (/** @type {string} */ name) => `colour of ${name}` };
@@ -17,7 +17,7 @@ test("coordinates of one unit share a row, each in its own colour", () => {
 });
 
 test("rows fill the height from the top, without overlap", () => {
-  const domains = domainsOf(3, 300);
+  const domains = domainsOf(3, 300, 16);
   assert.equal(domains[0][1], 1);
   assert.ok(Math.abs(domains[2][0]) < 1e-12);
   assert.ok(domains[0][0] > domains[1][1] && domains[1][0] > domains[2][1]);
@@ -38,16 +38,16 @@ test("an error that can be seen is a band around the curve; a small one is none"
 });
 
 test("a constant curve has a range of its own", () => {
-  const layout = /** @type {any} */ (layoutOf(rowsOf(scene, trajectory), 4, palette, "de", 300));
+  const layout = /** @type {any} */ (layoutOf(rowsOf(scene, trajectory), 4, palette, "de", 300, 16));
   assert.ok(layout.yaxis.range[0] < 0 && layout.yaxis.range[1] > 0);
   assert.equal(layout.separators, ",.");
   assert.deepEqual(layout.xaxis.range, [0, 4]);
 });
 
 test("pixels and times are inverse to each other, and held at the ends", () => {
-  const { pixel, time } = timeScale(500, 10);
-  assert.equal(pixel(0), MARGIN.l);
-  assert.equal(pixel(10), 500 - MARGIN.r);
+  const { pixel, time } = timeScale(500, 10, 16);
+  assert.equal(pixel(0), marginsOf(16).l);
+  assert.equal(pixel(10), 500 - marginsOf(16).r);
   assert.ok(Math.abs(time(pixel(3.7)) - 3.7) < 1e-12);
   assert.equal(time(-50), 0);
   assert.equal(time(9999), 10);

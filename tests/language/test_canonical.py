@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 import sympy
-from deltaq.errors import ExpressionError, Problem
-from deltaq.language.canonical import Decision, canonical, display, is_zero, zero_test
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from tests.language.scene_names import DOUBLE, DOUBLE_KINETIC_ENERGY, NAMES, SYMBOLS, Symbols, read
+
+from deltaq.errors import ExpressionError, Problem
+from deltaq.language.canonical import Decision, canonical, display, is_zero, zero_test
 
 EQUAL = [
     ("sin(phi)^2 + cos(phi)^2", "1"),
@@ -97,7 +97,7 @@ def test_what_only_values_show(left: str, right: str, outcome: bool | None) -> N
 
 
 def test_undecided_outside_the_domain() -> None:
-    decision = zero_test(read("log(-1 - x^2) - log(-1 - x^2 - y^2/1000)"), SYMBOLS)
+    decision = zero_test(read("sqrt(-1 - x^2) - sqrt(-1 - x^2 - y^2/1000)"), SYMBOLS)
     assert decision == Decision(outcome=None, how="none")
 
 
@@ -142,20 +142,13 @@ _letters = st.sampled_from(
     [SYMBOLS.name("m"), SYMBOLS.name("l"), SYMBOLS.rate("phi"), SYMBOLS.variation("x"), sympy.Rational(3, 2), sympy.pi]
 )
 trigonometric = st.recursive(
-    st.one_of(_waves, _letters),
+    st.one_of(_waves, _letters, _waves.map(lambda wave: wave**2)),
     lambda parts: st.one_of(
         st.lists(parts, min_size=2, max_size=3).map(lambda p: sympy.Add(*p)),
         st.lists(parts, min_size=2, max_size=3).map(lambda p: sympy.Mul(*p)),
-        parts.map(lambda p: p**2),
     ),
-    max_leaves=8,
+    max_leaves=7,
 )
-
-
-def value_at(expr: Any, seed: int) -> Any:
-    generator = random.Random(seed)
-    symbols = sorted(expr.free_symbols, key=str)
-    return expr.subs({s: sympy.Rational(generator.randint(1, 400), 197) for s in symbols}).evalf(40)
 
 
 @settings(max_examples=150, deadline=None, derandomize=True)
@@ -163,10 +156,10 @@ def value_at(expr: Any, seed: int) -> Any:
 def test_canonical_and_display_keep_the_value(expr: Any, seed: int) -> None:
     free = sorted(expr.free_symbols, key=str)
     generator = random.Random(seed)
-    point = {s: sympy.Rational(generator.randint(1, 400), 197) for s in free}
-    wanted = expr.subs(point).evalf(40)
+    point = [generator.uniform(0.1, 2.1) for _ in free]
+    wanted = sympy.lambdify(free, expr, "mpmath")(*point)
     for found in (canonical(expr, SYMBOLS), display(expr, SYMBOLS)):
-        assert abs(found.subs(point).evalf(40) - wanted) < 1e-25 * (1 + abs(wanted))
+        assert abs(sympy.lambdify(free, found, "mpmath")(*point) - wanted) < 1e-9 * (1 + abs(wanted))
 
 
 @settings(max_examples=150, deadline=None, derandomize=True)

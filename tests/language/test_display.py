@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 import sympy
+from tests.language.scene_names import DOUBLE, DOUBLE_KINETIC_ENERGY, NAMES, SYMBOLS, Symbols, read
+
 from deltaq.language.canonical import display, is_zero
 from deltaq.language.names import Names
 from deltaq.language.order import Order
 from deltaq.language.plain_printer import plain
-
-from tests.language.scene_names import DOUBLE, DOUBLE_KINETIC_ENERGY, NAMES, SYMBOLS, Symbols, read
 
 ROWS = [
     pytest.param(

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from tests.language.scene_names import read
+
 from deltaq.language.latex_printer import Typography, latex
 from deltaq.language.names import Names, Symbol
-
-from tests.language.scene_names import read
 
 LECTURE = Names(
     (
@@ -32,7 +32,8 @@ ROWS = [
     pytest.param("9.81*m", "9.81 m", id="decimal"),
     pytest.param("delta(y) - l*sin(phi)*delta(phi)", r"\delta q_1 - \ell \sin q_2 \, \delta q_2", id="variation"),
     pytest.param("y0*omega*cos(omega*t)*d(t)", r"y_{0} \omega \cos(\omega t) \, \mathrm{d}t", id="time differential"),
-    pytest.param("[l*cos(phi), -l*sin(phi)]", r"\begin{bmatrix} \ell \cos q_2 \\ -\ell \sin q_2 \end{bmatrix}", id="column"),
+    pytest.param("[l*cos(phi), -l*sin(phi)]",
+                 r"\begin{bmatrix} \ell \cos q_2 \\ -\ell \sin q_2 \end{bmatrix}", id="column"),
     pytest.param("[[m, 0], [0, k]]", r"\begin{bmatrix} m & 0 \\ 0 & k \end{bmatrix}", id="matrix"),
     pytest.param("m*ddot(y) = m*g", r"m \ddot{q}_1 = m g", id="equation"),
     pytest.param("y = 0; phi = 0", r"\begin{aligned} q_1 &= 0 \\ q_2 &= 0 \end{aligned}", id="system"),

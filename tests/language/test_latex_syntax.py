@@ -99,7 +99,7 @@ ACCEPTED = [
         "[l*cos(phi)*delta(phi), -l*sin(phi)*delta(phi)]",
     ),
     (
-        "\\begin{bmatrix}0\\\\1\\end{bmatrix}\\delta q_1+\\begin{bmatrix}\\ell\\cos q_2\\\\-\\ell\\sin q_2\\end{bmatrix}\\delta q_2",
+        "\\begin{bmatrix}0\\\\1\\end{bmatrix}\\delta q_1+\\begin{bmatrix}\\ell\\cos q_2\\\\-\\ell\\sin q_2\\end{bmatrix}\\delta q_2",  # noqa: E501
         "[l*cos(phi)*delta(phi), delta(y) - l*sin(phi)*delta(phi)]",
     ),
     (

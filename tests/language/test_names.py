@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from tests.language.scene_names import NAMES, problem_of
+
 from deltaq.errors import InputError, Problem
 from deltaq.language.names import Names, Symbol
-
-from tests.language.scene_names import NAMES, problem_of
 
 SPELLINGS = [
     ("phi", "phi"), ("φ", "phi"), ("ϕ", "phi"), ("varphi", "phi"), (r"\varphi", "phi"), (r"\phi", "phi"),

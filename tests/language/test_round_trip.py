@@ -5,16 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 import sympy
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from tests.language.scene_names import NAMES, SYMBOLS, read
+
 from deltaq.errors import ExpressionError
 from deltaq.language.canonical import zero_test
 from deltaq.language.latex_printer import Typography, latex
 from deltaq.language.order import Order
 from deltaq.language.parser import Syntax
 from deltaq.language.plain_printer import plain
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
-
-from tests.language.scene_names import NAMES, SYMBOLS, read
 
 _COORDINATES = ("y", "phi", "x")
 _PARAMETERS = ("m", "l", "g", "k", "c", "omega", "y0", "F0", "m1", "a", "s", "t", "pi")

@@ -145,6 +145,19 @@ WRONG = [
         Problem("no-free-coordinate", "/guides"),
         id="nothing left to move",
     ),
+    *(
+        pytest.param(
+            put("/coordinates/0/latex", latex),
+            Problem("invalid-latex", "/coordinates/0/latex", parameters={"latex": latex}),
+            id=f"latex {latex}",
+        )
+        for latex in (r"\href{x}{y}", r"\htmlClass{a}{b}", "}{", "{", "a$b", "x\\", "%", "\\\\")
+    ),
+    pytest.param(
+        put("/labels", {"bop": {"en": "bob"}}),
+        Problem("label-of-nothing", "/labels/bop", parameters={"name": "bop"}),
+        id="label of nothing",
+    ),
     pytest.param(put("/dimension", 4), Problem("wrong-space", "/dimension"), id="four dimensions"),
     pytest.param(put("/dimension", True), Problem("not-an-integer", "/dimension"), id="dimension a flag"),
     pytest.param(put("/id", "../x"), Problem("invalid-id", "/id", parameters={"name": "../x"}), id="id with a path"),

@@ -89,6 +89,11 @@ CASES = [
         id="coordinates that move together",
     ),
     pytest.param(
+        {"bodies": bob("x + l*sin(phi)", "l*cos(phi)", mass="m*(1 + sin(phi))")},
+        (Problem("mass-varies", "/bodies/0/mass", parameters={"name": "bob"}),),
+        id="mass that varies",
+    ),
+    pytest.param(
         {"bodies": bob("x + l*sin(phi)", "l*cos(phi)", mass="m - 2*m")},
         (Problem("mass-not-positive", "/bodies/0/mass", parameters={"name": "bob", "value": "-1"}),),
         id="negative mass",

@@ -13,7 +13,7 @@ import pytest
 from deltaq.derivation.engine import derive
 from deltaq.errors import Problem
 from deltaq.mechanics.library import load_scene, scene_ids
-from deltaq.narration.catalog import LANGUAGES, catalog, filled, language_of, message, text
+from deltaq.narration.catalog import LANGUAGES, catalog, filled, language_of, message, template, text
 from deltaq.packages import modules_of
 
 SOURCE = Path(str(files("deltaq")))
@@ -64,7 +64,11 @@ def test_every_step_has_its_texts(language: str, identifier: str) -> None:
         key = f"rules.steps.{step.rule}"
         title = text(language, f"{key}.title", **step.about)
         sentence = text(language, f"{key}.{step.about.get('outcome', 'text')}", **step.about)
-        assert "{" not in title
+        used = fields(template(language, f"{key}.title")) | fields(
+            template(language, f"{key}.{step.about.get('outcome', 'text')}")
+        )
+        assert used <= step.about.keys(), f"{key} speaks of what the step does not know"
+        assert title
         assert sentence.endswith(".")
 
 

@@ -11,13 +11,9 @@ from deltaq.errors import InputError, Problem
 from deltaq.language.parser import parse
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.narration.derive import derive_request
+from deltaq.narration.marks import bare
 
 SAFE = re.compile(r"[A-Za-z0-9:_-]+")
-
-
-def bare(latex: str) -> str:
-    """LaTeX without marks, braces and spaces."""
-    return re.sub(r"[{}\s]", "", re.sub(r"\\htmlClass\{[^}]*\}", "", latex))
 
 
 def all_steps(answer: dict) -> list[dict]:

@@ -6,21 +6,29 @@ import math
 from collections.abc import Callable, Mapping
 
 import sympy as sp
-from flint import arb
+from flint import arb, arb_mat
 
 from .formula import (
+    AtEquilibrium,
+    Determinant,
     Dot,
     Equation,
     Explicit,
     Formula,
     Gateaux,
     Given,
+    Inserted,
     Integral,
+    Jacobian,
+    MatrixTimes,
     Named,
     Partial,
     Plus,
+    Power,
     Rate,
+    Rounded,
     Shifted,
+    Stack,
     Substituted,
     Times,
     Value,
@@ -51,7 +59,7 @@ def evaluate(formula: Formula, point: Point) -> Numbers:
     match formula:
         case Given(trees):
             return tuple(tree_value(tree, point) for tree in trees)
-        case Explicit(value) | Named(_, value):
+        case Explicit(value) | Named(_, value) | Rounded(value):
             return components(value, point)
         case Partial(of, by):
             return difference(at, of, lambda h: shifted(point, {by.name: h}))
@@ -72,7 +80,18 @@ def evaluate(formula: Formula, point: Point) -> Numbers:
             return integral(lambda inside: evaluate(of, inside), material, point, number)
         case Equation(left, right):
             return _sum([evaluate(left, point), tuple(-part for part in evaluate(right, point))])
-        case Substituted(of, values):
+        case Stack(rows):
+            return tuple(part for row in rows for part in evaluate(row, point))
+        case MatrixTimes(matrix, vector):
+            return matrix_times(evaluate(matrix, point), evaluate(vector, point))
+        case Jacobian(of, by):
+            columns = [difference(at, of, lambda h, q=q: shifted(point, {q.name: h})) for q in by]
+            return tuple(column[row] for row in range(len(columns[0])) for column in columns)
+        case Determinant(of):
+            return (determinant(evaluate(of, point)),)
+        case Power(of, exponent):
+            return tuple(part**exponent for part in evaluate(of, point))
+        case Substituted(of, values) | AtEquilibrium(of, values) | Inserted(of, values):
             return evaluate(of, {**point, **{symbol.name: number(value, point) for symbol, value in values.items()}})
 
 
@@ -100,6 +119,19 @@ def number(expression: sp.Basic, point: Point) -> arb:
         return CONSTANTS[expression]()
     arguments = [number(argument, point) for argument in expression.args]
     return BY_CLASS[type(expression).__name__](*arguments)
+
+
+def matrix_times(matrix: Numbers, vector: Numbers) -> Numbers:
+    """The product of a matrix, given row by row, and a vector."""
+    size = len(vector)
+    rows = (matrix[start : start + size] for start in range(0, len(matrix), size))
+    return tuple(sum((a * b for a, b in zip(row, vector, strict=True)), arb(0)) for row in rows)
+
+
+def determinant(matrix: Numbers) -> arb:
+    """The determinant of a square matrix, given row by row."""
+    size = math.isqrt(len(matrix))
+    return arb_mat(size, size, list(matrix)).det()
 
 
 def _product(factors: list[Numbers]) -> Numbers:

@@ -26,8 +26,8 @@ ONE: Monomial = ()
 STILL: Phase = ()
 HALF = fmpq(1, 2)
 
-MAX_TERMS = 4000
-MAX_PRODUCTS = 200_000
+MAX_TERMS = 1500
+MAX_PRODUCTS = 60_000
 
 
 class TooLargeError(Exception):

@@ -6,11 +6,11 @@ Binding, loosest first: `=`, sums, sign, products (written or implied), powers, 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import NoReturn
 
 from .arguments import Arguments
 from .bounds import shape_of
+from .brackets import Brackets
 from .cursor import Cursor
 from .names import Names
 from .operators import Operators
@@ -28,7 +28,7 @@ class Grammar:
         self.cursor = Cursor(text, tokens, names)
         self.operators = Operators(self)
         self.arguments = Arguments(self)
-        self._inside_bars = 0
+        self.brackets = Brackets(self)
 
     def whole(self) -> Node:
         """All of the text: an expression, an equation, or several of them separated by `;`."""
@@ -84,7 +84,7 @@ class Grammar:
             case "name":
                 return self.operators.name()
             case "open":
-                return self._bracket()
+                return self.brackets.bracket()
             case "function":
                 return self.arguments.call()
             case "operator":
@@ -102,45 +102,8 @@ class Grammar:
         if self.cursor.takes("+"):
             return self.expression(max(_SIGN, binding))
         if self.cursor.takes("|"):
-            return self._absolute(token)
+            return self.brackets.absolute(token)
         return self.unexpected()
-
-    def _absolute(self, opening: Token) -> Node:
-        self._inside_bars += 1
-        inner = self.expression()
-        self._inside_bars -= 1
-        if not self.cursor.token.is_operator("|"):
-            fail("unclosed-bracket", opening.span, bracket="|", wanted="|")
-        return self.arguments.made("abs", (inner,), between(opening.span, self.cursor.take().span))
-
-    def _bracket(self) -> Node:
-        opening = self.cursor.take()
-        bars, self._inside_bars = self._inside_bars, 0
-        if opening.text == "[":
-            node = self._vector(opening)
-        else:
-            node = self.expression()
-            self._comma(opening)
-            self.cursor.close(opening)
-        self._inside_bars = bars
-        return replace(node, span=between(opening.span, self.cursor.previous.span))
-
-    def _comma(self, opening: Token) -> None:
-        """`(9,81)` is a decimal comma, `(a, b)` a vector in the wrong brackets."""
-        if self.cursor.token.is_operator(","):
-            self._decimal_comma()
-            fail("vector-brackets", between(opening.span, self.cursor.token.span))
-        if self.cursor.token.is_operator("=", ";"):
-            self.unexpected()
-
-    def _vector(self, opening: Token) -> Node:
-        parts = [self.equation()]
-        while self.cursor.takes(",", ";"):
-            parts.append(self.equation())
-        span = self.cursor.close(opening)
-        if self.cursor.takes("T"):
-            span = between(span, self.cursor.previous.span)
-        return self.cursor.made(Vector(tuple(parts), span))
 
     def _follow(self, left: Node, binding: int) -> Node | None:
         """`left` with one more operator and operand, or None if nothing binds tightly enough."""
@@ -162,7 +125,7 @@ class Grammar:
         token = self.cursor.token
         if token.kind == "number":
             fail("missing-operator", token.span, symbol=self.cursor.slice(token.span))
-        return token.kind in _STARTS or (token.is_operator("|") and not self._inside_bars)
+        return token.kind in _STARTS or (token.is_operator("|") and not self.brackets.inside_bars)
 
     def _power(self, base: Node) -> Node:
         self.cursor.take()
@@ -216,14 +179,8 @@ class Grammar:
 
     def _trailing(self) -> NoReturn:
         if self.cursor.token.is_operator(","):
-            self._decimal_comma()
+            self.brackets.decimal_comma()
         self.unexpected()
-
-    def _decimal_comma(self) -> None:
-        before, after = self.cursor.previous, self.cursor.ahead()
-        if before.kind == "number" and after.kind == "number":
-            number = f"{self.cursor.slice(before.span)}.{self.cursor.slice(after.span)}"
-            fail("decimal-comma", between(before.span, after.span), suggestion=number)
 
     def unexpected(self) -> NoReturn:
         """Report the token ahead, which cannot stand here."""

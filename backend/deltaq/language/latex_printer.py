@@ -2,56 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
 import sympy
 
 from .functions import FUNCTIONS
-from .names import Names
 from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, decimal, exact, fraction_parts, is_decimal
-from .order import Order, split_symbol
-from .spelling import latex_of
-
-Mark = Callable[[str, str], str]
+from .order import split_symbol
+from .typography import Mark, Typography, unmarked
 
 _NAMES: Mapping[str, str] = MappingProxyType({"Abs": "abs"})
-_ACCENTS: Mapping[int, str] = MappingProxyType({1: r"\dot", 2: r"\ddot", 3: r"\dddot"})
 
-
-def unmarked(_symbol: str, latex: str) -> str:
-    """The mark that leaves no mark."""
-    return latex
-
-
-@dataclass(frozen=True)
-class Typography:
-    """How symbols are typeset and in which order. `mark(symbol name, LaTeX)` may wrap each, in a colour say."""
-
-    names: Names
-    mark: Mark = unmarked
-    order: Order = field(init=False, repr=False, compare=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "order", Order(self.names))
-
-    def symbol(self, name: str) -> str:
-        """LaTeX of a SymPy symbol by its plain name: "dot(phi)" → \\dot{\\varphi}."""
-        kind, base = split_symbol(name)
-        known = self.names.get(base)
-        letter = known.typeset if known else latex_of(base)
-        return self.mark(name, _decorated(kind, letter))
-
-
-def _decorated(kind: int, letter: str) -> str:
-    if kind in _ACCENTS:
-        head, underscore, index = letter.partition("_")
-        return f"{_ACCENTS[kind]}{{{head}}}{underscore}{index}"
-    if kind == 4:
-        return rf"\mathrm{{d}}{letter}"
-    return rf"\delta {letter}" if kind == 5 else letter
+__all__ = ["Mark", "Typography", "latex", "unmarked"]
 
 
 def latex(expr: Any, typography: Typography) -> str:

@@ -59,7 +59,7 @@ class Source:
         return found[0][1:] if found else ""
 
     def argument(self, owner: Span, name: str) -> Range:
-        """Step over an argument; where its content stands: a group, a command with its own arguments, or a character."""
+        """Step over an argument; where its content stands: a group, a command with its arguments, a character."""
         ahead = self.next()
         start = self.at
         if ahead == "{":

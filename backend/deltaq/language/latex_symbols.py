@@ -24,14 +24,15 @@ _INDEX = re.compile(r"(?:[A-Za-z0-9,\s]|\\(?:mathrm|text|mathit)\b|\\[A-Za-z]+|[
 
 def dotted(character: str) -> tuple[str, int]:
     """Base and number of dots of a letter such as ẋ; ä, ö and ü are letters of their own."""
-    base, *marks = unicodedata.normalize("NFD", character)
-    if marks == ["\u0307"]:
+    parts = unicodedata.normalize("NFD", character)
+    base, marks = parts[0], parts[1:]
+    if marks == "\u0307":
         return base, 1
-    return (base, 2) if marks == ["\u0308"] and base in DOTTED_TWICE else (character, 0)
+    return (base, 2) if marks == "\u0308" and base in DOTTED_TWICE else (character, 0)
 
 
 def read_letters(lexer: LatexLexer) -> None:
-    """A run of letters: one symbol for each letter, or one word if only that makes sense; the index is the last one's."""
+    """A run of letters: one symbol for each letter, or one word if only that makes sense."""
     start = lexer.source.at
     match = lexer.source.match(_LETTERS)
     run = match[0] if match else ""

@@ -15,7 +15,8 @@ import sympy
 from flint import fmpq
 
 from . import fourier
-from .fourier import ONE, STILL, Form, Monomial, Phase
+from .fourier import STILL, Form, Phase
+from .generators import Generators
 
 _LARGEST_FACTORED = 10**12
 
@@ -37,12 +38,11 @@ _REWRITTEN: Mapping[Any, Callable[[Any], Any]] = MappingProxyType(
 )
 
 
-class Reader:
+class Reader(Generators):
     """Makes forms, and remembers what its generators stand for."""
 
     def __init__(self) -> None:
-        self.meaning: dict[str, Any] = {}
-        self.bases: dict[str, Form] = {}
+        super().__init__()
         self.is_exact = True
         self._known: dict[Any, Form] = {}
 
@@ -77,14 +77,14 @@ class Reader:
     def _product(self, expr: Any) -> Form:
         product = fourier.constant(1)
         for factor in sorted((self.form(a) for a in expr.args), key=len):
-            product = fourier.multiply(product, factor)
+            product = self.multiply(product, factor)
         return product
 
     def _power(self, base: Any, exponent: Any) -> Form:
         if not exponent.is_Rational:
             return self._opaque(base**exponent)
         if exponent.is_Integer and exponent > 0:
-            return fourier.power(self.form(base), int(exponent))
+            return self.raised(self.form(base), int(exponent))
         if base.is_Rational:
             return self._root(base, exponent)
         return self._base(self.form(base), fmpq(int(exponent.p), int(exponent.q)), base**exponent)
@@ -100,7 +100,7 @@ class Reader:
             part = total - whole
             self.meaning[str(prime)] = sympy.Integer(prime)
             root = fourier.monomial(str(prime), fmpq(int(part.p), int(part.q)) if part else 0)
-            form = fourier.multiply(form, fourier.scale(root, fmpq(int(prime)) ** int(whole)))
+            form = self.multiply(form, fourier.scale(root, fmpq(int(prime)) ** int(whole)))
         return form
 
     def _base(self, form: Form, exponent: Any, expr: Any) -> Form:
@@ -114,7 +114,7 @@ class Reader:
             if coefficient > 0 and all(self._is_positive(name) for name, _ in mono):
                 number = sympy.Rational(int(coefficient.p), int(coefficient.q))
                 root = self._root(number, sympy.Rational(int(exponent.p), int(exponent.q)))
-                return fourier.multiply(root, {(fourier.raised(mono, exponent), STILL, False): fmpq(1)})
+                return self.multiply(root, {(fourier.raised(mono, exponent), STILL, False): fmpq(1)})
         size = form[fourier.leading(form)]
         if exponent.q > 1:
             self.is_exact = False
@@ -125,7 +125,7 @@ class Reader:
         key = f"~{sympy.sstr(self.expression(monic))}"
         self.bases[key] = monic
         number = self._power(sympy.Rational(int(size.p), int(size.q)), sympy.Rational(int(exponent.p), int(exponent.q)))
-        return fourier.multiply(number, fourier.monomial(key, exponent if exponent.q > 1 else int(exponent.p)))
+        return self.multiply(number, fourier.monomial(key, exponent if exponent.q > 1 else int(exponent.p)))
 
     def _is_positive(self, name: str) -> bool:
         return bool(self.meaning[name].is_positive) if name in self.meaning else False
@@ -138,7 +138,7 @@ class Reader:
         factors: list[tuple[str, Any]] = []
         for (mono, _, _), coefficient in form.items():
             key = "exp " + "*".join(f"{name}^{e}" for name, e in mono)
-            self.meaning[key] = sympy.exp(self._monomial(mono))
+            self.meaning[key] = sympy.exp(self.monomial(mono))
             factors.append((key, int(coefficient.p) if coefficient.q == 1 else coefficient))
         return {(tuple(sorted(factors)), STILL, False): fmpq(1)}
 
@@ -159,8 +159,8 @@ class Reader:
 
     def _turned(self, phase: Phase, turn: Any, *, sine: bool) -> Form:
         cosine_turn, sine_turn = self._constant_wave(sympy.cos(turn)), self._constant_wave(sympy.sin(turn))
-        same = fourier.multiply(fourier.wave(phase, sine=sine), cosine_turn)
-        other = fourier.multiply(fourier.wave(phase, sine=not sine), sine_turn)
+        same = self.multiply(fourier.wave(phase, sine=sine), cosine_turn)
+        other = self.multiply(fourier.wave(phase, sine=not sine), sine_turn)
         return fourier.add((same, other if sine else fourier.scale(other, -1)))
 
     def _constant_wave(self, value: Any) -> Form:
@@ -175,59 +175,3 @@ class Reader:
         key = f"~{sympy.sstr(known)}"
         self.meaning[key] = known
         return fourier.monomial(key)
-
-    def cleared(self, form: Form) -> tuple[Form, Monomial]:
-        """Numerator and denominator: no base stands in the numerator with a whole or a negative power."""
-        denominator: Monomial = ONE
-        for key in reversed(tuple(self.bases)):
-            exponents = [dict(mono).get(key, 0) for mono, _, _ in form]
-            lowest = min((_floor(e) for e in exponents), default=0)
-            if lowest == 0 and all(e == 0 or (not isinstance(e, int) and e < 1) for e in exponents):
-                continue
-            lowest = min(lowest, 0)
-            form = fourier.add(self._expanded(term, c, key, lowest) for term, c in form.items())
-            denominator = fourier.times(denominator, ((key, -lowest),)) if lowest else denominator
-        return form, denominator
-
-    def _expanded(self, term: fourier.Term, coefficient: Any, key: str, lowest: int) -> Form:
-        mono, phase, sine = term
-        exponent = dict(mono).get(key, 0) - lowest
-        whole = _floor(exponent)
-        part = exponent - whole
-        rest = fourier.times(tuple(pair for pair in mono if pair[0] != key), ((key, part),) if part else ONE)
-        return fourier.multiply({(rest, phase, sine): coefficient}, fourier.power(self.bases[key], whole))
-
-    def expression(self, form: Form) -> Any:
-        """The SymPy expression of a form, term by term."""
-        return sympy.Add(*(self._term(term, coefficient) for term, coefficient in form.items()))
-
-    def _term(self, term: fourier.Term, coefficient: Any) -> Any:
-        mono, phase, sine = term
-        number = sympy.Rational(int(coefficient.p), int(coefficient.q))
-        return sympy.Mul(number, self._monomial(mono), self.wave(phase, sine=sine))
-
-    def wave(self, phase: Phase, *, sine: bool) -> Any:
-        """cos(phase) or sin(phase) in SymPy."""
-        if not phase:
-            return sympy.S.One
-        angle = sympy.Add(*(sympy.Rational(int(c.p), int(c.q)) * self._monomial(mono) for mono, c in phase))
-        return sympy.sin(angle) if sine else sympy.cos(angle)
-
-    def _monomial(self, mono: Monomial) -> Any:
-        return sympy.Mul(*(self.generator(name) ** _rational(e) for name, e in mono))
-
-    def monomial(self, mono: Monomial) -> Any:
-        """A monomial in SymPy."""
-        return self._monomial(mono)
-
-    def generator(self, name: str) -> Any:
-        """What a generator stands for."""
-        return self.expression(self.bases[name]) if name in self.bases else self.meaning[name]
-
-
-def _floor(exponent: Any) -> int:
-    return exponent if isinstance(exponent, int) else int(exponent.p) // int(exponent.q)
-
-
-def _rational(exponent: Any) -> Any:
-    return sympy.Integer(exponent) if isinstance(exponent, int) else sympy.Rational(int(exponent.p), int(exponent.q))

@@ -11,15 +11,16 @@ from typing import Any, NoReturn
 
 import sympy
 
-from ..errors import ExpressionError, Problem
-from .bounds import MAX_EXPONENT
+from ..errors import ExpressionError, Parameter, Problem
 from .functions import FUNCTIONS
+from .measure import MAX_EXPONENT
 from .symbols import Symbols
 from .tree import Node, fold
 
 # SymPy objects: Expr, Matrix, Eq or Tuple. SymPy is not typed.
 Value = Any
 
+_BOUNDED_DOMAIN = frozenset({"log", "asin", "acos", "acosh", "atanh"})
 _SAME_NAME = FUNCTIONS.keys() - {"abs"}
 _FUNCTIONS: Mapping[str, Callable[..., Any]] = MappingProxyType(
     {name: getattr(sympy, name) for name in _SAME_NAME} | {"abs": sympy.Abs}
@@ -55,8 +56,8 @@ def time_derivative(expr: Value, symbols: Symbols) -> Value:
     return total
 
 
-def _refuse(code: str) -> NoReturn:
-    raise ExpressionError(Problem(code))
+def _refuse(code: str, **parameters: Parameter) -> NoReturn:
+    raise ExpressionError(Problem(code, parameters=parameters))
 
 
 @dataclass(frozen=True)
@@ -96,7 +97,7 @@ class SympyAlgebra:
             case [first, second]:
                 return first.dot(second) * scalar
             case _:
-                _refuse("vector-product")
+                _refuse("vector-product", first=str(arrays[0].shape), second=str(arrays[1].shape))
 
     def quotient(self, numerator: Value, denominator: Value) -> Value:
         if denominator.is_zero:
@@ -108,7 +109,7 @@ class SympyAlgebra:
 
     def power(self, base: Value, exponent: Value) -> Value:
         if not exponent.is_Rational or abs(exponent) > MAX_EXPONENT:
-            _refuse("exponent-too-large" if exponent.is_Rational else "symbolic-exponent")
+            _refuse("exponent-too-large" if exponent.is_Rational else "symbolic-exponent", limit=MAX_EXPONENT)
         if base.is_zero and not exponent.is_positive:
             _refuse("division-by-zero")
         return base**exponent
@@ -119,6 +120,8 @@ class SympyAlgebra:
         value = _FUNCTIONS[function](*arguments)
         if value in _UNDEFINED:
             _refuse("division-by-zero")
+        if function in _BOUNDED_DOMAIN and value.is_extended_real is False:
+            _refuse("not-real")
         return value
 
     def time_derivative(self, operand: Value) -> Value:
@@ -146,6 +149,6 @@ class SympyAlgebra:
 def _check_exponential(argument: Value) -> None:
     """SymPy turns exp(n log a) into a^n at once: n must be small before it does."""
     if argument.has(sympy.log) and any(abs(n) > MAX_EXPONENT for n in argument.atoms(sympy.Rational)):
-        _refuse("exponent-too-large")
+        _refuse("exponent-too-large", limit=MAX_EXPONENT)
     if any(term.is_number and abs(term.evalf(15)) > 700 for term in sympy.Add.make_args(argument)):
-        _refuse("value-too-large")
+        _refuse("value-too-large", limit="exp(700)")

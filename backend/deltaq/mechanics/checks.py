@@ -5,10 +5,24 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from itertools import accumulate
 
 from ..errors import Problem, SceneError
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")  # of places and loads: they become classes and keys of the page
+
+LATEX = re.compile(r"(?:\\[A-Za-z]+|[A-Za-z0-9_^{} ,'*+-])*")
+# fmt: off
+COMMANDS = frozenset(
+    [
+        "alpha", "beta", "gamma", "delta", "epsilon", "varepsilon", "zeta", "eta", "theta", "vartheta", "iota",
+        "kappa", "lambda", "mu", "nu", "xi", "pi", "varpi", "rho", "varrho", "sigma", "varsigma", "tau",
+        "upsilon", "phi", "varphi", "chi", "psi", "omega", "Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi",
+        "Sigma", "Upsilon", "Phi", "Psi", "Omega", "ell", "hbar", "prime", "infty", "parallel", "perp",
+        "mathrm", "mathbf", "mathit", "mathcal", "mathsf", "text", "bar", "hat", "tilde", "vec", "underline",
+    ]
+)
+# fmt: on
 
 
 def demand(*problems: Problem | None) -> None:
@@ -22,6 +36,18 @@ def name_problem(name: str, pointer: str = "/name") -> Problem | None:
     if NAME.fullmatch(name):
         return None
     return Problem("invalid-name", pointer, parameters={"name": name[:40]})
+
+
+def latex_problem(latex: str, pointer: str = "/latex") -> Problem | None:
+    """A symbol in LaTeX: letters, digits, indices and a few commands; it is printed as it is, so no more."""
+    commands = set(re.findall(r"\\([A-Za-z]*)", latex))
+    sound = len(latex) <= 40 and LATEX.fullmatch(latex) and commands <= COMMANDS and _is_balanced(latex)
+    return None if sound else Problem("invalid-latex", pointer, parameters={"latex": latex[:40]})
+
+
+def _is_balanced(latex: str) -> bool:
+    depths = list(accumulate({"{": 1, "}": -1}.get(character, 0) for character in latex))
+    return not depths or (min(depths) >= 0 and depths[-1] == 0)
 
 
 def range_problems(value: float, low: float | None, high: float | None) -> Iterator[Problem]:

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ..errors import Problem
-from .checks import demand, name_problem, range_problems
+from .checks import demand, latex_problem, name_problem, range_problems
 
 
 @dataclass(frozen=True)
@@ -26,4 +26,6 @@ class Coordinate:
 
     def __post_init__(self) -> None:
         rate = None if math.isfinite(self.rate) else Problem("not-finite", "/rate")
-        demand(name_problem(self.name), rate, *range_problems(self.value, self.min, self.max))
+        demand(
+            name_problem(self.name), latex_problem(self.latex), rate, *range_problems(self.value, self.min, self.max)
+        )

@@ -62,6 +62,7 @@ def _scene(root: Reader) -> Iterator[Scene]:
         _each(root.tables("loads", context), read_load),
         _each(root.tables("guides", context), read_guide),
         _drawing(root, context),
+        _labels(root),
     )
     yield from root.build(lambda _: make()) if not root.problems else ()
 
@@ -89,6 +90,11 @@ def _translated(root: Reader, key: str) -> Mapping[str, str]:
     found = root.get(key, (Mapping, str), {}) or {}
     texts = {"en": found, "de": found} if isinstance(found, str) else found
     return {str(lang): str(text)[:1000] for lang, text in cast("Mapping[str, object]", texts).items()}
+
+
+def _labels(root: Reader) -> Mapping[str, Mapping[str, str]]:
+    table = Reader(root.get("labels", Mapping, {}) or {}, "/labels", root.problems)
+    return {str(name)[:40]: _translated(table, str(name)) for name in table.table}
 
 
 def _names(root: Reader) -> Names:

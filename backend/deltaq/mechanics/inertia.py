@@ -32,6 +32,7 @@ Share = tuple[float, list[list[float]]]  # an inertia, and the velocity it has f
 def inertia_problems(scene: Scene) -> Iterator[Problem]:
     """Bodies whose mass is not positive, and coordinates that move no mass of their own."""
     values = {p.name: p.value for p in scene.parameters} | {c.name: c.value for c in scene.coordinates} | {"t": 0.0}
+    yield from _varying(scene)
     light = [problem for index, body in enumerate(scene.bodies) for problem in _light(index, body, values)]
     if light:
         yield from light
@@ -40,6 +41,17 @@ def inertia_problems(scene: Scene) -> Iterator[Problem]:
     dependent = [_dependent(matrix) for matrix in matrices]
     if matrices and all(dependent):
         yield from _singular(scene, min(dependent, key=len))
+
+
+def _varying(scene: Scene) -> Iterator[Problem]:
+    """Lagrange's equations in this form need masses that stay as they are."""
+    moving = {coordinate.name for coordinate in scene.coordinates} | {"t"}
+    for index, body in enumerate(scene.bodies):
+        for key in ("mass", "inertia", "density"):
+            quantity = getattr(body, key, ())
+            for part in quantity if isinstance(quantity, tuple) else (quantity,):
+                if part.names & moving:
+                    yield Problem("mass-varies", f"/bodies/{index}/{key}", parameters={"name": body.name})
 
 
 def _light(index: int, body: Body, values: Point) -> Iterator[Problem]:

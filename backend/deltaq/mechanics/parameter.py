@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..errors import Problem
-from .checks import demand, name_problem, range_problems
+from .checks import demand, latex_problem, name_problem, range_problems
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,12 @@ class Parameter:
     positive: bool = True
 
     def __post_init__(self) -> None:
-        demand(name_problem(self.name), *range_problems(self.value, self.min, self.max), self._sign_problem())
+        demand(
+            name_problem(self.name),
+            latex_problem(self.latex),
+            *range_problems(self.value, self.min, self.max),
+            self._sign_problem(),
+        )
 
     def _sign_problem(self) -> Problem | None:
         if self.positive and self.value <= 0:

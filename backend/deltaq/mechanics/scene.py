@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
 
@@ -30,7 +30,7 @@ class Scene:
     """A mechanical system (scene format 1): coordinates, parameters, points, bodies, loads, guides and a drawing.
 
     `dimension` is the number of components of every vector, 2 (plane) or 3 (space). Points and bodies are both places,
-    and share their names; loads have names of their own.
+    and share their names; loads have names of their own. `labels` say what they are called in sentences, by language.
     """
 
     id: str
@@ -44,6 +44,7 @@ class Scene:
     loads: tuple[Load, ...]
     guides: tuple[Guide, ...] = ()
     drawing: Drawing = Drawing()
+    labels: Mapping[str, Translated] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         demand(*self._problems())
@@ -56,6 +57,8 @@ class Scene:
         yield from _repeated("/points", [*(p.name for p in self.points), *(b.name for b in self.bodies)])
         yield from _repeated("/loads", [load.name for load in self.loads])
         yield from _repeated("/guides", [guide.coordinate for guide in self.guides])
+        for name in sorted(self.labels.keys() - self.places.keys() - self._others):
+            yield Problem("label-of-nothing", f"/labels/{name}", parameters={"name": name[:40]})
         for index, guide in enumerate(self.guides):
             yield from self._guide_problems(f"/guides/{index}", guide)
 
@@ -100,13 +103,23 @@ class Scene:
         """The forces and potentials that the loads come down to, in the order of the loads."""
         return tuple(part for load in self.loads for part in load.contributions(self.places, self.bodies))
 
+    @property
+    def _others(self) -> set[str]:
+        """Names of what is no place: loads and continua."""
+        return {load.name for load in self.loads} | {body.name for body in self.bodies}
+
+    def label(self, name: str, language: str) -> str:
+        """What a point, body or load is called in a sentence; its name where there is no label."""
+        return self.labels.get(name, {}).get(language, name)
+
     def guide_of(self, coordinate: str) -> Guide | None:
         return next((guide for guide in self.guides if guide.coordinate == coordinate), None)
 
     def __reduce__(self) -> tuple[object, ...]:
         # A mapping proxy cannot be pickled; the cached properties need not be.
         fields = (self.id, dict(self.title), dict(self.summary), self.dimension, self.coordinates, self.parameters)
-        return Scene, (*fields, self.points, self.bodies, self.loads, self.guides, self.drawing)
+        things = (self.points, self.bodies, self.loads, self.guides, self.drawing)
+        return Scene, (*fields, *things, {name: dict(label) for name, label in self.labels.items()})
 
 
 def names_of(

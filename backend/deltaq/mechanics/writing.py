@@ -35,6 +35,7 @@ def write_scene(scene: Scene) -> dict[str, object]:
         "bodies": [_write(thing) for thing in scene.bodies],
         "loads": [_write(thing) for thing in scene.loads],
         "guides": [_write(thing) for thing in scene.guides],
+        "labels": {name: dict(label) for name, label in scene.labels.items()},
         "drawing": {key: value for key, value in drawing.items() if value is not None},
     }
 

@@ -67,13 +67,13 @@ def _read(document: Mapping[str, object]) -> Scene:
 
 
 def _narrator(system: System, language: str) -> Narrator:
-    return Narrator(language, _notation(system, unmarked), _notation(system, in_class))
+    return Narrator(language, _notation(system, language, unmarked), _notation(system, language, in_class))
 
 
-def _notation(system: System, wrap: Wrap) -> Notation:
+def _notation(system: System, language: str, wrap: Wrap) -> Notation:
     typography = Typography(system.scene.names, mark=by_coordinate(system.scene, wrap))
     names = {symbol.name: symbol.typeset for symbol in system.scene.names.symbols if symbol.kind == "coordinate"}
-    return Notation(typography, QuantitySymbols(system.scene, names, wrap), system.h)
+    return Notation(typography, QuantitySymbols(system.scene, language, names, wrap), system.h)
 
 
 def _written(result: Result, typography: Typography) -> Document:

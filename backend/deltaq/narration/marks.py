@@ -8,6 +8,7 @@ from collections.abc import Callable
 from ..mechanics.scene import Scene
 
 SYMBOL = re.compile(r"(?:(dot|ddot|delta|d)\()?(\w+)\)?")
+MARK = re.compile(r"\\htmlClass\{[^}]*\}")
 VARIATION = {"delta": " variation", "d": " differential"}
 
 Wrap = Callable[[str, str], str]
@@ -21,6 +22,11 @@ def in_class(css: str, latex: str) -> str:
 def unmarked(_css: str, latex: str) -> str:
     """The LaTeX as it is."""
     return latex
+
+
+def bare(latex: str) -> str:
+    """What the LaTeX says, without its classes, braces and spaces: two texts that read alike are equal."""
+    return re.sub(r"[{}\s]", "", MARK.sub("", latex))
 
 
 def by_coordinate(scene: Scene, wrap: Wrap) -> Wrap:

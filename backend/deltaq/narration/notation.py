@@ -29,6 +29,7 @@ from ..derivation.formula import (
 )
 from ..derivation.step import Relation
 from ..language.latex_printer import Typography, latex
+from .marks import bare
 from .symbols import QuantitySymbols
 
 SIGNS = {"=": "=", "≠": r"\neq", "⇔": r"\;\Longleftrightarrow\;"}
@@ -77,7 +78,9 @@ class Notation:
         """The rows of an aligned block: the first two members share one, each further member has its own."""
         sign = SIGNS[relation.sign]
         texts = map(self.formula, relation.members)
-        first, *others = (text for text, _ in groupby(texts))  # a member that reads like the one before says nothing
+        first, *others = (
+            next(alike) for _, alike in groupby(texts, bare)
+        )  # a member that reads like the one before says nothing
         if relation.sign == "⇔":
             return [f"& {first}", *(rf"{sign} & {other}" for other in others)]
         rows = [f"{'' if row else first} &{sign} {other}" for row, other in enumerate(others)]

@@ -39,6 +39,7 @@ class QuantitySymbols:
     """LaTeX of quantities in one scene. With a single place the index is left out, as the lecture does."""
 
     scene: Scene
+    language: str
     coordinate_latex: Mapping[str, str]
     wrap: Callable[[str, str], str]
 
@@ -48,7 +49,7 @@ class QuantitySymbols:
             of=self._index(quantity),
             i=self._colored(quantity.of, self.index(quantity.of)),
             q=self._colored(quantity.of, self.coordinate_latex.get(quantity.of, "")),
-            part=f"^{{{upright(quantity.part)}}}" if quantity.part else "",
+            part=f"^{{{self._word(quantity.part)}}}" if quantity.part else "",
         )
         named = css.format(name=quantity.of) if quantity.of or "{" not in css else ""
         return self.wrap(named, symbol)
@@ -70,9 +71,13 @@ class QuantitySymbols:
         if alone:
             return ""
         names = [quantity.of] if not quantity.part or len(self.scene.bodies) == 1 else [quantity.of, quantity.part]
-        return f"_{{{', '.join(map(upright, names))}}}"
+        return f"_{{{', '.join(map(self._word, names))}}}"
+
+    def _word(self, name: str) -> str:
+        return upright(self.scene.label(name, self.language))
 
 
 def upright(name: str) -> str:
-    """A name of places or loads as upright text."""
-    return rf"\text{{{name.replace('_', chr(92) + '_')}}}"
+    """A name of places or loads as upright text; what LaTeX would read as a command is left out."""
+    plain = re.sub(r"[^\w .,()-]", "", name).replace("_", r"\_")
+    return rf"\text{{{plain}}}"

@@ -21,7 +21,8 @@
 
 /** Growth of the shown part when the motion leaves it, in steps so that it does not creep while a slider moves. */
 const GROWTH = 1.25;
-/** A runaway motion must not shrink the scene to a dot. */
+/** A runaway motion must not shrink the scene to a dot: this part of the samples is to be seen, and not at any price. */
+const SEEN = 0.9;
 const MOST_GROWTH = GROWTH ** 8;
 
 /** A space position seen from the front right; a plane one as it is. @param {readonly number[]} p @returns {Pixel} */
@@ -35,9 +36,9 @@ export function flattened(p) {
  * @returns {Box}
  */
 export function viewOf(scene, trajectory) {
-  const reached = boundsOf(Object.values(trajectory.positions).flat().map(flattened));
+  const paths = Object.values(trajectory.positions);
   const own = scene.drawing?.view;
-  return own ? widened(/** @type {Box} */ (own), reached) : padded(reached);
+  return own ? widened(/** @type {Box} */ (own), paths) : padded(boundsOf(paths.flat().map(flattened)));
 }
 
 /** @param {readonly Pixel[]} points @returns {Box} */
@@ -59,15 +60,22 @@ function padded([x0, x1, y0, y1]) {
   return [x0 - margin, x1 + margin, y0 - margin, y1 + margin];
 }
 
-/** @param {Box} own @param {Box} reached @returns {Box} */
-function widened(own, reached) {
+/** @param {Box} box @param {readonly number[]} position */
+function holds([x0, x1, y0, y1], position) {
+  const [x, y] = flattened(position);
+  return x >= x0 && x <= x1 && y >= y0 && y <= y1;
+}
+
+/** @param {Box} own @param {readonly number[][][]} paths @returns {Box} */
+function widened(own, paths) {
   let box = own;
   const centre = [(own[0] + own[1]) / 2, (own[2] + own[3]) / 2];
   const half = [(own[1] - own[0]) / 2, (own[3] - own[2]) / 2];
   for (let growth = 1; growth <= MOST_GROWTH; growth *= GROWTH) {
     const [w, h] = half.map((side) => side * growth);
     box = [centre[0] - w, centre[0] + w, centre[1] - h, centre[1] + h];
-    if (box[0] <= reached[0] && box[1] >= reached[1] && box[2] <= reached[2] && box[3] >= reached[3]) break;
+    const shown = box;
+    if (paths.every((path) => path.filter((position) => holds(shown, position)).length >= SEEN * path.length)) break;
   }
   return box;
 }

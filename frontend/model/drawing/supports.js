@@ -63,12 +63,12 @@ export function guide(element, stage, now, key) {
   const along = /** @type {Pixel} */ (element.direction === "horizontal" ? [1, 0] : [0, 1]);
   const across = normal(along);
   const path = stage.trajectory.positions[element.at ?? ""] ?? [[0, 0]];
-  const reach = path.map((position) => dot(subtract(stage.project(position), place), along));
+  const reach = inner(path.map((position) => dot(subtract(stage.project(position), place), along)));
   const u = stage.unit;
   const rails = [1, -1].flatMap((side) => {
     const offset = scaled(across, side * u * 0.95);
-    const from = add(add(place, offset), scaled(along, Math.min(...reach) - 1.5 * u));
-    const to = add(add(place, offset), scaled(along, Math.max(...reach) + 1.5 * u));
+    const from = add(add(place, offset), scaled(along, reach[0] - 1.5 * u));
+    const to = add(add(place, offset), scaled(along, reach[1] + 1.5 * u));
     return [
       { key: `${key}-hatch${side}`, d: hatching(from, to, scaled(across, side), u * 0.5), className: "hatch" },
       { key: `${key}-rail${side}`, d: line(from, to), className: "ink" },
@@ -76,6 +76,12 @@ export function guide(element, stage, now, key) {
   });
   const block = { key: `${key}-block`, d: box(along, across, u * 1.05, u * 0.8), className: "ink steel", at: place };
   return { shapes: [...rails, block], labels: [] };
+}
+
+/** The range of nearly all values: a motion that runs away in the end takes no rails along. @param {number[]} values */
+function inner(values) {
+  const sorted = values.filter(Number.isFinite).sort((a, b) => a - b);
+  return [0.02, 0.98].map((part) => sorted[Math.round((sorted.length - 1) * part)] ?? 0);
 }
 
 /** @param {Pixel} a @param {Pixel} b */

@@ -1,0 +1,89 @@
+"""What the generators of Fourier forms stand for, and forms → SymPy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy
+
+from . import fourier
+from .fourier import ONE, Form, Monomial, Phase, TooLargeError
+
+_MAX_WORK = 150_000
+
+
+class Generators:
+    """Symbols and opaque functions (`meaning`), sums below a fraction line or under a root (`bases`)."""
+
+    def __init__(self) -> None:
+        self.meaning: dict[str, Any] = {}
+        self.bases: dict[str, Form] = {}
+        self._work = 0
+
+    def multiply(self, left: Form, right: Form) -> Form:
+        """The product, as long as all products together stay within bounds."""
+        self._work += len(left) * len(right)
+        if self._work > _MAX_WORK:
+            raise TooLargeError
+        return fourier.multiply(left, right)
+
+    def raised(self, form: Form, exponent: int) -> Form:
+        """A power with a whole exponent ≥ 0, by squaring."""
+        result = fourier.constant(1)
+        for digit in f"{exponent:b}":
+            result = self.multiply(result, result)
+            result = self.multiply(result, form) if digit == "1" else result
+        return result
+
+    def cleared(self, form: Form) -> tuple[Form, Monomial]:
+        """Numerator and denominator: no base stands in the numerator with a whole or a negative power."""
+        denominator: Monomial = ONE
+        for key in reversed(tuple(self.bases)):
+            exponents = [dict(mono).get(key, 0) for mono, _, _ in form]
+            lowest = min((_floor(e) for e in exponents), default=0)
+            if lowest == 0 and all(e == 0 or (not isinstance(e, int) and e < 1) for e in exponents):
+                continue
+            lowest = min(lowest, 0)
+            form = fourier.add(self._expanded(term, c, key, lowest) for term, c in form.items())
+            denominator = fourier.times(denominator, ((key, -lowest),)) if lowest else denominator
+        return form, denominator
+
+    def _expanded(self, term: fourier.Term, coefficient: Any, key: str, lowest: int) -> Form:
+        mono, phase, sine = term
+        exponent = dict(mono).get(key, 0) - lowest
+        whole = _floor(exponent)
+        part = exponent - whole
+        rest = fourier.times(tuple(pair for pair in mono if pair[0] != key), ((key, part),) if part else ONE)
+        return self.multiply({(rest, phase, sine): coefficient}, self.raised(self.bases[key], whole))
+
+    def expression(self, form: Form) -> Any:
+        """The SymPy expression of a form, term by term."""
+        return sympy.Add(*(self._term(term, coefficient) for term, coefficient in form.items()))
+
+    def _term(self, term: fourier.Term, coefficient: Any) -> Any:
+        mono, phase, sine = term
+        number = sympy.Rational(int(coefficient.p), int(coefficient.q))
+        return sympy.Mul(number, self.monomial(mono), self.wave(phase, sine=sine))
+
+    def wave(self, phase: Phase, *, sine: bool) -> Any:
+        """cos(phase) or sin(phase) in SymPy."""
+        if not phase:
+            return sympy.S.One
+        angle = sympy.Add(*(sympy.Rational(int(c.p), int(c.q)) * self.monomial(mono) for mono, c in phase))
+        return sympy.sin(angle) if sine else sympy.cos(angle)
+
+    def monomial(self, mono: Monomial) -> Any:
+        """A monomial in SymPy."""
+        return sympy.Mul(*(self.generator(name) ** _rational(e) for name, e in mono))
+
+    def generator(self, name: str) -> Any:
+        """What a generator stands for."""
+        return self.expression(self.bases[name]) if name in self.bases else self.meaning[name]
+
+
+def _floor(exponent: Any) -> int:
+    return exponent if isinstance(exponent, int) else int(exponent.p) // int(exponent.q)
+
+
+def _rational(exponent: Any) -> Any:
+    return sympy.Integer(exponent) if isinstance(exponent, int) else sympy.Rational(int(exponent.p), int(exponent.q))

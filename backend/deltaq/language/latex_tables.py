@@ -1,0 +1,76 @@
+"""Which LaTeX commands mean what."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from types import MappingProxyType
+
+NUMBER = re.compile(r"(?:\d+(?:(?:\.|\{,\})\d*)?|\.\d+)(?:[eE][+-]?\d+)?(?P<again>\.\d*)?", re.ASCII)
+PREFIX = re.compile(r"0[xXbBoO][0-9A-Fa-f]+")
+LETTER = re.compile(r"[A-Za-z]")
+TRANSPOSE = re.compile(r"\s*(?:T|\\top|\\intercal|\\(?:mathrm|mathsf|text)\s*(?:\{\s*T\s*\}|T))\s*\Z")
+PRIMES = re.compile(r"\s*((?:\\prime|')\s*)+\Z")
+
+OPERATORS: Mapping[str, str] = MappingProxyType(
+    {
+        "cdot": "*",
+        "ast": "*",
+        "times": "×",
+        "div": "/",
+        "lbrack": "[",
+        "rbrack": "]",
+        "lparen": "(",
+        "rparen": ")",
+        "prime": "'",
+        "{": "(",
+        "}": ")",
+        "lbrace": "(",
+        "rbrace": ")",
+        "\\": ";",
+        "lvert": "|",
+        "rvert": "|",
+        "vert": "|",
+        "mid": "|",
+        "minus": "-",
+        "partial": "∂",
+        "delta": "δ",
+        "variation": "δ",
+    }
+)
+SIZES = frozenset(
+    [
+        "left",
+        "right",
+        "mleft",
+        "mright",
+        "big",
+        "Big",
+        "bigg",
+        "Bigg",
+        "bigl",
+        "bigr",
+        "Bigl",
+        "Bigr",
+        "biggl",
+        "biggr",
+        "Biggl",
+        "Biggr",
+    ]
+)
+UPRIGHT = frozenset(
+    [
+        "mathrm",
+        "text",
+        "textrm",
+        "operatorname",
+        "operatorname*",
+        "mathit",
+        "mathsf",
+        "mathbf",
+        "mathnormal",
+        "boldsymbol",
+        "vec",
+    ]
+)
+DIFFERENTIAL = frozenset({"differentialD", "dd"})
