@@ -37,7 +37,7 @@ BOUNDS = {
 
 def one_text(data: bytes) -> None:
     """Read one text and check what must hold."""
-    text = data.decode("utf-8", "surrogatepass" if len(data) % 7 == 0 else "replace")
+    text = data.decode("utf-8", "replace")
     started = time.process_time()
     try:
         value = to_sympy(parse(text, NAMES, SYNTAX).tree, SYMBOLS)
@@ -46,8 +46,6 @@ def one_text(data: bytes) -> None:
         if problem.offset is not None:
             assert 0 <= problem.offset <= len(text), (text, problem)
             assert 0 <= (problem.length or 0) <= len(text) - problem.offset, (text, problem)
-    except UnicodeError:
-        return
     else:
         round_trip(text, value)
     took = time.process_time() - started

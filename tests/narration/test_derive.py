@@ -31,6 +31,7 @@ def test_every_scene_is_told(scene: str, lang: str) -> None:
         "variation",
         "virtual-work",
         "kinetic-energy",
+        "dalembert-to-lagrange",
         "decomposition",
         "lagrange",
     ]

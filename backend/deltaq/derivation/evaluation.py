@@ -37,7 +37,8 @@ from .points import STEP, Point, along_motion, shifted, varied
 from .quadrature import integral
 from .tree_evaluation import FUNCTIONS, power, tree_value
 
-Numbers = tuple[arb, ...]  # one for a scalar, several for a vector
+Numbers = tuple[arb, ...]  # one for a scalar, several for a vector or, row by row, a matrix
+Evaluate = Callable[[Formula], Numbers]
 
 # Operations by the names of SymPy's classes.
 BY_CLASS: Mapping[str, Callable[..., arb]] = {
@@ -53,7 +54,7 @@ CONSTANTS: Mapping[sp.Basic, Callable[[], arb]] = {sp.pi: arb.pi, sp.E: arb.cons
 def evaluate(formula: Formula, point: Point) -> Numbers:
     """The formula's components at the point. Not finite where it is not defined there."""
 
-    def at(other: Point) -> Callable[[Formula], Numbers]:
+    def at(other: Point) -> Evaluate:
         return lambda part: evaluate(part, other)
 
     match formula:
@@ -80,19 +81,28 @@ def evaluate(formula: Formula, point: Point) -> Numbers:
             return integral(lambda inside: evaluate(of, inside), material, point, number)
         case Equation(left, right):
             return _sum([evaluate(left, point), tuple(-part for part in evaluate(right, point))])
+        case Substituted(of, values) | AtEquilibrium(of, values) | Inserted(of, values):
+            return evaluate(of, {**point, **{symbol.name: number(value, point) for symbol, value in values.items()}})
+        case Stack() | MatrixTimes() | Jacobian() | Determinant() | Power():
+            return _of_matrix(formula, point, at)
+
+
+def _of_matrix(
+    formula: Stack | MatrixTimes | Jacobian | Determinant | Power, point: Point, at: Callable[[Point], Evaluate]
+) -> Numbers:
+    """Vectors and matrices, row by row."""
+    match formula:
         case Stack(rows):
             return tuple(part for row in rows for part in evaluate(row, point))
         case MatrixTimes(matrix, vector):
             return matrix_times(evaluate(matrix, point), evaluate(vector, point))
         case Jacobian(of, by):
             columns = [difference(at, of, lambda h, q=q: shifted(point, {q.name: h})) for q in by]
-            return tuple(column[row] for row in range(len(columns[0])) for column in columns)
+            return tuple(part for row in zip(*columns, strict=True) for part in row)
         case Determinant(of):
             return (determinant(evaluate(of, point)),)
         case Power(of, exponent):
             return tuple(part**exponent for part in evaluate(of, point))
-        case Substituted(of, values) | AtEquilibrium(of, values) | Inserted(of, values):
-            return evaluate(of, {**point, **{symbol.name: number(value, point) for symbol, value in values.items()}})
 
 
 def components(value: Value, point: Point) -> Numbers:
@@ -102,7 +112,7 @@ def components(value: Value, point: Point) -> Numbers:
 
 
 def difference(
-    at: Callable[[Point], Callable[[Formula], Numbers]], of: Formula, moved: Callable[[arb], Point]
+    at: Callable[[Point], Evaluate], of: Formula, moved: Callable[[arb], Point]
 ) -> Numbers:
     """The derivative of a formula along a curve of points, as a central difference."""
     ahead, behind = at(moved(STEP))(of), at(moved(-STEP))(of)

@@ -14,6 +14,7 @@ from typing import TypeAlias
 import sympy as sp
 
 from ..language.tree import Node
+from .matrix_formula import AtEquilibrium, Determinant, Inserted, Jacobian, MatrixTimes, Power, Rounded, Stack
 
 Value: TypeAlias = sp.Expr | sp.ImmutableMatrix
 
@@ -147,69 +148,6 @@ class Equation:
 
     left: Formula
     right: Formula
-
-
-@dataclass(frozen=True)
-class Stack:
-    """Formulas one below the other: a column vector."""
-
-    rows: tuple[Formula, ...]
-
-
-@dataclass(frozen=True)
-class MatrixTimes:
-    """A square matrix times a vector."""
-
-    matrix: Formula
-    vector: Formula
-
-
-@dataclass(frozen=True)
-class Jacobian:
-    """The matrix of ∂(of)ᵢ/∂(by)ₖ; `name` is how the vector of the variables is called."""
-
-    of: Formula
-    by: tuple[sp.Symbol, ...]
-    name: Quantity
-
-
-@dataclass(frozen=True)
-class Determinant:
-    """det(of)"""
-
-    of: Formula
-
-
-@dataclass(frozen=True)
-class Power:
-    """(of) to a whole power."""
-
-    of: Formula
-    exponent: int
-
-
-@dataclass(frozen=True)
-class AtEquilibrium:
-    """`of` in an equilibrium: the coordinates have these values, all rates are zero. Written with the index 0."""
-
-    of: Formula
-    values: Mapping[sp.Symbol, sp.Expr] = field(hash=False)
-
-
-@dataclass(frozen=True)
-class Inserted:
-    """`of` with symbols standing for these values, which are not written: numbers of parameters, a momentum for p."""
-
-    of: Formula
-    values: Mapping[sp.Symbol, sp.Expr] = field(hash=False)
-
-
-@dataclass(frozen=True)
-class Rounded:
-    """An exact value that is written with a few digits and its unit."""
-
-    value: Value
-    unit: str = ""
 
 
 Formula = (

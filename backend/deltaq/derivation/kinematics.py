@@ -72,6 +72,10 @@ class Kinematics(Calculus):
         """v = dr/dt"""
         return self.display(column(self.time_derivative(component) for component in self.position(place)))
 
+    def named_velocity(self, place: str) -> Named:
+        """v under its symbol."""
+        return Named(Quantity("velocity", place), self.velocity(place))
+
     @property
     def depends_on_time(self) -> bool:
         """Whether any place moves by itself: ∂r/∂t ≠ 0."""

@@ -31,6 +31,20 @@ class System(Work):
         """ω in the body frame of principal axes, or the one rate of turning in the plane; guides put in."""
         return tuple(self.display(self.guided(self.expression(omega))) for omega in part.angular_velocity)
 
+    def named_angular_velocities(self, part: Rotation) -> tuple[Named, ...]:
+        """ω, or ω₁ ω₂ ω₃, under their symbols."""
+        values = self.angular_velocity(part)
+        axes = ("",) if len(values) == 1 else tuple(str(axis) for axis in range(1, len(values) + 1))
+        quantities = (Quantity("angular-velocity", part.body, axis) for axis in axes)
+        return tuple(Named(quantity, value) for quantity, value in zip(quantities, values, strict=True))
+
+    @kept
+    def inertia_work(self, coordinate: str) -> sp.Expr:
+        """d/dt ∂E/∂q̇ᵢ − ∂E/∂qᵢ"""
+        energy = self.kinetic_energy
+        momentum = energy.diff(self.rate(coordinate))
+        return self.display(self.time_derivative(momentum) - energy.diff(self.q(coordinate)))
+
     def given_rate(self, tree: Node) -> Formula:
         """A rate as the scene states it, with the guides put in where there are any."""
         stated = Given((tree,), self.expression(tree))

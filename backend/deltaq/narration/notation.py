@@ -54,7 +54,7 @@ class Notation:
                 inside = ", ".join(map(self.value, arguments))
                 return self.symbols.latex(quantity) + (f"({inside})" if arguments else "")
             case Partial(of, by):
-                return rf"\frac{{\partial {self._bare(of)}}}{{\partial {self.value(by)}}}"
+                return self._partial(of, self.value(by))
             case Rate(of):
                 return self._rate(of)
             case Gateaux(of):
@@ -78,9 +78,8 @@ class Notation:
         """The rows of an aligned block: the first two members share one, each further member has its own."""
         sign = SIGNS[relation.sign]
         texts = map(self.formula, relation.members)
-        first, *others = (
-            next(alike) for _, alike in groupby(texts, bare)
-        )  # a member that reads like the one before says nothing
+        # A member that reads like the one before says nothing.
+        first, *others = (next(alike) for _, alike in groupby(texts, bare))
         if relation.sign == "⇔":
             return [f"& {first}", *(rf"{sign} & {other}" for other in others)]
         rows = [f"{'' if row else first} &{sign} {other}" for row, other in enumerate(others)]
@@ -90,6 +89,11 @@ class Notation:
         """All lines of a step."""
         rows = [row for relation in relations for row in self.relation(relation)]
         return r"\begin{aligned}" + r" \\[0.4em] ".join(rows) + r"\end{aligned}" if rows else ""
+
+    def _partial(self, of: Formula, by: str) -> str:
+        if isinstance(of, Named):
+            return rf"\frac{{\partial {self._bare(of)}}}{{\partial {by}}}"
+        return rf"\frac{{\partial}}{{\partial {by}}}\left({self.formula(of)}\right)"
 
     def _bare(self, of: Formula) -> str:
         """The name without its arguments, for the numerator of a derivative."""

@@ -9,15 +9,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..rules import (
+    cancellation_of_dots,
     curl_test,
     decomposition,
+    exchange_of_derivatives,
     generalized_force,
     guide,
     guided_position,
+    inertia_work,
     lagrange_equation,
     lagrange_function,
     position,
     potential,
+    product_rule,
     total_differential,
     total_kinetic_energy,
     total_virtual_work,
@@ -38,6 +42,7 @@ def derive(system: System) -> Derivation:
         "variation": _variation,
         "virtual-work": _virtual_work,
         "kinetic-energy": _kinetic_energy,
+        "dalembert-to-lagrange": _dalembert_to_lagrange,
         "decomposition": _decomposition,
         "lagrange": _lagrange,
     }
@@ -83,6 +88,15 @@ def _kinetic_energy(system: System) -> Iterator[Step]:
         yield energy_rule_of(body).apply(system, body)
     if len(system.scene.bodies) > 1:
         yield total_kinetic_energy.apply(system)
+
+
+def _dalembert_to_lagrange(system: System) -> Iterator[Step]:
+    for body in system.scene.bodies:
+        yield cancellation_of_dots.apply(system, body.name)
+        yield exchange_of_derivatives.apply(system, body.name)
+        yield product_rule.apply(system, body.name)
+    for coordinate in system.free:
+        yield inertia_work.apply(system, coordinate)
 
 
 def _decomposition(system: System) -> Iterator[Step]:

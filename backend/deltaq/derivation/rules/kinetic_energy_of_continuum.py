@@ -8,7 +8,7 @@ from __future__ import annotations
 from ...mechanics.bodies import Body
 from ...mechanics.bodies.continuum import Continuum
 from ...mechanics.kinetics import Distribution
-from ..formula import Dot, Explicit, Integral, Named, Quantity, Times
+from ..formula import Dot, Explicit, Integral, Times
 from ..step import Relation, Step
 from ..system import System
 
@@ -17,7 +17,7 @@ BODY = Continuum
 
 
 def apply(system: System, body: Body) -> Step:
-    velocity = Named(Quantity("velocity", body.name), system.velocity(body.name))
+    velocity = system.named_velocity(body.name)
     laws = tuple(
         Integral(
             Times((Explicit(system.expression(part.density) / 2), Dot(square, square))), system.bounds(part.material)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from ...mechanics.bodies import Body
 from ...mechanics.bodies.particle import Particle
-from ..formula import Dot, Explicit, Named, Quantity, Times
+from ..formula import Dot, Explicit, Times
 from ..step import Relation, Step
 from ..system import System
 
@@ -23,5 +23,5 @@ def apply(system: System, body: Body) -> Step:
 
 def half_mass_times_square(system: System, body: Body) -> Times:
     """m/2 v · v, with v of the centre of mass for a rigid body."""
-    velocity = Named(Quantity("velocity", body.name), system.velocity(body.name))
+    velocity = system.named_velocity(body.name)
     return Times((Explicit(system.mass(body) / 2), Dot(velocity, velocity)))

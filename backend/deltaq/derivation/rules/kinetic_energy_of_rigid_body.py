@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from ...mechanics.bodies import Body
 from ...mechanics.bodies.rigid import RigidBody
 from ...mechanics.kinetics import Rotation
-from ..formula import Explicit, Named, Plus, Quantity, Term, Times
+from ..formula import Explicit, Plus, Term, Times
 from ..step import Relation, Step
 from ..system import System
 from .kinetic_energy_of_particle import half_mass_times_square
@@ -33,18 +33,10 @@ def apply(system: System, body: Body) -> Step:
 
 def _rotation(system: System, part: Rotation) -> Iterator[Term]:
     """1/2 Jₖ ωₖ² for each principal axis."""
-    for moment, omega in zip(part.inertia, _omegas(system, part), strict=True):
+    for moment, omega in zip(part.inertia, system.named_angular_velocities(part), strict=True):
         yield Term(Times((Explicit(system.expression(moment) / 2), omega, omega)))
 
 
 def _angular_velocities(system: System, part: Rotation) -> Iterator[Relation]:
-    for tree, omega in zip(part.angular_velocity, _omegas(system, part), strict=True):
+    for tree, omega in zip(part.angular_velocity, system.named_angular_velocities(part), strict=True):
         yield Relation((omega, system.given_rate(tree), Explicit(omega.value)))
-
-
-def _omegas(system: System, part: Rotation) -> tuple[Named, ...]:
-    values = system.angular_velocity(part)
-    axes = ("",) if len(values) == 1 else tuple(str(axis) for axis in range(1, len(values) + 1))
-    return tuple(
-        Named(Quantity("angular-velocity", part.body, axis), value) for axis, value in zip(axes, values, strict=True)
-    )

@@ -1,0 +1,75 @@
+"""From d'Alembert to Lagrange: ∫ ∂r/∂qᵢ · v̇ dm = d/dt ∂E/∂q̇ᵢ − ∂E/∂qᵢ, both sides computed.
+
+Bodies that turn add Jₖ ω̇ₖ ∂ωₖ/∂q̇ᵢ for their principal axes, in space with Euler's (ω × Jω)ₖ.
+Source: Lagrange, Mécanique analytique (1788); Lurie, Analytical Mechanics, ch. 4; the lecture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from ...mechanics.kinetics import Distribution, Kinetics, Rotation, Translation
+from ..formula import Dot, Explicit, Formula, Integral, Named, Partial, Plus, Quantity, Rate, Term, Times, minus
+from ..step import Relation, Step
+from ..system import System
+
+RULE = "inertia-work"
+
+
+def apply(system: System, coordinate: str) -> Step:
+    """The left side of Lagrange's equation of one coordinate, by accelerations and by the kinetic energy."""
+    energy = Named(Quantity("kinetic-energy"), system.kinetic_energy)
+    by_energy = Plus(
+        (
+            Term(Rate(Partial(energy, system.rate(coordinate)))),
+            minus(Partial(energy, system.q(coordinate))),
+        )
+    )
+    inertia = tuple(
+        Term(formula, (f"body:{part.body}",))
+        for body in system.scene.bodies
+        for part in body.kinetics
+        for formula in _inertia(system, part, coordinate)
+    )
+    value = Explicit(system.inertia_work(coordinate))
+    line = Relation((Plus(inertia), value, by_energy))
+    return Step(RULE, coordinate, (line,), system.body_sources, {"coordinate": coordinate})
+
+
+def _inertia(system: System, part: Kinetics, coordinate: str) -> Iterator[Formula]:
+    """What one part of a body adds, by its law."""
+    match part:
+        case Translation(body=body, mass=mass):
+            yield Times((Explicit(system.expression(mass)), _tangent_times_acceleration(system, body, coordinate)))
+        case Distribution(body=body, density=density, material=material):
+            work = _tangent_times_acceleration(system, body, coordinate)
+            yield Integral(Times((Explicit(system.expression(density)), work)), system.bounds(material))
+        case Rotation():
+            yield from _turning(system, part, coordinate)
+
+
+def _tangent_times_acceleration(system: System, body: str, coordinate: str) -> Dot:
+    tangent = Partial(system.named_position(body), system.q(coordinate))
+    return Dot(tangent, Rate(system.named_velocity(body)))
+
+
+def _turning(system: System, part: Rotation, coordinate: str) -> Iterator[Formula]:
+    """∂ωₖ/∂q̇ᵢ (Jₖ ω̇ₖ + (ω × Jω)ₖ) for every axis."""
+    moments = [system.expression(moment) for moment in part.inertia]
+    omegas = system.named_angular_velocities(part)
+    euler = _gyroscopic(moments, [omega.value for omega in omegas])
+    for moment, omega, extra in zip(moments, omegas, euler, strict=True):
+        lever = Partial(omega, system.rate(coordinate))
+        turning: Formula = Times((Explicit(moment), Rate(omega)))
+        whole = turning if extra == 0 else Plus((Term(turning), Term(Explicit(extra))))
+        yield Times((lever, whole))
+
+
+def _gyroscopic(moments: list[sp.Expr], omegas: list[sp.Expr]) -> list[sp.Expr]:
+    """(ω × Jω)ₖ; nothing in the plane."""
+    if len(moments) == 1:
+        return [sp.Integer(0)]
+    spin = sp.Matrix([j * w for j, w in zip(moments, omegas, strict=True)])
+    return list(sp.Matrix(omegas).cross(spin))
