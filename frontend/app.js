@@ -14,6 +14,7 @@ import { createReadouts } from "./view/readouts.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
 import { listen } from "./view/keys.js";
 import { linkHighlights } from "./view/highlight.js";
+import { openDialog } from "./view/overlays.js";
 import { page } from "./view/page.js";
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
@@ -107,6 +108,7 @@ function update() {
   document.documentElement.lang = place.lang;
   document.title = current.t("title");
   render(page(current), root);
+  openDialog(root);
   parts ??= assemble();
   parts.drawing.show(scene, trajectory, clock.time);
   parts.readouts.show(scene, trajectory, place.lang);

@@ -32,6 +32,10 @@ export function latestOnly(work, pause, time = { now: () => Date.now(), wait: (m
       next = { wish };
       if (!running) void run();
     },
+    /** As `ask`, unless something newer waits. @param {W} wish */
+    offer(wish) {
+      next ??= { wish };
+    },
     /** Drops what is waiting and aborts what is under way. */
     cancel() {
       next = null;

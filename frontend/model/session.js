@@ -3,7 +3,7 @@
 import { ApiError } from "./api.js";
 import { latestOnly } from "./latest.js";
 import { linesOf, moved } from "./reveal.js";
-import { endOf } from "./trajectory.js";
+import { endOf, samplesNeeded } from "./trajectory.js";
 import { changed, UNCHANGED } from "./values.js";
 import { HOME } from "./url.js";
 
@@ -64,6 +64,13 @@ export function createSession(store, api, clock) {
 
   const simulations = latestOnly(simulate, PAUSE);
 
+  /** Fast swings are asked for again with as many samples as they need. @param {object} request @param {import("./types.js").Trajectory} trajectory */
+  function refine(request, trajectory) {
+    const chosen = get().methods.find((method) => method.id === trajectory.method);
+    const samples = chosen?.adaptive && trajectory.status === "ok" ? samplesNeeded(trajectory) : 0;
+    if (samples > trajectory.t.length) simulations.offer({ ...request, samples });
+  }
+
   /** @param {object} request @param {AbortSignal} signal */
   async function simulate(request, signal) {
     set({ simulating: true });
@@ -72,6 +79,7 @@ export function createSession(store, api, clock) {
       if (signal.aborted) return;
       set({ trajectory });
       clock.setEnd(endOf(trajectory));
+      refine(request, trajectory);
     });
     set({ simulating: false });
   }

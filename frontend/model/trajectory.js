@@ -85,6 +85,19 @@ export function trailOf(trajectory, place, t, span, count) {
   return times.map((time) => vectorAt(path, blendAt(trajectory.t, time)));
 }
 
+/** Samples to a step of the integrator: an adaptive one takes a few steps to a period, a curve wants more points. */
+const SAMPLES_TO_A_STEP = 2;
+const MOST_SAMPLES = 4001;
+
+/**
+ * How many samples show every swing of a motion; the number it has, if that is enough.
+ * @param {Trajectory} trajectory computed with steps chosen by the method
+ */
+export function samplesNeeded({ t, cost }) {
+  const wanted = Math.min(MOST_SAMPLES, SAMPLES_TO_A_STEP * (cost?.steps ?? 0) + 1);
+  return wanted > 1.3 * t.length ? wanted : t.length;
+}
+
 /** The last time with a sample. @param {Trajectory | null} trajectory */
 export function endOf(trajectory) {
   return trajectory?.t.at(-1) ?? 0;

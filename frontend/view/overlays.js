@@ -1,17 +1,14 @@
 /** What lies above the page: overview, help, the black screen. */
 
 import { html, nothing } from "lit-html";
-import { ref } from "lit-html/directives/ref.js";
 import { prose } from "./formula.js";
 import { icon } from "./icons.js";
 
 /** @typedef {import("./page.js").View} View */
 
-/** @param {Element | undefined} element */
-function open(element) {
-  const dialog = /** @type {HTMLDialogElement | undefined} */ (element);
-  // The element is not in the page yet when lit-html hands it over.
-  queueMicrotask(() => dialog?.isConnected && !dialog.open && dialog.showModal());
+/** Opens a dialog that has just been put into the page; it takes the focus. @param {HTMLElement} root */
+export function openDialog(root) {
+  /** @type {HTMLDialogElement | null} */ (root.querySelector("dialog:not([open])"))?.showModal();
 }
 
 /** @param {View} view */
@@ -27,7 +24,7 @@ export function overlays(view) {
 function dialog(name, content, { session, t }) {
   const close = () => session.overlay("");
   return html`
-    <dialog class=${name} aria-label=${t(name)} ${ref(open)} @close=${close}
+    <dialog class=${name} aria-label=${t(name)} @close=${close}
       @click=${(/** @type {Event} */ e) => e.target === e.currentTarget && close()}>
       <div class="heading"><h2>${t(name)}</h2>
         <button class="tool" aria-label=${t("close")} title=${t("close")} @click=${close}>${icon("close")}</button></div>

@@ -18,7 +18,9 @@ export function createReach(root) {
   let reached = "";
   let steps = 0;
   // Full screen or a turned phone must not lose the step that is being read.
-  window.addEventListener("resize", () => requestAnimationFrame(() => stepElement(root, reached)?.scrollIntoView({ block: "nearest" })));
+  const keep = () => requestAnimationFrame(() => stepElement(root, reached)?.scrollIntoView({ block: "nearest" }));
+  window.addEventListener("resize", keep);
+  document.addEventListener("fullscreenchange", keep);
 
   /**
    * Scrolls a step into view when it has become the current one.

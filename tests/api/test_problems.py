@@ -21,7 +21,7 @@ JSON = {"Content-Type": "application/json"}
 
 
 def problem(code: str, message: str, pointer: str = "", offset: int | None = None) -> dict[str, Any]:
-    return {"pointer": pointer, "offset": offset, "length": None, "code": code, "message": message}
+    return {"pointer": pointer, "offset": offset, "length": None, "code": code, "severity": "error", "message": message}
 
 
 def document(

@@ -43,7 +43,16 @@ async def test_unknown_scene(client: httpx.AsyncClient) -> None:
         "title": "There is nothing of this name",
         "status": 404,
         "detail": message,
-        "problems": [{"pointer": "", "offset": None, "length": None, "code": "unknown-scene", "message": message}],
+        "problems": [
+            {
+                "pointer": "",
+                "offset": None,
+                "length": None,
+                "code": "unknown-scene",
+                "severity": "error",
+                "message": message,
+            }
+        ],
     }
 
 
@@ -92,7 +101,7 @@ async def test_invalid_scene_says_where(
     assert answer["valid"] is False
     found = [one for one in answer["problems"] if one["pointer"] == pointer]
     assert found, answer["problems"]
-    assert found[0].keys() == {"pointer", "offset", "length", "code", "message"}
+    assert found[0].keys() == {"pointer", "offset", "length", "code", "severity", "message"}
     assert found[0]["offset"] == offset
     assert code in {None, found[0]["code"]}
 
@@ -121,6 +130,7 @@ async def test_scene_must_be_an_object(client: httpx.AsyncClient) -> None:
             "offset": None,
             "length": None,
             "code": "request-not-object",
+            "severity": "error",
             "message": "A JSON object is needed here.",
         }
     ]
@@ -132,3 +142,20 @@ async def test_known_list_is_not_sent_again(client: httpx.AsyncClient) -> None:
     assert (again.status_code, again.content) == (304, b"")
     other = await client.get(SCENES, headers={"If-None-Match": '"other"'})
     assert other.json() == first.json()
+
+
+async def test_warnings_do_not_make_a_scene_invalid(client: httpx.AsyncClient) -> None:
+    scene = {**EXAMPLE, "parameters": [*EXAMPLE["parameters"], {"name": "k"}]}
+    response = await client.post("/api/v1/scenes/validate", json=scene)
+    answer = response.json()
+    assert answer["valid"] is True
+    assert answer["problems"] == [
+        {
+            "pointer": "/parameters/3",
+            "offset": None,
+            "length": None,
+            "code": "unused-parameter",
+            "severity": "warning",
+            "message": "The parameter k is not used.",
+        }
+    ]

@@ -64,7 +64,14 @@ async def test_catalog_of_a_language_we_do_not_speak(client: httpx.AsyncClient) 
         "status": 404,
         "detail": message,
         "problems": [
-            {"pointer": "", "offset": None, "length": None, "code": "request-unknown-language", "message": message}
+            {
+                "pointer": "",
+                "offset": None,
+                "length": None,
+                "code": "request-unknown-language",
+                "severity": "error",
+                "message": message,
+            }
         ],
     }
 

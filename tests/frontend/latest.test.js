@@ -26,6 +26,20 @@ test("of many wishes the first and the last are fulfilled", async () => {
   assert.deepEqual(done, [1, 4]);
 });
 
+test("an offer gives way to what waits, and is taken up where nothing does", async () => {
+  /** @type {string[]} */
+  const done = [];
+  /** @type {ReturnType<typeof latestOnly<string>>} */
+  const queue = latestOnly(async (wish) => {
+    done.push(wish);
+    if (wish === "first") queue.ask("newer");
+    if (wish !== "offer") queue.offer("offer");
+  }, 0, steppedTime());
+  queue.ask("first");
+  await settled();
+  assert.deepEqual(done, ["first", "newer", "offer"]);
+});
+
 test("starts are a pause apart", async () => {
   const time = steppedTime();
   /** @type {number[]} */

@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { blendAt, endOf, largestError, scalarAt, snapshotAt, trailOf } from "../../frontend/model/trajectory.js";
+import { blendAt, endOf, largestError, samplesNeeded, scalarAt, snapshotAt, trailOf } from "../../frontend/model/trajectory.js";
 import { trajectory } from "./fixtures.js";
 
 test("samples are met exactly", () => {
@@ -49,3 +49,17 @@ test("end and largest error", () => {
   assert.equal(largestError({ ...trajectory, error: { estimate: [null, 2] } }), 2);
   assert.equal(largestError({ ...trajectory, error: {} }), null);
 });
+
+const DENSITIES = [
+  ["enough for a slow motion", 301, 148, 301],
+  ["a little too few is enough", 301, 180, 301],
+  ["too few for fast swings", 301, 475, 951],
+  ["not without end", 301, 1e6, 4001],
+];
+
+for (const [name, samples, steps, needed] of DENSITIES) {
+  test(`samples: ${name}`, () => {
+    const t = Array.from({ length: samples }, (_, i) => i);
+    assert.equal(samplesNeeded({ ...trajectory, t, cost: { steps } }), needed);
+  });
+}

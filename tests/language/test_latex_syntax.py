@@ -309,6 +309,7 @@ REFUSED = [
     ("\\operatorname{foo}(x)", "unknown-name", 0, 18, {"name": "foo", "known": KNOWN}),
     ("\\operatorname{}", "unexpected-symbol", 14, 1, {"symbol": ""}),
     ("\\mathrm{}", "unexpected-symbol", 8, 1, {"symbol": ""}),
+    ("\\begin{pmatrix} x = 1 \\\\ y \\end{pmatrix}\\delta q_2", "misplaced-equation", 16, 5, {}),
 ]
 
 

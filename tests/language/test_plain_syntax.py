@@ -155,6 +155,7 @@ ACCEPTED = [
     ("1e-30", "1/1000000000000000000000000000000"),
     ("l**2*phi", "l^2*phi"),
     ("5 m/s", "5*m/s"),
+    ("[[x = 0, y = 0]]", "[x = 0, y = 0]"),
 ]
 
 # Text; code, offset and length of what is wrong; parameters of the message.
@@ -381,6 +382,11 @@ REFUSED = [
     ("ä", "unexpected-character", 0, 1, {"character": "ä"}),
     ("ф", "unexpected-character", 0, 1, {"character": "ф"}),
     ("漢", "unexpected-character", 0, 1, {"character": "漢"}),
+    ("[x = 0, y = 1]*delta(x)", "misplaced-equation", 1, 5, {}),
+    ("[x = 0, y]", "misplaced-equation", 1, 5, {}),
+    ("x = 1; y", "misplaced-equation", 0, 5, {}),
+    ("ddot(ddot(x^2)*x)", "derivative-order", 0, 17, {"order": 3}),
+    ("dot(ddot(x)*m)", "derivative-order", 0, 14, {"order": 3}),
 ]
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from ..errors import InputError
-from ..mechanics.document import read_scene
+from ..mechanics.document import examine
 from ..narration.catalog import text
 from .problems import describe
 
@@ -26,18 +25,19 @@ def simulate(document: Document) -> Document:
 
 
 def explained(answer: Document, language: str) -> Document:
-    """`reason` and `remedy` as sentences, from the code and parameters that the simulation gave."""
+    """`reason`, `remedy` and why the method was chosen as sentences, from the codes that the simulation gave."""
     code, parameters = answer["reason"]["code"], answer["reason"]["parameters"]
-    return {part: text(language, f"statuses.{code}.{part}", **parameters) for part in ("reason", "remedy")}
+    told = {part: text(language, f"statuses.{code}.{part}", **parameters) for part in ("reason", "remedy")}
+    choice = answer["choice"]
+    why = choice and text(language, f"statuses.{choice['code']}.reason", **choice["parameters"])
+    return {**told, "choice": why}
 
 
 def validate(document: Document) -> Document:
-    """Whether a scene document can be read, and if not, everything that is wrong with it."""
-    try:
-        read_scene(document["scene"])
-    except InputError as error:
-        return {"valid": False, "problems": describe(error.problems, document["lang"])}
-    return {"valid": True, "problems": []}
+    """Whether a scene document can be used, and all its errors and warnings."""
+    _, problems = examine(document["scene"])
+    valid = not any(problem.severity == "error" for problem in problems)
+    return {"valid": valid, "problems": describe(problems, document["lang"])}
 
 
 def warm(document: Document) -> Document:

@@ -100,6 +100,7 @@ def describe(problems: Iterable[Problem], language: Language) -> list[dict[str, 
             "offset": problem.offset,
             "length": problem.length,
             "code": problem.code,
+            "severity": problem.severity,
             "message": _message(problem, language),
         }
         for problem in problems

@@ -14,7 +14,6 @@ from typing import TypeAlias
 import sympy as sp
 
 from ..language.tree import Node
-from .matrix_formula import AtEquilibrium, Determinant, Inserted, Jacobian, MatrixTimes, Power, Rounded, Stack
 
 Value: TypeAlias = sp.Expr | sp.ImmutableMatrix
 
@@ -164,14 +163,6 @@ Formula = (
     | Substituted
     | Integral
     | Equation
-    | Stack
-    | MatrixTimes
-    | Jacobian
-    | Determinant
-    | Power
-    | AtEquilibrium
-    | Inserted
-    | Rounded
 )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .measure import Shape, measure
 from .tokens import fail
-from .tree import Name, Node, children, walk
+from .tree import Equation, Name, Node, Vector, children, walk
 
 MAX_CHARACTERS = 2000
 MAX_NODES = 500
@@ -18,7 +18,19 @@ def check_bounds(tree: Node) -> Shape:
     names = {n.name for n in walk(tree) if isinstance(n, Name)}
     if len(names) > MAX_NAMES:
         fail("too-many-names", tree.span, count=len(names), limit=MAX_NAMES)
+    _check_equations(tree)
     return measure(tree).shape
+
+
+def _check_equations(tree: Node) -> None:
+    """An equation is the whole, or one of several equations; it is no part of an expression."""
+    parts = tree.components if isinstance(tree, Vector) else (tree,)
+    equations = [part for part in parts if isinstance(part, Equation)]
+    if equations and len(equations) < len(parts):
+        fail("misplaced-equation", equations[0].span)
+    below = [inner for part in (equations or parts) for inner in walk(part) if isinstance(inner, Equation)]
+    if len(below) > len(equations):
+        fail("misplaced-equation", next(inner for inner in below if inner not in equations).span)
 
 
 def shape_of(node: Node) -> Shape:

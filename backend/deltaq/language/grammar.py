@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NoReturn
 
 from .arguments import Arguments
-from .bounds import shape_of
+from .bounds import MAX_DEPTH, shape_of
 from .brackets import Brackets
 from .cursor import Cursor
 from .names import Names
@@ -56,11 +56,15 @@ class Grammar:
         """An operand and all that binds to it more tightly than `binding`."""
         self.cursor.descend()
         left = self._operand(binding)
+        nested = 0
         while True:
+            nested += self.cursor.token.is_operator("/", "^", "'")
             following = self._follow(left, binding)
             if following is None:
                 break
             left = following
+            if nested > MAX_DEPTH:
+                fail("too-deep", left.span, limit=MAX_DEPTH)
         self.cursor.depth -= 1
         return left
 

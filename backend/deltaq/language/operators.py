@@ -19,6 +19,7 @@ from .tree import (
     Sum,
     TimeDerivative,
     Variation,
+    children,
     walk,
 )
 
@@ -151,9 +152,6 @@ class Operators:
 
 def _order(node: Node) -> int:
     """The highest time derivative in a tree."""
-    match node:
-        case Rate(_, order):
-            return order
-        case TimeDerivative(operand):
-            return _order(operand) + 1
-    return max((n.order for n in walk(node) if isinstance(n, Rate)), default=0)
+    if isinstance(node, Rate):
+        return node.order
+    return max(map(_order, children(node)), default=0) + isinstance(node, TimeDerivative)

@@ -44,16 +44,27 @@ def to_sympy(node: Node, symbols: Symbols) -> Value:
 
 def time_derivative(expr: Value, symbols: Symbols) -> Value:
     """d/dt along the motion, by the chain rule: df/dt = Σ ∂f/∂q q̇ + ∂f/∂q̇ q̈ + … + ∂f/∂t."""
-    used = expr.free_symbols
-    total = expr.diff(symbols.time)
-    for name in symbols.names.coordinates:
-        chain = (symbols.name(name), symbols.rate(name, 1), symbols.rate(name, 2), symbols.rate(name, 3))
-        for variable, rate in pairwise(chain):
-            if variable in used:
-                total += expr.diff(variable) * rate
+    rates = _rates(symbols)
+    constant, moving = expr.as_independent(*rates, as_Add=False)
+    # Term by term: a term has few symbols, a long sum has all of them.
+    changes = (
+        term.diff(symbol) * rates[symbol]
+        for term in sympy.Add.make_args(moving)
+        for symbol in sorted(term.free_symbols & rates.keys(), key=str)
+    )
+    total = constant * sympy.Add(*changes)
     if total.has(sympy.DiracDelta, sympy.Derivative, sympy.Subs):
         _refuse("not-differentiable")
     return total
+
+
+def _rates(symbols: Symbols) -> dict[Value, Value]:
+    """How fast everything changes that does: t, and each q, q̇, q̈."""
+    rates = {symbols.time: sympy.Integer(1)}
+    for name in symbols.names.coordinates:
+        chain = (symbols.name(name), symbols.rate(name, 1), symbols.rate(name, 2), symbols.rate(name, 3))
+        rates |= dict(pairwise(chain))
+    return rates
 
 
 def _refuse(code: str, **parameters: Parameter) -> NoReturn:

@@ -12,12 +12,9 @@ import sympy as sp
 from ..derivation.engine import derive
 from ..derivation.result import Result, result_of
 from ..derivation.system import System
-from ..errors import SceneError
 from ..language.latex_printer import Typography, latex
 from ..language.plain_printer import plain
-from ..mechanics.changes import change
-from ..mechanics.document import read_scene
-from ..mechanics.library import load_scene
+from ..mechanics.requests import changed_scene
 from ..mechanics.scene import Scene
 from .catalog import language_of
 from .marks import Wrap, by_coordinate, in_class, unmarked
@@ -49,21 +46,12 @@ def derive_request(document: Mapping[str, object]) -> Document:
 
 def scene_of(document: Mapping[str, object]) -> Scene:
     """The scene a request names or brings, with its changes."""
-    scene = document["scene"]
-    return change(
-        load_scene(scene) if isinstance(scene, str) else _read(cast("Mapping[str, object]", scene)),
+    return changed_scene(
+        document["scene"],
         cast("list[dict[str, str]]", document.get("guides") or []),
         cast("list[str]", document.get("freeze") or []),
         cast("dict[str, float]", document.get("parameters") or {}),
     )
-
-
-def _read(document: Mapping[str, object]) -> Scene:
-    """The scene of a document; its problems point into the request."""
-    try:
-        return read_scene(document)
-    except SceneError as error:
-        raise SceneError(*(problem.below("/scene") for problem in error.problems)) from None
 
 
 def _narrator(system: System, language: str) -> Narrator:

@@ -9,6 +9,7 @@ from time import perf_counter
 import numpy as np
 
 from ..mechanics.library import load_scene
+from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..model.model import Observation, compile_model
 from .answer import Document, answer
@@ -17,7 +18,7 @@ from .driver import simulate
 from .library import get_method, method_ids
 from .outcome import Outcome
 from .problem import Problem
-from .request import Request, inside, read_request
+from .request import Request, read_request
 from .trajectory import Trajectory
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})

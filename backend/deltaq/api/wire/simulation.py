@@ -96,6 +96,7 @@ class SimulationAnswer(Answer):
     reason: str = Field(description="the status as a sentence")
     remedy: str = Field(description="what to do about it")
     method: str = Field(examples=["dop853"])
+    choice: str | None = Field(description="why this method, if it was left to be chosen")
     t: tuple[float, ...]
     coordinates: dict[str, tuple[float, ...]] | None = None
     rates: dict[str, tuple[float, ...]] | None = None

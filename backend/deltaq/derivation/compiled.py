@@ -1,0 +1,44 @@
+"""Expressions as plain functions of floats: quick enough to search with, without generating code."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+
+import sympy as sp
+
+from ..language.functions import FUNCTIONS
+
+Function = Callable[[Sequence[float]], float]
+
+
+def compiled(expression: sp.Expr, slots: Mapping[sp.Symbol, int]) -> Function:
+    """f(values), where `slots` tells which value each symbol has. Calls give NaN where it is not defined."""
+    inner = _compiled(expression, slots)
+
+    def safe(values: Sequence[float]) -> float:
+        try:
+            return inner(values)
+        except (ArithmeticError, ValueError, TypeError):
+            return math.nan
+
+    return safe
+
+
+def _compiled(expression: sp.Expr, slots: Mapping[sp.Symbol, int]) -> Function:
+    if expression in slots:
+        slot = slots[expression]
+        return lambda values: values[slot]
+    if expression.is_number:
+        number = float(expression)
+        return lambda _: number
+    parts = [_compiled(argument, slots) for argument in expression.args]
+    if expression.is_Add:
+        return lambda values: math.fsum(part(values) for part in parts)
+    if expression.is_Mul:
+        return lambda values: math.prod(part(values) for part in parts)
+    if expression.is_Pow:
+        base, exponent = parts
+        return lambda values: math.pow(base(values), exponent(values))
+    function = FUNCTIONS[type(expression).__name__.lower()].evaluate
+    return lambda values: function(*(part(values) for part in parts))

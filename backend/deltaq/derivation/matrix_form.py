@@ -1,0 +1,51 @@
+"""The equations of motion solved for what they say of accelerations: M(q, t) q̈ = f(q, q̇, t)."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from .calculus import column
+from .memory import kept
+from .system import System
+from .terms import terms_by_source
+
+
+@kept
+def left_side(system: System, coordinate: str) -> sp.Expr:
+    """d/dt ∂L/∂q̇ − ∂L/∂q − Qᵈ, written out."""
+    terms = terms_by_source(system, coordinate)
+    return sp.Add(*(term.sign * term.formula.value for term in terms))  # type: ignore[union-attr]
+
+
+@kept
+def mass_matrix(system: System) -> sp.ImmutableMatrix:
+    """M(q, t), symmetric."""
+    accelerations = [system.acceleration(q) for q in system.free]
+    return system.display(
+        sp.ImmutableMatrix([[left_side(system, q).diff(a) for a in accelerations] for q in system.free])
+    )
+
+
+@kept
+def forcing(system: System) -> sp.ImmutableMatrix:
+    """f(q, q̇, t): what does not hang on accelerations, on the right."""
+    at_rest = {system.acceleration(q): system.zero for q in system.free}
+    return system.display(column(-left_side(system, q).xreplace(at_rest) for q in system.free))
+
+
+@kept
+def forces_at_rest(system: System) -> sp.ImmutableMatrix:
+    """f(q, 0, t): what acts while nothing moves."""
+    at_rest = {system.rate(q): system.zero for q in system.free}
+    return system.display(forcing(system).xreplace(at_rest))
+
+
+def is_autonomous(system: System) -> bool:
+    """Whether the equations of motion do not depend on time explicitly."""
+    return not (mass_matrix(system).has(system.t) or forcing(system).has(system.t))
+
+
+@kept
+def parameter_values(system: System) -> dict[sp.Symbol, sp.Rational]:
+    """The scene's values of its parameters, as the decimals that the scene states."""
+    return {system.q(p.name): sp.Rational(repr(float(p.value))) for p in system.scene.parameters}

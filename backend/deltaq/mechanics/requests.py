@@ -1,0 +1,55 @@
+"""The scene that a request means: named or brought along, with its changes. One reading for every call of the API."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+
+from ..errors import InputError, Problem, RequestError
+from .changes import change
+from .document import read_scene
+from .library import family_of, load_scene
+from .scene import Scene
+
+
+def requested_scene(reference: object, parameters: Mapping[str, float]) -> tuple[Scene, Mapping[str, float]]:
+    """The scene without its changes, and the parameter values left once the size of a family is taken out.
+
+    Problems of a scene that the request brings along point below /scene.
+    """
+    if isinstance(reference, str):
+        return _named(reference, parameters)
+    if not isinstance(reference, Mapping):
+        raise RequestError(Problem("request-scene-type", "/scene"))
+    with inside("/scene"):
+        return read_scene(reference), parameters
+
+
+def changed_scene(
+    reference: object,
+    guides: Sequence[Mapping[str, str]] = (),
+    freeze: Sequence[str] = (),
+    parameters: Mapping[str, float] | None = None,
+) -> Scene:
+    """The scene a request means, its changes applied."""
+    scene, values = requested_scene(reference, parameters or {})
+    return change(scene, guides, freeze, values)
+
+
+def _named(identifier: str, parameters: Mapping[str, float]) -> tuple[Scene, Mapping[str, float]]:
+    family = family_of(identifier)
+    if family is None or family.parameter not in parameters:
+        with inside("/scene"):
+            return load_scene(identifier), parameters
+    size = parameters[family.parameter]
+    rest = {name: value for name, value in parameters.items() if name != family.parameter}
+    return load_scene(identifier, int(size) if size == int(size) else -1), rest
+
+
+@contextmanager
+def inside(pointer: str) -> Iterator[None]:
+    """Problems raised within are told as seen from the request, in which their document stands at `pointer`."""
+    try:
+        yield
+    except InputError as error:
+        raise type(error)(*(problem.below(pointer) for problem in error.problems)) from None

@@ -1,0 +1,50 @@
+"""Scenes as requests name or bring them."""
+
+from __future__ import annotations
+
+import pytest
+
+from deltaq.errors import InputError, Problem
+from deltaq.mechanics.families.chain_pendulum import ChainPendulum
+from deltaq.mechanics.library import load_scene
+from deltaq.mechanics.requests import changed_scene
+from deltaq.mechanics.writing import write_scene
+
+
+def test_by_name_and_by_document() -> None:
+    scene = load_scene("pendulum")
+    assert changed_scene("pendulum") == changed_scene(write_scene(scene)) == scene
+
+
+@pytest.mark.parametrize("size", [1, 2, 12])
+def test_member_of_a_family(size: int) -> None:
+    scene = changed_scene("chain-pendulum", parameters={"n": size, "g": 1.6})
+    assert len(scene.free) == len(scene.bodies) == size
+    assert {p.name: p.value for p in scene.parameters}["g"] == 1.6
+
+
+def test_default_member() -> None:
+    assert len(changed_scene("chain-pendulum").free) == ChainPendulum.default
+
+
+SIZE = {"name": "n", "least": 1, "most": 12}
+REFUSED = [
+    pytest.param("chain-pendulum", {"n": 13}, Problem("family-size", "/parameters/n", parameters=SIZE), id="too many"),
+    pytest.param("chain-pendulum", {"n": 0}, Problem("family-size", "/parameters/n", parameters=SIZE), id="none"),
+    pytest.param("chain-pendulum", {"n": 2.5}, Problem("family-size", "/parameters/n", parameters=SIZE), id="a half"),
+    pytest.param(
+        "pendulum",
+        {"n": 2},
+        Problem("unknown-parameter", "/parameters/n", parameters={"name": "n", "known": "m, l, g"}),
+        id="not a family",
+    ),
+    pytest.param(7, {}, Problem("request-scene-type", "/scene"), id="a number"),
+    pytest.param({"bodies": []}, Problem("no-body", "/scene/bodies"), id="a document with a problem"),
+]
+
+
+@pytest.mark.parametrize(("reference", "parameters", "problem"), REFUSED)
+def test_refused(reference: object, parameters: dict[str, float], problem: Problem) -> None:
+    with pytest.raises(InputError) as caught:
+        changed_scene(reference, parameters=parameters)
+    assert caught.value.problems[0] == problem
