@@ -39,7 +39,7 @@ REFUSED = [
         id="not a family",
     ),
     pytest.param(7, {}, Problem("request-scene-type", "/scene"), id="a number"),
-    pytest.param({"bodies": []}, Problem("no-body", "/scene/bodies"), id="a document with a problem"),
+    pytest.param({"bodies": []}, {}, Problem("no-body", "/scene/bodies"), id="a document with a problem"),
 ]
 
 
