@@ -1,0 +1,28 @@
+"""Makes the README's picture of the page: `python -m tests.e2e.picture http://127.0.0.1:8000/ frontend/picture.png`."""
+
+from __future__ import annotations
+
+import sys
+
+from playwright.sync_api import sync_playwright
+from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.lecture import Lecture
+
+PLACE = "?scene=elastic-pendulum&lang=en&theme=light&step=virtual-displacement:bob"
+MOTION = 2400  # milliseconds until the pendulum stands well
+
+
+def take(address: str, file: str) -> None:
+    """The elastic pendulum in the middle of its motion, beside the variation of its position."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        page = browser.new_page(viewport={"width": 1366, "height": 768})
+        Lecture(page, address).open(PLACE)
+        page.locator(".js-plotly-plot").first.wait_for()
+        page.wait_for_timeout(MOTION)
+        page.screenshot(path=file)
+        browser.close()
+
+
+if __name__ == "__main__":
+    take(*sys.argv[1:3])
