@@ -48,11 +48,11 @@ def time_derivative(expr: Value, symbols: Symbols) -> Value:
     constant, moving = expr.as_independent(*rates, as_Add=False)
     # Term by term: a term has few symbols, a long sum has all of them.
     changes = (
-        term.diff(symbol) * rates[symbol]
+        constant * term.diff(symbol) * rates[symbol]
         for term in sympy.Add.make_args(moving)
         for symbol in sorted(term.free_symbols & rates.keys(), key=str)
     )
-    total = constant * sympy.Add(*changes)
+    total = sympy.Add(*changes)
     if total.has(sympy.DiracDelta, sympy.Derivative, sympy.Subs):
         _refuse("not-differentiable")
     return total
