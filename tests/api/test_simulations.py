@@ -28,7 +28,7 @@ async def test_every_scene_is_simulated(client: httpx.AsyncClient, identifier: s
     assert answer.coordinates is not None
     assert answer.coordinates.keys() == {coordinate.name for coordinate in scene.coordinates}
     assert answer.positions is not None
-    assert {body.name for body in scene.bodies} <= answer.positions.keys()
+    assert scene.places.keys() <= answer.positions.keys()
     assert all(len(values) == 21 for values in answer.coordinates.values())
     assert all(len(place) == scene.dimension for places in answer.positions.values() for place in places)
     assert answer.energy is not None

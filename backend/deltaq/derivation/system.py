@@ -109,7 +109,8 @@ class System(Work):
         for q, slope in slopes.items():
             del later[q]
             on_axis = slope.xreplace(later)
-            total += antiderivative(on_axis, q, self.symbols)
+            integral = antiderivative(on_axis, q, self.symbols)
+            total += integral - integral.xreplace({q: sp.Integer(0)})
         terms = sp.Add.make_args(total.expand())
         return sp.Add(*(term for term in terms if term.free_symbols & slopes.keys()))
 
