@@ -3,7 +3,9 @@
 import { render } from "lit-html";
 import { createApi } from "./model/api.js";
 import { createClock } from "./model/clock.js";
-import { createSession, START } from "./model/session.js";
+import { createSession } from "./model/session.js";
+import { START } from "./model/state.js";
+import { documentIn, keepDraft, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { translator } from "./model/catalog.js";
 import { readPlace, startLanguage, writePlace } from "./model/url.js";
@@ -23,10 +25,25 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const store = createStore(START);
 const clock = createClock();
 const reach = createReach(root);
-const session = createSession(store, createApi(fetch.bind(globalThis)), clock);
+const api = createApi(fetch.bind(globalThis));
+const session = createSession(store, api, clock);
 
 /** @type {{drawing: ReturnType<typeof createDrawing>, plots: ReturnType<typeof createPlots>, readouts: ReturnType<typeof createReadouts>, scrub: HTMLInputElement, time: HTMLElement} | null} */
 let parts = null;
+
+/** The editor, once it has been opened: most readers never need it, so it is fetched then. @type {import("./view/page.js").View["editor"]} */
+let editor = null;
+let opening = false;
+
+async function openEditor() {
+  if (opening) return;
+  opening = true;
+  const { open } = await import("./view/editor/open.js");
+  const { get } = store;
+  const keep = (/** @type {import("./model/own.js").Draft} */ draft) => keepDraft(localStorage, draft);
+  editor = open({ api, session, state: get, draft: readDraft(localStorage), keep, changed: update });
+  update();
+}
 
 function togglePlay() {
   clock.play(!clock.playing);
@@ -50,10 +67,10 @@ function view() {
   const section = (/** @type {string} */ name) => /** @type {Record<string, unknown>} */ (state.catalog[name] ?? {});
   const methods = translator(section("methods"));
   return {
-    state, session, clock, togglePlay, scrub, fullscreen,
-    t: translator(section("page")),
+    state, session, clock, togglePlay, scrub, fullscreen, editor,
+    t: translator({ ...section("page"), ...section("editor") }),
     methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,
-    link: (patch) => location.pathname + writePlace({ ...state.place, ...patch }),
+    link: (patch) => location.pathname + writePlace({ ...state.place, ...patch }) + ((patch.scene ?? state.place.scene) === OWN ? state.fragment : ""),
     follow(event, go) {
       const { ctrlKey, metaKey, shiftKey } = /** @type {MouseEvent} */ (event);
       if (ctrlKey || metaKey || shiftKey) return;
@@ -116,7 +133,8 @@ function update() {
   const readable = state.lines.length > 0 || state.failures.derivation;
   parts.plots.show(readable && scene && trajectory ? { scene, trajectory, duration: place.duration, lang: place.lang, theme } : null);
   show(clock.time);
-  history.replaceState(null, "", location.pathname + writePlace(place));
+  history.replaceState(null, "", current.link({}));
+  if (place.edit) void openEditor();
   if (reach(place.step, still.matches)) announce(state.lines, place.step, current.t);
 }
 
@@ -149,5 +167,12 @@ function tick(now) {
 }
 requestAnimationFrame(tick);
 
-const asked = readPlace(location.search);
-void session.start({ ...asked, lang: startLanguage(asked.lang, navigator.languages) });
+async function start() {
+  const asked = readPlace(location.search);
+  const sent = await documentIn(location.hash);
+  const scene = sent || location.hash === "#edit" ? OWN : asked.scene;
+  const own = sent ?? (scene === OWN ? (readDraft(localStorage)?.document ?? null) : null);
+  const edit = scene === OWN && !own ? "form" : location.hash === "#edit" ? "form" : asked.edit;
+  await session.start({ ...asked, scene, edit, lang: startLanguage(asked.lang, navigator.languages) }, own);
+}
+void start();

@@ -51,15 +51,19 @@ export function createApi(send, base = "/api/v1") {
 
   return {
     /** @returns {Promise<{scenes: import("./types.js").SceneEntry[]}>} */
-    scenes: () => call("/scenes"),
+    scenes: () => call("/scenes?summaries=false"),
     /** @param {string} id @param {string} lang of what may go wrong @returns {Promise<import("./types.js").Scene>} */
     scene: (id, lang) => call(`/scenes/${encodeURIComponent(id)}?lang=${lang}`),
     /** @returns {Promise<{methods: import("./types.js").Method[]}>} */
     methods: () => call("/methods"),
     /** @param {string} lang @returns {Promise<import("./types.js").Catalog>} */
-    catalog: (lang) => call(`/catalogs/${lang}`),
+    catalog: (lang, editing = false) => call(`/catalogs/${lang}?sections=page,methods${editing ? ",editor" : ""}`),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Derivation>} */
     derive: (body, signal) => post("/derivations", body, signal),
+    /** @param {object} scene @param {string} lang @param {AbortSignal} [signal] @returns {Promise<{valid: boolean, problems: import("./types.js").Problem[]}>} */
+    validate: (scene, lang, signal) => post(`/scenes/validate?lang=${lang}`, scene, signal),
+    /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<{expressions: {latex: string}[]}>} */
+    typeset: (body, signal) => post("/expressions/batch", body, signal),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Trajectory>} */
     simulate: (body, signal) => post("/simulations", body, signal),
   };

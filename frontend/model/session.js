@@ -5,33 +5,11 @@ import { latestOnly } from "./latest.js";
 import { linesOf, moved } from "./reveal.js";
 import { endOf, samplesNeeded } from "./trajectory.js";
 import { changed, UNCHANGED } from "./values.js";
-import { HOME } from "./url.js";
+import { NO_FAILURES } from "./state.js";
+import { completed, fragmentOf, OWN } from "./own.js";
 
 /** @typedef {import("./types.js").Failure} Failure */
-/**
- * @typedef {object} State
- * @property {import("./types.js").Place} place
- * @property {import("./types.js").Catalog} catalog
- * @property {import("./types.js").SceneEntry[]} scenes
- * @property {import("./types.js").Method[]} methods
- * @property {import("./types.js").Scene | null} scene
- * @property {import("./types.js").Derivation | null} derivation
- * @property {import("./reveal.js").Line[]} lines  the derivation's steps in order
- * @property {import("./types.js").Trajectory | null} trajectory
- * @property {import("./types.js").Changes} changes
- * @property {{page: Failure | null, scene: Failure | null, derivation: Failure | null, simulation: Failure | null}} failures
- * @property {boolean} simulating
- * @property {"" | "overview" | "help" | "black"} overlay
- */
-
-/** @type {State["failures"]} */
-const NO_FAILURES = { page: null, scene: null, derivation: null, simulation: null };
-
-/** @type {State} */
-export const START = {
-  place: HOME, catalog: {}, scenes: [], methods: [], scene: null, derivation: null, lines: [], trajectory: null,
-  changes: UNCHANGED, failures: NO_FAILURES, simulating: false, overlay: "",
-};
+/** @typedef {import("./state.js").State} State */
 
 /** Milliseconds between two simulations while a slider moves, samples per second, and the step where one is asked for. */
 const PAUSE = 100;
@@ -51,6 +29,9 @@ export function createSession(store, api, clock) {
   /** @param {keyof State["failures"]} part @param {Failure | null} failure */
   const fail = (part, failure) => set({ failures: { ...get().failures, [part]: failure } });
 
+  /** What requests call the scene: its id, or its document */
+  const asked = () => (get().place.scene === OWN ? get().own : get().place.scene);
+
   /** Runs a task; what goes wrong is kept for the view of its part. @param {keyof State["failures"]} part @param {() => Promise<void>} task */
   async function attempt(part, task) {
     try {
@@ -62,6 +43,8 @@ export function createSession(store, api, clock) {
     }
   }
 
+  /** @type {object | null} */
+  let shown = null;
   const simulations = latestOnly(simulate, PAUSE);
 
   /** Fast swings are asked for again with as many samples as they need. @param {object} request @param {import("./types.js").Trajectory} trajectory */
@@ -77,18 +60,26 @@ export function createSession(store, api, clock) {
     await attempt("simulation", async () => {
       const trajectory = await api.simulate(request, signal);
       if (signal.aborted) return;
-      set({ trajectory });
+      set({ trajectory, ...shownWith(request) });
       clock.setEnd(endOf(trajectory));
       refine(request, trajectory);
     });
     set({ simulating: false });
   }
 
+  /** The viewer's own scene changes on the page together with its motion. @param {any} request */
+  function shownWith({ scene }) {
+    if (typeof scene === "string" || scene === shown) return {};
+    shown = scene;
+    return { scene: completed(scene) };
+  }
+
   function askSimulation() {
+    if (!asked()) return;
     const { place, changes, methods } = get();
     const method = methods.find((candidate) => candidate.id === place.method);
     simulations.ask({
-      scene: place.scene, ...changes, t_end: place.duration, samples: Math.min(2001, place.duration * RATE + 1), include: PARTS,
+      scene: asked(), ...changes, t_end: place.duration, samples: Math.min(2001, place.duration * RATE + 1), include: PARTS,
       lang: place.lang,
       ...(method ? { method: method.id } : {}),
       ...(method && method.adaptive === false ? { step: STEP } : {}),
@@ -96,10 +87,11 @@ export function createSession(store, api, clock) {
   }
 
   async function derive() {
-    const { scene, lang } = get().place;
+    const { lang } = get().place;
+    const scene = asked();
     await attempt("derivation", async () => {
       const derivation = await api.derive({ scene, lang });
-      if (get().place.scene !== scene || get().place.lang !== lang) return;
+      if (asked() !== scene || get().place.lang !== lang) return;
       const lines = linesOf(derivation.chapters);
       set({ derivation, lines });
       move({ step: moved(lines, get().place.step, 0) });
@@ -114,7 +106,8 @@ export function createSession(store, api, clock) {
     move({ scene: id, step });
     askSimulation();
     await attempt("scene", async () => {
-      const [scene] = await Promise.all([api.scene(id, get().place.lang), derive()]);
+      const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang);
+      const [scene] = await Promise.all([document, derive()]);
       if (get().place.scene === id) set({ scene });
     });
   }
@@ -122,13 +115,13 @@ export function createSession(store, api, clock) {
   /** @param {string} lang */
   async function speak(lang) {
     move({ lang });
-    await attempt("page", async () => set({ catalog: await api.catalog(lang) }));
+    await attempt("page", async () => set({ catalog: await api.catalog(lang, get().place.edit !== "") }));
   }
 
   return {
     /** @param {import("./types.js").Place} place */
-    async start(place) {
-      set({ place });
+    async start(place, own = /** @type {import("./own.js").SceneDocument | null} */ (null)) {
+      set({ place, own, fragment: own ? await fragmentOf(own) : "" });
       const listed = attempt("page", async () => {
         const [{ scenes }, { methods }] = await Promise.all([api.scenes(), api.methods()]);
         set({ scenes, methods });
@@ -136,9 +129,18 @@ export function createSession(store, api, clock) {
       const spoken = speak(place.lang);
       if (!place.scene || place.method) await listed;
       const scene = place.scene || preferred(get().scenes);
-      await Promise.all([listed, spoken, ...(scene ? [choose(scene, place.step)] : [])]);
+      await Promise.all([listed, spoken, ...(scene && (scene !== OWN || own) ? [choose(scene, place.step)] : [])]);
     },
     choose,
+    /** Shows the viewer's own scene; what is on the page stays until the new is there. @param {import("./own.js").SceneDocument} own */
+    async show(own) {
+      set({ own, changes: UNCHANGED });
+      if (get().place.scene !== OWN) return choose(OWN);
+      askSimulation();
+      await derive();
+    },
+    /** The address of a scene while it is written. @param {import("./own.js").SceneDocument} own */
+    address: async (own) => set({ fragment: await fragmentOf(own) }),
     /** @param {number} by */
     go: (by) => move({ step: moved(get().lines, get().place.step, by) }),
     /** @param {string} step */
@@ -152,8 +154,11 @@ export function createSession(store, api, clock) {
       await derive();
       askSimulation();
     },
-    /** @param {Partial<import("./types.js").Place>} patch */
-    move,
+    /** The editor's texts are fetched when it opens. @param {Partial<import("./types.js").Place>} patch */
+    move(patch) {
+      move(patch);
+      if (patch.edit && !get().catalog.editor) void speak(get().place.lang);
+    },
     /** @param {Partial<import("./types.js").Place>} patch how to simulate */
     resimulate(patch) {
       move(patch);

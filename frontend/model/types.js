@@ -7,20 +7,22 @@
  *   min?: number | null, max?: number | null}} Parameter
  * @typedef {{name: string, position: string[]}} Point
  * @typedef {{name: string, kind: string, mass?: string, position: string[]}} Body
- * @typedef {{kind: string, name: string, at?: string, latex?: string, acceleration?: string[]}} Load
+ * @typedef {{kind: string, name: string, at?: string, latex?: string, acceleration?: string[],
+ *   from?: string, to?: string}} Load
  * @typedef {{coordinate: string, value: string}} Guide
  * @typedef {{kind: string, at?: string, from?: string, to?: string, load?: string, coordinate?: string,
  *   direction?: string, radius?: number | string, width?: number, height?: number, label?: string}} Element
  * @typedef {{vertical?: "up" | "down", view?: number[] | null, elements?: Element[]}} Drawing
  * @typedef {Record<string, string>} Texts  text by language
- * @typedef {{id: string, title: Texts, summary: Texts, degrees_of_freedom: number}} SceneEntry
+ * @typedef {{id: string, title: Texts, summary?: Texts, degrees_of_freedom: number}} SceneEntry
  * @typedef {{id: string, title: Texts, summary: Texts, dimension: number, coordinates: Coordinate[],
  *   parameters: Parameter[], points: Point[], bodies: Body[], loads: Load[], guides?: Guide[],
  *   drawing?: Drawing | null}} Scene
  * @typedef {{id: string, rule: string, title: string, text: string, latex: string, marked: string,
  *   verified: boolean, sources: string[], substeps: Step[]}} Step
  * @typedef {{id: string, title: string, steps: Step[]}} Chapter
- * @typedef {{id: string, chapters: Chapter[]}} Derivation
+ * @typedef {{id: string, chapters: Chapter[],
+ *   result?: {equations?: {coordinate: string, plain: string, latex: string}[]}}} Derivation
  * @typedef {{id: string, title?: string, adaptive?: boolean, order?: number}} Method
  * @typedef {{kinetic: number[], potential: number[], balance: number[]}} Energy
  * @typedef {{status: string, reason?: string | null, remedy?: string | null, t: number[],
@@ -38,10 +40,13 @@
  * @typedef {{key: string, d: string, className: string, at?: Pixel, opacity?: number}} Shape
  * @typedef {{key: string, latex: string, at: Pixel, className: string, start?: boolean, opacity?: number}} Label  start: the label begins at its place instead of being centred
  * @typedef {{shapes: Shape[], labels: Label[]}} Figure
+ * @typedef {{pointer: string, offset: number | null, length: number | null, code: string, message: string,
+ *   severity?: string}} Problem
  * @typedef {{title: string, detail: string, problems: {message: string, pointer?: string}[], status: number}} Failure
  * @typedef {Record<string, string | Record<string, unknown>>} Catalog
  * @typedef {"derivation" | "plots" | "values"} Panel
+ * @typedef {"" | "form" | "json" | "toml"} Editing  which side of the editor is open
  * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, duration: number,
- *   panel: Panel}} Place  what the address says
+ *   panel: Panel, edit: Editing}} Place  what the address says
  */
 export {};

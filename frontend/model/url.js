@@ -3,11 +3,12 @@
 /** @typedef {import("./types.js").Place} Place */
 
 /** @type {Place} */
-export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", duration: 10, panel: "derivation" };
+export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", duration: 10, panel: "derivation", edit: "" };
 
 const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
 const PANELS = ["derivation", "plots", "values"];
+const EDITING = ["form", "json", "toml"];
 const LONGEST = 100;
 
 /**
@@ -25,6 +26,7 @@ export function readPlace(query) {
     method: slug(given.get("method")),
     duration: seconds > 0 && seconds <= LONGEST ? seconds : HOME.duration,
     panel: /** @type {import("./types.js").Panel} */ (oneOf(PANELS, given.get("panel"), HOME.panel)),
+    edit: /** @type {import("./types.js").Editing} */ (given.get("edit") === "" ? "form" : oneOf(EDITING, given.get("edit"), HOME.edit)),
   };
 }
 

@@ -107,7 +107,7 @@ export function createDrawing(frame) {
     show(scene, trajectory, t) {
       if (given.scene === scene && given.trajectory === trajectory) return;
       given = { scene, trajectory };
-      shown = scene && trajectory?.t.length ? { scene: withDrawing(scene), trajectory } : null;
+      shown = scene && trajectory?.t.length ? { scene: withDrawing(scene, trajectory), trajectory } : null;
       measure();
       if (shown) draw(t);
       else clear();

@@ -4,6 +4,7 @@ import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
+import { OWN } from "../model/own.js";
 
 /** @typedef {import("./page.js").View} View */
 
@@ -20,6 +21,7 @@ export function header(view) {
       <a class="brand" href="/" title=${t("tagline")}><span class="delta">δ</span><span class="q">q</span></a>
       ${sceneChooser(view)}
       <div class="tools">
+        ${pen(view)}
         ${language(view)}
         <label class="choice theme" title=${t("theme.choose")}>
           <span class="unseen">${t("theme.choose")}</span>${icon("theme")}
@@ -35,24 +37,48 @@ export function header(view) {
   `;
 }
 
+/** Into the editor with a copy of the scene, or with one's own; and out of it. @param {View} view */
+function pen({ state, session, editor, t }) {
+  const { edit, scene } = state.place;
+  const label = t(edit ? "editor.leave" : scene === OWN ? "editor.open" : "editor.copy");
+  const press = () => {
+    session.move({ edit: edit ? "" : "form", panel: "derivation" });
+    if (!edit) editor?.copy();
+  };
+  return html`<button class="tool pen" title=${label} aria-label=${label} aria-pressed=${String(edit !== "")}
+    ?disabled=${!state.scene && scene !== OWN} @click=${press}>${icon("pen")}</button>`;
+}
+
+/** The built-in scenes, and the viewer's own if it is there. @param {View["state"]} state */
+function entriesOf({ scenes, scene, place }) {
+  if (place.scene !== OWN || !scene) return scenes;
+  const freedoms = scene.coordinates.length - (scene.guides ?? []).length;
+  return [{ id: OWN, title: scene.title, summary: scene.summary, degrees_of_freedom: freedoms }, ...scenes];
+}
+
 /** @param {View} view */
 function sceneChooser({ state, session, t }) {
   const { lang, scene } = state.place;
-  const entry = state.scenes.find((candidate) => candidate.id === scene);
+  const entries = entriesOf(state);
+  const entry = entries.find((candidate) => candidate.id === scene);
+  const leaveFor = (/** @type {string} */ id) => {
+    session.move({ edit: "" });
+    void session.choose(id);
+  };
   const freedoms = entry?.degrees_of_freedom ?? 0;
   return html`
     <div class="scene">
       <h1>
         <label class="choice">
           <span class="unseen">${t("scene.choose")}</span>
-          <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => session.choose(chosen(e))}>
+          <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => leaveFor(chosen(e))}>
             ${entry ? nothing : html`<option value=${scene} selected>${t("scene.choose")}</option>`}
-            ${state.scenes.map((s) => html`<option value=${s.id} ?selected=${s.id === scene}>${inLanguage(s.title, lang)}</option>`)}
+            ${entries.map((s) => html`<option value=${s.id} ?selected=${s.id === scene}>${inLanguage(s.title, lang)}</option>`)}
           </select>${icon("chevron")}
         </label>
       </h1>
       <p class="summary">${entry ? (freedoms === 1 ? t("scene.freedoms-one") : t("scene.freedoms", { count: freedoms })) : ""}
-        ${entry ? html`<span class="more">${inLanguage(entry.summary, lang)}</span>` : nothing}</p>
+        ${entry ? html`<span class="more">${inLanguage(state.scene?.summary, lang)}</span>` : nothing}</p>
     </div>
   `;
 }

@@ -13,6 +13,9 @@ const PATHS = {
   verified: "M4 10.5l4 4 8-9",
   chevron: "M5 8l5 5 5-5",
   theme: "M10 3a7 7 0 1 0 0 14zM10 3a7 7 0 0 1 0 14",
+  pen: "M4 16l.8-3.4L13.6 3.8l2.6 2.6-8.8 8.8zM11.8 5.6l2.6 2.6",
+  add: "M10 4v12M4 10h12",
+  up: "M5 12l5-5 5 5",
   close: "M5 5l10 10M15 5L5 15",
 };
 const SOLID = new Set(["play", "pause"]);

@@ -23,6 +23,7 @@ import { inLanguage } from "../model/catalog.js";
  * @property {(t: number) => void} scrub
  * @property {() => void} fullscreen
  * @property {() => void} reload
+ * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
  */
 
 const PANELS = /** @type {const} */ (["derivation", "plots", "values"]);
@@ -35,13 +36,7 @@ export function page(view) {
     <a class="skip" href="#derivation">${t("skip")}</a>
     ${header(view)}
     <main class="desk" data-panel=${state.place.panel}>
-      <section class="derivation" id="derivation" aria-label=${t("derivation")}>
-        ${chapters(view)}
-        <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
-          ${trouble(view) ?? steps(view)}
-        </div>
-        ${pager(view)}
-      </section>
+      ${state.place.edit ? writing(view) : reading(view)}
       <section class="figure ${failures.simulation ? "failed" : ""}" aria-label=${t("drawing")}>
         ${drawing(view)}
         ${player(view)}
@@ -56,6 +51,27 @@ export function page(view) {
     ${panels(view)}
     ${overlays(view)}
   `;
+}
+
+/** @param {View} view */
+function reading(view) {
+  const { t } = view;
+  return html`
+    <section class="derivation" id="derivation" aria-label=${t("derivation")}>
+      ${chapters(view)}
+      <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
+        ${trouble(view) ?? steps(view)}
+      </div>
+      ${pager(view)}
+    </section>`;
+}
+
+/** @param {View} view */
+function writing(view) {
+  return html`
+    <section class="derivation editor" id="derivation" aria-label=${view.t("editor")}>
+      ${view.editor ? view.editor.view(view) : html`<p class="notice" role="status">…</p>`}
+    </section>`;
 }
 
 /** What stands in the derivation's place when there is none. @param {View} view */
@@ -101,7 +117,7 @@ function panels({ state, session, t }) {
   return html`
     <nav class="panels" aria-label=${t("panel.choose")}>
       ${PANELS.map((panel) => html`
-        <button aria-pressed=${String(state.place.panel === panel)} @click=${() => session.move({ panel })}>${t(`panel.${panel}`)}</button>`)}
+        <button aria-pressed=${String(state.place.panel === panel)} @click=${() => session.move({ panel })}>${t(panel === "derivation" && state.place.edit ? "editor" : `panel.${panel}`)}</button>`)}
     </nav>
   `;
 }

@@ -24,6 +24,12 @@ async def test_list_has_every_scene_file(client: httpx.AsyncClient) -> None:
         assert entry["degrees_of_freedom"] == len(load_scene(entry["id"]).free)
 
 
+async def test_list_without_summaries(client: httpx.AsyncClient) -> None:
+    entries = (await client.get(f"{SCENES}?summaries=false")).json()["scenes"]
+    assert [entry["id"] for entry in entries] == list(scene_ids())
+    assert all(entry.keys() == {"id", "title", "degrees_of_freedom"} for entry in entries)
+
+
 @pytest.mark.parametrize("identifier", scene_ids())
 async def test_scene_document_is_a_valid_scene_again(client: httpx.AsyncClient, identifier: str) -> None:
     document = (await client.get(f"{SCENES}/{identifier}")).json()

@@ -48,10 +48,15 @@ async def test_methods(client: httpx.AsyncClient, language: str) -> None:
 async def test_catalog(client: httpx.AsyncClient, language: str) -> None:
     response = await client.get(f"{API}/catalogs/{language}")
     answer = response.json()
-    assert answer.keys() == {"rules", "errors", "statuses", "page", "methods"}
+    assert answer.keys() == {"rules", "errors", "statuses", "page", "methods", "editor"}
     assert {"type", "request-scene-type", "missing-field"} <= answer["errors"].keys()  # of three files
     again = await client.get(f"{API}/catalogs/{language}", headers={"If-None-Match": response.headers["etag"]})
     assert again.status_code == 304
+
+
+async def test_sections_of_a_catalog(client: httpx.AsyncClient) -> None:
+    response = await client.get(f"{API}/catalogs/de?sections=page,methods,none")
+    assert response.json().keys() == {"page", "methods"}
 
 
 async def test_catalog_of_a_language_we_do_not_speak(client: httpx.AsyncClient) -> None:
@@ -86,6 +91,8 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
     assert calls == {
         "GET /catalogs/{lang}",
         "POST /derivations",
+        "POST /expressions",
+        "POST /expressions/batch",
         "GET /derivations/{identifier}",
         "GET /health",
         "GET /methods",

@@ -2,6 +2,7 @@ import { strict as assert } from "node:assert";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { inLanguage, translator } from "../../frontend/model/catalog.js";
+import { SECTIONS } from "../../frontend/model/editor/schema.js";
 
 const FRONTEND = new URL("../../frontend/", import.meta.url);
 const LOCALES = new URL("../../backend/deltaq/narration/locales/", import.meta.url);
@@ -21,9 +22,9 @@ test("a text in the asked language, else in English, else in any", () => {
   assert.equal(inLanguage(undefined, "en"), "");
 });
 
-const source = ["app.js", ...["view", "model"].flatMap((folder) => readdirSync(new URL(folder, FRONTEND)).filter((f) => f.endsWith(".js")).map((f) => `${folder}/${f}`))]
+const source = ["app.js", ...["view", "model"].flatMap((folder) => readdirSync(new URL(folder, FRONTEND), { recursive: true }).map(String).filter((f) => f.endsWith(".js")).map((f) => `${folder}/${f}`))]
   .map((file) => readFileSync(new URL(file, FRONTEND), "utf8")).join("\n");
-const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, JSON.parse(readFileSync(new URL(`${lang}/page.json`, LOCALES), "utf8"))]));
+const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor"].map((section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"))))]));
 
 test("both languages have the same texts with the same parameters", () => {
   const holes = (/** @type {string} */ text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort().join();
@@ -37,8 +38,19 @@ test("every text that the page asks for is there", () => {
   assert.deepEqual(asked.filter((key) => !(key in catalogs.en)), []);
 });
 
+const fields = SECTIONS.flatMap((section) => [...section.fields, ...Object.values(section.kinds ?? {}).flat()].map(({ key }) => key));
+/** What the editor asks for by section, field, kind and state. */
+const EDITOR = [
+  ...SECTIONS.flatMap(({ key, kinds }) => [`editor.${key}`, `editor.add.${key}`, ...Object.keys(kinds ?? {}).map((kind) => `editor.kind.${kind}`)]),
+  ...[...fields, "angular_velocity"].map((key) => `editor.field.${key}`),
+  ...["title", "summary"].map((key) => `editor.field.${key}`),
+  ...["waiting", "valid", "invalid", "unreachable"].map((verdict) => `editor.${verdict}`),
+];
+
+test("every text of the editor is there", () => assert.deepEqual(EDITOR.filter((key) => !(key in catalogs.en)), []));
+
 test("every text that is there is used", () => {
-  const composed = ["theme.", "panel.", "language."];
-  const unused = Object.keys(catalogs.en).filter((key) => !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
+  const composed = ["theme.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical."];
+  const unused = Object.keys(catalogs.en).filter((key) => !EDITOR.includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });

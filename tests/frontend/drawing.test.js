@@ -70,7 +70,8 @@ test("an unknown kind is passed over", () => {
 });
 
 test("a scene without a drawing shows its bodies", () => {
-  assert.deepEqual(withDrawing({ ...scene, drawing: null }).drawing?.elements?.map((e) => e.kind), ["trail", "bob"]);
+  const kinds = withDrawing({ ...scene, loads: [], drawing: null }, trajectory).drawing?.elements?.map((e) => e.kind);
+  assert.deepEqual(kinds, ["ground", "trail", "rod", "pivot", "bob"]);
 });
 
 test("a spring begins and ends at its places, keeps its coils, and survives length zero", () => {

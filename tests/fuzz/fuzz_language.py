@@ -3,7 +3,8 @@
     python tests/fuzz/fuzz_language.py plain corpus/ -max_total_time=300 -max_len=400
 
 What must hold for every text: it is read, or refused with one ExpressionError whose place lies in the text; what was
-read becomes SymPy or is refused; printing and reading again gives the same value; nothing takes longer than a second.
+read becomes SymPy or is refused, in less than 0.2 s; printing and reading again gives the same value, and display keeps
+it, in less than a second.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from tests.language.hostile import BOMBS, CODE, LARGE, LATEX  # noqa: E402
 from tests.language.scene_names import NAMES, SYMBOLS  # noqa: E402
 
 SYNTAX = "latex" if sys.argv[1:2] == ["latex"] else "plain"
-SLOW = 1.0
+SLOW_READING, SLOW_SHOWING = 0.2, 1.0
 BOUNDS = {
     *("too-long", "too-many-digits", "too-many-nodes", "too-deep", "value-too-large", "value-too-small"),
     *("degree-too-large", "exponent-too-large", "not-real", "outside-domain", "division-by-zero"),
@@ -38,18 +39,29 @@ BOUNDS = {
 def one_text(data: bytes) -> None:
     """Read one text and check what must hold."""
     text = data.decode("utf-8", "replace")
+    value, took = timed_reading(text)
+    if took > SLOW_READING:
+        # A pause of the machine does not come twice.
+        value, took = timed_reading(text)
+    assert took < SLOW_READING, (took, text)
+    started = time.process_time()
+    round_trip(text, value)
+    took = time.process_time() - started
+    assert took < SLOW_SHOWING, (took, text)
+
+
+def timed_reading(text: str) -> tuple[object, float]:
+    """The SymPy value of a text, None if it is refused, and how long this took in seconds."""
     started = time.process_time()
     try:
         value = to_sympy(parse(text, NAMES, SYNTAX).tree, SYMBOLS)
     except ExpressionError as error:
+        value = None
         (problem,) = error.problems
         if problem.offset is not None:
             assert 0 <= problem.offset <= len(text), (text, problem)
             assert 0 <= (problem.length or 0) <= len(text) - problem.offset, (text, problem)
-    else:
-        round_trip(text, value)
-    took = time.process_time() - started
-    assert took < SLOW, (took, text)
+    return value, time.process_time() - started
 
 
 def round_trip(text: str, value: object) -> None:
@@ -83,7 +95,7 @@ def seeds(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 2:
+    if len(sys.argv) > 2 and not Path(sys.argv[2]).is_file():
         seeds(Path(sys.argv[2]))
     atheris.Setup([sys.argv[0], *sys.argv[2:]], one_text)
     atheris.Fuzz()

@@ -40,6 +40,19 @@ def validate(document: Document) -> Document:
     return {"valid": valid, "problems": describe(problems, document["lang"])}
 
 
+def typeset(document: Document) -> Document:
+    """What one expression means."""
+    answer: Document = import_module("deltaq.narration.expressions").typeset_request(document)
+    return answer
+
+
+def typeset_all(document: Document) -> Document:
+    """What each of several expressions means, or what is wrong with it."""
+    answers, problems = import_module("deltaq.narration.expressions").typeset_all(document)
+    told = (describe(one, document["lang"]) for one in problems)
+    return {"expressions": [{**answer, "problems": list(one)} for answer, one in zip(answers, told, strict=True)]}
+
+
 def warm(document: Document) -> Document:
     """Bring the compiled kernels to disk and into this worker, so that nobody waits for a compiler."""
     import_module("deltaq.simulation.service").warm()

@@ -23,6 +23,9 @@ from .trigonometry import shortest
 
 _RATE = 1
 _LARGEST_DENOMINATOR = 12
+# Terms: more are not read by anyone, so they stay as they are, or at least in Fourier form.
+_MAX_SHOWN = 600
+_MAX_SHORTENED = 200
 # Degrees in the rates at which a common factor goes in front: a potential or force, a kinetic energy, one with a guide.
 _FACTORED = ({0.0}, {2.0}, {1.0, 2.0}, {0.0, 1.0, 2.0})
 
@@ -51,6 +54,8 @@ def size(expr: Any) -> int:
 def _candidates(expr: Any, order: Order) -> list[Any]:
     reader = Reader()
     form = reader.form(expr)
+    if len(form) > _MAX_SHOWN:
+        return [expr]
     arranged = _Arrangement(reader, order)
     candidates = [arranged.expression(form)]
     if reader.bases:
@@ -81,6 +86,8 @@ class _Arrangement:
         return self._gathered(form)
 
     def _shortened(self, form: Form) -> Form:
+        if len(form) > _MAX_SHORTENED:
+            return form
         return fourier.add(
             fourier.multiply({(outer, STILL, False): fmpq(1)}, shortest(inner, self._reader))
             for outer, inner in self._groups(form).items()

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import sympy
+from flint import fmpq
 
 from . import fourier
 from .fourier import ONE, Form, Monomial, Phase, TooLargeError
 
-_MAX_WORK = 150_000
+_MAX_WORK = 60_000
 
 
 class Generators:
@@ -19,13 +20,35 @@ class Generators:
         self.meaning: dict[str, Any] = {}
         self.bases: dict[str, Form] = {}
         self._work = 0
+        self._has_roots = False
 
     def multiply(self, left: Form, right: Form) -> Form:
         """The product, as long as all products together stay within bounds."""
         self._work += len(left) * len(right)
         if self._work > _MAX_WORK:
             raise TooLargeError
-        return fourier.multiply(left, right)
+        product = fourier.multiply(left, right)
+        return self.reduced_roots(product) if self._has_roots else product
+
+    def root(self, prime: int, exponent: Any) -> Form:
+        """A root of a prime, as a generator of its own."""
+        self._has_roots = True
+        self.meaning[str(prime)] = sympy.Integer(prime)
+        return fourier.monomial(str(prime), exponent)
+
+    def reduced_roots(self, form: Form) -> Form:
+        """Whole powers of primes taken into the coefficients: √2·√2 = 2."""
+        if not any(name.isdigit() and not 0 < _size(e) < 1 for mono, _, _ in form for name, e in mono):
+            return form
+        return fourier.add(self._reduced_root(term, coefficient) for term, coefficient in form.items())
+
+    def _reduced_root(self, term: fourier.Term, coefficient: Any) -> Form:
+        mono, phase, sine = term
+        whole = {name: _floor(e) for name, e in mono if name.isdigit()}
+        for name, exponent in whole.items():
+            coefficient *= fmpq(int(name)) ** exponent
+        rest = tuple((name, e - whole.get(name, 0)) for name, e in mono)
+        return {(tuple(pair for pair in rest if pair[1]), phase, sine): coefficient}
 
     def raised(self, form: Form, exponent: int) -> Form:
         """A power with a whole exponent ≥ 0, by squaring."""
@@ -79,6 +102,10 @@ class Generators:
     def generator(self, name: str) -> Any:
         """What a generator stands for."""
         return self.expression(self.bases[name]) if name in self.bases else self.meaning[name]
+
+
+def _size(exponent: Any) -> float:
+    return float(exponent) if isinstance(exponent, int) else int(exponent.p) / int(exponent.q)
 
 
 def _floor(exponent: Any) -> int:

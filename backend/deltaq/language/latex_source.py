@@ -12,7 +12,8 @@ _SPACE = re.compile(
     r"|textstyle|limits|nolimits|nonumber|notag|hfill|allowbreak)(?![A-Za-z]))+"
 )
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+\*?|.)", re.DOTALL)
-_ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z*]{1,20})\}")
+# Two backslashes end a row, also before the letters "end".
+_ENVIRONMENT = re.compile(r"\\\\|\\(begin|end)\s*\{([A-Za-z*]{1,20})\}")
 
 Range = tuple[int, int]
 
@@ -49,8 +50,9 @@ class Source:
         return found
 
     def command(self) -> str:
-        """Step over the command ahead; its name without backslash, "" if there is none."""
+        """Step over the command ahead; its name without backslash, "" for a lone backslash at the end."""
         found = self.match(_COMMAND)
+        self.at += found is None
         return found[0][1:] if found else ""
 
     def peek_command(self) -> str:
@@ -113,7 +115,7 @@ class Source:
             fail("unclosed-environment", Span(start, 6), name="")
         depth, name = 1, opening[2]
         for found in _ENVIRONMENT.finditer(self.text, opening.end(), self.end):
-            depth += 1 if found[1] == "begin" else -1
+            depth += {"begin": 1, "end": -1}.get(found[1], 0)
             if depth == 0:
                 if found[2] != name:
                     break

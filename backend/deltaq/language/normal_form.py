@@ -98,19 +98,23 @@ class Reader(Generators):
             total = exponent * times
             whole = sympy.floor(total)
             part = total - whole
-            self.meaning[str(prime)] = sympy.Integer(prime)
-            root = fourier.monomial(str(prime), fmpq(int(part.p), int(part.q)) if part else 0)
+            root = self.root(int(prime), fmpq(int(part.p), int(part.q)) if part else 0)
             form = self.multiply(form, fourier.scale(root, fmpq(int(prime)) ** int(whole)))
         return form
 
     def _base(self, form: Form, exponent: Any, expr: Any) -> Form:
         """A negative or fractional power: of a single monomial at once, else of a base with leading coefficient ±1."""
+        numerator, denominator = self.cleared(form)
+        form = form if denominator else numerator
+        if not form and exponent > 0:
+            return {}
         if not form:
             raise ZeroDivisionError
         if len(form) == 1 and fourier.is_still(form):
             ((mono, _, _), coefficient), *_ = form.items()
             if exponent.q == 1:
-                return {(fourier.raised(mono, exponent), STILL, False): coefficient ** int(exponent.p)}
+                raised: Form = {(fourier.raised(mono, exponent), STILL, False): coefficient ** int(exponent.p)}
+                return self.reduced_roots(raised)
             if coefficient > 0 and all(self._is_positive(name) for name, _ in mono):
                 number = sympy.Rational(int(coefficient.p), int(coefficient.q))
                 root = self._root(number, sympy.Rational(int(exponent.p), int(exponent.q)))
@@ -122,7 +126,7 @@ class Reader(Generators):
             if int(size.p) * int(size.q) > _LARGEST_FACTORED:
                 return self._opaque(expr)
         monic = fourier.scale(form, 1 / size)
-        key = f"~{sympy.sstr(self.expression(monic))}"
+        key = f"~~{sympy.sstr(self.expression(monic))}"
         self.bases[key] = monic
         number = self._power(sympy.Rational(int(size.p), int(size.q)), sympy.Rational(int(exponent.p), int(exponent.q)))
         return self.multiply(number, fourier.monomial(key, exponent if exponent.q > 1 else int(exponent.p)))

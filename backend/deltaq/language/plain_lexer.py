@@ -136,7 +136,7 @@ def operator_tokens(text: str, span: Span) -> Iterator[Token]:
 def number_token(text: str, span: Span) -> Token:
     """An exact number of at most 30 digits, its power of ten within 10^±30."""
     mantissa, _, exponent = text.lower().partition("e")
-    if mantissa.count(".") > 1 or "_" in text:
+    if text.count(".") > mantissa.count(".") or mantissa.count(".") > 1 or "_" in text:
         fail("number-format", span, number=text[:40])
     if sum(map(str.isdigit, mantissa)) > MAX_DIGITS:
         fail("too-many-digits", span, limit=MAX_DIGITS)

@@ -14,11 +14,13 @@ from .normal_form import Reader
 
 _MAX_TERMS = 60
 _MAX_MULTIPLE = 8
+# A wave of n angles becomes 2^(n-1) products: more than this is never shorter.
+_MAX_ANGLES = 4
 
 
 def shortest(form: Form, reader: Reader) -> Form:
     """The form as it is, or with sin² or with cos² eliminated, whichever is shortest to write."""
-    if len(form) > _MAX_TERMS or fourier.is_still(form):
+    if len(form) > _MAX_TERMS or fourier.is_still(form) or max(len(phase) for _, phase, _ in form) > _MAX_ANGLES:
         return form
     units = _units(form)
     if any(abs(c) > _MAX_MULTIPLE * units[mono] for _, phase, _ in form for mono, c in phase):

@@ -44,6 +44,11 @@ def examine(document: Mapping[str, object]) -> tuple[Scene | None, tuple[Problem
     return None, tuple(problems)
 
 
+def names_in(document: Mapping[str, object]) -> Names:
+    """The names that expressions of a document may use, whatever else is wrong with it."""
+    return _names(Reader(document, "", []))
+
+
 def _scene(root: Reader) -> Iterator[Scene]:
     """The scene, if all its parts are sound; what it says of itself (no body, no freedom) only matters then."""
     if root.get("format", int, FORMAT) != FORMAT:

@@ -3,6 +3,7 @@
 import { ground, guide, pivot } from "./supports.js";
 import { bob, cart, disc, rod, spring, trail } from "./members.js";
 import { angle, dimension, force, weight } from "./marks.js";
+import { sketchOf, verticalOf } from "./sketch.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
 /** @typedef {import("../types.js").Snapshot} Snapshot */
@@ -27,9 +28,12 @@ export function figureOf(stage, now) {
   return { shapes: figures.flatMap((f) => f.shapes), labels: figures.flatMap((f) => f.labels) };
 }
 
-/** The stretch of places that a scene without a drawing can still show: a bob at every body. @param {import("../types.js").Scene} scene */
-export function withDrawing(scene) {
+/**
+ * A scene that brings no drawing gets one from its motion.
+ * @param {import("../types.js").Scene} scene @param {import("../types.js").Trajectory} trajectory
+ * @returns {import("../types.js").Scene}
+ */
+export function withDrawing(scene, trajectory) {
   if (scene.drawing?.elements?.length) return scene;
-  const elements = scene.bodies.flatMap((body) => [{ kind: "trail", at: body.name }, { kind: "bob", at: body.name }]);
-  return { ...scene, drawing: { ...scene.drawing, elements } };
+  return { ...scene, drawing: { ...scene.drawing, vertical: verticalOf(scene), elements: sketchOf(scene, trajectory) } };
 }

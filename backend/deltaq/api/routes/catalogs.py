@@ -16,10 +16,11 @@ router = APIRouter(prefix="/catalogs", tags=["catalogs"])
 
 
 @router.get("/{lang}", response_model=dict[str, dict[str, Any]], responses=failures(404))
-def get_catalog(request: Request, lang: str) -> Response:
-    """All sentences of a language: {rules, errors, statuses, page, methods}."""
+def get_catalog(request: Request, lang: str, sections: str = "") -> Response:
+    """All sentences of a language: {rules, errors, statuses, page, methods}; or only those `sections`, by commas."""
     known = next((one for one in LANGUAGES if one == lang), None)
     if known is None:
         parameters = {"name": lang[:16], "known": ", ".join(LANGUAGES)}
         raise UnknownNameError(Problem("request-unknown-language", parameters=parameters))
-    return tagged(request, dict(catalog(known)))
+    wanted = set(sections[:200].split(",")) if sections else set(catalog(known))
+    return tagged(request, {name: part for name, part in catalog(known).items() if name in wanted})

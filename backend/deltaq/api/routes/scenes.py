@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Request, Response
+from fastapi import APIRouter, Body, Query, Request, Response
 
 from ...mechanics.library import load_scene, scene_ids
 from ...mechanics.writing import write_scene
@@ -36,9 +36,13 @@ def _entries() -> tuple[dict[str, Any], ...]:
 
 
 @router.get("", response_model=SceneList, responses=failures())
-def list_scenes(request: Request) -> Response:
+def list_scenes(
+    request: Request, *, summaries: Annotated[bool, Query(description="whether to tell what each is about")] = True
+) -> Response:
     """The built-in scenes, titles in all languages."""
-    return tagged(request, {"scenes": _entries()})
+    left_out = () if summaries else ("summary",)
+    entries = [{key: value for key, value in entry.items() if key not in left_out} for entry in _entries()]
+    return tagged(request, {"scenes": entries})
 
 
 @router.get("/{identifier}", responses=failures(404))

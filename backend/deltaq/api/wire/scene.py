@@ -15,7 +15,7 @@ class SceneEntry(Answer):
 
     id: str = Field(examples=["elastic-pendulum"])
     title: dict[str, str] = Field(examples=[{"de": "Federpendel", "en": "Elastic pendulum"}])
-    summary: dict[str, str]
+    summary: dict[str, str] | None = Field(None, description="what the scene is about")
     degrees_of_freedom: int = Field(examples=[2])
 
 

@@ -1,0 +1,55 @@
+"""Expressions: what a text means, in the names of a scene."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ..languages import Language
+from .base import Answer, Names, Request, SceneReference
+from .problem import ProblemEntry
+
+Text = Annotated[str, Field(min_length=1, max_length=4000)]
+
+
+class ExpressionText(Request):
+    """A text to be read."""
+
+    expression: Text = Field(examples=["l*sin(phi)"])
+    syntax: Literal["plain", "latex"] = "plain"
+    material: Names = Field((), description="material coordinates that may be used besides", examples=[[]])
+
+
+class ExpressionRequest(ExpressionText):
+    """A text, and the scene whose names it uses."""
+
+    scene: SceneReference
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+
+class ExpressionsRequest(Request):
+    """Several texts that use the names of one scene."""
+
+    scene: SceneReference
+    expressions: Annotated[tuple[ExpressionText, ...], Field(strict=False, max_length=500)]
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+
+class ExpressionAnswer(Answer):
+    """What the text means."""
+
+    latex: str = Field(examples=["\\ell\\sin\\varphi"])
+    plain: str = Field(examples=["l*sin(phi)"])
+
+
+class ExpressionOutcome(ExpressionAnswer):
+    """What the text means, or empty texts and what is wrong with it."""
+
+    problems: tuple[ProblemEntry, ...]
+
+
+class ExpressionsAnswer(Answer):
+    """One outcome for each text, in order."""
+
+    expressions: tuple[ExpressionOutcome, ...]

@@ -1,0 +1,95 @@
+/** Changes of a scene document: each returns a new one, and what nobody touched stays as it was. */
+
+import { rowsOf, SECTIONS } from "./schema.js";
+import { tableOf } from "../own.js";
+
+/** @typedef {import("../own.js").SceneDocument} SceneDocument */
+
+/** Where things are called by their names, besides expressions. */
+const PLACES = ["at", "from", "to"];
+const NAMED = ["points", "bodies", "loads"];
+
+/**
+ * The document with another value at a pointer; undefined takes the field away.
+ * @template T @param {T} document @param {string} pointer @param {unknown} value
+ * @returns {T}
+ */
+export function written(document, pointer, value) {
+  return /** @type {T} */ (put(document, pointer.split("/").slice(1), value));
+}
+
+/** @param {any} node @param {string[]} path @param {unknown} value @returns {unknown} */
+function put(node, [key, ...rest], value) {
+  if (key === undefined) return value;
+  if (/^\d+$/.test(key) && (Array.isArray(node) || !tableOf(node))) {
+    const list = rowsOf(node).slice();
+    while (list.length < Number(key)) list.push("0");
+    list[Number(key)] = put(list[Number(key)], rest, value);
+    return list;
+  }
+  const table = { ...(tableOf(node) ?? {}), [key]: put(tableOf(node)?.[key], rest, value) };
+  if (table[key] === undefined) delete table[key];
+  return table;
+}
+
+/** A number as typed; what is none stays text, and the server says so. @param {string} text */
+export function numberOf(text) {
+  const trimmed = text.trim();
+  if (!trimmed) return undefined;
+  const number = Number(trimmed.replace(",", "."));
+  return Number.isFinite(number) ? number : text;
+}
+
+/** @param {SceneDocument} document @param {string} key @param {object} row */
+export const added = (document, key, row) => ({ ...document, [key]: [...rowsOf(document[key]), row] });
+
+/** @param {SceneDocument} document @param {string} key @param {number} index @param {number} by */
+export function shifted(document, key, index, by) {
+  const list = rowsOf(document[key]).slice();
+  const to = index + by;
+  if (to < 0 || to >= list.length) return document;
+  [list[index], list[to]] = [list[to], list[index]];
+  return { ...document, [key]: list };
+}
+
+/** Without a row; labels and elements of the drawing that hang on it go with it. @param {SceneDocument} document @param {string} key @param {number} index */
+export function removed(document, key, index) {
+  const gone = rowsOf(document[key])[index]?.name;
+  const next = { ...document, [key]: rowsOf(document[key]).filter((_, i) => i !== index) };
+  if (!gone || key === "parameters" || key === "guides") return next;
+  const keys = referring(key);
+  const kept = labelled(next, (labels) => Object.fromEntries(Object.entries(labels).filter(([name]) => key === "coordinates" || name !== gone)));
+  return elements(kept, (all) => all.filter((element) => !keys.some((one) => element?.[one] === gone)));
+}
+
+/** @param {string} section */
+const referring = (section) => (section === "loads" ? ["load"] : section === "coordinates" ? ["coordinate"] : PLACES);
+
+/** @param {SceneDocument} given @param {(elements: any[]) => any[]} change */
+function elements(given, change) {
+  const drawing = tableOf(given.drawing);
+  return drawing && Array.isArray(drawing.elements) ? { ...given, drawing: { ...drawing, elements: change(drawing.elements) } } : given;
+}
+
+/** @param {SceneDocument} given @param {(labels: SceneDocument) => SceneDocument} change */
+function labelled(given, change) {
+  const labels = tableOf(given.labels);
+  return labels ? { ...given, labels: change(labels) } : given;
+}
+
+/**
+ * A point, body, load or coordinate by another name; loads, guides, labels and drawing follow where this is unambiguous.
+ * @param {SceneDocument} document @param {string} key @param {number} index @param {string} name
+ */
+export function renamed(document, key, index, name) {
+  const before = rowsOf(document[key])[index]?.name;
+  const next = written(document, `/${key}/${index}/name`, name);
+  const taken = SECTIONS.flatMap((section) => rowsOf(document[section.key]).map((row) => row?.name));
+  if (!before || !name || key === "parameters" || taken.includes(name) || taken.filter((one) => one === before).length > 1) return next;
+  const keys = referring(key);
+  const follow = (/** @type {any} */ row) => Object.fromEntries(Object.entries(row ?? {}).map(([k, v]) => [k, keys.includes(k) && v === before ? name : v]));
+  const lists = key === "coordinates" ? ["guides"] : ["loads"];
+  const moved = Object.fromEntries(lists.filter((list) => Array.isArray(next[list])).map((list) => [list, rowsOf(next[list]).map(follow)]));
+  const labels = (/** @type {SceneDocument} */ all) => Object.fromEntries(Object.entries(all).map(([k, v]) => [NAMED.includes(key) && k === before ? name : k, v]));
+  return elements(labelled({ ...next, ...moved }, labels), (all) => all.map(follow));
+}

@@ -1,0 +1,91 @@
+/** What the form asks for: the fields of scene format 1, section by section. */
+
+/** @typedef {import("../own.js").SceneDocument} SceneDocument */
+/** @typedef {"text" | "number" | "flag" | "expression" | "vector" | "place" | "coordinate" | "material"} FieldType */
+/** @typedef {{key: string, type: FieldType, optional?: boolean}} Field */
+/** @typedef {{key: string, kinds?: Record<string, Field[]>, fields: Field[]}} Section */
+
+/** @param {string} key @param {FieldType} type @returns {Field} */
+const field = (key, type) => ({ key, type });
+/** @param {string} key @param {FieldType} type @returns {Field} */
+const optional = (key, type) => ({ key, type, optional: true });
+
+const NAME = field("name", "text");
+const SYMBOL = [NAME, optional("latex", "text"), optional("unit", "text"), field("value", "number")];
+const RANGE = [optional("min", "number"), optional("max", "number")];
+const ENDS = [field("from", "place"), field("to", "place")];
+const POSITION = field("position", "vector");
+const MATERIAL = field("material", "material");
+
+/** @type {Section[]} */
+export const SECTIONS = [
+  { key: "coordinates", fields: [...SYMBOL, field("rate", "number"), ...RANGE] },
+  { key: "parameters", fields: [...SYMBOL, ...RANGE, optional("positive", "flag")] },
+  { key: "points", fields: [NAME, POSITION] },
+  {
+    key: "bodies",
+    fields: [NAME],
+    kinds: {
+      particle: [field("mass", "expression"), POSITION],
+      rigid: [field("mass", "expression"), POSITION, field("inertia", "expression"), field("angle", "expression")],
+      continuum: [MATERIAL, field("density", "expression"), POSITION],
+    },
+  },
+  {
+    key: "loads",
+    fields: [NAME],
+    kinds: {
+      gravity: [field("acceleration", "vector")],
+      force: [field("at", "place"), field("force", "vector")],
+      spring: [...ENDS, field("stiffness", "expression"), optional("rest_length", "expression")],
+      damper: [...ENDS, field("coefficient", "expression")],
+      moment: [field("angle", "expression"), field("moment", "expression")],
+      potential: [field("energy", "expression")],
+      dissipation: [field("function", "expression")],
+      distributed: [MATERIAL, POSITION, field("density", "vector")],
+    },
+  },
+  { key: "guides", fields: [field("coordinate", "coordinate"), field("value", "expression")] },
+];
+
+/** In space a rigid body has three principal moments, and an angular velocity in place of an angle. */
+const RIGID_IN_SPACE = [field("mass", "expression"), POSITION, field("inertia", "vector"), field("angular_velocity", "vector")];
+
+/** The fields of a row. @param {Section} section @param {any} row @param {number} dimension @returns {Field[]} */
+export function fieldsOf(section, row, dimension) {
+  if (row?.kind === "rigid" && dimension === 3) return [...section.fields, ...RIGID_IN_SPACE];
+  return [...section.fields, ...(section.kinds?.[String(row?.kind)] ?? [])];
+}
+
+/** The material coordinates of a row, as names. @param {any} row @returns {string[]} */
+export const materialOf = (row) => rowsOf(row?.material).map((one) => String(one?.name ?? ""));
+
+/** @param {unknown} value @returns {any[]} */
+export const rowsOf = (value) => (Array.isArray(value) ? value : []);
+
+/** @param {SceneDocument} given */
+export const dimensionOf = (given) => (given.dimension === 3 ? 3 : 2);
+
+/** How many components a vector field shows: none that is there is hidden. @param {unknown} vector @param {number} dimension */
+export const componentsOf = (vector, dimension) => Array.from({ length: Math.max(dimension, rowsOf(vector).length) }, (_, i) => i);
+
+/**
+ * Every field the form shows, as a pointer, with what stands in it.
+ * @param {SceneDocument} document
+ * @returns {{pointer: string, value: unknown, type: FieldType, material: string[]}[]}
+ */
+export function shownFields(document) {
+  return SECTIONS.flatMap((section) => rowsOf(document[section.key]).flatMap((row, i) =>
+    fieldsOf(section, row, dimensionOf(document)).flatMap((field) => parts(`/${section.key}/${i}/${field.key}`, field.type, row?.[field.key], row, dimensionOf(document)))));
+}
+
+/** @param {string} pointer @param {FieldType} type @param {any} value @param {any} row @param {number} dimension */
+function parts(pointer, type, value, row, dimension) {
+  const material = materialOf(row);
+  if (type === "vector") {
+    return componentsOf(value, dimension).map((c) => ({ pointer: `${pointer}/${c}`, value: value?.[c], type: /** @type {FieldType} */ ("expression"), material }));
+  }
+  if (type !== "material") return [{ pointer, value, type, material }];
+  return rowsOf(value).flatMap((one, i) => ["name", "from", "to"].map((key) =>
+    ({ pointer: `${pointer}/${i}/${key}`, value: one?.[key], type: /** @type {FieldType} */ (key === "name" ? "text" : "expression"), material: [] })));
+}

@@ -1,0 +1,32 @@
+/** What the page knows, and with what it begins. */
+
+import { HOME } from "./url.js";
+import { UNCHANGED } from "./values.js";
+
+/** @typedef {import("./types.js").Failure} Failure */
+/**
+ * @typedef {object} State
+ * @property {import("./types.js").Place} place
+ * @property {import("./types.js").Catalog} catalog
+ * @property {import("./types.js").SceneEntry[]} scenes
+ * @property {import("./types.js").Method[]} methods
+ * @property {import("./types.js").Scene | null} scene
+ * @property {import("./own.js").SceneDocument | null} own  the viewer's own scene
+ * @property {string} fragment  the same, as the end of an address
+ * @property {import("./types.js").Derivation | null} derivation
+ * @property {import("./reveal.js").Line[]} lines  the derivation's steps in order
+ * @property {import("./types.js").Trajectory | null} trajectory
+ * @property {import("./types.js").Changes} changes
+ * @property {{page: Failure | null, scene: Failure | null, derivation: Failure | null, simulation: Failure | null}} failures
+ * @property {boolean} simulating
+ * @property {"" | "overview" | "help" | "black"} overlay
+ */
+
+/** @type {State["failures"]} */
+export const NO_FAILURES = { page: null, scene: null, derivation: null, simulation: null };
+
+/** @type {State} */
+export const START = {
+  place: HOME, catalog: {}, scenes: [], methods: [], scene: null, own: null, fragment: "", derivation: null, lines: [],
+  trajectory: null, changes: UNCHANGED, failures: NO_FAILURES, simulating: false, overlay: "",
+};

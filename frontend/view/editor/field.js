@@ -1,0 +1,119 @@
+/** One field of the form: label, input, formula, and what is wrong with it. */
+
+import { html, nothing } from "lit-html";
+import { inline } from "../formula.js";
+import { componentsOf, dimensionOf, materialOf, rowsOf } from "../../model/editor/schema.js";
+import { formulaKey } from "../../model/editor/editor.js";
+import { numberOf, renamed } from "../../model/editor/changes.js";
+import { isWarning, marked } from "../../model/editor/problems.js";
+
+/** @typedef {import("./editor.js").Sheet} Sheet */
+/** @typedef {import("../../model/editor/schema.js").Field} Field */
+/** @typedef {{section: string, index: number, row: any}} Row */
+
+/** @param {Event} event */
+const typed = (event) => /** @type {HTMLInputElement} */ (event.target).value;
+/** @param {string} pointer */
+const idOf = (pointer) => `field${pointer.replaceAll("/", "-")}`;
+
+/** What is wrong at a place, in sentences, the place in the text marked. @param {Sheet} sheet @param {string} pointer @param {string} [text] */
+export function complaints({ problems }, pointer, text = "") {
+  const found = problems.get(pointer) ?? [];
+  if (!found.length) return nothing;
+  return html`<div class="complaints" id=${`${idOf(pointer)}-why`}>${found.map((problem) => {
+    const parts = marked(text, problem);
+    return html`
+      ${parts ? html`<code class="where" aria-hidden="true">${parts[0]}<mark>${parts[1]}</mark>${parts[2]}</code>` : nothing}
+      <p class=${isWarning(problem) ? "advice" : "wrong"}>${problem.message}</p>`;
+  })}</div>`;
+}
+
+/** @param {Sheet} sheet @param {string} pointer */
+function aria({ problems }, pointer) {
+  const found = problems.get(pointer) ?? [];
+  return { invalid: String(found.some((problem) => !isWarning(problem))), why: found.length ? `${idOf(pointer)}-why` : nothing };
+}
+
+/** @param {Sheet} sheet @param {string} pointer @param {string} label @param {unknown} value @param {(text: string) => void} change @param {{className?: string, mode?: string}} [look] */
+export function line(sheet, pointer, label, value, change, { className = "", mode = "text" } = {}) {
+  const text = value === undefined || value === null ? "" : String(value);
+  const { invalid, why } = aria(sheet, pointer);
+  return html`
+    <div class="field ${className}" data-pointer=${pointer}>
+      <label for=${idOf(pointer)}>${label}</label>
+      <input id=${idOf(pointer)} type="text" inputmode=${mode} autocomplete="off" autocapitalize="off" spellcheck="false" maxlength="4000"
+        aria-invalid=${invalid} aria-describedby=${why} .value=${text} @input=${(/** @type {Event} */ e) => change(typed(e))}>
+      ${complaints(sheet, pointer, text)}
+    </div>`;
+}
+
+/** @param {Sheet} sheet @param {string} pointer @param {unknown} label @param {unknown} value @param {string[]} material */
+function expression(sheet, pointer, label, value, material) {
+  const text = typeof value === "string" ? value : value === undefined ? "" : String(value);
+  const formula = sheet.writing.formulas.get(formulaKey(text, material));
+  const { invalid, why } = aria(sheet, pointer);
+  return html`
+    <div class="field expression" data-pointer=${pointer}>
+      <label for=${idOf(pointer)}>${label}</label>
+      <input id=${idOf(pointer)} type="text" autocomplete="off" autocapitalize="off" spellcheck="false" maxlength="4000"
+        aria-invalid=${invalid} aria-describedby=${why} .value=${text} @input=${(/** @type {Event} */ e) => sheet.put(pointer, typed(e))}>
+      ${complaints(sheet, pointer, text)}
+      <div class="preview">${formula ? inline(formula) : nothing}</div>
+    </div>`;
+}
+
+/** @param {Sheet} sheet @param {string} pointer @param {string} label @param {string} value @param {string[]} options @param {(text: string) => void} change */
+export function choice(sheet, pointer, label, value, options, change, say = (/** @type {string} */ one) => one) {
+  const all = options.includes(value) ? options : [value, ...options];
+  const { invalid, why } = aria(sheet, pointer);
+  return html`
+    <div class="field" data-pointer=${pointer}>
+      <label for=${idOf(pointer)}>${label}</label>
+      <select id=${idOf(pointer)} aria-invalid=${invalid} aria-describedby=${why} @change=${(/** @type {Event} */ e) => change(typed(e))}>
+        ${all.map((one) => html`<option value=${one} ?selected=${one === value}>${one ? say(one) : "–"}</option>`)}
+      </select>
+      ${complaints(sheet, pointer)}
+    </div>`;
+}
+
+/** @param {Sheet} sheet @param {string} pointer @param {string} label @param {Row} at @param {string} key */
+function vector(sheet, pointer, label, { row }, key) {
+  const components = componentsOf(row[key], dimensionOf(sheet.writing.document));
+  return html`<div class="vector">${components.map((c) =>
+    expression(sheet, `${pointer}/${c}`, html`${label}<sub>${c + 1}</sub>`, row[key]?.[c], materialOf(row)))}</div>`;
+}
+
+/** @param {Sheet} sheet @param {string} pointer @param {any} row */
+function material(sheet, pointer, row) {
+  const { t } = sheet;
+  const list = rowsOf(row.material);
+  return html`<div class="material">${list.map((one, i) => html`<div class="vector">
+      ${line(sheet, `${pointer}/${i}/name`, t("editor.field.material"), one?.name, (text) => sheet.put(`${pointer}/${i}/name`, text), { className: "narrow" })}
+      ${expression(sheet, `${pointer}/${i}/from`, t("editor.field.lower"), one?.from, [])}
+      ${expression(sheet, `${pointer}/${i}/to`, t("editor.field.upper"), one?.to, [])}</div>`)}
+    ${complaints(sheet, pointer)}
+    <div class="actions">
+      ${list.length < 3 ? html`<button class="quiet small" @click=${() => sheet.put(`${pointer}/${list.length}`, { name: "suv"[list.length], from: "0", to: "1" })}>${t("editor.material-add")}</button>` : nothing}
+      ${list.length > 1 ? html`<button class="quiet small" @click=${() => sheet.put(pointer, list.slice(0, -1))}>${t("editor.material-remove")}</button>` : nothing}
+    </div></div>`;
+}
+
+/** @param {Sheet} sheet @param {Row} at @param {Field} field */
+export function fieldOf(sheet, at, { key, type }) {
+  const { section, index, row } = at;
+  const { document } = sheet.writing;
+  const pointer = `/${section}/${index}/${key}`;
+  const label = sheet.t(`editor.field.${key}`);
+  const put = (/** @type {unknown} */ value) => sheet.put(pointer, value);
+  const places = [...rowsOf(document.points), ...rowsOf(document.bodies).filter((body) => body?.kind !== "continuum")].map((one) => String(one?.name ?? ""));
+  const coordinates = rowsOf(document.coordinates).map((one) => String(one?.name ?? ""));
+  if (type === "vector") return vector(sheet, pointer, label, at, key);
+  if (type === "expression") return expression(sheet, pointer, label, row[key], materialOf(row));
+  if (type === "material") return material(sheet, pointer, row);
+  if (type === "number") return line(sheet, pointer, label, row[key], (text) => put(numberOf(text)), { className: "narrow", mode: "decimal" });
+  if (type === "place") return choice(sheet, pointer, label, row[key] ?? "", places, put);
+  if (type === "coordinate") return choice(sheet, pointer, label, row[key] ?? "", coordinates, put);
+  if (type === "flag") return choice(sheet, pointer, label, String(row[key] ?? true), ["true", "false"], (text) => put(text === "true"), (one) => sheet.t(`editor.flag.${one}`));
+  if (key === "name") return line(sheet, pointer, label, row[key], (text) => sheet.editing.edit(renamed(document, section, index, text)), { className: "name" });
+  return line(sheet, pointer, label, row[key], (text) => put(text || undefined), { className: "narrow" });
+}

@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+from typing import Any
+
+import httpx
+import pytest
+
+pytestmark = pytest.mark.anyio
+EXPRESSIONS = "/api/v1/expressions"
+FAULTY = {"coordinates": [{"name": "s"}, {"name": 3}], "parameters": [{"name": "k", "latex": "\\kappa"}], "bodies": 7}
+
+
+@pytest.mark.parametrize(
+    ("body", "latex", "plain"),
+    [
+        pytest.param(
+            {"scene": "pendulum", "expression": "l*sin(phi)"}, "\\ell \\sin\\varphi", "l*sin(phi)", id="plain"
+        ),
+        pytest.param(
+            {"scene": "pendulum", "expression": "\\ell\\dot\\varphi", "syntax": "latex"},
+            "\\ell \\dot{\\varphi}",
+            "l*dot(phi)",
+            id="LaTeX",
+        ),
+        pytest.param({"scene": FAULTY, "expression": "k*s"}, "\\kappa s", "k*s", id="faulty document"),
+        pytest.param(
+            {"scene": "pendulum", "expression": "l*s", "material": ["s"]}, "\\ell s", "l*s", id="material coordinate"
+        ),
+    ],
+)
+async def test_expression_is_typeset(client: httpx.AsyncClient, body: dict[str, Any], latex: str, plain: str) -> None:
+    response = await client.post(EXPRESSIONS, json=body)
+    assert (response.status_code, response.json()) == (200, {"latex": latex, "plain": plain})
+
+
+async def test_mistake_has_its_place(client: httpx.AsyncClient) -> None:
+    body = {"scene": "pendulum", "expression": "2*mas", "lang": "en"}
+    response = await client.post(EXPRESSIONS, json=body)
+    assert response.status_code == 422
+    (problem,) = response.json()["problems"]
+    assert (problem["pointer"], problem["offset"], problem["length"]) == ("/expression", 2, 3)
+    assert problem["code"] == "unknown-name"
+
+
+async def test_batch_answers_each_text(client: httpx.AsyncClient) -> None:
+    texts = [{"expression": "m*g"}, {"expression": "m*"}, {"expression": "cos(phi)^2"}]
+    response = await client.post(f"{EXPRESSIONS}/batch", json={"scene": "pendulum", "expressions": texts, "lang": "en"})
+    assert response.status_code == 200
+    first, second, third = response.json()["expressions"]
+    assert first == {"latex": "m g", "plain": "m*g", "problems": []} or first["problems"] == []
+    assert second["latex"] == ""
+    assert [(one["code"], one["offset"]) for one in second["problems"]] == [("unexpected-end", 2)]
+    assert third["latex"] == "\\cos^{2}\\varphi"
+
+
+async def test_unknown_scene(client: httpx.AsyncClient) -> None:
+    response = await client.post(EXPRESSIONS, json={"scene": "nowhere", "expression": "1"})
+    assert (response.status_code, response.json()["problems"][0]["pointer"]) == (404, "/scene")
