@@ -20,6 +20,7 @@ CHAPTERS = [
     "dalembert-to-lagrange",
     "decomposition",
     "lagrange",
+    "model",
 ]
 
 
@@ -44,6 +45,9 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "mass_matrix",
         "forcing",
         "conserved",
+        "equilibria",
+        "jacobi_energy",
+        "routh",
     }
 
 

@@ -100,6 +100,8 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
         "GET /scenes/{identifier}",
         "POST /scenes/validate",
         "POST /simulations",
+        "POST /variations",
+        "GET /proofs/{identifier}",
     }
     for path, methods in description["paths"].items():
         for method, call in methods.items():

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import statistics
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import sympy
@@ -17,7 +17,11 @@ from tests.language.scene_names import DOUBLE, DOUBLE_KINETIC_ENERGY, NAMES, SYM
 
 from deltaq.language.canonical import display, is_zero
 from deltaq.language.parser import parse
-from deltaq.language.sympy_algebra import to_sympy
+from deltaq.language.sympy_algebra import time_derivative, to_sympy
+from deltaq.mechanics.library import load_scene
+from deltaq.narration.derive import derive_request
+
+SCENES = ("pendulum", "base-pendulum", "elastic-pendulum", "guided-pendulum", "double-pendulum", "spherical-pendulum")
 
 DOUBLE_EQUATION = f"d/dt (diff({DOUBLE_KINETIC_ENERGY}, dot(phi1))) - diff({DOUBLE_KINETIC_ENERGY}, phi1)"
 
@@ -63,6 +67,48 @@ def equality() -> None:
         )
 
 
+def scene_questions(scene_id: str) -> Iterator[tuple[str, Any, Symbols]]:
+    """For each equation that is derived and shown: its difference from d/dt ∂T/∂q̇ − ∂T/∂q − Q, not simplified."""
+    scene = load_scene(scene_id)
+    symbols = Symbols(scene.names)
+    guides = {}
+    for guide in scene.guides:
+        value = to_sympy(guide.value.tree, symbols)
+        guides |= {symbols.name(guide.coordinate): value}
+        guides |= {symbols.rate(guide.coordinate): time_derivative(value, symbols)}
+    energy = sympy.Integer(0)
+    for body in scene.bodies:
+        velocity = [time_derivative(to_sympy(x.tree, symbols), symbols).xreplace(guides) for x in body.position]
+        energy += to_sympy(body.mass.tree, symbols) * sympy.Add(*(v**2 for v in velocity)) / 2
+    result = derive_request({"scene": scene_id})["result"]
+    for force, shown in zip(result["generalized_forces"]["total"], result["equations"], strict=True):
+        q, rate = symbols.name(shown["coordinate"]), symbols.rate(shown["coordinate"])
+        left = time_derivative(energy.diff(rate), symbols) - energy.diff(q)
+        left -= to_sympy(parse(force["plain"], scene.names).tree, symbols)
+        equation = to_sympy(parse(shown["plain"], scene.names).tree, symbols)
+        yield f"{scene_id}, {shown['coordinate']}", left - (equation.lhs - equation.rhs), symbols
+
+
+def scenes() -> None:
+    """The equations of the lecture's scenes and of the double pendulum."""
+    ratios: list[tuple[float, float]] = []
+    for scene_id in SCENES:
+        for title, difference, symbols in scene_questions(scene_id):
+            if difference == 0:
+                print(f"{title:36} the same without any simplification")
+                continue
+            ours, own = timed(lambda d=difference, s=symbols: is_zero(d, s), 9)
+            theirs, simplify = timed(lambda d=difference: sympy.simplify(d) == 0, 3)
+            other, equals = timed(lambda d=difference: d.equals(0), 3)
+            ratios.append((simplify / own, equals / own))
+            print(
+                f"{title:36} {own:8.2f} ms {ours!s:>6} {simplify:9.1f} ms {theirs!s:>5} {simplify / own:5.0f}x"
+                f" {equals:9.1f} ms {other!s:>5} {equals / own:5.0f}x"
+            )
+    first, second = (statistics.median(column) for column in zip(*ratios, strict=True))
+    print(f"median ratio over {len(ratios)} equations: {first:.0f}x to simplify, {second:.0f}x to equals")
+
+
 def reading_and_display() -> None:
     """Parse times over the tables of accepted inputs, and display times."""
     for syntax, rows in (("plain", test_plain_syntax.ACCEPTED), ("latex", test_latex_syntax.ACCEPTED)):
@@ -81,4 +127,5 @@ def reading_and_display() -> None:
 
 if __name__ == "__main__":
     equality()
+    scenes()
     reading_and_display()

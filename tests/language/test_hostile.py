@@ -41,4 +41,5 @@ def test_plain_text_read_as_latex_breaks_nothing(text: str) -> None:
 
 
 def test_the_corpus_is_large() -> None:
-    assert len(PLAIN) + len(LATEX) >= 150
+    assert len(set(PLAIN)) >= 190
+    assert len(set(LATEX)) >= 65

@@ -45,6 +45,14 @@ ROWS = [
     pytest.param("abs(y)", r"\left|q_1\right|", id="absolute value"),
     pytest.param("atan2(l, y)", r"\operatorname{atan2}(\ell, q_1)", id="two arguments"),
     pytest.param("sin(phi)*(m + k)*(dot(y) + 1)", r"(m + k) \sin(q_2) (\dot{q}_1 + 1)", id="function before a bracket"),
+    pytest.param("l*sin(phi)*dot(y)", r"\ell \sin q_2 \, \dot{q}_1", id="function before a rate"),
+    pytest.param("sin(phi)^2*ddot(y)", r"\sin^{2} q_2 \, \ddot{q}_1", id="power of a function before a rate"),
+    pytest.param("sin(phi)*cos(omega*t)*dot(y)", r"\sin q_2 \cos(\omega t) \dot{q}_1", id="function before a function"),
+    pytest.param("sin(m)*y", r"q_1 \sin m", id="parameter as argument"),
+    pytest.param("sin(m)*cos(phi)*sqrt(y)*exp(t)*dot(y)",
+                 r"\sqrt{q_1} \sin m \cos q_2 \, \mathrm{e}^{t} \dot{q}_1", id="function before an exponential"),
+    pytest.param("sin(phi)*abs(y)", r"\left|q_1\right| \sin q_2", id="bars"),
+    pytest.param("sin(phi)*dot(y)*(dot(y) + 1)", r"\sin q_2 \, \dot{q}_1 (\dot{q}_1 + 1)", id="rate and bracket"),
     pytest.param("2*2^(1/3)", r"2 \cdot 2^{1/3}", id="digits side by side"),
     pytest.param("sign(y)^2*m", r"m (\operatorname{sgn}(q_1))^{2}", id="no power after sgn"),
 ]  # fmt: skip
@@ -58,6 +66,12 @@ def test_written_as(text: str, written: str) -> None:
 def test_marks_wrap_each_symbol() -> None:
     typography = Typography(LECTURE, lambda name, written: rf"\htmlClass{{{name}}}{{{written}}}")
     assert latex(read("m*dot(y)", names=LECTURE), typography) == r"\htmlClass{m}{m} \htmlClass{dot(y)}{\dot{q}_1}"
+
+
+def test_marked_symbols_are_set_off_as_well() -> None:
+    typography = Typography(LECTURE, lambda name, written: rf"\htmlClass{{{name}}}{{{written}}}")
+    written = latex(read("sin(phi)*dot(y)", names=LECTURE), typography)
+    assert written == r"\sin\htmlClass{phi}{q_2} \, \htmlClass{dot(y)}{\dot{q}_1}"
 
 
 def test_a_symbol_by_its_plain_name() -> None:

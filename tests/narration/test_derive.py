@@ -34,6 +34,7 @@ def test_every_scene_is_told(scene: str, lang: str) -> None:
         "dalembert-to-lagrange",
         "decomposition",
         "lagrange",
+        "model",
     ]
     for step in all_steps(answer):
         assert SAFE.fullmatch(step["id"]), step["id"]

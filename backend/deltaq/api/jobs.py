@@ -18,6 +18,18 @@ def derive(document: Document) -> Document:
     return {**answer, "id": document["id"]}
 
 
+def vary(document: Document) -> Document:
+    """A first variation with its content hash."""
+    answer: Document = import_module("deltaq.narration.vary").vary_request(document["request"])
+    return {**answer, "id": document["id"]}
+
+
+def prove(document: Document) -> Document:
+    """A general proof, every line verified."""
+    answer: Document = import_module("deltaq.narration.proof").proof_request(document)
+    return answer
+
+
 def simulate(document: Document) -> Document:
     """A trajectory; why it ended, and what to do about it, said in the language asked for."""
     answer: Document = import_module("deltaq.simulation.service").run(document["request"])

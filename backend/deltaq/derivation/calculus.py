@@ -60,11 +60,25 @@ class Calculus:
     def zero(self) -> sp.Expr:
         return sp.Integer(0)
 
+    def fresh(self, *names: str) -> sp.Symbol:
+        """A symbol that the scene does not have, under the first of the names that is still to be had."""
+        taken = {symbol.name for symbol in self.scene.names.symbols}
+        return sp.Symbol(next(name for name in names if name not in taken), real=True)
+
     @cached_property
     def h(self) -> sp.Symbol:
         """The number that the definition of the first variation differentiates by."""
-        taken = {symbol.name for symbol in self.scene.names.symbols}
-        return sp.Symbol(next(name for name in ("h", "epsilon", "eta", "lambda") if name not in taken), real=True)
+        return self.fresh("h", "epsilon", "eta", "lambda")
+
+    @cached_property
+    def omega(self) -> sp.Symbol:
+        """The circular frequency that an oscillation is sought with."""
+        return self.fresh("omega", "nu", "Omega", "varpi", "w")
+
+    @cached_property
+    def exponent(self) -> sp.Symbol:
+        """The number λ that a motion e^λt is sought with."""
+        return self.fresh("lambda", "mu", "s", "sigma")
 
     @cached_property
     def variations(self) -> Mapping[sp.Symbol, sp.Symbol]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 
 import sympy as sp
-from flint import arb
+from flint import arb, arb_mat
 
 from .formula import (
     Dot,
@@ -25,11 +25,15 @@ from .formula import (
     Times,
     Value,
 )
+from .function_evaluation import evaluate_functions
+from .function_formula import FunctionFormula
+from .matrix_formula import AtEquilibrium, Determinant, Inserted, Jacobian, MatrixTimes, Power, Rounded, Stack
 from .points import STEP, Point, along_motion, shifted, varied
 from .quadrature import integral
 from .tree_evaluation import FUNCTIONS, power, tree_value
 
-Numbers = tuple[arb, ...]  # one for a scalar, several for a vector
+Numbers = tuple[arb, ...]  # one for a scalar, several for a vector or, row by row, a matrix
+Evaluate = Callable[[Formula], Numbers]
 
 # Operations by the names of SymPy's classes.
 BY_CLASS: Mapping[str, Callable[..., arb]] = {
@@ -42,16 +46,16 @@ BY_CLASS: Mapping[str, Callable[..., arb]] = {
 CONSTANTS: Mapping[sp.Basic, Callable[[], arb]] = {sp.pi: arb.pi, sp.E: arb.const_e}
 
 
-def evaluate(formula: Formula, point: Point) -> Numbers:
+def evaluate(formula: Formula, point: Point) -> Numbers:  # noqa: PLR0912 - one case for each kind
     """The formula's components at the point. Not finite where it is not defined there."""
 
-    def at(other: Point) -> Callable[[Formula], Numbers]:
+    def at(other: Point) -> Evaluate:
         return lambda part: evaluate(part, other)
 
     match formula:
         case Given(trees):
             return tuple(tree_value(tree, point) for tree in trees)
-        case Explicit(value) | Named(_, value):
+        case Explicit(value) | Named(_, value) | Rounded(value):
             return components(value, point)
         case Partial(of, by):
             return difference(at, of, lambda h: shifted(point, {by.name: h}))
@@ -70,10 +74,30 @@ def evaluate(formula: Formula, point: Point) -> Numbers:
             return _sum([tuple(term.sign * part for part in evaluate(term.formula, point)) for term in terms])
         case Integral(of, material):
             return integral(lambda inside: evaluate(of, inside), material, point, number)
+        case FunctionFormula():
+            return evaluate_functions(formula, point, evaluate, number)
         case Equation(left, right):
             return _sum([evaluate(left, point), tuple(-part for part in evaluate(right, point))])
-        case Substituted(of, values):
+        case Substituted(of, values) | AtEquilibrium(of, values) | Inserted(of, values):
             return evaluate(of, {**point, **{symbol.name: number(value, point) for symbol, value in values.items()}})
+        case Stack() | MatrixTimes() | Jacobian() | Determinant() | Power():
+            return _of_matrix(formula, point)
+
+
+def _of_matrix(formula: Stack | MatrixTimes | Jacobian | Determinant | Power, point: Point) -> Numbers:
+    """Vectors and matrices, row by row."""
+    match formula:
+        case Stack(rows):
+            return tuple(part for row in rows for part in evaluate(row, point))
+        case MatrixTimes(matrix, vector):
+            return matrix_times(evaluate(matrix, point), evaluate(vector, point))
+        case Jacobian(of, by):
+            columns = [evaluate(Partial(of, q), point) for q in by]
+            return tuple(part for row in zip(*columns, strict=True) for part in row)
+        case Determinant(of):
+            return (determinant(evaluate(of, point)),)
+        case Power(of, exponent):
+            return tuple(part**exponent for part in evaluate(of, point))
 
 
 def components(value: Value, point: Point) -> Numbers:
@@ -82,9 +106,7 @@ def components(value: Value, point: Point) -> Numbers:
     return tuple(number(part, point) for part in parts)
 
 
-def difference(
-    at: Callable[[Point], Callable[[Formula], Numbers]], of: Formula, moved: Callable[[arb], Point]
-) -> Numbers:
+def difference(at: Callable[[Point], Evaluate], of: Formula, moved: Callable[[arb], Point]) -> Numbers:
     """The derivative of a formula along a curve of points, as a central difference."""
     ahead, behind = at(moved(STEP))(of), at(moved(-STEP))(of)
     return tuple((a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True))
@@ -100,6 +122,19 @@ def number(expression: sp.Basic, point: Point) -> arb:
         return CONSTANTS[expression]()
     arguments = [number(argument, point) for argument in expression.args]
     return BY_CLASS[type(expression).__name__](*arguments)
+
+
+def matrix_times(matrix: Numbers, vector: Numbers) -> Numbers:
+    """The product of a matrix, given row by row, and a vector."""
+    size = len(vector)
+    rows = (matrix[start : start + size] for start in range(0, len(matrix), size))
+    return tuple(sum((a * b for a, b in zip(row, vector, strict=True)), arb(0)) for row in rows)
+
+
+def determinant(matrix: Numbers) -> arb:
+    """The determinant of a square matrix, given row by row."""
+    size = math.isqrt(len(matrix))
+    return arb_mat(size, size, list(matrix)).det()
 
 
 def _product(factors: list[Numbers]) -> Numbers:

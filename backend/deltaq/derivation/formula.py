@@ -14,6 +14,8 @@ from typing import TypeAlias
 import sympy as sp
 
 from ..language.tree import Node
+from .function_formula import FunctionFormula
+from .matrix_formula import AtEquilibrium, Determinant, Inserted, Jacobian, MatrixTimes, Power, Rounded, Stack
 
 Value: TypeAlias = sp.Expr | sp.ImmutableMatrix
 
@@ -163,6 +165,15 @@ Formula = (
     | Substituted
     | Integral
     | Equation
+    | FunctionFormula
+    | Stack
+    | MatrixTimes
+    | Jacobian
+    | Determinant
+    | Power
+    | AtEquilibrium
+    | Inserted
+    | Rounded
 )
 
 

@@ -1,4 +1,4 @@
-"""Integrals over material coordinates as numbers: Gauss–Legendre quadrature in ball arithmetic.
+"""Integrals over material coordinates and over the time as numbers: Gauss–Legendre quadrature in ball arithmetic.
 
 With n = 48 nodes it is exact for polynomials up to degree 95, and for sines and cosines good to far more than the
 tolerance of the verification. Source: Golub, Welsch, Math. Comp. 23 (1969), 221.
@@ -12,7 +12,7 @@ import sympy as sp
 from flint import arb
 
 from .formula import Bounds
-from .points import Point
+from .points import Point, along_motion
 
 NODES = 48
 
@@ -24,6 +24,7 @@ def integral(
     material: tuple[Bounds, ...],
     point: Point,
     number: Callable[[sp.Expr, Point], arb],
+    nodes: int = NODES,
 ) -> Numbers:
     """The integral of each component over all material coordinates, the last one innermost."""
     if not material:
@@ -32,10 +33,15 @@ def integral(
     lower, upper = number(first.lower, point), number(first.upper, point)
     half, middle = (upper - lower) / 2, (upper + lower) / 2
     total: Numbers = ()
-    for node in range(NODES):
-        place, weight = arb.legendre_p_root(NODES, node, weight=True)
-        inside = {**point, first.symbol.name: middle + half * place}
-        values = integral(of, tuple(rest), inside, number)
+    for node in range(nodes):
+        place, weight = arb.legendre_p_root(nodes, node, weight=True)
+        inside = placed(point, first.symbol.name, middle + half * place)
+        values = integral(of, tuple(rest), inside, number, nodes)
         summands = [half * weight * value for value in values]
         total = tuple(a + b for a, b in zip(total or [arb(0)] * len(summands), summands, strict=True))
     return total
+
+
+def placed(point: Point, name: str, value: arb) -> Point:
+    """The point at another value of a material coordinate, or at another time, where all functions follow."""
+    return along_motion(point, value - point["t"]) if name == "t" else {**point, name: value}

@@ -8,8 +8,10 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..mechanics.scene import Scene
+from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
+from .linearization import Linearization, linearizations
+from .matrix_form import forcing, left_side, mass_matrix
 from .system import System
-from .terms import terms_by_source
 
 
 @dataclass(frozen=True)
@@ -25,7 +27,8 @@ class Conserved:
 class Result:
     """Expressions in the scene's symbols; vectors are columns, forces and equations go by coordinate.
 
-    An equation is the left side of `… = 0`; mass matrix and forcing are those of M(q, t) q̈ = f(q, q̇, t).
+    An equation is the left side of `… = 0`; mass matrix and forcing are those of M(q, t) q̈ = f(q, q̇, t). `is_energy`
+    says whether the Jacobi energy is E + V.
     """
 
     scene: Scene
@@ -42,12 +45,14 @@ class Result:
     mass_matrix: sp.ImmutableMatrix
     forcing: sp.ImmutableMatrix
     conserved: tuple[Conserved, ...]
+    equilibria: tuple[Linearization, ...]
+    jacobi_energy: sp.Expr
+    is_energy: bool
+    routh: Reduction | None
 
 
 def result_of(system: System) -> Result:
     bodies = [body.name for body in system.scene.bodies]
-    equations = {q: _equation(system, q) for q in system.free}
-    accelerations = [system.acceleration(q) for q in system.free]
     return Result(
         scene=system.scene,
         positions={name: system.position(name) for name in bodies},
@@ -59,34 +64,20 @@ def result_of(system: System) -> Result:
         conservative_forces={q: system.derivative(-system.potential_energy, system.q(q)) for q in system.free},
         nonconservative_forces={q: system.nonconservative_force(q) for q in system.free},
         lagrangian=system.lagrangian,
-        equations=equations,
-        mass_matrix=system.display(
-            sp.ImmutableMatrix([[e.diff(a) for a in accelerations] for e in equations.values()])
-        ),
-        forcing=system.display(sp.ImmutableMatrix([[_rest(e, accelerations)] for e in equations.values()])),
+        equations={q: left_side(system, q) for q in system.free},
+        mass_matrix=mass_matrix(system),
+        forcing=forcing(system),
         conserved=tuple(_conserved(system)),
+        equilibria=linearizations(system),
+        jacobi_energy=jacobi_energy(system),
+        is_energy=is_energy(system),
+        routh=reduction(system),
     )
 
 
-def _equation(system: System, coordinate: str) -> sp.Expr:
-    terms = terms_by_source(system, coordinate)
-    return sp.Add(*(term.sign * term.formula.value for term in terms))  # type: ignore[union-attr]
-
-
-def _rest(equation: sp.Expr, accelerations: list[sp.Symbol]) -> sp.Expr:
-    return -equation.xreplace(dict.fromkeys(accelerations, sp.Integer(0)))
-
-
 def _conserved(system: System) -> list[Conserved]:
-    """Momenta of cyclic coordinates, and the Jacobi energy Σ q̇ ∂L/∂q̇ − L where L does not depend on time."""
-    passive = {q: system.is_zero(system.nonconservative_force(q)) for q in system.free}
-    lagrangian = system.lagrangian
-    found = [
-        Conserved("momentum", q, system.momentum(q))
-        for q in system.free
-        if passive[q] and system.is_zero(lagrangian.diff(system.q(q)))
-    ]
-    if all(passive.values()) and not lagrangian.has(system.t):
-        work = sp.Add(*(system.rate(q) * system.momentum(q) for q in system.free))
-        found.append(Conserved("energy", "", system.display(work - lagrangian)))
+    """Momenta of cyclic coordinates, and the Jacobi energy where nothing changes it."""
+    found = [Conserved("momentum", q, system.momentum(q)) for q in cyclic(system)]
+    if system.is_zero(jacobi_energy_rate(system)):
+        found.append(Conserved("energy", "", jacobi_energy(system)))
     return found

@@ -13,7 +13,8 @@ from .formula import Formula
 class Relation:
     """One line of mathematics: formulas joined by `sign`, each equal to the next.
 
-    The sign is `=`, `≠` where two are shown to differ, or `⇔` between equations that say the same of the motion.
+    The sign is `=`, `≠` where two are shown to differ, `⇔` between equations that say the same of the motion, or `≈`
+    before a number that is exact here and rounded on paper.
     """
 
     members: tuple[Formula, ...]

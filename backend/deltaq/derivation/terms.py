@@ -23,11 +23,20 @@ def terms_by_source(system: System, coordinate: str) -> tuple[Term, ...]:
             number, rest = term.as_coeff_Mul()
             total[rest] = total.get(rest, sp.Integer(0)) + number
             sources.setdefault(rest, []).append(source)
-    kept = [(rest, number) for rest, number in total.items() if number != 0 and rest != 0]
-    ordered = sorted(kept, key=lambda pair: _rank(system, pair[0]))
+    shares: dict[tuple[str, ...], sp.Expr] = {}
+    for rest, number in total.items():
+        origin = tuple(dict.fromkeys(sources[rest]))
+        shares[origin] = shares.get(origin, sp.Integer(0)) + number * rest
+    # Fourier terms of one origin may be shorter as products: sin φ sin ωt.
+    shown = [
+        (origin, *term.as_coeff_Mul())
+        for origin, share in shares.items()
+        for term in sp.Add.make_args(system.display(share).expand())
+        if term != 0
+    ]
     return tuple(
-        Term(Explicit(abs(number) * rest), tuple(dict.fromkeys(sources[rest])), 1 if number > 0 else -1)
-        for rest, number in ordered
+        Term(Explicit(abs(number) * rest), origin, 1 if number > 0 else -1)
+        for origin, number, rest in sorted(shown, key=lambda part: _rank(system, part[2]))
     )
 
 

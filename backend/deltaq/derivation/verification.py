@@ -68,10 +68,17 @@ def _gap(members: tuple[Formula, ...], point: Point) -> arb:
 
 
 def random_points(system: System, seed: int = 1) -> Iterator[Point]:
-    """Points with exact dyadic values between 1/4 and 7/4 for every symbol, the same for every call."""
+    """Points with exact dyadic values between 1/4 and 7/4 for every symbol, the same for every call.
+
+    The last have the scene's own parameter values: some formulas are defined only for some (an angle as arcsine).
+    """
     source = random.Random(seed)
     forms = ("{}", "dot({})", "ddot({})", "delta({})", "d({})")
     moving = [form.format(name) for name in system.coordinates for form in forms]
     symbols = dict.fromkeys([*moving, *(symbol.name for symbol in system.scene.names.symbols), "d(t)"])
+    symbols |= dict.fromkeys([system.omega.name, system.exponent.name])
     for _ in range(ATTEMPTS):
         yield {name: arb(source.randint(2**20, 7 * 2**20)) / 2**22 for name in symbols}
+    own = {parameter.name: arb(parameter.value) for parameter in system.scene.parameters}
+    for _ in range(POINTS):
+        yield {name: own.get(name, arb(source.randint(2**20, 7 * 2**20)) / 2**22) for name in symbols}

@@ -98,23 +98,24 @@ class Arguments:
         ahead = self._cursor.token
         if ahead.kind in ("name", "open") and not (ahead.kind == "open" and ahead.text == "["):
             rest = self._grammar.factor()
-            self._ambiguous(function, argument, f"*{self._cursor.slice(rest.span)}", between(argument.span, rest.span))
+            self._ambiguous(function, argument, f"*{self._cursor.reading(rest.span)}",
+                            between(argument.span, rest.span))  # fmt: skip
         if ahead.is_operator("^", "/"):
             self._cursor.take()
             rest = self._grammar.factor()
-            self._ambiguous(function, argument, f"{ahead.text}{self._cursor.slice(rest.span)}",
+            self._ambiguous(function, argument, f"{ahead.text}{self._cursor.reading(rest.span)}",
                             between(argument.span, rest.span))  # fmt: skip
         parameters = [n.name for n in walk(argument) if isinstance(n, Name)]
         several = len(set(parameters)) > 1 and not self._ends([argument])
         if several and isinstance(argument, Product):
-            near = self._cursor.slice(argument.factors[0].span)
-            far = self._cursor.slice(between(argument.factors[1].span, argument.span))
-            first, second = f"{function.text}({near})*{far}", f"{function.text}({self._cursor.slice(argument.span)})"
+            near = self._cursor.reading(argument.factors[0].span)
+            far = self._cursor.reading(between(argument.factors[1].span, argument.span))
+            first, second = f"{function.text}({near})*{far}", f"{function.text}({self._cursor.reading(argument.span)})"
             fail("ambiguous", between(function.span, argument.span), first=first, second=second)
 
     def _ambiguous(self, function: Token, argument: Node, outside: str, inside: Span) -> NoReturn:
-        near = self._cursor.slice(argument.span)
-        first, second = f"{function.text}({near}){outside}", f"{function.text}({self._cursor.slice(inside)})"
+        near = self._cursor.reading(argument.span)
+        first, second = f"{function.text}({near}){outside}", f"{function.text}({self._cursor.reading(inside)})"
         fail("ambiguous", between(function.span, inside), first=first, second=second)
 
 

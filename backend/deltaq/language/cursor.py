@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import NoReturn, TypeVar
 
 from .bounds import MAX_DEPTH, MAX_NODES
@@ -11,6 +12,9 @@ from .tree import Node, Span
 
 # A bracket with a sum of products in it takes up to three levels of the parser.
 _MAX_NESTING = 2 * MAX_DEPTH
+
+# What LaTeX says about sizes and spaces has no place in a reading that is shown as text.
+_LAYOUT = re.compile(r"\\(?:m?left|m?right|[bB]igg?[lr]?)(?![A-Za-z])\s*|\\[,;:!> ]")
 
 N = TypeVar("N", bound=Node)
 
@@ -80,6 +84,13 @@ class Cursor:
     def slice(self, span: Span) -> str:
         """The text at `span`, shortened."""
         return self.text[span.offset : span.offset + span.length].strip()[:80]
+
+    def reading(self, span: Span) -> str:
+        """The text at `span` as part of a reading: braces closed, without sizes and spaces of LaTeX."""
+        end = span.offset + span.length
+        while self.text.count("{", span.offset, end) > self.text.count("}", span.offset, end) and end < len(self.text):
+            end += 1
+        return _LAYOUT.sub("", self.text[span.offset : end]).strip()[:80]
 
     def made(self, node: N) -> N:
         """Count a node that was made."""

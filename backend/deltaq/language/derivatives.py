@@ -101,9 +101,9 @@ class Derivatives:
             if following.kind == "operator":
                 self._cursor.take()
             rest = self._grammar.factor().span
-            sign = self._cursor.slice(Span(token.span.offset, operand.span.offset - token.span.offset))
-            near, all_ = self._cursor.slice(operand.span), between(operand.span, rest)
-            after = self._cursor.slice(between(following.span, rest))
-            first, second = f"({sign} {near}) {after}", f"{sign} ({self._cursor.slice(all_)})"
+            sign = self._cursor.reading(Span(token.span.offset, operand.span.offset - token.span.offset))
+            near, all_ = self._cursor.reading(operand.span), between(operand.span, rest)
+            after = self._cursor.reading(between(following.span, rest))
+            first, second = f"({sign} {near}) {after}", f"{sign} ({self._cursor.reading(all_)})"
             fail("ambiguous", between(token.span, rest), first=first, second=second)
         return operand

@@ -63,8 +63,26 @@ def _candidates(expr: Any, order: Order) -> list[Any]:
         candidates.append(arranged.expression(numerator) / reader.monomial(denominator))
     moves = any(split_symbol(s.name)[0] for s in expr.free_symbols)
     if not moves or reader.bases or not reader.is_exact:
-        candidates.append(expr)
+        candidates += [] if _hides_unity(expr) else [expr]
+        candidates += _with_bases_displayed(expr, order)
     return candidates
+
+
+def _hides_unity(expr: Any) -> bool:
+    """Whether squares hold sine and cosine of one angle, so that cos² + sin² may be in it."""
+    squares = [p.base for p in expr.atoms(sympy.Pow) if p.exp.is_Integer and p.exp > 1]
+    sines, cosines = (
+        {wave.args[0] for base in squares for wave in base.atoms(function)} for function in (sympy.sin, sympy.cos)
+    )
+    return bool(sines & cosines)
+
+
+def _with_bases_displayed(expr: Any, order: Order) -> list[Any]:
+    """The expression with what stands under its roots displayed, if there are roots of sums."""
+    roots = [p for p in expr.atoms(sympy.Pow) if p.base.is_Add and not p.exp.is_Integer]
+    shown = {root: min(_candidates(root.base, order), key=size) ** root.exp for root in roots if root != expr}
+    inner = expr.xreplace(shown)
+    return [] if inner == expr or _hides_unity(inner) else [inner]
 
 
 class _Arrangement:
@@ -113,11 +131,16 @@ class _Arrangement:
             moving = tuple(pair for pair in mono if not self._is_parameter(pair[0]))
             wave = sympy.Mul(self._reader.monomial(moving), self._reader.wave(phase, sine=sine))
             coefficients.setdefault(wave, []).append((fixed, coefficient))
-        inner = sympy.Add(*(sympy.Mul(self._polynomial(terms), wave) for wave, terms in coefficients.items()))
-        return sympy.Mul(inner, self._reader.monomial(outer))
+        monomial = self._reader.monomial(outer)
+        if len(coefficients) == 1:
+            # In one product, else the computer algebra would multiply a number into a sum.
+            ((wave, terms),) = coefficients.items()
+            return sympy.Mul(*self._polynomial(terms), wave, monomial)
+        inner = sympy.Add(*(sympy.Mul(*self._polynomial(terms), wave) for wave, terms in coefficients.items()))
+        return sympy.Mul(inner, monomial)
 
-    def _polynomial(self, terms: list[Any]) -> Any:
-        """A polynomial in the parameters with its common monomial in front."""
+    def _polynomial(self, terms: list[Any]) -> tuple[Any, Any, Any]:
+        """A polynomial in the parameters: its number, its common monomial and the rest."""
         common = _common([mono for mono, _ in terms])
         rest = fourier.raised(common, -1)
         numbers = [number for _, number in terms]
@@ -125,7 +148,7 @@ class _Arrangement:
         summed = sympy.Add(
             *(_rational(number / shared) * self._reader.monomial(fourier.times(mono, rest)) for mono, number in terms)
         )
-        return sympy.Mul(_rational(shared), self._reader.monomial(common), summed)
+        return _rational(shared), self._reader.monomial(common), summed
 
     def _kind(self, name: str) -> int:
         return 0 if name in self._reader.bases else split_symbol(name)[0]

@@ -24,7 +24,8 @@ class Generators:
 
     def multiply(self, left: Form, right: Form) -> Form:
         """The product, as long as all products together stay within bounds."""
-        self._work += len(left) * len(right)
+        # Whole powers of roots have to be looked for in every product.
+        self._work += len(left) * len(right) * (4 if self._has_roots else 1)
         if self._work > _MAX_WORK:
             raise TooLargeError
         product = fourier.multiply(left, right)

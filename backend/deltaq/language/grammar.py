@@ -159,6 +159,9 @@ class Grammar:
             fail("cross-product", sign.span)
         if sign.text != "/":
             return self._times(left, right)
+        rate = self.operators.quotient_of_differentials(left, right)
+        if rate is not None:
+            return rate
         quotient = self.cursor.made(Quotient(left, right, between(left.span, right.span)))
         if self.starts_factor():
             self._ambiguous_quotient(left, right)
@@ -168,7 +171,7 @@ class Grammar:
         """`1/2 m`: half of m, or one over 2m?"""
         start = self.cursor.token.span
         after = self.factor()
-        upper, lower, then = (self.cursor.slice(s) for s in (left.span, right.span, after.span))
+        upper, lower, then = (self.cursor.reading(s) for s in (left.span, right.span, after.span))
         first, second = f"({upper}/{lower})*{then}", f"{upper}/({lower}*{then})"
         fail("ambiguous", between(left.span, between(start, after.span)), first=first, second=second)
 

@@ -12,7 +12,7 @@ from .functions import SPELLINGS
 from .latex_delimiters import close_bracket, read_sized, separate
 from .latex_source import Range, Source
 from .latex_symbols import dotted, read_accent, read_letters, read_symbol, read_upright
-from .latex_tables import DIFFERENTIAL, LETTER, NUMBER, OPERATORS, PREFIX, PRIMES, SIZES, TRANSPOSE, UPRIGHT
+from .latex_tables import DIFFERENTIAL, LETTER, NUMBER, OPERATORS, PREFIX, PRIMES, QUANTITIES, SIZES, TRANSPOSE, UPRIGHT
 from .names import Names
 from .plain_lexer import number_token, operator_tokens
 from .spelling import GREEK, GREEK_NAMES, SUPERSCRIPTS
@@ -170,6 +170,8 @@ class LatexLexer:
             self._unknown(name, span)
 
     def _unknown(self, name: str, span: Span) -> None:
+        if name in QUANTITIES:
+            fail("unit", span, name="\\" + name)
         suggestions = difflib.get_close_matches(name[:40], [*SPELLINGS, *sorted(GREEK_NAMES)], n=1, cutoff=0.75)
         if suggestions:
             fail("unknown-command", span, name="\\" + name, suggestion="\\" + suggestions[0])

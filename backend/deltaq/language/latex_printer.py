@@ -13,6 +13,7 @@ from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, decimal, exact, 
 from .order import split_symbol
 from .typography import Mark, Typography, unmarked
 
+_SET_OFF = r" \, "
 _NAMES: Mapping[str, str] = MappingProxyType({"Abs": "abs"})
 
 __all__ = ["Mark", "Typography", "latex", "unmarked"]
@@ -87,14 +88,19 @@ class _Latex:
         return f"{fraction}{_joint(' ', following)}{following}" if rest else fraction
 
     def factors(self, factors: list[sympy.Expr]) -> str:
-        """A product; a thin space stands before δ and d, and a function's argument is closed before a bracket."""
+        """A product; a thin space sets off δ and d, and what follows the argument of a function without brackets.
+
+        Before a bracket the argument is closed by brackets of its own.
+        """
         ordered = self._order.factors(factors)
         text = ""
-        space = ""
+        following = sympy.S.One
         for factor in reversed(ordered):
-            printed = self._factor(factor, closed=text.startswith(("(", r"\left(")), alone=len(ordered) == 1)
-            text = f"{printed}{_joint(space, text)}{text}" if text else printed
-            space = r" \, " if _is_infinitesimal(factor) else " "
+            closed = text.startswith(("(", r"\left("))
+            printed = self._factor(factor, closed=closed, alone=len(ordered) == 1)
+            apart = _is_infinitesimal(following) or (not closed and _is_open(factor) and not _is_call(following))
+            text = f"{printed}{_joint(_SET_OFF if apart else ' ', text)}{text}" if text else printed
+            following = factor
         return text or "1"
 
     def _factor(self, factor: sympy.Expr, *, closed: bool, alone: bool) -> str:
@@ -126,14 +132,33 @@ class _Latex:
         if name == "abs":
             return rf"\left|{arguments[0]}\right|{raised}"
         command = FUNCTIONS[name].latex if name in FUNCTIONS else rf"\operatorname{{{name}}}"
-        bare = len(expr.args) == 1 and expr.args[0].is_Symbol and not closed and command.startswith("\\")
-        if bare and not command.endswith("}") and split_symbol(expr.args[0].name)[0] == 0:
+        if _has_bare_argument(expr) and not closed:
             return f"{command}{raised}{_spaced(arguments[0])}"
         return f"{command}{raised}{_bracketed(', '.join(arguments))}"
 
 
 def _spaced(argument: str) -> str:
     return argument if argument.startswith("\\") else f" {argument}"
+
+
+def _has_bare_argument(call: sympy.Expr) -> bool:
+    """Whether the argument is written without brackets: a single symbol that is no rate, after a command of LaTeX."""
+    known = FUNCTIONS.get(_NAMES.get(type(call).__name__, type(call).__name__))
+    if known is None or known.latex.endswith("}") or known.name == "abs":
+        return False
+    return all(argument.is_Symbol and not split_symbol(argument.name)[0] for argument in call.args)
+
+
+def _is_open(factor: sympy.Expr) -> bool:
+    """Whether a factor ends with an argument without brackets."""
+    base, exponent = base_exponent(factor)
+    return _takes_power(base, exponent) and _has_bare_argument(base)
+
+
+def _is_call(factor: sympy.Expr) -> bool:
+    """Whether a factor starts with the name of a function, which ends the argument before it."""
+    base, exponent = base_exponent(factor)
+    return _takes_power(base, exponent) and not isinstance(base, sympy.Abs)
 
 
 def _takes_power(base: sympy.Expr, exponent: sympy.Expr) -> bool:

@@ -149,6 +149,9 @@ def _is_typeset_upright(lexer: LatexLexer, word: str) -> bool:
 
 def _read_upright_symbol(lexer: LatexLexer, word: str, inside: Range, start: int) -> None:
     if not re.fullmatch(r"\\?[A-Za-z][A-Za-z0-9]*", word):
+        units = re.findall(r"(?<![A-Za-z\\])[A-Za-z]+", word)
+        if units and UNITS.issuperset(units):
+            fail("unit", Span(inside[0], inside[1] - inside[0]), name=units[0])
         fail("unexpected-symbol", Span(inside[0], max(inside[1] - inside[0], 1)), symbol=word[:40])
     index, power, span = _index_and_power(lexer, start)
     lexer.found += [*word_tokens(key(word) + index, span, lexer.names), *power]

@@ -73,4 +73,6 @@ UPRIGHT = frozenset(
         "vec",
     ]
 )
+# Commands of the packages that typeset quantities with units.
+QUANTITIES = frozenset({"SI", "si", "qty", "unit", "pu"})
 DIFFERENTIAL = frozenset({"differentialD", "dd"})

@@ -10,6 +10,7 @@ from .tokens import Token, between, fail
 from .tree import (
     Differential,
     Name,
+    Negation,
     Node,
     Number,
     PartialDerivative,
@@ -93,6 +94,20 @@ class Operators:
                 fail("rate-of-constant", span, name=name)
         self._check_order(operand, span)
         return self._cursor.made(TimeDerivative(operand, span))
+
+    def quotient_of_differentials(self, upper: Node, lower: Node) -> Node | None:
+        """dφ/dt is the rate φ̇, also after a sign or other factors; None if this is no such quotient."""
+        span = between(upper.span, lower.span)
+        match upper, lower:
+            case Differential(name), Differential("t") if name != "t":
+                return self._cursor.made(Rate(name, 1, span))
+            case Negation(operand), Differential("t"):
+                rate = self.quotient_of_differentials(operand, lower)
+                return rate and Negation(rate, span)
+            case Product((*others, last)), Differential("t"):
+                rate = self.quotient_of_differentials(last, lower)
+                return rate and Product((*others, rate), span)
+        return None
 
     def _check_order(self, operand: Node, span: Span) -> None:
         order = _order(operand) + 1

@@ -80,6 +80,9 @@ class _Plain:
             # Not 1/(2*(a + b)): the computer algebra would multiply this out when it is read back.
             above += f"/{lower[0]}"
             lower = lower[1:]
+        if [str(f) for f in lower] == ["d(t)"] and any(str(f).startswith("d(") for f in upper):
+            # dx/dt is read as the rate.
+            return f"{sign}{above}*(1/d(t))", PRODUCT
         if lower:
             below = "*".join(self.text(f, PRODUCT) for f in self._order.factors(lower))
             above += f"/({below})" if len(lower) > 1 else f"/{self.text(lower[0], POWER)}"

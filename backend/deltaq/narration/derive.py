@@ -18,6 +18,7 @@ from ..mechanics.requests import changed_scene
 from ..mechanics.scene import Scene
 from .catalog import language_of
 from .marks import Wrap, by_coordinate, in_class, unmarked
+from .model_answer import equilibrium, routh
 from .narrator import Narrator
 from .notation import Notation
 from .symbols import QuantitySymbols
@@ -98,4 +99,7 @@ def _written(result: Result, typography: Typography) -> Document:
         },
         "forcing": vector(result.forcing),
         "conserved": [{"kind": c.kind, "coordinate": c.coordinate, **both(c.value)} for c in result.conserved],
+        "equilibria": [equilibrium(linear, result.scene, typography) for linear in result.equilibria],
+        "jacobi_energy": {**both(result.jacobi_energy), "equals_energy": result.is_energy},
+        "routh": routh(result.routh, typography),
     }

@@ -49,6 +49,6 @@ class Narrator:
 
     def _name(self, key: str, value: str) -> str:
         if key != "coordinate":
-            return self.clean.symbols.scene.label(value, self.language)
+            return ", ".join(map(self.clean.symbols.label, value.split(", ")))
         latex = self.clean.symbols.coordinate_latex
         return ", ".join(f"${latex.get(name, name)}$" for name in value.split(", "))

@@ -20,6 +20,7 @@ from ..derivation.formula import (
     Named,
     Partial,
     Plus,
+    Quantity,
     Rate,
     Shifted,
     Substituted,
@@ -27,12 +28,16 @@ from ..derivation.formula import (
     Times,
     Value,
 )
+from ..derivation.function_formula import Called, FunctionFormula
+from ..derivation.matrix_formula import MatrixFormula
 from ..derivation.step import Relation
 from ..language.latex_printer import Typography, latex
+from .function_writing import write
 from .marks import bare
-from .symbols import QuantitySymbols
+from .matrix_writing import write_matrix
+from .symbols import SymbolTable
 
-SIGNS = {"=": "=", "≠": r"\neq", "⇔": r"\;\Longleftrightarrow\;"}
+SIGNS = {"=": "=", "≠": r"\neq", "≈": r"\approx", "⇔": r"\;\Longleftrightarrow\;"}
 
 
 @dataclass(frozen=True)
@@ -40,19 +45,18 @@ class Notation:
     """Writes formulas: `typography` sets the symbols of the scene, `symbols` those of quantities."""
 
     typography: Typography
-    symbols: QuantitySymbols
+    symbols: SymbolTable
     h: sp.Symbol
 
     def value(self, value: Value) -> str:
         return latex(value, self.typography)
 
-    def formula(self, formula: Formula) -> str:
+    def formula(self, formula: Formula) -> str:  # noqa: PLR0912 - one case for each kind
         match formula:
             case Given(_, value) | Explicit(value):
                 return self.value(value)
             case Named(quantity, _, arguments):
-                inside = ", ".join(map(self.value, arguments))
-                return self.symbols.latex(quantity) + (f"({inside})" if arguments else "")
+                return self.applied(quantity, arguments)
             case Partial(of, by):
                 return self._partial(of, self.value(by))
             case Rate(of):
@@ -60,19 +64,32 @@ class Notation:
             case Gateaux(of):
                 return self._gateaux(of)
             case Shifted(value, h):
-                return self._at_zero(self.value(value), h)
+                return self.at_zero(self.factor(Explicit(value)), h)
             case Times(factors):
-                return r"\,".join(map(self._factor, factors))
+                return r"\,".join(map(self.factor, factors))
             case Dot(left, right):
-                return rf"{self._factor(left)} \cdot {self._factor(right)}"
+                return rf"{self.factor(left)} \cdot {self.factor(right)}"
             case Plus(terms):
                 return self._sum(terms)
             case Substituted(of, values):
                 return self._substituted(of, values)
             case Integral(of, material):
                 return self._integral(of, material)
+            case FunctionFormula():
+                return write(self, formula)
+            case MatrixFormula():
+                return write_matrix(self, formula)
             case Equation(left, right):
                 return f"{self.formula(left)} = {self.formula(right)}"
+
+    def applied(self, quantity: Quantity, arguments: tuple[sp.Expr, ...]) -> str:
+        """A name with what it depends on: r(q₁, q₂, t)."""
+        inside = ", ".join(map(self.value, arguments))
+        return self.symbols.latex(quantity) + (f"({inside})" if arguments else "")
+
+    def at_time(self, of: Formula, time: sp.Expr) -> str:
+        """A formula at an instant."""
+        return rf"\left.{self.formula(of)}\right|_{{t = {self.value(time)}}}"
 
     def relation(self, relation: Relation) -> list[str]:
         """The rows of an aligned block: the first two members share one, each further member has its own."""
@@ -91,20 +108,20 @@ class Notation:
         return r"\begin{aligned}" + r" \\[0.4em] ".join(rows) + r"\end{aligned}" if rows else ""
 
     def _partial(self, of: Formula, by: str) -> str:
-        if isinstance(of, Named):
+        if isinstance(of, Named | Called):
             return rf"\frac{{\partial {self._bare(of)}}}{{\partial {by}}}"
         return rf"\frac{{\partial}}{{\partial {by}}}\left({self.formula(of)}\right)"
 
     def _bare(self, of: Formula) -> str:
         """The name without its arguments, for the numerator of a derivative."""
-        return self.symbols.latex(of.quantity) if isinstance(of, Named) else self._factor(of)
+        return self.symbols.latex(of.quantity) if isinstance(of, Named | Called) else self.factor(of)
 
     def _integral(self, of: Formula, material: tuple[Bounds, ...]) -> str:
         signs = "".join(rf"\int_{{{self.value(b.lower)}}}^{{{self.value(b.upper)}}} " for b in material)
         elements = "".join(rf"\,\mathrm{{d}}{self.value(b.symbol)}" for b in reversed(material))
-        return f"{signs}{self._factor(of)}{elements}"
+        return f"{signs}{self.factor(of)}{elements}"
 
-    def _factor(self, formula: Formula) -> str:
+    def factor(self, formula: Formula) -> str:
         """In parentheses where it is a sum of its own."""
         text = self.formula(formula)
         return rf"\left({text}\right)" if self._is_sum(formula) else text
@@ -123,15 +140,15 @@ class Notation:
             return rf"\delta {self._bare(of)}"
         h = self.value(self.h)
         shifted = ", ".join(self._shifted_argument(argument, h) for argument in of.arguments)
-        return self._at_zero(rf"{self._bare(of)}({shifted})", self.h)
+        return self.at_zero(rf"{self._bare(of)}({shifted})", self.h)
 
     def _shifted_argument(self, argument: sp.Symbol, h: str) -> str:
         variation = sp.Symbol(f"delta({argument.name})", real=True)
-        free = {coordinate.name for coordinate in self.symbols.scene.free}
         text = self.value(argument)
-        return rf"{text} + {h}\,{self.value(variation)}" if argument.name in free else text
+        return rf"{text} + {h}\,{self.value(variation)}" if self.symbols.is_varied(argument.name) else text
 
-    def _at_zero(self, text: str, h: sp.Symbol) -> str:
+    def at_zero(self, text: str, h: sp.Symbol) -> str:
+        """The derivative with respect to h at h = 0."""
         letter = self.value(h)
         return rf"\left.\frac{{\partial}}{{\partial {letter}}} {text}\right|_{{{letter}=0}}"
 
@@ -147,7 +164,7 @@ class Notation:
         """The term without its sign, which stands outside the mark so that it is spaced as an operator."""
         text = self.formula(term.formula)
         if term.sign < 0 and self._is_sum(term.formula):
-            return self._factor(term.formula), True
+            return self.factor(term.formula), True
         leads_with_minus = text.startswith("-")
         return text.removeprefix("-"), leads_with_minus is not (term.sign < 0)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 from ..derivation.formula import Quantity
 from ..mechanics.scene import Scene
@@ -30,8 +31,53 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "potential-energy": ("V{of}", "energy-potential"),
     "lagrangian": ("L", ""),
     "momentum": ("p_{{{i}}}", ""),
+    "mass-matrix": (r"\mathbf{{M}}", ""),
+    "mass-scalar": ("M", ""),
+    "forcing-vector": (r"\mathbf{{f}}", ""),
+    "forcing-scalar": ("f", ""),
+    "coordinates-vector": (r"\mathbf{{q}}", ""),
+    "rates-vector": (r"\dot{{\mathbf{{q}}}}", ""),
+    "accelerations-vector": (r"\ddot{{\mathbf{{q}}}}", ""),
+    "linear-mass-matrix": (r"\mathbf{{M}}_0", ""),
+    "linear-mass-scalar": ("M_0", ""),
+    "linear-damping-matrix": (r"\mathbf{{D}}_0", ""),
+    "linear-damping-scalar": ("D_0", ""),
+    "linear-stiffness-matrix": (r"\mathbf{{K}}_0", ""),
+    "linear-stiffness-scalar": ("K_0", ""),
+    "deviation-vector": (r"\mathbf{{x}}", ""),
+    "deviation-scalar": ("x", ""),
+    "deviation-rate-vector": (r"\dot{{\mathbf{{x}}}}", ""),
+    "deviation-rate-scalar": (r"\dot{{x}}", ""),
+    "deviation-acceleration-vector": (r"\ddot{{\mathbf{{x}}}}", ""),
+    "deviation-acceleration-scalar": (r"\ddot{{x}}", ""),
+    "zero-vector": (r"\mathbf{{0}}", ""),
+    "mode": (r"\mathbf{{a}}{of}", ""),
+    "work-of-loop": ("W", ""),
+    "jacobi-energy": ("h", ""),
+    "routh-function": ("R", ""),
 }
 BY_PLACE = ("position", "virtual-displacement", "differential", "velocity")
+
+
+class SymbolTable(Protocol):
+    """What the narration asks of the symbols of a scene, or of a derivation without one."""
+
+    @property
+    def coordinate_latex(self) -> Mapping[str, str]:
+        """LaTeX of each coordinate or function."""
+
+    @property
+    def wrap(self) -> Callable[[str, str], str]:
+        """Puts LaTeX into a class of the page."""
+
+    def latex(self, quantity: Quantity) -> str:
+        """The symbol of a quantity."""
+
+    def label(self, name: str) -> str:
+        """What a sentence calls a place or a load."""
+
+    def is_varied(self, name: str) -> bool:
+        """Whether this is the name of a coordinate that virtual displacements change."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +100,12 @@ class QuantitySymbols:
         named = css.format(name=quantity.of) if quantity.of or "{" not in css else ""
         return self.wrap(named, symbol)
 
+    def label(self, name: str) -> str:
+        return self.scene.label(name, self.language)
+
+    def is_varied(self, name: str) -> bool:
+        return any(coordinate.name == name for coordinate in self.scene.free)
+
     def _colored(self, coordinate: str, latex: str) -> str:
         names = tuple(self.coordinate_latex)
         return self.wrap(f"q-{names.index(coordinate)}", latex) if coordinate in names else latex
@@ -74,7 +126,7 @@ class QuantitySymbols:
         return f"_{{{', '.join(map(self._word, names))}}}"
 
     def _word(self, name: str) -> str:
-        return upright(self.scene.label(name, self.language))
+        return upright(self.label(name))
 
 
 def upright(name: str) -> str:

@@ -8,8 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..dissipation import dissipation_function
+from ..model_chapter import model
 from ..rules import (
     cancellation_of_dots,
+    closed_loop,
     curl_test,
     decomposition,
     exchange_of_derivatives,
@@ -22,6 +25,7 @@ from ..rules import (
     position,
     potential,
     product_rule,
+    rayleigh_function,
     total_differential,
     total_kinetic_energy,
     total_virtual_work,
@@ -45,6 +49,7 @@ def derive(system: System) -> Derivation:
         "dalembert-to-lagrange": _dalembert_to_lagrange,
         "decomposition": _decomposition,
         "lagrange": _lagrange,
+        "model": model,
     }
     return Derivation(FORMULATION, tuple(Chapter(name, tuple(steps(system))) for name, steps in chapters.items()))
 
@@ -104,7 +109,21 @@ def _decomposition(system: System) -> Iterator[Step]:
         yield curl_test.apply(system, load)
         if system.is_conservative(load):
             yield potential.apply(system, load)
+        else:
+            yield from _without_potential(system, load)
     yield decomposition.apply(system)
+
+
+def _without_potential(system: System, load: str) -> Iterator[Step]:
+    """What can be said of forces that have no potential: a dissipation function, or a loop that shows it."""
+    function = dissipation_function(system, load)
+    if function is not None:
+        yield rayleigh_function.apply(system, load, function)
+    rates = {system.rate(q) for q in system.free}
+    if not any(system.load_force(load, q).free_symbols & rates for q in system.free):
+        loop = closed_loop.apply(system, load)
+        if loop is not None:
+            yield loop
 
 
 def _lagrange(system: System) -> Iterator[Step]:

@@ -1,6 +1,7 @@
 """Curl test: generalized forces Q(q, t) have a potential if and only if ∂Qᵢ/∂qₖ = ∂Qₖ/∂qᵢ for all pairs.
 
-The space of coordinates is taken as simply connected; forces that depend on rates have none.
+The space of coordinates is taken as simply connected; forces that depend on rates have none. Time is held fixed: a
+force that depends on it explicitly may have a potential V(q, t), as δW does not know dt.
 Source: Arnold, Mathematical Methods of Classical Mechanics, 2nd ed., §5 and §36 (Poincaré's lemma).
 """
 
@@ -24,7 +25,9 @@ def apply(system: System, load: str) -> Step:
 
 def _outcome(system: System, load: str) -> str:
     if system.is_conservative(load):
-        return "conservative" if len(system.free) > 1 else "single"
+        kind = "conservative" if len(system.free) > 1 else "single"
+        timed = any(system.load_force(load, q).has(system.t) for q in system.free)
+        return f"{kind}-in-time" if timed else kind
     rates = {system.rate(q) for q in system.free}
     moving = any(system.load_force(load, q).free_symbols & rates for q in system.free)
     return "rates" if moving else "nonconservative"

@@ -1,10 +1,11 @@
-"""Decomposition: Qᵢ = Qᵢᵖ + Qᵢᵈ, the part with a potential, Qᵢᵖ = −∂V/∂qᵢ, and the rest.
+"""Decomposition: Qᵢ = Qᵢᵖ + Qᵢᵈ, the part with a potential, Qᵢᵖ = −∂V/∂qᵢ, and the rest, of which −∂R/∂q̇ᵢ dissipates.
 
 Source: the lecture; Szabó, Höhere Technische Mechanik, §I.6.
 """
 
 from __future__ import annotations
 
+from ..dissipation import dissipation_function, dissipative_loads, remaining_loads
 from ..formula import Explicit, Named, Partial, Plus, Quantity, Term, minus
 from ..step import Relation, Step
 from ..system import System
@@ -23,7 +24,36 @@ def apply(system: System) -> Step:
     sums = (Plus(parts),) if len(parts) > 1 else ()
     lines = [Relation((potential, *sums, Explicit(system.potential_energy)))]
     lines += [_split(system, q, potential) for q in system.free]
-    return Step(RULE, "", tuple(lines), tuple(f"load:{load}" for load in system.load_names))
+    if dissipative_loads(system):
+        lines += [_rest(system, q) for q in system.free]
+    about = {"outcome": _outcome(system), "load": ", ".join(remaining_loads(system))}
+    return Step(RULE, "", tuple(lines), tuple(f"load:{load}" for load in system.load_names), about)
+
+
+def _outcome(system: System) -> str:
+    """What the rest consists of."""
+    if dissipative_loads(system):
+        return "dissipation-and-rest" if remaining_loads(system) else "dissipation"
+    return "rest" if remaining_loads(system) else "text"
+
+
+def _rest(system: System, coordinate: str) -> Relation:
+    """Qᵢᵈ = −∂R/∂q̇ᵢ of every load that dissipates, and the forces of the others."""
+    rate = system.rate(coordinate)
+    functions = {load: dissipation_function(system, load) for load in dissipative_loads(system)}
+    slopes = tuple(
+        minus(Partial(Named(Quantity("dissipation-function", load), function), rate), f"load:{load}")
+        for load, function in functions.items()
+        if function is not None
+    )
+    others = ((load, system.load_force(load, coordinate)) for load in remaining_loads(system))
+    forces = tuple(
+        Term(Named(Quantity("generalized-force", coordinate, load), force), (f"load:{load}",))
+        for load, force in others
+        if force != 0
+    )
+    value = system.nonconservative_force(coordinate)
+    return Relation((Named(_dissipative(coordinate), value), Plus((*slopes, *forces)), Explicit(value)))
 
 
 def _split(system: System, coordinate: str, potential: Named) -> Relation:

@@ -1,0 +1,24 @@
+"""General proofs: computed once, then kept."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+
+from ..languages import Language, language_of
+from ..responses import packed
+from ..service import service_of
+from ..wire.proof import ProofAnswer
+from ..workers.job import Job
+from .common import failures
+
+router = APIRouter(prefix="/proofs", tags=["proofs"])
+PROVE = Job("deltaq.api.jobs:prove", deadline=60.0)
+
+
+@router.get("/{identifier}", response_model=ProofAnswer, responses=failures(404, 503, 504))
+async def get_proof(request: Request, identifier: str, lang: Language | None = None) -> Response:  # noqa: ARG001 - read by language_of
+    """A proof by its id: `dalembert-lagrange` leads from d'Alembert's principle to Lagrange's equations."""
+    service = service_of(request)
+    question = {"id": identifier[:64], "lang": language_of(request)}
+    key = service.key(PROVE.target, question)
+    return packed(request, key, await service.answer(key, PROVE, question))

@@ -1,0 +1,16 @@
+"""General proofs: derivations without a scene."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from .base import Answer
+from .derivation import Chapter
+
+
+class ProofAnswer(Answer):
+    """A proof, every line checked by computer algebra on arbitrary functions and by numbers on concrete ones."""
+
+    id: str = Field(examples=["dalembert-lagrange"])
+    title: str
+    chapters: tuple[Chapter, ...]

@@ -1,0 +1,121 @@
+"""Carrying a formula out with computer algebra on undefined functions: derivatives taken, sums and integrals formed.
+
+Two formulas are equal in general if what is left has the same normal form: products multiplied out, each integral split
+into its terms with everything constant in front.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+
+from . import formula as f
+from .abstract_motion import total_rate
+from .function_formula import AtTime, Called, Directional, Each, FunctionFormula, LimitOfQuotient, Over, Ratio, Summed
+from .memory import kept
+from .step import Relation
+
+AT = " at "  # in the symbol of a function's value at an instant
+Values = tuple[sp.Expr, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class GeneralAlgebra:
+    """Carries formulas out; what was carried out once is kept, as the kinetic energy returns in many lines."""
+
+    def holds(self, relation: Relation) -> bool:
+        """Whether the members agree (or, for ≠, differ) whatever the functions are."""
+        first, *others = (tuple(map(self.normal, self.carried_out(member))) for member in relation.members)
+        if relation.sign == "≠":
+            return any(other != first for other in others)
+        return all(other == first for other in others)
+
+    @kept
+    def carried_out(self, formula: f.Formula) -> Values:  # noqa: PLR0911 - one case for each kind
+        """The components of a formula with every operation done."""
+        match formula:
+            case f.Explicit(value) | f.Named(_, value):
+                return tuple(value) if isinstance(value, sp.MatrixBase) else (value,)
+            case f.Partial(of, by):
+                return tuple(value.diff(by) for value in self.carried_out(of))
+            case f.Rate(of):
+                return tuple(total_rate(value) for value in self.carried_out(of))
+            case f.Times(factors):
+                return _product([self.carried_out(factor) for factor in factors])
+            case f.Dot(left, right):
+                return (sp.Add(*(a * b for a, b in zip(self.carried_out(left), self.carried_out(right), strict=True))),)
+            case f.Plus(terms):
+                return _sum([tuple(term.sign * v for v in self.carried_out(term.formula)) for term in terms])
+            case f.Equation(left, right):
+                return _sum([self.carried_out(left), tuple(-value for value in self.carried_out(right))])
+            case FunctionFormula():
+                return self._of_functions(formula)
+        raise TypeError(f"{type(formula).__name__} is no part of a general proof")
+
+    def _of_functions(self, formula: FunctionFormula) -> Values:  # noqa: PLR0911 - one case for each kind
+        match formula:
+            case Called(_, of):
+                return self.carried_out(of)
+            case Directional(of, along, h) | LimitOfQuotient(of, along, h):
+                return tuple(_directional(value, along, h) for value in self.carried_out(of))
+            case AtTime(of, time):
+                return tuple(_at(value, time) for value in self.carried_out(of))
+            case Over(of, _, _, bounds, weight):
+                limits = (bounds.symbol, bounds.lower, bounds.upper)
+                return tuple(sp.Integral(weight * value, limits) for value in self.carried_out(of))
+            case Ratio(numerator, denominator):
+                return (self.carried_out(numerator)[0] / self.carried_out(denominator)[0],)
+            case Summed(_, terms):
+                return _sum([self.carried_out(term) for term in terms])
+            case Each(_, instances):
+                return tuple(value for instance in instances for value in self.carried_out(instance))
+        raise TypeError(f"{type(formula).__name__} is no part of a general proof")
+
+    @kept
+    def normal(self, value: sp.Expr) -> sp.Expr:
+        """Multiplied out, derivatives of sums taken, each integral split into its terms."""
+        return _each_integral(value.expand(), _split).expand()
+
+
+def _directional(value: sp.Expr, along: Mapping[sp.Symbol, sp.Expr], h: sp.Symbol) -> sp.Expr:
+    """∂/∂h at h = 0 of the value at x + h v."""
+    everywhere = {**along, **_at_instants(value, along)}
+    moved = value.subs({symbol: symbol + h * v for symbol, v in everywhere.items()}, simultaneous=True)
+    return moved.diff(h).subs(h, 0).doit()
+
+
+def _at_instants(value: sp.Expr, along: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+    """The same directions for the functions' values at instants."""
+    instants = [s.name.partition(AT) for s in value.free_symbols if AT in s.name]
+    pairs = ((s, v, time) for name, _, time in instants for s, v in along.items() if s.name == name)
+    return {_at(s, time): _at(v, time) for s, v, time in pairs}
+
+
+def _at(value: sp.Expr, time: object) -> sp.Expr:
+    """Every function of time at the instant."""
+    return value.xreplace({s: sp.Symbol(f"{s.name}{AT}{time}", real=True) for s in value.free_symbols})
+
+
+def _product(factors: list[Values]) -> Values:
+    """Scalars times at most one vector."""
+    vector = next((factor for factor in factors if len(factor) > 1), (sp.Integer(1),))
+    scalar = sp.Mul(*(factor[0] for factor in factors if len(factor) == 1))
+    return tuple(scalar * part for part in vector)
+
+
+def _sum(terms: list[Values]) -> Values:
+    return tuple(sp.Add(*parts) for parts in zip(*terms, strict=True))
+
+
+def _each_integral(value: sp.Expr, function: Callable[[sp.Integral], sp.Expr]) -> sp.Expr:
+    return value.xreplace({integral: function(integral) for integral in value.atoms(sp.Integral)})
+
+
+def _split(integral: sp.Integral) -> sp.Expr:
+    """∫ (a f + b g) = a ∫ f + b ∫ g"""
+    limits = integral.limits[0]
+    terms = sp.Add.make_args(integral.function.expand())
+    pairs = (term.as_independent(limits[0], as_Add=False) for term in terms)
+    return sp.Add(*(constant * sp.Integral(rest, limits) for constant, rest in pairs))

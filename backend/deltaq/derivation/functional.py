@@ -1,0 +1,194 @@
+"""Functionals of functions of time: an expression f(x, ẋ, t), its value at an instant, or its integral over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import sympy as sp
+
+from ..errors import ExpressionError, Problem
+from ..language import canonical
+from ..language.names import Names
+from ..language.spelling import spell_rate
+from ..language.symbols import Symbols
+from ..language.sympy_algebra import time_derivative, to_sympy
+from ..language.tree import Node
+from .calculus import by_component, column
+from .formula import Bounds, Explicit, Formula, Given, Integral, Named, Quantity, Value
+from .function_formula import AtTime
+
+Ends = Literal["fixed", "free"]
+UNDEFINED = (sp.DiracDelta, sp.Derivative, sp.Subs)
+
+
+@dataclass(frozen=True)
+class Instant:
+    """The functional that takes the value at an instant."""
+
+    at: Node
+
+
+@dataclass(frozen=True)
+class Interval:
+    """The functional that integrates from `lower` to `upper`; the functions are prescribed at fixed ends only."""
+
+    lower: Node
+    upper: Node
+    ends: Ends
+
+
+@dataclass(frozen=True, eq=False)
+class Functional:
+    """What is varied: the expression (several trees for a vector) of the functions, and what is done with it.
+
+    Directions are `delta(x)` for the function x, with the rates `dot(delta(x))` and `ddot(delta(x))`.
+    """
+
+    names: Names
+    trees: tuple[Node, ...]
+    domain: Instant | Interval | None = None
+
+    @cached_property
+    def symbols(self) -> Symbols:
+        return Symbols(self.names)
+
+    @property
+    def functions(self) -> tuple[str, ...]:
+        return self.names.coordinates
+
+    @cached_property
+    def value(self) -> Value:
+        """f, or the integrand."""
+        values = [to_sympy(tree, self.symbols) for tree in self.trees]
+        return column(values) if len(values) > 1 else values[0]
+
+    @cached_property
+    def along(self) -> Mapping[sp.Symbol, sp.Symbol]:
+        """The direction of each function, rate and acceleration that occurs: x ↦ δx, ẋ ↦ δẋ."""
+        return {symbol: v for symbol, v in self.jets.items() if symbol in self.value.free_symbols}
+
+    @cached_property
+    def jets(self) -> Mapping[sp.Symbol, sp.Symbol]:
+        """The direction of every function with its rate and acceleration, whether they occur or not."""
+        return {self.symbols.rate(x, n): direction(x, n) for x in self.functions for n in range(3)}
+
+    def along_of(self, function: str) -> Mapping[sp.Symbol, sp.Symbol]:
+        """The same for one function and its rates."""
+        own = {self.symbols.rate(function, n) for n in range(3)}
+        return {symbol: v for symbol, v in self.along.items() if symbol in own}
+
+    @cached_property
+    def h(self) -> sp.Symbol:
+        """The number that the definition differentiates by."""
+        taken = {symbol.name for symbol in self.names.symbols}
+        return sp.Symbol(next(name for name in ("h", "epsilon", "eta", "lambda") if name not in taken), real=True)
+
+    def expression(self, node: Node) -> sp.Expr:
+        return to_sympy(node, self.symbols)
+
+    def display(self, value: Value) -> Value:
+        return by_component(value, lambda component: canonical.display(component, self.symbols))
+
+    def derivative(self, value: Value, by: sp.Symbol) -> Value:
+        """∂value/∂by. Raises ExpressionError where it does not exist."""
+        found = value.diff(by)
+        if found.has(*UNDEFINED):
+            raise ExpressionError(Problem("not-differentiable"))
+        return self.display(found)
+
+    @cached_property
+    def slopes(self) -> Mapping[sp.Symbol, Value]:
+        """∂f/∂x, ∂f/∂ẋ … of all that occurs."""
+        return {symbol: self.derivative(self.value, symbol) for symbol in self.along}
+
+    @cached_property
+    def varied(self) -> Value:
+        """f(x + h δx, ẋ + h δẋ, t)"""
+        return self.value.xreplace({symbol: symbol + self.h * v for symbol, v in self.along.items()})
+
+    @cached_property
+    def by_definition(self) -> Value:
+        """∂/∂h f(x + h δx) at h = 0, collected by the directions."""
+        found = self.varied.diff(self.h).xreplace({self.h: sp.Integer(0)})
+        if found.has(*UNDEFINED):
+            raise ExpressionError(Problem("not-differentiable"))
+        return by_component(found, self._collected)
+
+    def _collected(self, component: sp.Expr) -> sp.Expr:
+        return sp.Add(*(canonical.display(component.diff(v), self.symbols) * v for v in self.along.values()))
+
+    @cached_property
+    def by_chain_rule(self) -> Value:
+        """∂f/∂x δx + ∂f/∂ẋ δẋ + …"""
+        return sum((slope * self.along[symbol] for symbol, slope in self.slopes.items()), self.value * 0)
+
+    @property
+    def arguments(self) -> tuple[sp.Symbol, ...]:
+        """What f is said to depend on."""
+        time = (self.symbols.time,) if self.value.has(self.symbols.time) else ()
+        return (*(self.along or ()), *time)
+
+    @property
+    def named(self) -> Named:
+        """f under its name; the integrand is F."""
+        kind = "integrand" if isinstance(self.domain, Interval) else "function"
+        return Named(Quantity(kind), self.value, self.arguments)
+
+    @property
+    def given(self) -> Given:
+        return Given(self.trees, self.value)
+
+    @property
+    def explicit(self) -> Explicit:
+        return Explicit(self.value)
+
+    def on(self, formula: Formula) -> Formula:
+        """The functional of what stands inside: its value at the instant, its integral, or itself."""
+        match self.domain:
+            case Instant(at):
+                return AtTime(formula, self.expression(at))
+            case Interval():
+                return Integral(formula, (self.interval,))
+            case _:
+                return formula
+
+    @property
+    def interval(self) -> Bounds:
+        if not isinstance(self.domain, Interval):
+            raise TypeError("only an integral has an interval")
+        return Bounds(self.symbols.time, self.expression(self.domain.lower), self.expression(self.domain.upper))
+
+    @property
+    def has_fixed_ends(self) -> bool:
+        return isinstance(self.domain, Interval) and self.domain.ends == "fixed"
+
+    def momentum(self, function: str) -> sp.Expr:
+        """∂F/∂ẋ, zero if the rate does not occur."""
+        return self.slopes.get(self.symbols.rate(function, 1), sp.Integer(0))
+
+    def momentum_rate(self, function: str) -> sp.Expr:
+        """d/dt ∂F/∂ẋ"""
+        return self.display(time_derivative(self.momentum(function), self.symbols))
+
+    def euler_lagrange(self, function: str) -> sp.Expr:
+        """∂F/∂x − d/dt ∂F/∂ẋ"""
+        slope = self.slopes.get(self.symbols.rate(function, 0), sp.Integer(0))
+        return self.display(slope - time_derivative(self.momentum(function), self.symbols))
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """The functions whose rates occur."""
+        return tuple(x for x in self.functions if self.symbols.rate(x, 1) in self.along)
+
+    @property
+    def present(self) -> tuple[str, ...]:
+        """The functions that occur, themselves or by their rates."""
+        return tuple(x for x in self.functions if self.along_of(x))
+
+
+def direction(function: str, order: int = 0) -> sp.Symbol:
+    """δx, δẋ, δẍ"""
+    return sp.Symbol(spell_rate(f"delta({function})", order), real=True)

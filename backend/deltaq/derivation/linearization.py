@@ -1,0 +1,119 @@
+"""Small motions x = q − q₀ about an equilibrium: M₀ ẍ + D₀ ẋ + K₀ x = 0.
+
+M₀ = M(q₀), D₀ = −∂f/∂q̇ and K₀ = −∂f/∂q at q₀ and at rest; terms with q̈ and ∂M/∂q are small of second order.
+Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.2; Meirovitch, Methods of Analytical Dynamics, §6.4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import sympy as sp
+from flint import arb, ctx
+
+from .calculus import column
+from .equilibria import Equilibrium, equilibria, free_coordinates
+from .evaluation import components, number
+from .matrix_form import forces_at_rest, forcing, mass_matrix, parameter_values
+from .memory import kept
+from .refinement import rational
+from .spectrum import Spectrum, spectrum
+from .stability import stability
+from .system import System
+
+BITS = 512
+ORDER = ("stable", "undecided", "unstable")
+
+
+@dataclass(frozen=True)
+class Linearization:
+    """The matrices about one equilibrium, in the parameters where it is exact, else in numbers.
+
+    `spectrum` holds the numbers at the scene's parameter values; there is none where M₀ is singular.
+    """
+
+    equilibrium: Equilibrium
+    mass: sp.ImmutableMatrix
+    damping: sp.ImmutableMatrix
+    stiffness: sp.ImmutableMatrix
+    spectrum: Spectrum | None
+    stability: str
+
+    @property
+    def is_damped(self) -> bool:
+        """Whether rates enter at all."""
+        return any(entry != 0 for entry in self.damping)
+
+
+@kept
+def damping_at_rest(system: System) -> sp.ImmutableMatrix:
+    """−∂f/∂q̇ at q̇ = 0, as a function of q."""
+    at_rest = {system.rate(q): system.zero for q in system.free}
+    slopes = [[-f.diff(system.rate(q)).xreplace(at_rest) for q in system.free] for f in forcing(system)]
+    return system.display(sp.ImmutableMatrix(slopes))
+
+
+@kept
+def stiffness_at_rest(system: System) -> sp.ImmutableMatrix:
+    """−∂f/∂q at q̇ = 0, as a function of q."""
+    return sp.ImmutableMatrix([[-f.diff(system.q(q)) for q in system.free] for f in forces_at_rest(system)])
+
+
+@kept
+def linearizations(system: System) -> tuple[Linearization, ...]:
+    """One for each equilibrium, stable ones first; of equilibria that are not isolated only one."""
+    found = [_about(system, each) for each in equilibria(system) or ()]
+    return tuple(sorted(_isolated(system, found), key=lambda each: ORDER.index(each.stability)))
+
+
+def _isolated(system: System, found: list[Linearization]) -> Iterator[Linearization]:
+    """Of the numbers on a continuum of equilibria, where K₀ is singular, the first stands for all."""
+    continuum = False
+    for each in found:
+        if each.equilibrium.exact or not is_degenerate(system, each):
+            yield each
+        elif not continuum:
+            continuum = True
+            yield each
+
+
+def is_degenerate(system: System, linear: Linearization) -> bool:
+    """Whether K₀ is singular in the coordinates that the equilibrium determines."""
+    zeros = sum(1 for value in linear.spectrum.eigenvalues if value.size < 1e-20) if linear.spectrum else 0
+    expected = len(free_coordinates(system)) * 2
+    return zeros > expected
+
+
+def _about(system: System, equilibrium: Equilibrium) -> Linearization:
+    raw = (mass_matrix(system), damping_at_rest(system), stiffness_at_rest(system))
+    precision, ctx.prec = ctx.prec, BITS
+    try:
+        point = numeric_point(system, equilibrium)
+        mass, damping, stiffness = numbers = [list(components(matrix, point)) for matrix in raw]
+        found = spectrum(mass, damping, stiffness, len(system.free))
+        judged = stability(system, numbers, found)
+        if equilibrium.exact:
+            matrices = [system.display(matrix.xreplace(dict(equilibrium.values))) for matrix in raw]
+        else:
+            matrices = [_rational(values, len(system.free)) for values in numbers]
+    finally:
+        ctx.prec = precision
+    return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged)
+
+
+def _rational(values: list[arb], size: int) -> sp.ImmutableMatrix:
+    return sp.ImmutableMatrix(size, size, [rational(value) for value in values])
+
+
+def numeric_point(system: System, equilibrium: Equilibrium) -> dict[str, arb]:
+    """The equilibrium in numbers; what is free there stands where the scene starts."""
+    point = {symbol.name: number(value, {}) for symbol, value in parameter_values(system).items()}
+    point |= {c.name: arb(c.value) for c in system.scene.free}
+    return point | {q.name: number(value, point) for q, value in equilibrium.values.items()}
+
+
+def deviations(system: System) -> tuple[sp.ImmutableMatrix, ...]:
+    """x, ẋ, ẍ: symbols that are free at the points of the verification stand for them."""
+    kinds = (system.variation, system.rate, system.acceleration)
+    return tuple(column(kind(q) for q in system.free) for kind in kinds)

@@ -1,0 +1,47 @@
+"""δI without the rates of the directions: δI = [∂F/∂ẋ δx] + ∫ (∂F/∂x − d/dt ∂F/∂ẋ) δx dt.
+
+At fixed ends the boundary terms are gone.
+Source: Gelfand, Fomin, Calculus of Variations, §4, eq. (5).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..formula import Explicit, Formula, Partial, Plus, Rate, Term, Times, minus
+from ..functional import Functional, direction
+from ..step import Relation, Step
+from .functional import variation
+from .integration_by_parts import boundary
+
+RULE = "collected-variation"
+
+
+def apply(functional: Functional) -> Step:
+    formal = _sum(functional, lambda x: euler_expression(functional, x), lambda x: momentum(functional, x))
+    written = _sum(
+        functional, lambda x: Explicit(functional.euler_lagrange(x)), lambda x: Explicit(functional.momentum(x))
+    )
+    return Step(RULE, "", (Relation((variation(functional), formal, written)),))
+
+
+def momentum(functional: Functional, function: str) -> Partial:
+    """∂F/∂ẋ"""
+    return Partial(functional.named, functional.symbols.rate(function, 1))
+
+
+def euler_expression(functional: Functional, function: str) -> Plus:
+    """∂F/∂x − d/dt ∂F/∂ẋ, of what there is."""
+    slope = (Term(Partial(functional.named, functional.symbols.name(function))),)
+    rate = (minus(Rate(momentum(functional, function))),)
+    own = functional.along_of(function)
+    has_slope, has_rate = (functional.symbols.rate(function, n) in own for n in range(2))
+    return Plus((*(slope if has_slope else ()), *(rate if has_rate else ())))
+
+
+def _sum(functional: Functional, expression: Callable[[str], Formula], slope: Callable[[str], Formula]) -> Plus:
+    """The boundary terms where there are any, and the integral."""
+    ends = () if functional.has_fixed_ends else functional.moving
+    terms = [Times((expression(x), Explicit(direction(x)))) for x in functional.present]
+    inside = terms[0] if len(terms) == 1 else Plus(tuple(map(Term, terms)))
+    return Plus((*(Term(boundary(functional, slope(x), x)) for x in ends), Term(functional.on(inside))))

@@ -1,0 +1,25 @@
+"""Cyclic coordinate: if ∂L/∂q = 0 and no other force acts on it, Qᵈ = 0, its momentum p = ∂L/∂q̇ is conserved.
+
+Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §2.6; Landau, Lifshitz, Mechanics, §40.
+"""
+
+from __future__ import annotations
+
+from ..formula import Explicit, Named, Partial, Quantity
+from ..step import Relation, Step
+from ..system import System
+
+RULE = "cyclic-coordinate"
+
+
+def apply(system: System, coordinate: str) -> Step:
+    lagrangian = Named(Quantity("lagrangian"), system.lagrangian)
+    outside = Named(Quantity("nonconservative-force", coordinate), system.nonconservative_force(coordinate))
+    momentum = Named(Quantity("momentum", coordinate), system.momentum(coordinate))
+    nothing = Explicit(system.zero)
+    lines = (
+        Relation((Partial(lagrangian, system.q(coordinate)), nothing)),
+        Relation((outside, nothing)),
+        Relation((momentum, Partial(lagrangian, system.rate(coordinate)), Explicit(momentum.value))),
+    )
+    return Step(RULE, coordinate, lines, (), {"coordinate": coordinate})

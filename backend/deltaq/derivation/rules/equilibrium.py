@@ -1,0 +1,45 @@
+"""Stability: an equilibrium is stable where the potential has a strict minimum, and unstable where small motions grow.
+
+Source: Lagrange, Mécanique analytique (1788), part 1, §3; Dirichlet, J. reine angew. Math. 32 (1846), 85; Merkin,
+Introduction to the Theory of Stability, §2.3 and §4.2.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..equilibria import free_coordinates
+from ..formula import Explicit, Named, Quantity
+from ..linearization import Linearization
+from ..matrix_form import forcing
+from ..matrix_formula import AtEquilibrium, Inserted, Rounded
+from ..step import Relation, Step
+from ..system import System
+from ._shape import at_rest, numbers, shaped, zero
+
+RULE = "equilibrium"
+
+
+def apply(system: System, linear: Linearization, number: int) -> Step:
+    """Where it is, the proof that nothing acts there, and how it behaves."""
+    force = AtEquilibrium(shaped(system, "forcing", "vector", forcing(system)), at_rest(system, linear))
+    proof = force if linear.equilibrium.exact else Inserted(force, numbers(system))
+    places = tuple(_place(system, linear, q) for q in system.free if system.q(q) in linear.equilibrium.values)
+    free = free_coordinates(system)
+    about = {"outcome": _outcome(linear, free), "number": str(number), "coordinate": ", ".join(free)}
+    return Step(RULE, str(number), (*places, Relation((proof, zero(system)))), (), about)
+
+
+def _place(system: System, linear: Linearization, coordinate: str) -> Relation:
+    value = linear.equilibrium.values[system.q(coordinate)]
+    name = Named(Quantity("coordinate", coordinate), value)
+    if linear.equilibrium.exact:
+        return Relation((name, Explicit(value)))
+    unit = next(c.unit for c in system.scene.coordinates if c.name == coordinate)
+    return Relation((name, Rounded(sp.sympify(value), unit)), "≈")
+
+
+def _outcome(linear: Linearization, free: tuple[str, ...]) -> str:
+    if linear.spectrum is None:
+        return "singular"
+    return "stable-in-the-others" if linear.stability == "stable" and free else linear.stability

@@ -1,0 +1,46 @@
+"""Matrix form: Lagrange's equations are linear in the accelerations, M(q, t) q̈ = f(q, q̇, t), with Mᵢₖ = ∂²E/∂q̇ᵢ∂q̇ₖ.
+
+Source: Meirovitch, Methods of Analytical Dynamics, §2.11 and §6.4; Arnold, Mathematical Methods of Classical
+Mechanics, 2nd ed., §19.
+"""
+
+from __future__ import annotations
+
+from ..calculus import column
+from ..formula import Equation, Explicit, Formula, Named, Partial, Plus, Quantity, Rate, Term, minus
+from ..matrix_form import forcing, mass_matrix
+from ..matrix_formula import MatrixTimes, Stack
+from ..step import Relation, Step
+from ..system import System
+from ._shape import is_scalar, plain_value, shaped
+
+RULE = "matrix-form"
+
+
+def apply(system: System) -> Step:
+    """All equations in one line, and M and f written out."""
+    accelerations = column(system.acceleration(q) for q in system.free)
+    mass = shaped(system, "mass", "matrix", mass_matrix(system))
+    force = shaped(system, "forcing", "vector", forcing(system))
+    second = Named(Quantity("accelerations-vector"), plain_value(accelerations))
+    laws = [_law(system, q) for q in system.free]
+    outside: list[Formula] = [_outside(system, q) for q in system.free]
+    law = Equation(*laws, *outside) if is_scalar(system) else Equation(Stack(tuple(laws)), Stack(tuple(outside)))
+    moved = Explicit(second.value) if is_scalar(system) else second
+    lines = (
+        Relation((law, Equation(MatrixTimes(mass, moved), force)), "⇔"),
+        Relation((mass, Explicit(mass.value))),
+        Relation((force, Explicit(force.value))),
+    )
+    sources = tuple(f"load:{load}" for load in system.load_names)
+    return Step(RULE, "", lines, system.body_sources + sources)
+
+
+def _law(system: System, coordinate: str) -> Formula:
+    lagrangian = Named(Quantity("lagrangian"), system.lagrangian)
+    slope = Partial(lagrangian, system.rate(coordinate))
+    return Plus((Term(Rate(slope)), minus(Partial(lagrangian, system.q(coordinate)))))
+
+
+def _outside(system: System, coordinate: str) -> Named:
+    return Named(Quantity("nonconservative-force", coordinate), system.nonconservative_force(coordinate))

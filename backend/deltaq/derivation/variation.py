@@ -1,0 +1,46 @@
+"""The first variation of a functional as a derivation: by the definition and by the chain rule, each step verified."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .function_points import function_points
+from .functional import Functional, Interval
+from .rules import (
+    both_routes,
+    boundary_terms,
+    collected_variation,
+    euler_lagrange_equation,
+    functional,
+    integration_by_parts,
+    variation_by_chain_rule,
+    variation_by_definition,
+)
+from .step import Chapter, Derivation, Step
+from .verification import verified_step
+
+FORMULATION = "first-variation"
+
+
+def vary(subject: Functional) -> Derivation:
+    """The chapters: what is varied, the two routes, that they agree; for an integral the Euler–Lagrange equations."""
+    points = function_points(subject)
+    at_ends = function_points(subject, fixed=subject.has_fixed_ends)
+    chapters = {
+        "functional": (functional.apply(subject),),
+        "variation-by-definition": (variation_by_definition.apply(subject),),
+        "variation-by-chain-rule": (variation_by_chain_rule.apply(subject),),
+        "both-routes": (both_routes.apply(subject),),
+    }
+    found = [Chapter(name, tuple(verified_step(s, points) for s in steps)) for name, steps in chapters.items()]
+    if isinstance(subject.domain, Interval):
+        found += [Chapter(name, tuple(verified_step(s, at_ends) for s in steps)) for name, steps in _integral(subject)]
+    return Derivation(FORMULATION, tuple(found))
+
+
+def _integral(subject: Functional) -> Iterator[tuple[str, tuple[Step, ...]]]:
+    """Integration by parts, the ends, and the fundamental lemma."""
+    parts = tuple(integration_by_parts.apply(subject, x) for x in subject.moving)
+    ends = (boundary_terms.apply(subject),) if subject.moving else ()
+    yield "integration-by-parts", (*parts, *ends, collected_variation.apply(subject))
+    yield "euler-lagrange", tuple(euler_lagrange_equation.apply(subject, x) for x in subject.present)

@@ -1,0 +1,76 @@
+"""How vectors, matrices and numbers of the model are written."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import sympy as sp
+
+from ..derivation.formula import Formula, Named, Value
+from ..derivation.matrix_formula import (
+    AtEquilibrium,
+    Determinant,
+    Inserted,
+    Jacobian,
+    MatrixFormula,
+    MatrixTimes,
+    Power,
+    Rounded,
+    Stack,
+)
+from .symbols import SymbolTable
+
+DIGITS = 4
+TINY = 1e-12
+
+
+class Writer(Protocol):
+    """What writes the parts of a formula."""
+
+    @property
+    def symbols(self) -> SymbolTable: ...
+
+    def formula(self, formula: Formula) -> str: ...
+
+    def factor(self, formula: Formula) -> str: ...
+
+
+def write_matrix(writer: Writer, formula: MatrixFormula) -> str:  # noqa: PLR0911 - one case for each kind
+    """LaTeX of the formulas of the model."""
+    match formula:
+        case Stack(rows):
+            return _column([writer.formula(row) for row in rows])
+        case MatrixTimes(matrix, vector):
+            return rf"{writer.factor(matrix)}\,{writer.factor(vector)}"
+        case Jacobian(of, _, name):
+            above = writer.symbols.latex(of.quantity) if isinstance(of, Named) else writer.factor(of)
+            return rf"\frac{{\partial {above}}}{{\partial {writer.symbols.latex(name)}}}"
+        case Determinant(of):
+            return rf"\det\left({writer.formula(of)}\right)"
+        case Power(of, exponent):
+            return f"{writer.factor(of)}^{{{exponent}}}"
+        case AtEquilibrium(of):
+            return rf"\left.{writer.formula(of)}\right|_{{0}}"
+        case Inserted(of):
+            return writer.formula(of)
+        case Rounded(value, unit):
+            return rounded(value, unit)
+        case _:
+            raise NotImplementedError(type(formula).__name__)
+
+
+def rounded(value: Value, unit: str = "") -> str:
+    """LaTeX of a number, or of a vector or matrix of numbers, to four digits."""
+    if isinstance(value, sp.MatrixBase):
+        return _column([" & ".join(_number(float(entry)) for entry in row) for row in value.tolist()])
+    return _number(float(value)) + (rf"\,\text{{{unit}}}" if unit else "")
+
+
+def _column(rows: list[str]) -> str:
+    return r"\begin{bmatrix} " + r" \\ ".join(rows) + r" \end{bmatrix}"
+
+
+def _number(value: float) -> str:
+    text = f"{value if abs(value) > TINY else 0.0:.{DIGITS}g}"
+    mantissa, _, exponent = text.partition("e")
+    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa

@@ -1,0 +1,67 @@
+"""Equilibria, small motions and Routh's function as data: expressions as plain text and LaTeX, numbers rounded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy as sp
+from flint import arb
+
+from ..derivation.conservation import Reduction
+from ..derivation.evaluation import number
+from ..derivation.linearization import Linearization
+from ..derivation.spectrum import Mode
+from ..language.latex_printer import Typography, latex
+from ..language.plain_printer import plain
+from ..mechanics.scene import Scene
+from .matrix_writing import rounded
+
+Document = dict[str, object]
+
+DIGITS = 12
+
+
+def equilibrium(linear: Linearization, scene: Scene, typography: Typography) -> Document:
+    """One equilibrium: where, how stable, and with which frequencies (rad/s) it oscillates in which shapes.
+
+    Coordinates that are not among the `values` may have any value. `exact` says that plain and latex are closed forms
+    in the parameters; `number` is their value in this scene.
+    """
+    free = [coordinate.name for coordinate in scene.free]
+    point = {parameter.name: arb(parameter.value) for parameter in scene.parameters}
+    spectrum = linear.spectrum
+    return {
+        "values": {q.name: _value(q, linear, point, typography) for q in linear.equilibrium.values},
+        "exact": linear.equilibrium.exact,
+        "stability": linear.stability,
+        "eigenvalues": [[_float(v.real), _float(v.imaginary)] for v in spectrum.eigenvalues] if spectrum else [],
+        "eigenfrequencies": [_float(frequency) for frequency in spectrum.frequencies] if spectrum else [],
+        "modes": [_mode(mode, free) for mode in spectrum.modes] if spectrum else [],
+    }
+
+
+def _value(q: sp.Symbol, linear: Linearization, point: Mapping[str, arb], typography: Typography) -> Document:
+    value = linear.equilibrium.values[q]
+    if linear.equilibrium.exact:
+        return {"plain": plain(value), "latex": latex(value, typography), "number": _float(number(value, point))}
+    return {"plain": repr(_float(value)), "latex": rounded(value), "number": _float(value)}
+
+
+def _mode(mode: Mode, free: list[str]) -> Document:
+    """ω² in 1/s², negative where the motion grows, and the ratio of the amplitudes."""
+    shape = {name: _float(part) for name, part in zip(free, mode.shape, strict=True)}
+    return {"eigenfrequency_squared": _float(mode.square), "shape": shape}
+
+
+def _float(value: sp.Expr | arb) -> float:
+    found = float(f"{float(value):.{DIGITS}g}")
+    return found if abs(found) > 10.0**-DIGITS else 0.0
+
+
+def routh(reduction: Reduction | None, typography: Typography) -> Document | None:
+    """Routh's function; its `momenta` are the constant momenta of the cyclic coordinates, by their symbols."""
+    if reduction is None:
+        return None
+    value = reduction.function
+    momenta = {coordinate: symbol.name for coordinate, symbol in reduction.momenta.items()}
+    return {"plain": plain(value), "latex": latex(value, typography), "momenta": momenta}

@@ -1,0 +1,143 @@
+"""Reading what a request wants to vary. Problems point at the field and, in an expression, at the character."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import cast
+
+from ..derivation.functional import Ends, Functional, Instant, Interval
+from ..errors import ExpressionError, InputError, Problem, RequestError
+from ..language.expression import Expression
+from ..language.names import Kind, Names, Symbol
+from ..language.parser import Syntax, parse
+from ..language.symbols import Symbols
+from ..language.sympy_algebra import to_sympy
+from ..language.tree import Node, Rate, Vector, walk
+
+Document = Mapping[str, object]
+
+
+@dataclass(frozen=True)
+class Question:
+    """What to vary, and what the user calls the direction of each function ("" for δ of its name)."""
+
+    functional: Functional
+    directions: Mapping[str, str]
+
+
+def read_question(document: Document) -> Question:
+    """The question of a request {expression, syntax?, functions, direction?, parameters?, functional?}."""
+    names = _names(document)
+    syntax = cast("Syntax", document.get("syntax") or "plain")
+    tree = _parsed(str(document["expression"]), names, syntax, "/expression").tree
+    domain = _domain(cast("Document | None", document.get("functional")), names, syntax)
+    components = tree.components if isinstance(tree, Vector) else (tree,)
+    problems = [*_component_problems(components, domain)]
+    if problems:
+        raise RequestError(*problems)
+    functional = Functional(names, components, domain)
+    if not functional.along:
+        known = ", ".join(names.coordinates)
+        raise RequestError(Problem("nothing-varied", "/expression", parameters={"names": known}))
+    return Question(functional, _directions(document, names))
+
+
+def _names(document: Document) -> Names:
+    """Functions behave like coordinates. Raises RequestError for names that cannot be or are taken."""
+    symbols: list[Symbol] = []
+    problems: list[Problem] = []
+    for field, kind in (("functions", "coordinate"), ("parameters", "parameter")):
+        entries = cast("Sequence[object]", document.get(field) or ())
+        for index, entry in enumerate(entries):
+            symbol = _symbol(entry, cast("Kind", kind))
+            problems += _name_problems(symbol.name, symbols, f"/{field}/{index}")
+            symbols.append(symbol)
+    if problems:
+        raise RequestError(*problems)
+    return Names(tuple(symbols))
+
+
+def _symbol(entry: object, kind: Kind) -> Symbol:
+    given = entry if isinstance(entry, Mapping) else {"name": entry}
+    return Symbol(str(given["name"]), kind, str(given.get("latex") or ""))
+
+
+def _name_problems(name: str, known: Sequence[Symbol], pointer: str) -> Iterator[Problem]:
+    if name in {symbol.name for symbol in known}:
+        yield Problem("duplicate-name", pointer, parameters={"name": name})
+    try:
+        Names((Symbol(name, "parameter"),))
+    except InputError as error:
+        yield from (problem.below(pointer) for problem in error.problems)
+
+
+def _directions(document: Document, names: Names) -> Mapping[str, str]:
+    """Each function with the name of its direction."""
+    given = [str(name) for name in cast("Sequence[object]", document.get("direction") or ())]
+    if not given:
+        return dict.fromkeys(names.coordinates, "")
+    if len(given) != len(names.coordinates):
+        parameters = {"functions": len(names.coordinates), "found": len(given)}
+        raise RequestError(Problem("direction-count", "/direction", parameters=parameters))
+    problems: list[Problem] = []
+    known = list(names.symbols)
+    for index, name in enumerate(given):
+        problems += _name_problems(name, known, f"/direction/{index}")
+        known.append(Symbol(name, "coordinate"))
+    if problems:
+        raise RequestError(*problems)
+    return dict(zip(names.coordinates, given, strict=True))
+
+
+def _parsed(text: str, names: Names, syntax: Syntax, pointer: str) -> Expression:
+    try:
+        expression = parse(text, names, syntax)
+        to_sympy(expression.tree, Symbols(names))
+    except ExpressionError as error:
+        raise RequestError(*(problem.below(pointer) for problem in error.problems)) from None
+    return expression
+
+
+def _component_problems(components: tuple[Node, ...], domain: Instant | Interval | None) -> Iterator[Problem]:
+    """Scalars in the functions and their rates; an integral has one only."""
+    parts = [Expression("", component) for component in components]
+    if not all(part.is_scalar for part in parts) or (isinstance(domain, Interval) and len(parts) > 1):
+        yield Problem("not-scalar", "/expression")
+    elif any(part.has_derivatives for part in parts):
+        yield Problem("derivative-in-scene", "/expression")
+    elif isinstance(domain, Interval):
+        yield from _order_problems(components[0])
+
+
+def _order_problems(integrand: Node) -> Iterator[Problem]:
+    """Integration by parts is carried out once: the integrand holds functions and their first rates."""
+    high = next((node for node in walk(integrand) if isinstance(node, Rate) and node.order > 1), None)
+    if high is not None:
+        yield Problem(
+            "integrand-order", "/expression", high.span.offset, high.span.length, parameters={"name": high.name}
+        )
+
+
+def _domain(document: Document | None, names: Names, syntax: Syntax) -> Instant | Interval | None:
+    """Where the functional looks: an instant, an interval, or anywhere."""
+    if document is None:
+        return None
+    if document["kind"] == "value":
+        return Instant(_constant(document, "at", names, syntax))
+    lower, upper = (_constant(document, end, names, syntax) for end in ("from", "to"))
+    if lower == upper:
+        raise RequestError(Problem("empty-interval", "/functional/to"))
+    return Interval(lower, upper, cast("Ends", document.get("ends") or "fixed"))
+
+
+def _constant(document: Document, field: str, names: Names, syntax: Syntax) -> Node:
+    """An instant: a number or an expression of parameters."""
+    pointer = f"/functional/{field}"
+    expression = _parsed(str(document[field]), names, syntax, pointer)
+    moving = sorted(expression.names & {*names.coordinates, "t"})
+    if moving:
+        raise RequestError(Problem("instant-not-constant", pointer, parameters={"name": moving[0]}))
+    if not expression.is_scalar:
+        raise RequestError(Problem("not-scalar", pointer))
+    return expression.tree

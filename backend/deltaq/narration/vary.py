@@ -1,0 +1,138 @@
+"""The answer to `POST /variations`: plain data in, plain data out."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from functools import reduce
+from typing import cast
+
+import sympy as sp
+
+from ..derivation.formula import Explicit, Formula
+from ..derivation.functional import Functional, Instant, Interval, direction
+from ..derivation.rules.integration_by_parts import boundary
+from ..derivation.variation import vary
+from ..errors import ExpressionError, Problem, RequestError
+from ..language.names import Names
+from ..language.plain_printer import plain
+from ..language.spelling import latex_of, spell_rate
+from .catalog import language_of
+from .function_notation import FunctionNotation, FunctionSymbols, FunctionTypography, as_variations, stand_in
+from .marks import Wrap, in_class, unmarked
+from .narrator import Narrator
+from .quotient_answer import quotient_answer
+from .variation_request import Question, read_question
+
+Document = dict[str, object]
+
+
+def vary_request(document: Mapping[str, object]) -> Document:
+    """The first variation of what the request names. Raises InputError for what cannot be read.
+
+    `document`: {expression, syntax?, functions, direction?, parameters?, functional?, include?, numeric?, lang?},
+    already checked for types. `functional` is {kind: "value", at} or {kind: "integral", from, to, ends}, where the ends
+    are "fixed" or "free".
+    """
+    question = read_question(document)
+    language = language_of(cast("str | None", document.get("lang")))
+    try:
+        derivation = vary(question.functional)
+    except ExpressionError as error:
+        raise RequestError(*(problem.below("/expression") for problem in error.problems)) from None
+    if not derivation.chapters[0].steps[0].verified:
+        raise RequestError(Problem("value-undefined", "/expression"))  # nowhere could it be evaluated
+    clean = _notation(question, unmarked)
+    key = json.dumps(document, sort_keys=True, ensure_ascii=False)
+    answer: Document = {
+        "id": hashlib.sha256(key.encode()).hexdigest()[:24],
+        "chapters": Narrator(language, clean, _notation(question, in_class)).chapters(derivation),
+        "result": _result(question, clean),
+    }
+    if "quotient" in cast("list[str]", document.get("include") or []):
+        answer["quotient"] = quotient_answer(question, document)
+    return answer
+
+
+def _notation(question: Question, wrap: Wrap) -> FunctionNotation:
+    functional = question.functional
+    directions = {x: latex_of(v) if v else "" for x, v in question.directions.items()}
+    typography = FunctionTypography(
+        functional.names, _mark(functional.names, wrap), directions=directions, h=latex_of(functional.h.name)
+    )
+    letters = {symbol.name: symbol.typeset for symbol in functional.names.symbols if symbol.kind == "coordinate"}
+    notation = FunctionNotation(typography, FunctionSymbols(letters, wrap), functional.h)
+    if not isinstance(functional.domain, Instant):
+        return notation
+    at = notation.value(functional.expression(functional.domain.at))
+    return FunctionNotation(typography, FunctionSymbols(letters, wrap, at), functional.h)
+
+
+def _mark(names: Names, wrap: Wrap) -> Wrap:
+    """The classes of the page: `q-0` for the first function and its rates, with `variation` for its direction."""
+    numbers = {function: index for index, function in enumerate(names.coordinates)}
+
+    def mark(name: str, latex: str) -> str:
+        base = name.rstrip(")").rpartition("(")[2].rstrip("ʹʺʰ")
+        if base not in numbers:
+            return latex
+        return wrap(f"q-{numbers[base]}{' variation' if 'delta(' in name else ''}", latex)
+
+    return mark
+
+
+def _result(question: Question, notation: FunctionNotation) -> Document:
+    functional = question.functional
+    both = _Writer(question, notation)
+    variation = functional.by_chain_rule
+    first = both.vector(variation) | {"latex": notation.formula(functional.on(Explicit(variation)))}
+    if isinstance(functional.domain, Instant):
+        first["at"] = plain(functional.expression(functional.domain.at))
+    if not isinstance(functional.domain, Interval):
+        return {"first_variation": first}
+    bounds = functional.interval
+    interval = {"from": plain(bounds.lower), "to": plain(bounds.upper), "ends": functional.domain.ends}
+    return {
+        "first_variation": first | interval,
+        "euler_lagrange": [{"function": x, **both.equation(functional.euler_lagrange(x))} for x in functional.present],
+        "boundary_terms": [term for x in functional.moving for term in _boundary(functional, x, both)],
+    }
+
+
+def _boundary(functional: Functional, function: str, both: _Writer) -> list[Document]:
+    """∂F/∂ẋ δx, at both ends; at free ends the natural conditions ∂F/∂ẋ = 0."""
+    momentum = functional.momentum(function)
+    written = both.formula(boundary(functional, Explicit(momentum), function))
+    found: Document = {"function": function, "plain": both.plain(momentum * direction(function)), "latex": written}
+    vanishes = functional.has_fixed_ends
+    return [found | {"vanishes": vanishes, "condition": None if vanishes else both.equation(momentum)}]
+
+
+class _Writer:
+    """Expressions as plain text in the user's names, and as LaTeX."""
+
+    def __init__(self, question: Question, notation: FunctionNotation) -> None:
+        self._notation = notation
+        self._stand_ins = as_variations(question.functional.functions)
+        self._spelt = [(stand_in, own) for own, stand_in in self._stand_ins.items() if stand_in.name != own.name]
+        self._named = {
+            stand_in(x, n): sp.Symbol(spell_rate(v, n), real=True)
+            for x, v in question.directions.items()
+            if v
+            for n in range(3)
+        }
+
+    def plain(self, value: sp.Expr) -> str:
+        text = plain(value.xreplace(self._stand_ins).xreplace(self._named))
+        return reduce(lambda written, pair: written.replace(pair[0].name, pair[1].name), self._spelt, text)
+
+    def formula(self, formula: Formula) -> str:
+        return self._notation.formula(formula)
+
+    def vector(self, value: sp.Expr | sp.ImmutableMatrix) -> Document:
+        text = [self.plain(c) for c in value] if isinstance(value, sp.MatrixBase) else self.plain(value)
+        return {"plain": text, "latex": self._notation.value(value)}
+
+    def equation(self, left: sp.Expr) -> Document:
+        return {"plain": f"{self.plain(left)} = 0", "latex": f"{self._notation.value(left)} = 0"}

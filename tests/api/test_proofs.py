@@ -1,0 +1,37 @@
+from __future__ import annotations
+
+import httpx
+import pytest
+
+from deltaq.api.wire.proof import ProofAnswer
+
+pytestmark = pytest.mark.anyio
+PROOF = "/api/v1/proofs/dalembert-lagrange"
+
+
+async def test_proof_in_both_languages(client: httpx.AsyncClient) -> None:
+    german, english = [
+        ProofAnswer.model_validate((await client.get(PROOF, params={"lang": lang})).json()) for lang in ("de", "en")
+    ]
+    assert german.title == "Von d'Alembert zu Lagrange: der allgemeine Beweis"
+    assert [chapter.id for chapter in german.chapters] == [chapter.id for chapter in english.chapters]
+    assert all(step.verified for chapter in english.chapters for step in chapter.steps)
+
+
+async def test_known_proof_is_not_sent_again(client: httpx.AsyncClient) -> None:
+    first = await client.get(PROOF)
+    again = await client.get(PROOF, headers={"If-None-Match": first.headers["etag"]})
+    assert (again.status_code, again.content) == (304, b"")
+
+
+async def test_unknown_proof(client: httpx.AsyncClient) -> None:
+    response = await client.get("/api/v1/proofs/fermat", params={"lang": "en"})
+    assert response.status_code == 404
+    (problem,) = response.json()["problems"]
+    assert problem["code"] == "unknown-proof"
+
+
+async def test_unknown_language(client: httpx.AsyncClient) -> None:
+    response = await client.get(PROOF, params={"lang": "fr"})
+    assert response.status_code == 422
+    assert response.json()["problems"][0]["code"] == "request-not-one-of"

@@ -1,0 +1,78 @@
+"""Cyclic coordinates, the Jacobi energy and Routh's function, against what textbooks state."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+from tests.derivation.model_scenes import heavy_top, model_steps, particle, rotating_hoop, spherical_pendulum
+
+from deltaq.derivation.conservation import cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
+from deltaq.derivation.equilibria import free_coordinates
+from deltaq.derivation.system import System
+from deltaq.mechanics.library import load_scene
+
+
+def test_cyclic_coordinates() -> None:
+    assert cyclic(System(spherical_pendulum())) == ("psi",)
+    assert cyclic(System(heavy_top())) == ("psi", "phi")
+    assert cyclic(System(load_scene("elastic-pendulum"))) == ()
+    assert free_coordinates(System(spherical_pendulum())) == ("psi",)
+
+
+def test_a_force_on_a_cyclic_coordinate_spoils_its_momentum() -> None:
+    drag = {"kind": "force", "at": "bob", "force": ["-c*dot(x)", "0"]}
+    assert cyclic(System(particle(["x", "y"], {"c": 0.1}, ["x", "y"], drag))) == ("y",)
+
+
+def test_jacobi_energy_of_the_hoop_is_not_the_energy() -> None:
+    system = System(rotating_hoop(5.0))
+    r, m, g, speed = (system.q(name) for name in ("r", "m", "g", "Omega"))
+    phi, rate = system.q("phi"), system.rate("phi")
+    expected = m * r**2 * (rate**2 - speed**2 * sp.sin(phi) ** 2) / 2 - m * g * r * sp.cos(phi)
+    assert system.is_zero(jacobi_energy(system) - expected)
+    assert not is_energy(system)
+    assert jacobi_energy_rate(system) == 0
+    assert model_steps(rotating_hoop(5.0))["jacobi-energy"].about["outcome"] == "conserved"
+
+
+@pytest.mark.parametrize(
+    ("scene", "outcome"),
+    [
+        pytest.param("pendulum", "energy-conserved", id="pendulum"),
+        pytest.param("elastic-pendulum", "energy-changes", id="follower force"),
+        pytest.param("guided-pendulum", "changes", id="guide"),
+    ],
+)
+def test_what_is_said_of_the_jacobi_energy(scene: str, outcome: str) -> None:
+    assert model_steps(load_scene(scene))["jacobi-energy"].about["outcome"] == outcome
+
+
+def test_a_force_without_power_leaves_the_energy() -> None:
+    """The force on a charge in a magnetic field."""
+    lorentz = {"kind": "force", "at": "bob", "force": ["b*dot(y)", "-b*dot(x)"]}
+    assert jacobi_energy_rate(System(particle(["x", "y"], {"b": 1.0}, ["x", "y"], lorentz))) == 0
+
+
+def test_routh_function_of_the_spherical_pendulum() -> None:
+    system = System(spherical_pendulum())
+    reduced = reduction(system)
+    assert reduced is not None
+    m, l, g, theta = (system.q(name) for name in ("m", "l", "g", "theta"))
+    p, rate = reduced.momenta["psi"], system.rate("theta")
+    expected = m * l**2 * rate**2 / 2 + m * g * l * sp.cos(theta) - p**2 / (2 * m * l**2 * sp.sin(theta) ** 2)
+    assert system.is_zero(reduced.function - expected)
+
+
+def test_routh_function_of_the_heavy_top_has_two_momenta() -> None:
+    system = System(heavy_top())
+    reduced = reduction(system)
+    assert reduced is not None
+    values = {p: system.momentum(q) for q, p in reduced.momenta.items()}
+    work = sum(system.momentum(q) * system.rate(q) for q in reduced.momenta)
+    assert system.is_zero(reduced.function.xreplace(values) - system.lagrangian + work)
+    assert not reduced.function.has(system.rate("psi"), system.rate("phi"))
+
+
+def test_no_routh_function_without_something_left_to_move() -> None:
+    assert reduction(System(particle(["x"], {}, ["x", "0"]))) is None
+    assert reduction(System(load_scene("pendulum"))) is None

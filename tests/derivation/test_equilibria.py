@@ -1,0 +1,116 @@
+"""Equilibria and their stability, against what textbooks state."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import sympy as sp
+from tests.derivation.model_scenes import model_steps, particle, rotating_hoop
+from tests.derivation.scenes import chain, spring_in_space
+
+from deltaq.derivation.equilibria import equilibria
+from deltaq.derivation.linearization import linearizations
+from deltaq.derivation.system import System
+from deltaq.mechanics.library import load_scene
+from deltaq.mechanics.scene import Scene
+
+
+def found(scene: Scene) -> list[tuple[dict[str, str], str]]:
+    """Equilibria as text, with their stability."""
+    return [
+        ({q.name: str(value) for q, value in each.equilibrium.values.items()}, each.stability)
+        for each in linearizations(System(scene))
+    ]
+
+
+EQUILIBRIA = [
+    pytest.param(load_scene("pendulum"), [({"phi": "0"}, "stable"), ({"phi": "pi"}, "unstable")], id="pendulum"),
+    pytest.param(
+        load_scene("base-pendulum"),
+        [({"y": "g*m/k", "phi": "0"}, "stable"), ({"y": "g*m/k", "phi": "pi"}, "unstable")],
+        id="base pendulum",
+    ),
+    pytest.param(
+        rotating_hoop(4.0), [({"phi": "0"}, "stable"), ({"phi": "pi"}, "unstable")], id="hoop slower than √(g/r)"
+    ),
+    pytest.param(
+        rotating_hoop(5.0),
+        [
+            ({"phi": "acos(g/(Omega**2*r))"}, "stable"),
+            ({"phi": "-acos(g/(Omega**2*r))"}, "stable"),
+            ({"phi": "0"}, "unstable"),
+            ({"phi": "pi"}, "unstable"),
+        ],
+        id="hoop faster than √(g/r)",
+    ),
+    pytest.param(
+        particle(
+            ["x"], {"k": 2.0, "c": 0.1}, ["x", "0"], {"kind": "force", "at": "bob", "force": ["-c*dot(x)-k*x", "0"]}
+        ),
+        [({"x": "0"}, "stable")],
+        id="damped oscillator",
+    ),
+    pytest.param(
+        particle(["x"], {"k": 2.0}, ["x", "0"], {"kind": "potential", "energy": "-k*x^2/2"}),
+        [({"x": "0"}, "unstable")],
+        id="hill",
+    ),
+    pytest.param(
+        particle(["x"], {"k": 2.0}, ["x", "0"], {"kind": "potential", "energy": "k*x^4/4"}),
+        [({"x": "0"}, "undecided")],
+        id="singular K",
+    ),
+    pytest.param(
+        particle(["x", "y"], {"k": 2.0}, ["x", "y"], {"kind": "force", "at": "bob", "force": ["-k*y", "k*x"]}),
+        [({"x": "0", "y": "0"}, "unstable")],
+        id="circulatory force",
+    ),
+    pytest.param(
+        particle(["x", "y"], {"g": 9.81}, ["x", "y"], {"kind": "gravity", "acceleration": ["0", "-g"]}),
+        [],
+        id="free fall has none",
+    ),
+    pytest.param(particle(["x"], {}, ["x", "0"]), [({}, "undecided")], id="free particle: every position"),
+    pytest.param(load_scene("guided-pendulum"), [], id="explicit time"),
+]
+
+
+@pytest.mark.parametrize(("scene", "expected"), EQUILIBRIA)
+def test_equilibria(scene: Scene, expected: list[tuple[dict[str, str], str]]) -> None:
+    assert found(scene) == expected
+
+
+def test_follower_force_moves_the_equilibrium() -> None:
+    system = System(load_scene("elastic-pendulum"))
+    below, above = linearizations(system)
+    m, g, k, force = (system.q(name) for name in ("m", "g", "k", "F0"))
+    assert below.equilibrium.values[system.q("phi")] == sp.asin(force / (m * g))
+    assert above.equilibrium.values[system.q("phi")] == sp.pi - sp.asin(force / (m * g))
+    assert system.is_zero(below.equilibrium.values[system.q("y")] - (m * g - force**2 / (m * g)) / k)
+    assert (below.stability, above.stability) == ("undecided", "unstable")
+
+
+def test_numbers_where_there_is_no_closed_form() -> None:
+    load = {"kind": "potential", "energy": "k*x^2/2 - F*cos(x/s)*s"}
+    scene = particle(["x"], {"k": 1.0, "F": 0.5, "s": 1.0, "P": 0.7}, ["x", "0"], load, {
+        "kind": "force", "at": "bob", "force": ["P", "0"],
+    })  # fmt: skip
+    system = System(scene)
+    (each,) = linearizations(system)
+    (x,) = each.equilibrium.values.values()
+    assert not each.equilibrium.exact
+    assert float(x) + 0.5 * math.sin(float(x)) == pytest.approx(0.7, rel=1e-14)
+    assert each.stability == "stable"
+    assert all(step.verified for step in model_steps(scene).values())
+
+
+def test_a_continuum_of_equilibria_is_told_once() -> None:
+    (each,) = linearizations(System(spring_in_space()))
+    assert sum(float(x) ** 2 for x in each.equilibrium.values.values()) == pytest.approx(1.0)
+    assert each.stability == "undecided"
+
+
+def test_many_equilibria_are_cut_off() -> None:
+    assert len(equilibria(System(chain(5))) or ()) == 8
+    assert len([step for step in model_steps(chain(3)) if step.startswith("equilibrium:")]) == 4

@@ -1,0 +1,63 @@
+"""The model chapter as a whole: every step verified, wrong ones caught, and the answer of the API."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import sympy as sp
+from tests.derivation.model_scenes import heavy_top, model_steps, particle, rotating_hoop, spherical_pendulum
+from tests.derivation.scenes import chain, spring_in_space
+
+from deltaq.derivation import linearization as small_motions
+from deltaq.derivation.system import System
+from deltaq.mechanics.library import load_scene
+from deltaq.mechanics.scene import Scene
+from deltaq.narration.derive import derive_request
+
+SCENES = [
+    pytest.param(rotating_hoop(5.0), id="hoop"),
+    pytest.param(spherical_pendulum(), id="spherical pendulum"),
+    pytest.param(heavy_top(), id="heavy top"),
+    pytest.param(chain(3), id="triple pendulum"),
+    pytest.param(spring_in_space(), id="spring in space"),
+    pytest.param(particle(["x"], {}, ["x", "0"]), id="free particle"),
+]
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_every_step_is_verified(scene: Scene) -> None:
+    assert [name for name, step in model_steps(scene).items() if not step.verified] == []
+
+
+@pytest.mark.parametrize(
+    ("wrong", "step"),
+    [
+        pytest.param("damping_at_rest", "linearization:1", id="damping"),
+        pytest.param("stiffness_at_rest", "linearization:1", id="stiffness"),
+    ],
+)
+def test_a_wrong_matrix_is_caught(wrong: str, step: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    right = getattr(small_motions, wrong)
+    spoilt = lambda system: (right(system) + sp.eye(len(system.free)) / 10**9).as_immutable()
+    monkeypatch.setattr(small_motions, wrong, spoilt)
+    steps = model_steps(load_scene("base-pendulum"))
+    assert not steps[step].verified
+    assert steps["matrix-form"].verified
+
+
+def test_a_wrong_jacobi_energy_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
+    right = System.momentum
+    monkeypatch.setattr(System, "momentum", lambda self, q: right(self, q) / 2)
+    assert not model_steps(load_scene("pendulum"))["jacobi-energy"].verified
+
+
+def test_the_answer() -> None:
+    result = derive_request({"scene": "base-pendulum"})["result"]
+    hanging, standing = result["equilibria"]
+    assert hanging["values"]["y"] == {"plain": "m*g/k", "latex": r"\frac{m g}{k}", "number": 0.1635}
+    assert (hanging["exact"], hanging["stability"], standing["stability"]) == (True, "stable", "unstable")
+    assert hanging["eigenfrequencies"] == pytest.approx([math.sqrt(9.81), math.sqrt(60)])
+    assert hanging["modes"][0]["shape"] == {"y": 0.0, "phi": 1.0}
+    assert result["jacobi_energy"]["equals_energy"] is True
+    assert result["routh"] is None

@@ -1,0 +1,261 @@
+"""The document of a first variation."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+from tests.lecture.answers import walk
+
+from deltaq.errors import InputError, Problem
+from deltaq.language.names import Names, Symbol
+from deltaq.language.parser import parse
+from deltaq.narration.vary import vary_request
+
+SAFE = re.compile(r"[A-Za-z0-9:_-]+")
+INTEGRAL = {"kind": "integral", "from": "0", "to": "T", "ends": "fixed"}
+OSCILLATOR = {"expression": "m*dot(x)^2/2 - k*x^2/2", "functions": ["x"], "parameters": ["m", "k", "T"]}
+NUMERIC = {"functions": {"x": "sin(t)"}, "direction": {"x": "t^2"}, "t": 0.7}
+
+
+def vary(**document: object) -> dict:
+    return vary_request(document)
+
+
+def problems(**document: object) -> tuple[Problem, ...]:
+    with pytest.raises(InputError) as caught:
+        vary(**document)
+    return caught.value.problems
+
+
+def all_steps(answer: dict) -> dict[str, dict]:
+    return {s["id"]: s for chapter in answer["chapters"] for step in chapter["steps"] for s in walk(step)}
+
+
+@pytest.mark.parametrize("lang", ["de", "en"])
+@pytest.mark.parametrize(
+    "question",
+    [
+        pytest.param({"expression": "l*sin(x)", "functions": ["x"], "parameters": ["l"]}, id="expression"),
+        pytest.param({"expression": "[x, y]", "functions": ["x", "y"], "direction": ["v", "w"]}, id="vector"),
+        pytest.param(
+            {"expression": "x", "functions": ["x"], "functional": {"kind": "value", "at": "2"}}, id="identity"
+        ),
+        pytest.param({**OSCILLATOR, "functional": INTEGRAL}, id="fixed ends"),
+        pytest.param({**OSCILLATOR, "functional": {**INTEGRAL, "ends": "free"}}, id="free ends"),
+    ],
+)
+def test_every_variation_is_told(question: dict, lang: str) -> None:
+    answer = vary(**question, lang=lang)
+    json.dumps(answer, allow_nan=False)
+    for identifier, step in all_steps(answer).items():
+        assert SAFE.fullmatch(identifier)
+        assert step["verified"] is True
+        assert step["text"].endswith(".")
+        for latex in (step["latex"], step["marked"]):
+            assert latex.count("{") == latex.count("}")
+        assert "htmlClass" not in step["latex"]
+
+
+def test_chapters_of_an_integral() -> None:
+    answer = vary(**OSCILLATOR, functional=INTEGRAL)
+    assert [chapter["id"] for chapter in answer["chapters"]] == [
+        "functional",
+        "variation-by-definition",
+        "variation-by-chain-rule",
+        "both-routes",
+        "integration-by-parts",
+        "euler-lagrange",
+    ]
+
+
+def test_result_of_an_integral_with_fixed_ends() -> None:
+    result = vary(**OSCILLATOR, functional=INTEGRAL)["result"]
+    assert result["first_variation"] == {
+        "plain": "m*dot(x)*dot(delta(x)) - k*x*delta(x)",
+        "latex": r"\int_{0}^{T} \left(-k x \, \delta x + m \dot{x} \, \delta \dot{x}\right)\,\mathrm{d}t",
+        "from": "0",
+        "to": "T",
+        "ends": "fixed",
+    }
+    (equation,) = result["euler_lagrange"]
+    assert (equation["function"], equation["plain"]) == ("x", "-m*ddot(x) - k*x = 0")
+    (boundary,) = result["boundary_terms"]
+    assert (boundary["plain"], boundary["vanishes"], boundary["condition"]) == ("m*dot(x)*delta(x)", True, None)
+
+
+def test_natural_conditions_at_free_ends() -> None:
+    result = vary(**OSCILLATOR, functional={**INTEGRAL, "ends": "free"})["result"]
+    (boundary,) = result["boundary_terms"]
+    assert boundary["vanishes"] is False
+    assert boundary["condition"] == {"plain": "m*dot(x) = 0", "latex": r"m \dot{x} = 0"}
+
+
+def test_named_directions_are_read_back_by_the_parser() -> None:
+    result = vary(expression="x*dot(x)*sin(y)", functions=["x", "y"], direction=["v", "w"])["result"]
+    names = Names(tuple(Symbol(name, "coordinate") for name in ("x", "y", "v", "w")))
+    plain = result["first_variation"]["plain"]
+    assert {"v", "w"} <= parse(plain, names).names
+    assert "dot(v)" in plain
+
+
+def test_classes_of_the_page() -> None:
+    marked = all_steps(vary(expression="x*y", functions=["x", "y"]))["variation-by-chain-rule"]["marked"]
+    for css in ("q-0", "q-1", "q-0 variation", "q-1 variation"):
+        assert rf"\htmlClass{{{css}}}" in marked
+
+
+def test_latex_is_read_too() -> None:
+    latex = vary(expression=r"\frac{1}{2} m \dot{x}^2", syntax="latex", functions=["x"], parameters=["m"])
+    plain = vary(expression="m*dot(x)^2/2", functions=["x"], parameters=["m"])
+    assert latex["result"] == plain["result"]
+
+
+def test_h_of_the_user_is_not_the_h_of_the_definition() -> None:
+    step = all_steps(vary(expression="h*x", functions=["x"], parameters=["h"]))["variation-by-definition"]
+    assert step["verified"] is True
+    assert r"\partial \varepsilon" in step["latex"]
+
+
+def test_quotient() -> None:
+    quotient = vary(expression="x^2*dot(x)", functions=["x"], include=["quotient"], numeric=NUMERIC)["quotient"]
+    json.dumps(quotient, allow_nan=False)
+    assert len(quotient["h"]) == len(quotient["central"]["error"]) == 65
+    assert quotient["central"]["best"]["error"] == pytest.approx(0, abs=1e-10)
+    assert quotient["one_sided"]["best"]["h"] < quotient["h"][0]
+
+
+@pytest.mark.parametrize(
+    ("functional", "derivative"),
+    [
+        pytest.param({"kind": "value", "at": "2"}, 4.0, id="value at 2 of t^2"),
+        pytest.param({"kind": "integral", "from": "0", "to": "3", "ends": "free"}, 9.0, id="integral of t^2 to 3"),
+    ],
+)
+def test_quotient_of_a_functional(functional: dict, derivative: float) -> None:
+    answer = vary(expression="x", functions=["x"], functional=functional, include=["quotient"], numeric=NUMERIC)
+    assert answer["quotient"]["derivative"] == pytest.approx(derivative)
+
+
+@pytest.mark.parametrize(
+    ("document", "problem"),
+    [
+        pytest.param(
+            {"expression": "x + zz", "functions": ["x"]},
+            Problem("unknown-name", "/expression", 4, 2, {"name": "zz", "known": "x, t, pi"}),
+            id="unknown name",
+        ),
+        pytest.param(
+            {"expression": "sin(t)", "functions": ["x", "y"]},
+            Problem("nothing-varied", "/expression", parameters={"names": "x, y"}),
+            id="nothing to vary",
+        ),
+        pytest.param(
+            {"expression": "x - x", "functions": ["x"], "functional": {**INTEGRAL, "to": "1"}},
+            Problem("nothing-varied", "/expression", parameters={"names": "x"}),
+            id="what cancels",
+        ),
+        pytest.param(
+            {"expression": "sqrt(-1 - x^2)", "functions": ["x"]},
+            Problem("value-undefined", "/expression"),
+            id="real nowhere",
+        ),
+        pytest.param({"expression": "x = 1", "functions": ["x"]}, Problem("not-scalar", "/expression"), id="equation"),
+        pytest.param(
+            {"expression": "delta(x)", "functions": ["x"]}, Problem("not-scalar", "/expression"), id="a variation"
+        ),
+        pytest.param(
+            {"expression": "diff(x^2, x)", "functions": ["x"]},
+            Problem("derivative-in-scene", "/expression"),
+            id="derivative",
+        ),
+        pytest.param(
+            {"expression": "sign(x)", "functions": ["x"]},
+            Problem("not-differentiable", "/expression"),
+            id="not differentiable",
+        ),
+        pytest.param(
+            {"expression": "x/0", "functions": ["x"]},
+            Problem("division-by-zero", "/expression", 2, 1, {}),
+            id="division by zero",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x", "sin"]},
+            Problem("reserved-name", "/functions/1", parameters={"name": "sin"}),
+            id="reserved function",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x"], "parameters": ["x"]},
+            Problem("duplicate-name", "/parameters/0", parameters={"name": "x"}),
+            id="a name twice",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x"], "parameters": ["1a"]},
+            Problem("malformed-name", "/parameters/0", parameters={"name": "1a"}),
+            id="malformed parameter",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x", "y"], "direction": ["v"]},
+            Problem("direction-count", "/direction", parameters={"functions": 2, "found": 1}),
+            id="too few directions",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x"], "direction": ["x"]},
+            Problem("duplicate-name", "/direction/0", parameters={"name": "x"}),
+            id="direction of the same name",
+        ),
+        pytest.param(
+            {"expression": "x + ddot(x)", "functions": ["x"], "functional": {**INTEGRAL, "to": "1"}},
+            Problem("integrand-order", "/expression", 4, 7, {"name": "x"}),
+            id="integrand with an acceleration",
+        ),
+        pytest.param(
+            {"expression": "[x, x]", "functions": ["x"], "functional": {**INTEGRAL, "to": "1"}},
+            Problem("not-scalar", "/expression"),
+            id="integral of a vector",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x"], "functional": {**INTEGRAL, "to": "0"}},
+            Problem("empty-interval", "/functional/to"),
+            id="empty interval",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x"], "functional": {**INTEGRAL, "to": "2*t"}},
+            Problem("instant-not-constant", "/functional/to", parameters={"name": "t"}),
+            id="end that moves",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x"], "functional": {"kind": "value", "at": "x"}},
+            Problem("instant-not-constant", "/functional/at", parameters={"name": "x"}),
+            id="instant that depends on a function",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x"], "include": ["quotient"]},
+            Problem("missing-field", "/numeric", parameters={"field": "numeric"}),
+            id="quotient without functions",
+        ),
+        pytest.param(
+            {"expression": "x", "functions": ["x"], "include": ["quotient"], "numeric": {**NUMERIC, "direction": {}}},
+            Problem("missing-field", "/numeric/direction/x", parameters={"field": "x"}),
+            id="no direction",
+        ),
+        pytest.param(
+            {"expression": "l*x", "functions": ["x"], "parameters": ["l"], "include": ["quotient"], "numeric": NUMERIC},
+            Problem("missing-field", "/numeric/parameters/l", parameters={"field": "l"}),
+            id="parameter without value",
+        ),
+        pytest.param(
+            {"expression": "log(x)", "functions": ["x"], "include": ["quotient"], "numeric": {**NUMERIC, "t": 0.0}},
+            Problem("value-undefined", "/numeric"),
+            id="no value there",
+        ),
+        pytest.param(
+            {"expression": "[x, x]", "functions": ["x"], "include": ["quotient"], "numeric": NUMERIC},
+            Problem("not-scalar", "/expression"),
+            id="quotient of a vector",
+        ),
+    ],
+)
+def test_wrong_input(document: dict, problem: Problem) -> None:
+    assert problems(**document) == (problem,)
