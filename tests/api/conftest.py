@@ -19,7 +19,7 @@ def anyio_backend() -> str:
 
 @pytest.fixture(scope="session")
 def app() -> Iterator[FastAPI]:
-    application = create_app(Settings(workers=2, simulation_deadline=120.0))
+    application = create_app(Settings(workers=2, derivation_deadline=60.0, simulation_deadline=120.0))
     pool = application.state.service.pool
     pool.start()
     yield application
