@@ -7,7 +7,7 @@ import pytest
 
 from deltaq.simulation.kernels.compiler import source_stamp
 from deltaq.simulation.kernels.explicit_runge_kutta import integrate
-from deltaq.simulation.kernels.motion import SMALLEST_PIVOT, factor, solve
+from deltaq.simulation.kernels.motion import SMALLEST_PIVOT, factor, solve, solve_small
 
 
 def packed(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -48,3 +48,28 @@ def test_a_cached_kernel_is_valid_for_the_code_of_all_kernels() -> None:
     """Numba by itself would look at one file only and run a kernel whose inner functions have changed since."""
     assert integrate._cache._cache_file._source_stamp == source_stamp()
     assert len(source_stamp()) == 64
+
+
+@pytest.mark.parametrize("n", [1, 2])
+def test_small_systems_are_solved_alike(n: int) -> None:
+    for seed in range(50):
+        random = np.random.default_rng(seed)
+        square = random.normal(size=(n, n))
+        matrix, right = square @ square.T + 1e-3 * np.eye(n), random.normal(size=n)
+        one, two = packed(matrix, right), packed(matrix, right)
+        assert solve_small(one, n) == pytest.approx(factor(two, n), rel=1e-9)
+        solve(two, n)
+        np.testing.assert_allclose(one[-n:], two[-n:], rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "matrix", [[[0.0]], [[-1.0]], [[1.0, 1.0], [1.0, 1.0]], [[1.0, 2.0], [2.0, 1.0]], [[0.0, 0.0], [0.0, 1.0]]]
+)
+def test_small_singular_matrices_are_found(matrix: list[list[float]]) -> None:
+    square = np.array(matrix)
+    assert solve_small(packed(square, np.ones(len(square))), len(square)) <= SMALLEST_PIVOT
+
+
+@pytest.mark.parametrize("numbers", [[np.nan, 1.0], [1.0, np.nan, 1.0, 0.0, 0.0], [1.0, 0.0, np.nan, 0.0, 0.0]])
+def test_nan_in_small_systems_is_told_from_singular(numbers: list[float]) -> None:
+    assert np.isnan(solve_small(np.array(numbers), 1 if len(numbers) == 2 else 2))

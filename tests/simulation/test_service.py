@@ -127,9 +127,17 @@ def test_a_position_without_value_ends_the_answer() -> None:
 @pytest.mark.parametrize(
     ("fields", "method", "reason"),
     [
-        pytest.param({}, "dop853", "auto_smooth", id="smooth"),
+        pytest.param({}, "dormand-prince-54", "auto_short", id="short"),
+        pytest.param({"t_end": 100.0, "tolerance": 1e-9}, "dop853", "auto_smooth", id="long and accurate"),
         pytest.param({"step": 0.01}, "rk4", "auto_fixed_step", id="fixed step"),
         pytest.param({"scene": write_scene(oscillator("-k*abs(x)*x"))}, "dormand-prince-54", "auto_kinks", id="kinks"),
+        pytest.param(
+            {"scene": write_scene(oscillator("-1e6*x - 1e4*dot(x)")), "t_end": 100.0},
+            "radau-5",
+            "auto_stiff",
+            id="stiff and damped",
+        ),
+        pytest.param({"scene": write_scene(oscillator("-1e6*x")), "t_end": 10.0}, "dop853", "auto_smooth", id="fast"),
         pytest.param({"method": "heun"}, "heun", None, id="chosen by the user"),
     ],
 )
@@ -259,7 +267,7 @@ def test_all_problems_are_told_at_once() -> None:
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_status_and_method_has_its_sentences(language: str) -> None:
-    for code in (*codes(), "auto_smooth", "auto_kinks", "auto_fixed_step"):
+    for code in (*codes(), "auto_smooth", "auto_short", "auto_kinks", "auto_stiff", "auto_fixed_step"):
         assert text(language, f"statuses.{code}.reason")
         assert text(language, f"statuses.{code}.remedy") or code == "ok" or code.startswith("auto")
     for identifier in (*method_ids(), AUTO):

@@ -39,6 +39,7 @@ class Equations:
     potential: Expr
     power: Expr
     acceleration_power: Vector
+    forces: Vector  # generalized forces Q, those of potentials included
     guided: Mapping[str, tuple[Expr, Expr]]  # value and rate
     positions: Mapping[str, Vector]
     arrows: Mapping[str, Vector]  # force vectors by load, or by "load:place" where a load acts in several places
@@ -66,6 +67,7 @@ def equations(scene: Scene) -> Equations:
         guides.into((sum((load.potential for load in loads), ZERO),))[0],
         guides.into((power,))[0],
         guides.into(acceleration_power),
+        guides.into(tuple(sum((load.forces[i] for load in loads), ZERO) for i in range(count))),
         {name: guides.motion(name) for name in symbols.guided},
         {name: guides.into(_position(place, symbols)) for name, place in scene.places.items()},
         {name: guides.into(force) for name, force in _arrows(scene, loads).items()},

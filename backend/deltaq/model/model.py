@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from ..mechanics.scene import Scene
 from .compiled import Compiled, Floats, compile_expressions
 from .equations import Equations, equations
+from .phase import PhaseSpace, phase_space
+from .store import key_of, user_store
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,12 @@ class Model:
     layout: Layout
     motion: Compiled
     observed: Compiled
+    scene: Scene = field(repr=False, compare=False)
+
+    @cached_property
+    def phase(self) -> PhaseSpace:
+        """Momenta and their rates; compiled when a method first asks for them."""
+        return phase_space(equations(self.scene))
 
     def observe(self, inputs: Floats) -> Observation:
         """What is seen in each row of inputs."""
@@ -76,7 +84,10 @@ def _vectors(table: Floats, first: int, size: int, names: tuple[str, ...]) -> di
 
 
 def compile_model(scene: Scene) -> Model:
-    """The model of a scene, built and compiled; scenes that differ only in numbers, names and drawing share theirs."""
+    """The model of a scene, built and compiled, or kept from before.
+
+    Scenes that differ only in numbers, names and drawing share theirs.
+    """
     return _compiled_once(_Mechanics(_mechanics(scene), scene))
 
 
@@ -95,10 +106,16 @@ def _mechanics(scene: Scene) -> tuple[object, ...]:
 
 @lru_cache(maxsize=64)
 def _compiled_once(mechanics: _Mechanics) -> Model:
-    return _compiled(equations(mechanics.scene), mechanics.scene.dimension)
+    store, key = user_store(), key_of(mechanics.content)
+    kept = store.load(key)
+    if isinstance(kept, Model):
+        return kept
+    model = _compiled(equations(mechanics.scene), mechanics.scene)
+    store.save(key, model)
+    return model
 
 
-def _compiled(eqs: Equations, dimension: int) -> Model:
+def _compiled(eqs: Equations, scene: Scene) -> Model:
     symbols = eqs.symbols
     layout = Layout(
         symbols.free,
@@ -106,7 +123,7 @@ def _compiled(eqs: Equations, dimension: int) -> Model:
         symbols.parameters,
         tuple(eqs.positions),
         tuple(eqs.arrows),
-        dimension,
+        scene.dimension,
         eqs.is_powered,
     )
     triangle = [entry for i, row in enumerate(eqs.mass_matrix) for entry in row[: i + 1]]
@@ -118,4 +135,5 @@ def _compiled(eqs: Equations, dimension: int) -> Model:
         layout,
         compile_expressions(symbols.inputs, [*triangle, *eqs.forcing, *power]),
         compile_expressions(symbols.inputs, observed),
+        scene,
     )

@@ -10,12 +10,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .estimate import Estimate, estimate
-from .kernels.motion import CANCELLED, FINE, STEP_LIMIT
+from .integration import Flag
+from .kernels.motion import CANCELLED, FINE, STEP_LIMIT, STIFF
 from .method import Method
 from .outcome import OK, Number, Outcome, outcome_of
 from .problem import Floats, Problem
 from .refinement import ByStep, ByTolerance, Refinement
-from .run import Flag, Run, Steps, run
+from .run import Run, Steps, run
 from .trajectory import Cost, Trajectory
 
 TRIES = 6
@@ -116,7 +117,7 @@ def _excess(attempt: _Attempt, tolerance: float) -> float:
 
 def _can_improve(attempt: _Attempt, tolerance: float, problem: Problem) -> bool:
     is_reached = attempt.estimate is not None and attempt.estimate.worst <= tolerance
-    is_cut_short = any(run.result.outcome in (STEP_LIMIT, CANCELLED) for run in attempt.runs)
+    is_cut_short = any(run.result.outcome in (STEP_LIMIT, CANCELLED, STIFF) for run in attempt.runs)
     steps = max(run.result.steps + run.result.rejected for run in attempt.runs)
     return not (is_reached and attempt.is_complete) and not is_cut_short and 2 * steps < problem.step_limit
 

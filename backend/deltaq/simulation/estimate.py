@@ -13,6 +13,7 @@ import numpy as np
 
 from .problem import Floats, Problem
 from .run import Run
+from .stiffness import accelerations
 
 NEIGHBOURS = 2
 ROUNDING = 4e-16
@@ -39,7 +40,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     scales = _time_scales(problem, times, states)
     errors = factor * _spread(np.hypot(difference[:, :n], scales * difference[:, n : 2 * n]))
     sizes = np.abs(states[:, :n])
-    errors = np.maximum(errors, ROUNDING * np.maximum(1.0, sizes))
+    errors = np.maximum(errors, _grain(problem, times, fine)[:, None] * np.maximum(1.0, sizes))
     horizon = _horizon(problem, times, errors, sizes)
     if horizon is not None:
         # Beyond the horizon both runs are wrong, and their difference may shrink by chance.
@@ -49,29 +50,18 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     return Estimate(errors.max(axis=1), worst, horizon)
 
 
+def _grain(problem: Problem, times: Floats, fine: Run) -> Floats:
+    """Rounding: one in the last digit for each step, some up and some down."""
+    return np.asarray(ROUNDING * np.sqrt(1.0 + fine.result.steps * times / problem.t_end))
+
+
 def _time_scales(problem: Problem, times: Floats, states: Floats) -> Floats:
     """τ of each coordinate: root mean square of the rate (without its mean) over that of the acceleration."""
     n = problem.degrees
     rates = states[:, n : 2 * n] - states[:, n : 2 * n].mean(axis=0)
-    accelerations = _accelerations(problem, times, states)
-    fast = np.sqrt(np.nanmean(accelerations**2, axis=0))
+    fast = np.sqrt(np.nanmean(accelerations(problem, times, states) ** 2, axis=0))
     slow = np.sqrt(np.mean(rates**2, axis=0))
     return np.asarray(np.divide(slow, fast, out=np.zeros(n), where=fast > 0))
-
-
-def _accelerations(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """q̈ at the samples, zero where M cannot be inverted."""
-    n = problem.degrees
-    table = problem.model.motion.table(problem.inputs(times, states))
-    lower = np.tril_indices(n)
-    matrices = np.zeros((len(times), n, n))
-    matrices[:, lower[0], lower[1]] = matrices[:, lower[1], lower[0]] = table[:, : len(lower[0])]
-    forcing = table[:, len(lower[0]) : len(lower[0]) + n]
-    sound = np.flatnonzero(np.isfinite(table).all(axis=1))
-    sound = sound[np.linalg.cond(matrices[sound]) < 1e14]
-    accelerations = np.zeros((len(times), n))
-    accelerations[sound] = np.linalg.solve(matrices[sound], forcing[sound][..., None])[..., 0]
-    return accelerations
 
 
 def _spread(errors: Floats) -> Floats:

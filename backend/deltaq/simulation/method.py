@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
+from math import isqrt
 
 Row = tuple[Fraction, ...]
+NEGLIGIBLE = Fraction(1, 10**25)  # roots are given to 40 digits
 
 
 @dataclass(frozen=True)
@@ -24,6 +26,9 @@ class Tableau:
     dense: tuple[Row, ...] = ()
     extra_a: tuple[Row, ...] = ()
     extra_c: Row = ()
+    family = "explicit-runge-kutta"
+    is_symplectic = False  # no explicit Runge–Kutta method is
+    is_symmetric = False
 
     @property
     def stages(self) -> int:
@@ -31,8 +36,63 @@ class Tableau:
 
 
 @dataclass(frozen=True)
+class Partitioned:
+    """A Runge–Kutta method for positions (a, b, c) and momenta (momentum_a and the same b).
+
+    Qᵢ = q₀ + h Σ aᵢⱼ Vⱼ and p(Qᵢ, Vᵢ) = p₀ + h Σ âᵢⱼ ṗ(Qⱼ, Vⱼ). `error` are γ₀ and the weights of Yᵢ − y₀ in the error
+    estimate. `kicks` and `drifts` say the same as a splitting, for scenes whose positions and momenta separate.
+    """
+
+    a: tuple[Row, ...]
+    b: Row
+    c: Row
+    momentum_a: tuple[Row, ...]
+    error: Row = ()
+    kicks: Row = ()
+    drifts: Row = ()
+    family = "implicit-runge-kutta"
+
+    @property
+    def stages(self) -> int:
+        return len(self.b)
+
+    @property
+    def is_symplectic(self) -> bool:
+        """bᵢ âᵢⱼ + bⱼ aⱼᵢ = bᵢ bⱼ (Hairer, Lubich, Wanner, VI.4)."""
+        b, places = self.b, range(self.stages)
+        gaps = (b[i] * self.momentum_a[i][j] + b[j] * self.a[j][i] - b[i] * b[j] for i in places for j in places)
+        return all(abs(gap) < NEGLIGIBLE for gap in gaps)
+
+    @property
+    def is_symmetric(self) -> bool:
+        """aᵢⱼ plus its mirror image is bⱼ, for positions and momenta: a step back undoes a step (V.2)."""
+        places, tables = range(self.stages), (self.a, self.momentum_a)
+        gaps = (a[i][j] + a[-1 - i][-1 - j] - self.b[j] for a in tables for i in places for j in places)
+        return all(abs(gap) < NEGLIGIBLE for gap in gaps)
+
+
+@dataclass(frozen=True)
+class Newmark:
+    """Newmark's method with its two parameters (see `kernels.newmark`)."""
+
+    beta: Fraction
+    gamma: Fraction
+    stages = 1
+    error: Row = ()
+    family = "newmark"
+    is_symplectic = False  # it is conjugate to a symplectic method where M is constant, no more
+
+    @property
+    def is_symmetric(self) -> bool:
+        return (self.beta, self.gamma) == (Fraction(1, 4), Fraction(1, 2))
+
+
+Scheme = Tableau | Partitioned | Newmark
+
+
+@dataclass(frozen=True)
 class Method:
-    """A method of the explicit Runge–Kutta family.
+    """A time integrator: its scheme, and what is known of it.
 
     `order` is that of the values returned, `error_order` the power of h with which the error estimate vanishes, and
     `memory` the exponent β of the PI step control (Hairer, Nørsett, Wanner I, IV.2).
@@ -40,14 +100,25 @@ class Method:
 
     id: str
     order: int
-    tableau: Tableau
+    tableau: Scheme
     error_order: int = 0
     memory: float = 0.0
-    family: str = field(default="explicit-runge-kutta", init=False)
-    is_symplectic: bool = field(default=False, init=False)  # no explicit Runge–Kutta method is
 
     def __hash__(self) -> int:
         return hash(self.id)  # the many fractions of a tableau take long
+
+    @property
+    def family(self) -> str:
+        return self.tableau.family
+
+    @property
+    def is_symplectic(self) -> bool:
+        return self.tableau.is_symplectic
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether a step back undoes a step."""
+        return self.tableau.is_symmetric
 
     @property
     def is_adaptive(self) -> bool:
@@ -55,9 +126,26 @@ class Method:
         return bool(self.tableau.error)
 
     @property
-    def evaluations_per_step(self) -> int:
-        """Right-hand sides per step; f(t + h, y₁) is the first stage of the next step."""
-        return self.tableau.stages
+    def is_explicit(self) -> bool:
+        return isinstance(self.tableau, Tableau)
+
+
+def discrete_action(a: tuple[Row, ...], b: Row, c: Row) -> Partitioned:
+    """The method that makes the discrete action h Σ bᵢ L(Qᵢ, Vᵢ, t + cᵢh) stationary, Qᵢ = q₀ + h Σ aᵢⱼ Vⱼ.
+
+    Its first variation with the end q₁ = q₀ + h Σ bⱼ Vⱼ held gives the discrete Euler–Lagrange equations; in momenta
+    they read p(Qᵢ, Vᵢ) = p₀ + h Σ âᵢⱼ ṗⱼ with âᵢⱼ = bⱼ − bⱼ aⱼᵢ / bᵢ. Forces without potential enter by their discrete
+    virtual work h Σ bᵢ Q(Qᵢ, Vᵢ)·δQᵢ, with the same weights. Every such method is symplectic.
+    Source: J. E. Marsden, M. West, Acta Numerica 10 (2001) 357–514, §2.6.5, §3.2.
+    """
+    places = range(len(b))
+    momentum_a = tuple(tuple(b[j] - b[j] * a[j][i] / b[i] for j in places) for i in places)
+    return Partitioned(a, b, c, momentum_a)
+
+
+def root(number: int) -> Fraction:
+    """The square root, to 40 digits."""
+    return Fraction(isqrt(number * 10**80), 10**40)
 
 
 def rows(text: str) -> tuple[Row, ...]:

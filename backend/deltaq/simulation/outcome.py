@@ -6,7 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
-from .kernels.motion import CANCELLED, FINE, NOT_FINITE, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
+from .kernels.motion import (
+    CANCELLED,
+    FINE,
+    NEWTON_FAILED,
+    NOT_FINITE,
+    SINGULAR,
+    STEP_LIMIT,
+    STEP_UNDERFLOW,
+    STIFF,
+    TOO_LARGE,
+)
 
 Number = str | int | float
 
@@ -36,6 +46,8 @@ _WORDS: Mapping[int, tuple[str, str]] = MappingProxyType(
         TOO_LARGE: ("diverged", "diverged"),
         STEP_UNDERFLOW: ("diverged", "step_underflow"),
         CANCELLED: ("cancelled", "cancelled"),
+        NEWTON_FAILED: ("newton_failed", "newton_failed"),
+        STIFF: ("stiff", "stiff"),
     }
 )
 

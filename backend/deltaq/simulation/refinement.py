@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+import numpy as np
+
 from .run import Steps
 
 FINEST_TOLERANCE = 1e-14  # of the coarser run of a pair; below, rounding rules
 FIRST_STEPS, USUAL_TOLERANCE = 200, 1e-3  # in the first try with a fixed step
+UNFINISHED = 0.25  # the step over that of a run that did not come to the end
 LARGEST_STEP = 0.01  # of the span, so that a motion that begins at rest does not jump over what comes later
 
 
@@ -64,11 +67,11 @@ class ByStep:
 
     @property
     def factor_of_coarse(self) -> float:
-        return float(1.2 * 2**self.order / (2**self.order - 1))
+        return float(1.8 * 2**self.order / (2**self.order - 1))
 
     @property
     def factor_of_fine(self) -> float:
-        return float(max(0.2, 2.0 / (2**self.order - 1)))
+        return float(max(0.3, 3.0 / (2**self.order - 1)))
 
     def first(self, tolerance: float) -> float:
         guess = float((tolerance / USUAL_TOLERANCE) ** (1.0 / self.order))
@@ -78,7 +81,7 @@ class ByStep:
         return Steps(resolution), Steps(0.5 * resolution)
 
     def next(self, resolution: float, excess: float) -> float:
-        shrink = float((0.5 / excess) ** (1.0 / self.order))
+        shrink = float((0.5 / excess) ** (1.0 / self.order)) if excess < np.inf else UNFINISHED
         return max(resolution * min(max(shrink, 0.02), 0.5), self._finest)
 
     def is_finest(self, resolution: float) -> bool:

@@ -13,7 +13,8 @@ from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..model.model import Observation, compile_model
 from .answer import Document, answer
-from .choice import Choice, choose
+from .auto import choose
+from .choice import Choice, check
 from .driver import simulate
 from .library import get_method, method_ids
 from .outcome import Outcome
@@ -30,18 +31,17 @@ def run(document: Mapping[str, object]) -> Document:
     `document`: {scene: id or document, guides?, freeze?, parameters?, initial?, t_end, samples?, method?,
     tolerance? or step?, include?, lang?}.
     """
-    request = read_request(document)
-    choice = choose(request.method, request.scene, request.step)
-    return simulate_request(request, choice)
-
-
-def simulate_request(request: Request, choice: Choice) -> Document:
-    """The answer to a request that has been read, by the method chosen."""
-    start = perf_counter()
+    request, start = read_request(document), perf_counter()
+    check(request.method)
     with inside("/scene"):
-        model = compile_model(request.scene)
+        compile_model(request.scene)
     compile_time = perf_counter() - start
     problem = problem_of(request.scene, request.t_end, request.samples)
+    choice = choose(request.method, request.scene, problem, request.step, request.tolerance)
+    return _simulated(request, choice, problem, compile_time)
+
+
+def _simulated(request: Request, choice: Choice, problem: Problem, compile_time: float) -> Document:
     trajectory = simulate(
         problem,
         choice.method,
@@ -50,7 +50,7 @@ def simulate_request(request: Request, choice: Choice) -> Document:
         with_error="error" in request.include,
     )
     states = np.hstack([trajectory.values, trajectory.rates])
-    seen = model.observe(problem.inputs(trajectory.times, states))
+    seen = problem.model.observe(problem.inputs(trajectory.times, states))
     return answer(request, choice, problem, *_finite(trajectory, seen), compile_time)
 
 

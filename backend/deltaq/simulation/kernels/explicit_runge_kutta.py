@@ -11,7 +11,7 @@ from .compiler import inner, kernel
 from .extension import sample
 from .motion import CANCELLED, FINE, NOT_FINITE, STEP_LIMIT, STEP_UNDERFLOW, Floats, Motion, slope
 from .step import Room, Weights, accept, attempt
-from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, shrunk
+from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, patience, shrunk
 
 ROUNDING = 2.3e-16
 
@@ -61,6 +61,7 @@ def integrate(
     is_adaptive = control.tolerance > 0.0
     h = first_step(motion, control, t, room) if is_adaptive else control.step
     filled, steps, rejected, evaluations, before, growth = 1, 0, 0, 1 + is_adaptive, 1e-4, LARGEST_GROWTH
+    held_back = 0
     while filled < times.size:
         outcome = interruption(control, steps + rejected, cancelled)
         if outcome != FINE:
@@ -70,6 +71,9 @@ def integrate(
         evaluations += end
         error = error_norm(weights.error, control.tolerance, h, motion.degrees, room) if is_adaptive else 0.0
         if outcome == FINE and error <= 1.0:
+            held_back, outcome = patience(control, held_back, steps, finish - t, h, room)
+            if outcome != FINE:
+                break
             filled, extra = sample(motion, weights, t, h, times, out, filled, room)
             evaluations += extra
             accept(end, room)

@@ -14,6 +14,7 @@ Floats = NDArray[np.float64]
 
 # How a computation ended; `outcome.py` gives each its name.
 FINE, STEP_LIMIT, SINGULAR, NOT_FINITE, TOO_LARGE, STEP_UNDERFLOW, CANCELLED = 0, 1, 2, 3, 4, 5, 6
+NEWTON_FAILED, STIFF = 7, 8
 
 # A pivot smaller than this part of the largest mass is rounding error: M has no inverse there.
 SMALLEST_PIVOT = 1e-14
@@ -81,6 +82,23 @@ def solve(m: Floats, n: int) -> None:
 
 
 @inner
+def solve_small(m: Floats, n: int) -> float:
+    """`factor` and `solve` for one or two coordinates, with as few divisions as can be."""
+    if n == 1:
+        first = m[0]
+        m[1] /= first
+        return 1.0 if first > 0.0 else (first if np.isnan(first) else 0.0)
+    a, b, c, f, g = m[0], m[1], m[2], m[3], m[4]
+    determinant, largest = a * c - b * b, max(a, c)
+    inverse = 1.0 / determinant
+    m[3], m[4] = (c * f - b * g) * inverse, (a * g - b * f) * inverse
+    ratio = determinant / (a * largest)  # the second pivot is determinant / a
+    if np.isnan(ratio) and not (a == 0.0 or largest == 0.0):
+        return float(ratio)
+    return float(min(ratio, a / largest)) if a > 0.0 else 0.0
+
+
+@inner
 def slope(motion: Motion, t: float, state: Floats, out: Floats) -> int:
     """d/dt of the state (q, q̇, ∫P dt) into `out`; returns FINE, SINGULAR or NOT_FINITE."""
     n = motion.degrees
@@ -89,11 +107,12 @@ def slope(motion: Motion, t: float, state: Floats, out: Floats) -> int:
     motion.inputs[2 * n] = t
     call(motion.address, motion.data, motion.outputs, motion.inputs)
     first = n * (n + 1) // 2
-    ratio = factor(motion.outputs, n)
+    ratio = solve_small(motion.outputs, n) if n <= 2 else factor(motion.outputs, n)
     if not ratio > SMALLEST_PIVOT:
         return NOT_FINITE if np.isnan(ratio) else SINGULAR
     motion.conditioning[0] = min(motion.conditioning[0], ratio)
-    solve(motion.outputs, n)
+    if n > 2:
+        solve(motion.outputs, n)
     for i in range(n):
         out[i] = state[n + i]
         out[n + i] = motion.outputs[first + i]

@@ -10,14 +10,18 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiler import inner
-from .motion import FINE, Floats, Motion, slope
+from .motion import FINE, STIFF, Floats, Motion, slope
 from .step import Room
 
+MANY = 1000  # steps held back by stability, after which it is asked whether the end can be reached
 SAFETY, LARGEST_GROWTH, LARGEST_SHRINK = 0.9, 6.0, 0.2
 
 
 class Control(NamedTuple):
-    """How to choose steps: `tolerance` 0 means the fixed step `step`."""
+    """How to choose steps: `tolerance` 0 means the fixed step `step`.
+
+    `stability` is how far an explicit method of so many `stages` is stable on the negative real axis.
+    """
 
     tolerance: float
     step: float
@@ -25,6 +29,8 @@ class Control(NamedTuple):
     error_order: float
     memory: float
     step_limit: int
+    stages: int
+    stability: float
 
 
 @inner
@@ -86,3 +92,25 @@ def shrunk(control: Control, h: float, error: float) -> float:
     if not error < np.inf:
         return 0.1 * h
     return float(h * max(SAFETY * error ** (-1.0 / control.error_order), LARGEST_SHRINK))
+
+
+@inner
+def is_held_back(control: Control, h: float, room: Room) -> bool:
+    """Whether stability, not accuracy, limits the step: h times the size of the Jacobian is at its bound.
+
+    The size is that of slope over distance between the last stage and the new state (Hairer, Wanner II, IV.2).
+    """
+    bend, distance, end = 0.0, 0.0, control.stages
+    for d in range(room.old.size):
+        bend += (room.slopes[end, d] - room.slopes[end - 1, d]) ** 2
+        distance += (room.new[d] - room.stage[d]) ** 2
+    return bool(distance > 0.0 and h * h * bend > control.stability**2 * distance)
+
+
+@inner
+def patience(control: Control, held_back: int, steps: int, left: float, h: float, room: Room) -> tuple[int, int]:
+    """How many steps were held back by stability, and STIFF if so many that the end cannot be reached."""
+    if control.tolerance == 0.0:
+        return 0, FINE
+    held_back = held_back + 1 if is_held_back(control, h, room) else max(held_back - 10, 0)
+    return held_back, STIFF if held_back >= MANY and steps + left / h > control.step_limit else FINE

@@ -1,0 +1,92 @@
+"""Which method `auto` takes, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from ..language.tree import Call, Node, walk
+from ..mechanics.contributions import Contribution
+from ..mechanics.scene import Scene
+from .choice import AUTO, Choice
+from .library import get_method
+from .problem import Problem
+from .run import Steps, run
+from .stiffness import Spectrum, spectrum
+
+KINKED = frozenset({"abs", "sign"})
+LEAST_STEPS = 140.0  # of any run, since no step may be longer than a part of the span
+LOOSE = 1e-3
+SHORT, SHORT_STEPS = 0.05, 500
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """What a method costs: steps per radian of the fastest lasting motion are about factor · tolerance^(−1/power).
+
+    Stability allows no fewer than one step per `reach` of the spectrum; a step costs so many right-hand sides.
+    """
+
+    id: str
+    reason: str
+    factor: float
+    power: int
+    reach: float
+    cost: float
+
+    def effort(self, span: float, tolerance: float, lasting: float, size: float) -> float:
+        """Right-hand sides of one run, roughly."""
+        accurate = span * lasting * self.factor * float(tolerance ** (-1.0 / self.power))
+        return self.cost * max(accurate, span * size / self.reach, LEAST_STEPS)
+
+
+# Factors measured on the library of scenes (medians).
+SMOOTH = Candidate("dop853", "auto_smooth", 0.35, 8, 6.3, 13.0)
+MIDDLING = Candidate("dormand-prince-54", "auto_short", 0.47, 5, 3.3, 6.0)
+STIFF = Candidate("radau-5", "auto_stiff", 0.75, 4, np.inf, 22.0)
+KINKED_ONES = (replace(MIDDLING, reason="auto_kinks"), STIFF)
+ALL = (SMOOTH, MIDDLING, STIFF)
+
+
+def choose(wanted: str, scene: Scene, problem: Problem, step: float | None, tolerance: float | None) -> Choice:
+    """The method wanted, or the one that suits scene, span and tolerance.
+
+    The linearized scene tells how fast the motion is and which parts of it die out; the effort follows from that.
+    Symplectic methods are not among the candidates: over the spans allowed they never cost least (measured).
+    """
+    if wanted != AUTO:
+        return Choice(get_method(wanted))
+    if step is not None:
+        return Choice(get_method("rk4"), "auto_fixed_step")
+    spectra = tuple(_spectra(problem))
+    size, lasting = max(each.size for each in spectra), max(each.lasting for each in spectra)
+
+    def effort(candidate: Candidate) -> float:
+        return candidate.effort(problem.t_end, tolerance or LOOSE, lasting, size)
+
+    best = min(KINKED_ONES if _has_kinks(scene) else ALL, key=effort)
+    return Choice(get_method(best.id), best.reason)
+
+
+def _spectra(problem: Problem) -> Iterator[Spectrum]:
+    yield spectrum(problem, 0.0, problem.state)
+    times = np.linspace(0.0, SHORT * problem.t_end, 5)
+    short = replace(problem, t_end=float(times[-1]), step_limit=SHORT_STEPS)
+    found = run(short, get_method("dop853"), times, np.zeros(1, dtype=np.int64), Steps(short.t_end, 1e-3))
+    yield from (spectrum(problem, time, state) for time, state in zip(found.times[1:], found.states[1:], strict=True))
+
+
+def _has_kinks(scene: Scene) -> bool:
+    """Whether forces jump or bend, which high orders do not profit from."""
+    guides = [guide.value.tree for guide in scene.guides]
+    forces = [node for part in scene.contributions for node in _nodes(part)]
+    return any(isinstance(n, Call) and n.function in KINKED for tree in guides + forces for n in walk(tree))
+
+
+def _nodes(part: Contribution) -> Iterator[Node]:
+    """All expressions of a contribution, whatever its kind."""
+    for item in fields(part):
+        value = getattr(part, item.name)
+        yield from (node for node in (value if isinstance(value, tuple) else (value,)) if isinstance(node, Node))

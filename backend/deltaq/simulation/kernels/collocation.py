@@ -1,0 +1,52 @@
+"""Samples inside a step of a stiffly accurate collocation method: from the polynomials through its stages."""
+
+from __future__ import annotations
+
+from .compiler import inner
+from .implicit_room import ImplicitRoom
+from .motion import Floats
+from .newton import ImplicitWeights
+from .phase import Phase, velocity
+
+
+@inner
+def share(weights: ImplicitWeights, x: float, i: int) -> float:
+    """The Lagrange polynomial of node cᵢ among 0, c₁, … at x."""
+    c = weights.c
+    part = x / c[i]
+    for j in range(c.size):
+        if j != i:
+            part *= (x - c[j]) / (c[i] - c[j])
+    return float(part)
+
+
+@inner
+def sample_stages(
+    phase: Phase,
+    weights: ImplicitWeights,
+    now: tuple[float, float],
+    samples: tuple[Floats, Floats],
+    first: int,
+    room: ImplicitRoom,
+) -> int:
+    """Samples number `first` and on, as far as they lie in the step now = (t, h): q and p by polynomials, q̇ from p."""
+    p, stages, ends = room.p, room.stages, room.ends
+    t, h = now
+    times, out = samples
+    n, count, reached = p.size, times.size, t + h
+    is_last = reached >= times[count - 1] - 1e-9 * h
+    while first < count and (is_last or times[first] <= reached):
+        x = min((times[first] - t) / h, 1.0)
+        for d in range(n):
+            out[first, d], stages.spare[1, d] = ends.old[d], p[d]
+            out[first, n + d] = ends.new[n + d]
+        for i in range(weights.c.size):
+            part = share(weights, x, i)
+            for d in range(n):
+                out[first, d] += part * (stages.q[i, d] - ends.old[d])
+                stages.spare[1, d] += part * (stages.p[i, d] - p[d])
+        velocity(phase, times[first], out[first, :n], stages.spare[1], out[first, n : 2 * n], stages.spare[0])
+        for d in range(2 * n, ends.old.size):
+            out[first, d] = ends.old[d] + x * (ends.new[d] - ends.old[d])
+        first += 1
+    return first

@@ -1,0 +1,88 @@
+"""Momenta and their rates of a compiled model, and their derivatives by differences."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .compiler import inner
+from .motion import FINE, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, solve
+from .pointer import call
+
+NUDGE = 1.5e-8  # of forward differences: the root of the rounding error
+
+
+class Phase(NamedTuple):
+    """A compiled function of q, q̇, t: the lower triangle of M by rows, p = ∂E/∂q̇ and ṗ = ∂E/∂q + Q."""
+
+    address: int
+    data: int
+    degrees: int
+    inputs: Floats
+    outputs: Floats
+
+
+class Linear(NamedTuple):
+    """Derivatives of momenta and their rates at one state: M = ∂p/∂q̇, A = ∂p/∂q, D = ∂ṗ/∂q̇, K = ∂ṗ/∂q."""
+
+    mass: Floats
+    shift: Floats
+    damping: Floats
+    stiffness: Floats
+
+
+@inner
+def momenta(phase: Phase, t: float, q: Floats, v: Floats, p: Floats, rate: Floats) -> None:
+    """p and ṗ at (q, v, t)."""
+    n = phase.degrees
+    for i in range(n):
+        phase.inputs[i] = q[i]
+        phase.inputs[n + i] = v[i]
+    phase.inputs[2 * n] = t
+    call(phase.address, phase.data, phase.outputs, phase.inputs)
+    first = n * (n + 1) // 2
+    for i in range(n):
+        p[i] = phase.outputs[first + i]
+        rate[i] = phase.outputs[first + n + i]
+
+
+@inner
+def velocity(phase: Phase, t: float, q: Floats, p: Floats, v: Floats, spare: Floats) -> int:
+    """The rates v that belong to momenta p, which are affine in them; v holds a first guess."""
+    n = phase.degrees
+    momenta(phase, t, q, v, spare, spare)
+    first = n * (n + 1) // 2
+    for i in range(n):
+        phase.outputs[first + i] = p[i] - phase.outputs[first + i]
+    ratio = factor(phase.outputs, n)
+    if not ratio > SMALLEST_PIVOT:
+        return NOT_FINITE if np.isnan(ratio) else SINGULAR
+    solve(phase.outputs, n)
+    for i in range(n):
+        v[i] += phase.outputs[first + i]
+    return FINE
+
+
+@inner
+def linearize(phase: Phase, t: float, q: Floats, v: Floats, linear: Linear, spare: Floats) -> None:
+    """The derivatives at (q, v, t), by forward differences; `spare` has four rows to work in."""
+    n = phase.degrees
+    momenta(phase, t, q, v, spare[0], spare[1])
+    for j in range(n):
+        kept, nudge = v[j], NUDGE * max(1.0, abs(v[j]))
+        v[j] = kept + nudge
+        momenta(phase, t, q, v, spare[2], spare[3])
+        nudge = v[j] - kept
+        v[j] = kept
+        for i in range(n):
+            linear.mass[i, j] = (spare[2, i] - spare[0, i]) / nudge
+            linear.damping[i, j] = (spare[3, i] - spare[1, i]) / nudge
+        kept, nudge = q[j], NUDGE * max(1.0, abs(q[j]))
+        q[j] = kept + nudge
+        momenta(phase, t, q, v, spare[2], spare[3])
+        nudge = q[j] - kept
+        q[j] = kept
+        for i in range(n):
+            linear.shift[i, j] = (spare[2, i] - spare[0, i]) / nudge
+            linear.stiffness[i, j] = (spare[3, i] - spare[1, i]) / nudge

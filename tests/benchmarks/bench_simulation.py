@@ -1,0 +1,188 @@
+"""Everything about speed in one run: right-hand sides, error against time, a new scene from cold, growth with n.
+
+Run it from the checkout: `python -m tests.benchmarks.bench_simulation`. heyoka takes part if it is installed (bench
+extra). Medians, all in the same run; ratios say more than times. Prints; judges nothing.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable
+from dataclasses import replace
+from importlib.util import find_spec
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from scipy.integrate import solve_ivp
+from tests.benchmarks import bench_rhs
+from tests.model.lagranges_method import lagranges_method
+from tests.simulation.scenes import double_pendulum
+
+from deltaq.mechanics.library import load_scene
+from deltaq.mechanics.scene import Scene
+from deltaq.model.equations import equations
+from deltaq.model.model import _compiled as compiled
+from deltaq.model.model import compile_model
+from deltaq.simulation.driver import simulate
+from deltaq.simulation.library import get_method
+from deltaq.simulation.problem import Problem
+from deltaq.simulation.service import problem_of
+
+SPAN, SAMPLES, REPEATS = 100.0, 501, 5
+PEERS = (("DOP853", (1e-6, 1e-9, 1e-12)), ("Radau", (1e-6, 1e-9)), ("LSODA", (1e-6, 1e-9, 1e-12)))
+OWN = (("dop853", (1e-3, 1e-6, 1e-9, 1e-11)), ("gauss-6", (1e-3, 1e-6, 1e-9)), ("radau-5", (1e-3, 1e-6, 1e-9)))
+CHAIN = (1, 2, 4, 6, 8, 10, 12)
+
+Motion = Callable[[], np.ndarray]  # coordinates at the samples
+
+
+def calm() -> Scene:
+    """A double pendulum that swings without chaos, so that an error can be told after 100 s."""
+    scene = double_pendulum()
+    starts = zip(scene.coordinates, (0.6, 0.8), strict=True)
+    return replace(scene, coordinates=tuple(replace(coordinate, value=value) for coordinate, value in starts))
+
+
+def main() -> None:
+    bench_rhs.main()
+    problem = problem_of(calm(), SPAN, SAMPLES)
+    reference = simulate(problem, get_method("dop853"), tolerance=1e-13).values
+    print(f"\n100 s of a double pendulum, {SAMPLES} samples{'error':>14}{'ms':>10}")
+    for name, motion in (*_own(problem), *_solve_ivp(problem), *_heyoka(problem)):
+        error, seconds = _measured(motion, reference)
+        print(f"{name:44}{error:10.1e}{seconds * 1e3:10.2f}")
+    _cold()
+    _chain()
+
+
+def _measured(motion: Motion, reference: np.ndarray) -> tuple[float, float]:
+    seconds = []
+    for _ in range(REPEATS):
+        start = perf_counter()
+        values = motion()
+        seconds.append(perf_counter() - start)
+        if seconds[-1] > 1.0:
+            break
+    return float(np.abs(values - reference).max()), statistics.median(seconds)
+
+
+def _own(problem: Problem) -> list[tuple[str, Motion]]:
+    def motion(identifier: str, tolerance: float, *, with_error: bool) -> Motion:
+        return lambda: simulate(problem, get_method(identifier), tolerance=tolerance, with_error=with_error).values
+
+    return [
+        (
+            f"δq {identifier} {tolerance:g}{'' if with_error else ', without estimate'}",
+            motion(*each, with_error=with_error),
+        )
+        for identifier, tolerances in OWN
+        for tolerance in tolerances
+        for each in [(identifier, tolerance)]
+        for with_error in (True, False)
+    ]
+
+
+def _lambdified(problem: Problem) -> Callable[[float, np.ndarray], np.ndarray]:
+    symbols, mass, forcing = lagranges_method(double_pendulum())
+    function = sp.lambdify(symbols, [mass, forcing], "numpy", cse=True)
+
+    def slope(t: float, y: np.ndarray) -> np.ndarray:
+        matrix, right = function(*y, t, *problem.parameters)
+        return np.concatenate([y[2:], np.linalg.solve(matrix, right)[:, 0]])
+
+    return slope
+
+
+def _solve_ivp(problem: Problem) -> list[tuple[str, Motion]]:
+    slope, times = _lambdified(problem), np.linspace(0.0, SPAN, SAMPLES)
+
+    def motion(method: str, tolerance: float) -> Motion:
+        options = {"rtol": tolerance, "atol": tolerance, "t_eval": times}
+        return lambda: solve_ivp(slope, (0.0, SPAN), problem.state, method=method, **options).y[:2].T
+
+    return [
+        (f"solve_ivp {method} {each:g}", motion(method, each)) for method, tolerances in PEERS for each in tolerances
+    ]
+
+
+def _heyoka(problem: Problem) -> list[tuple[str, Motion]]:
+    if find_spec("heyoka") is None:
+        return []
+    times = np.linspace(0.0, SPAN, SAMPLES)
+
+    def motion(tolerance: float) -> Motion:
+        integrator = _taylor(problem, _rates(problem), tolerance)
+
+        def run() -> np.ndarray:
+            integrator.time = 0.0
+            integrator.state[:] = problem.state
+            return np.asarray(integrator.propagate_grid(times)[-1])[:, :2]
+
+        return run
+
+    return [(f"heyoka {tolerance:g}", motion(tolerance)) for tolerance in (1e-9, 1e-15)]
+
+
+def _rates(problem: Problem) -> list[sp.Expr]:
+    """The accelerations in a, b, u, v with the numbers of the problem."""
+    symbols, mass, forcing = lagranges_method(double_pendulum())
+    values = dict(zip(symbols[5:], problem.parameters, strict=True))
+    named = dict(zip(symbols[:4], sp.symbols("a b u v", real=True), strict=True))
+    m, f = (part.subs(values).subs(named) for part in (mass, forcing))
+    det = m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
+    return [(m[1, 1] * f[0] - m[0, 1] * f[1]) / det, (m[0, 0] * f[1] - m[1, 0] * f[0]) / det]
+
+
+def _taylor(problem: Problem, rates: list[sp.Expr], tolerance: float) -> Any:
+    import heyoka as hy
+
+    a, b, u, v = hy.make_vars("a", "b", "u", "v")
+    system = [(a, u), (b, v), (u, hy.from_sympy(rates[0])), (v, hy.from_sympy(rates[1]))]
+    return hy.taylor_adaptive(system, list(problem.state), tol=tolerance)
+
+
+def _cold() -> None:
+    """From a scene never seen before to 100 s at 1e-9, kernels at hand."""
+    start = perf_counter()
+    scene = calm()
+    compiled(equations(scene), scene)
+    built = perf_counter() - start
+    simulate(problem_of(scene, SPAN, SAMPLES), get_method("dop853"), tolerance=1e-9)
+    print(f"\nnew scene to 100 s at 1e-9: δq {1e3 * (perf_counter() - start):.1f} ms (model {1e3 * built:.1f} ms)")
+    problem = problem_of(scene, SPAN, SAMPLES)
+    start = perf_counter()
+    slope = _lambdified(problem)
+    solve_ivp(slope, (0.0, SPAN), problem.state, method="DOP853", rtol=1e-10, atol=1e-10)
+    print(f"  LagrangesMethod + lambdify + solve_ivp {1e3 * (perf_counter() - start):.0f} ms")
+    if find_spec("heyoka") is not None:
+        other = replace(problem, parameters=tuple(1.01 * each for each in problem.parameters))
+        rates = _rates(other)  # new numbers, or heyoka would run what it has compiled above
+        start = perf_counter()
+        integrator = _taylor(problem, rates, 1e-12)
+        integrator.propagate_grid(np.linspace(0.0, SPAN, SAMPLES))
+        print(f"  heyoka from given expressions (compile and run) {1e3 * (perf_counter() - start):.0f} ms")
+
+
+def _chain() -> None:
+    """Growth with the number of links; the first model of each size is new."""
+    print(f"\n{'links':>5}{'model ms':>10}{'phase ms':>10}{'ns per right-hand side':>24}")
+    for n in CHAIN:
+        scene = load_scene("chain-pendulum", n)
+        start = perf_counter()
+        model = compile_model(scene)
+        built = perf_counter() - start
+        start = perf_counter()
+        assert isinstance(model.phase, object)
+        phase = perf_counter() - start
+        problem = problem_of(scene, 2.0, 21)
+        times = []
+        for _ in range(REPEATS):
+            cost = simulate(problem, get_method("rk4"), step=1e-3, with_error=False).cost
+            times.append(cost.run_time / cost.run_evaluations * 1e9)
+        print(f"{n:5}{built * 1e3:10.1f}{phase * 1e3:10.1f}{statistics.median(times):24.0f}")
+
+
+if __name__ == "__main__":
+    main()
