@@ -73,7 +73,7 @@ def test_chapters_of_an_integral() -> None:
 def test_result_of_an_integral_with_fixed_ends() -> None:
     result = vary(**OSCILLATOR, functional=INTEGRAL)["result"]
     assert result["first_variation"] == {
-        "plain": "m*dot(x)*dot(delta(x)) - k*x*delta(x)",
+        "plain": "-k*x*delta(x) + m*dot(x)*dot(delta(x))",
         "latex": r"\int_{0}^{T} \left(-k x \, \delta x + m \dot{x} \, \delta \dot{x}\right)\,\mathrm{d}t",
         "from": "0",
         "to": "T",

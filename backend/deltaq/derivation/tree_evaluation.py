@@ -67,8 +67,8 @@ class FunctionAlgebra:
     def rate(self, name: str, order: int) -> At:
         return lambda point: point[spell_rate(name, order)]
 
-    def variation(self, name: str) -> At:
-        return lambda point: point[f"delta({name})"]
+    def variation(self, name: str, order: int) -> At:
+        return lambda point: point[spell_rate(f"delta({name})", order)]
 
     def differential(self, name: str) -> At:
         return lambda point: point[f"d({name})"]

@@ -36,8 +36,8 @@ class FloatAlgebra:
     def rate(self, name: str, order: int) -> float:
         return self.values[spell_rate(name, order)]
 
-    def variation(self, name: str) -> float:
-        return self.values[f"delta({name})"]
+    def variation(self, name: str, order: int) -> float:
+        return self.values[spell_rate(f"delta({name})", order)]
 
     def differential(self, name: str) -> float:
         return self.values[f"d({name})"]

@@ -44,9 +44,10 @@ class Rate:
 
 @dataclass(frozen=True)
 class Variation:
-    """Virtual displacement δq of a coordinate."""
+    """Virtual displacement δq of a coordinate (order 0), or its rate δq̇ or δq̈."""
 
     name: str
+    order: int = 0
     span: Span = field(default=NOWHERE, compare=False)
 
 

@@ -90,6 +90,8 @@ class Operators:
                 return self._cursor.made(Rate(name, 1, span))
             case Rate(name, order) if order < MAX_ORDER:
                 return self._cursor.made(Rate(name, order + 1, span))
+            case Variation(name, order) if order < MAX_ORDER:
+                return self._cursor.made(Variation(name, order + 1, span))
             case Name(name):
                 fail("rate-of-constant", span, name=name)
         self._check_order(operand, span)
@@ -113,21 +115,27 @@ class Operators:
         order = _order(operand) + 1
         if order > MAX_ORDER:
             fail("derivative-order", span, order=order)
-        if any(isinstance(n, (Variation, Differential)) for n in walk(operand)):
-            fail("derivative-of-variation", span)
+        if any(isinstance(n, Differential) for n in walk(operand)):
+            fail("derivative-of-differential", span)
 
     def _variation(self, token: Token) -> Node:
-        """δq, and δ of an expression by the chain rule: Σ ∂f/∂q δq."""
+        """δq and δq̇, and δ of an expression by the chain rule: Σ ∂f/∂q δq + ∂f/∂q̇ δq̇."""
         self._expect_operand(token)
         operand = self._grammar.atom()
         span = between(token.span, self._cursor.previous.span)
         match operand:
             case Name(name) if self._kind(name) == "coordinate":
-                return self._cursor.made(Variation(name, span))
+                return self._cursor.made(Variation(name, span=span))
             case Name(name):
                 fail("variation-of-constant", span, name=name)
-        self._check_plain(operand, span)
-        return self._chain(operand, span, [n for n in self._used(operand) if self._kind(n) == "coordinate"], Variation)
+            case Rate(name, order):
+                return self._cursor.made(Variation(name, order, span))
+        if any(isinstance(n, (Variation, Differential)) for n in walk(operand)):
+            fail("variation-of-variation", span)
+        moving = [(name, order) for name, order in sorted(_arguments(operand)) if self._kind(name) == "coordinate"]
+        return self._chain(
+            operand, span, [(_jet(name, order, span), Variation(name, order, span)) for name, order in moving]
+        )
 
     def _differential(self, token: Token) -> Node:
         """dq and dt, and d of an expression by the chain rule: Σ ∂f/∂q dq + ∂f/∂t dt."""
@@ -139,22 +147,17 @@ class Operators:
                 return self._cursor.made(Differential(name, span))
             case Name(name):
                 fail("differential-of-constant", span, name=name)
-        self._check_plain(operand, span)
-        moving = [n for n in self._used(operand) if self._kind(n) in ("coordinate", "time")]
-        return self._chain(operand, span, moving, Differential)
-
-    def _check_plain(self, operand: Node, span: Span) -> None:
         if any(isinstance(n, (Rate, Variation, Differential, TimeDerivative)) for n in walk(operand)):
-            fail("variation-of-rate", span)
+            fail("differential-of-rate", span)
+        moving = [name for name, _ in sorted(_arguments(operand)) if self._kind(name) in ("coordinate", "time")]
+        return self._chain(operand, span, [(Name(name, span), Differential(name, span)) for name in moving])
 
-    def _used(self, node: Node) -> list[str]:
-        return sorted({n.name for n in walk(node) if isinstance(n, Name)})
-
-    def _chain(self, operand: Node, span: Span, by: list[str], kind: type[Variation | Differential]) -> Node:
-        for _ in by:
+    def _chain(self, operand: Node, span: Span, pairs: list[tuple[Node, Node]]) -> Node:
+        """Σ ∂(operand)/∂(variable) · change over all pairs of a variable and its change."""
+        for _ in pairs:
             for part in walk(operand):
                 self._cursor.made(part)
-        terms = [Product((PartialDerivative(operand, Name(n, span), span), kind(n, span)), span) for n in by]
+        terms = [Product((PartialDerivative(operand, by, span), change), span) for by, change in pairs]
         if not terms:
             return self._cursor.made(Product((Number(Fraction(0), span), operand), span))
         return self._cursor.made(Sum(tuple(terms), span)) if len(terms) > 1 else terms[0]
@@ -165,8 +168,24 @@ class Operators:
             fail("operand-expected", token.span, operator=self._cursor.slice(token.span))
 
 
+def _jet(name: str, order: int, span: Span) -> Name | Rate:
+    """q, q̇ or q̈."""
+    return Rate(name, order, span) if order else Name(name, span)
+
+
+def _arguments(node: Node) -> set[tuple[str, int]]:
+    """Names and orders of derivative that the value of a tree depends on; d/dt adds an order."""
+    match node:
+        case Name(name):
+            return {(name, 0)}
+        case Rate(name, order):
+            return {(name, order)}
+    inside = {argument for part in children(node) for argument in _arguments(part)}
+    return inside | {(n, k + 1) for n, k in inside} if isinstance(node, TimeDerivative) else inside
+
+
 def _order(node: Node) -> int:
     """The highest time derivative in a tree."""
-    if isinstance(node, Rate):
+    if isinstance(node, Rate | Variation):
         return node.order
     return max(map(_order, children(node)), default=0) + isinstance(node, TimeDerivative)

@@ -29,9 +29,9 @@ class Symbols:
         """q̇ (order 1), q̈ (order 2)."""
         return sympy.Symbol(spell_rate(name, order), real=True)
 
-    def variation(self, name: str) -> sympy.Symbol:
-        """δq"""
-        return sympy.Symbol(f"delta({name})", real=True)
+    def variation(self, name: str, order: int = 0) -> sympy.Symbol:
+        """δq, δq̇ (order 1), δq̈ (order 2)."""
+        return sympy.Symbol(spell_rate(f"delta({name})", order), real=True)
 
     def differential(self, name: str) -> sympy.Symbol:
         """dq, or dt"""

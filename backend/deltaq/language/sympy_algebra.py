@@ -59,11 +59,12 @@ def time_derivative(expr: Value, symbols: Symbols) -> Value:
 
 
 def _rates(symbols: Symbols) -> dict[Value, Value]:
-    """How fast everything changes that does: t, and each q, q̇, q̈."""
+    """How fast everything changes that does: t, and each q, q̇, q̈, δq, δq̇."""
     rates = {symbols.time: sympy.Integer(1)}
     for name in symbols.names.coordinates:
         chain = (symbols.name(name), symbols.rate(name, 1), symbols.rate(name, 2), symbols.rate(name, 3))
         rates |= dict(pairwise(chain))
+        rates |= dict(pairwise(symbols.variation(name, order) for order in range(4)))
     return rates
 
 
@@ -86,8 +87,8 @@ class SympyAlgebra:
     def rate(self, name: str, order: int) -> Value:
         return self.symbols.rate(name, order)
 
-    def variation(self, name: str) -> Value:
-        return self.symbols.variation(name)
+    def variation(self, name: str, order: int) -> Value:
+        return self.symbols.variation(name, order)
 
     def differential(self, name: str) -> Value:
         return self.symbols.differential(name)

@@ -45,4 +45,4 @@ def _decorated(kind: int, letter: str) -> str:
         return f"{_ACCENTS[kind]}{{{head}}}{underscore}{index}"
     if kind == 4:
         return rf"\mathrm{{d}}{letter}"
-    return rf"\delta {letter}" if kind == 5 else letter
+    return rf"\delta {_decorated(kind - 5, letter)}" if kind >= 5 else letter

@@ -57,7 +57,7 @@ class SymEngineAlgebra:
     def partial_derivative(self, operand: Expr, variable: Expr) -> Expr:
         return operand.diff(variable)
 
-    def variation(self, name: str) -> NoReturn:
+    def variation(self, name: str, _order: int) -> NoReturn:
         raise ValueError(f"a model has no virtual displacement of {name}")
 
     def differential(self, name: str) -> NoReturn:

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 
 import sympy as sp
 
-from ..derivation.formula import Explicit, Formula, Given, Partial, Quantity, Rate, Times, Value
+from ..derivation.formula import Explicit, Formula, Given, Partial, Quantity, Rate, Times
 from ..derivation.function_formula import Over
 from ..derivation.functional import direction
-from ..language.latex_printer import Typography, latex
+from ..language.latex_printer import Typography
 from ..language.order import split_symbol
 from ..language.spelling import latex_of
 from .function_writing import NEIGHBOUR
@@ -33,20 +33,8 @@ OF_TIME = (
     "function-of-functions",
     "identity-functional",
 )
-# The printer orders δ by the name inside it; these stand in for the rates and accelerations of directions.
-PRIMES = ("", "ʹ", "ʺ")
-VARIATION = 5  # the kind that the language's order gives δ
+VARIATION = 5  # the kind that the language's order gives δ; δẋ and δẍ follow
 ACCENTS = ("{}", r"\dot{{{}}}", r"\ddot{{{}}}")
-
-
-def stand_in(function: str, order: int) -> sp.Symbol:
-    """δẋ as a symbol that the printer takes for a variation."""
-    return sp.Symbol(f"delta({function}{PRIMES[order]})", real=True)
-
-
-def as_variations(functions: tuple[str, ...]) -> Mapping[sp.Symbol, sp.Symbol]:
-    """Each direction and its rates, with their stand-ins."""
-    return {direction(x, n): stand_in(x, n) for x in functions for n in range(3)}
 
 
 @dataclass(frozen=True)
@@ -62,14 +50,14 @@ class FunctionTypography(Typography):
 
     def symbol(self, name: str) -> str:
         kind, base = split_symbol(name)
-        function = base.rstrip("".join(PRIMES) + NEIGHBOUR)
+        function = base.rstrip(NEIGHBOUR)
         if function not in self.directions:
             return super().symbol(name)
         if base.endswith(NEIGHBOUR):
             of = name.replace(NEIGHBOUR, "")
-            return rf"\left({self.symbol(of)} + {self.h}\,{self.symbol(stand_in(function, kind).name)}\right)"
-        order = max(PRIMES.index(base.removeprefix(function)), 0)
-        text = self.mark(name, self._direction(function, order)) if kind == VARIATION else super().symbol(name)
+            return rf"\left({self.symbol(of)} + {self.h}\,{self.symbol(direction(function, kind).name)}\right)"
+        is_direction = kind >= VARIATION
+        text = self.mark(name, self._direction(function, kind - VARIATION)) if is_direction else super().symbol(name)
         return text + self.argument
 
     def _direction(self, function: str, order: int) -> str:
@@ -84,11 +72,6 @@ class FunctionTypography(Typography):
 @dataclass(frozen=True)
 class FunctionNotation(Notation):
     """Writes formulas about functions; names carry their functions as x(t)."""
-
-    def value(self, value: Value) -> str:
-        typography = self.typography
-        functions = typography.names.coordinates
-        return latex(value.xreplace(dict(as_variations(functions))), typography)
 
     def formula(self, formula: Formula) -> str:
         """A derivative that is not written out gets a bar where it is taken at an instant."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from ..language.order import split_symbol
 from ..mechanics.scene import Scene
 
-SYMBOL = re.compile(r"(?:(dot|ddot|delta|d)\()?(\w+)\)?")
 MARK = re.compile(r"\\htmlClass\{[^}]*\}")
-VARIATION = {"delta": " variation", "d": " differential"}
+ROLES = {4: " differential", 5: " variation", 6: " variation", 7: " variation"}  # by the kind of the symbol
 
 Wrap = Callable[[str, str], str]
 
@@ -34,9 +34,7 @@ def by_coordinate(scene: Scene, wrap: Wrap) -> Wrap:
     numbers = {coordinate.name: index for index, coordinate in enumerate(scene.coordinates)}
 
     def mark(name: str, latex: str) -> str:
-        match = SYMBOL.fullmatch(name)
-        if match is None or match[2] not in numbers:
-            return latex
-        return wrap(f"q-{numbers[match[2]]}{VARIATION.get(match[1] or '', '')}", latex)
+        kind, base = split_symbol(name)
+        return wrap(f"q-{numbers[base]}{ROLES.get(kind, '')}", latex) if base in numbers else latex
 
     return mark

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from functools import reduce
 from typing import cast
 
 import sympy as sp
@@ -19,7 +18,7 @@ from ..language.names import Names
 from ..language.plain_printer import plain
 from ..language.spelling import latex_of, spell_rate
 from .catalog import language_of
-from .function_notation import FunctionNotation, FunctionSymbols, FunctionTypography, as_variations, stand_in
+from .function_notation import FunctionNotation, FunctionSymbols, FunctionTypography
 from .marks import Wrap, in_class, unmarked
 from .narrator import Narrator
 from .quotient_answer import quotient_answer
@@ -114,18 +113,15 @@ class _Writer:
 
     def __init__(self, question: Question, notation: FunctionNotation) -> None:
         self._notation = notation
-        self._stand_ins = as_variations(question.functional.functions)
-        self._spelt = [(stand_in, own) for own, stand_in in self._stand_ins.items() if stand_in.name != own.name]
         self._named = {
-            stand_in(x, n): sp.Symbol(spell_rate(v, n), real=True)
+            direction(x, n): sp.Symbol(spell_rate(v, n), real=True)
             for x, v in question.directions.items()
             if v
             for n in range(3)
         }
 
     def plain(self, value: sp.Expr) -> str:
-        text = plain(value.xreplace(self._stand_ins).xreplace(self._named))
-        return reduce(lambda written, pair: written.replace(pair[0].name, pair[1].name), self._spelt, text)
+        return plain(value.xreplace(self._named))
 
     def formula(self, formula: Formula) -> str:
         return self._notation.formula(formula)
