@@ -1,13 +1,14 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any
+from typing import Any, get_args
 
 import httpx
 import pytest
 from fastapi import FastAPI
 
-from deltaq.api.wire.derivation import DerivationAnswer, DerivationRequest
+from deltaq.api.wire.derivation import DerivationAnswer, DerivationRequest, Formulation
+from deltaq.derivation.engine import formulation_names
 from deltaq.mechanics.library import scene_ids
 
 pytestmark = pytest.mark.anyio
@@ -49,6 +50,17 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "jacobi_energy",
         "routh",
     }
+
+
+async def test_formulations_are_those_of_the_engine(client: httpx.AsyncClient) -> None:
+    assert get_args(Formulation) == formulation_names()
+    answers = {}
+    for formulation in formulation_names():
+        response = await client.post(DERIVATIONS, json={"scene": "damped-pendulum", "formulation": formulation})
+        answers[formulation] = response.json()
+    assert answers["hamilton"]["formulation"] == "hamilton"
+    assert answers["hamilton"]["result"] == answers["dalembert-lagrange"]["result"]
+    assert answers["hamilton"]["id"] != answers["dalembert-lagrange"]["id"]
 
 
 async def test_language_changes_the_texts_and_nothing_else(client: httpx.AsyncClient) -> None:

@@ -28,7 +28,7 @@ _numbers = st.one_of(
 _symbols = st.one_of(
     st.sampled_from(_PARAMETERS + _COORDINATES).map(SYMBOLS.name),
     st.tuples(st.sampled_from(_COORDINATES), st.sampled_from((1, 2))).map(lambda pair: SYMBOLS.rate(*pair)),
-    st.sampled_from(_COORDINATES).map(SYMBOLS.variation),
+    st.tuples(st.sampled_from(_COORDINATES), st.sampled_from((0, 1, 2))).map(lambda pair: SYMBOLS.variation(*pair)),
     st.sampled_from((*_COORDINATES, "t")).map(SYMBOLS.differential),
 )
 _DIFFERENTIALS = {SYMBOLS.differential(name) for name in (*_COORDINATES, "t")}

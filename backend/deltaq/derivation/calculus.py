@@ -81,6 +81,11 @@ class Calculus:
         return self.fresh("lambda", "mu", "s", "sigma")
 
     @cached_property
+    def ends(self) -> tuple[sp.Symbol, sp.Symbol]:
+        """The instants between which the action is taken."""
+        return self.fresh("t_0", "t_a", "tau_0"), self.fresh("t_1", "t_b", "tau_1")
+
+    @cached_property
     def variations(self) -> Mapping[sp.Symbol, sp.Symbol]:
         """δq of every free coordinate q."""
         return {self.q(name): self.variation(name) for name in self.free}

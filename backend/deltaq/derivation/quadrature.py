@@ -15,6 +15,8 @@ from .formula import Bounds
 from .points import Point, along_motion
 
 NODES = 48
+# The error is about (half the interval / distance to the next singularity)^2n.
+SHORT, FEW_NODES = arb(2) ** -16, 4
 
 Numbers = tuple[arb, ...]
 
@@ -24,17 +26,21 @@ def integral(
     material: tuple[Bounds, ...],
     point: Point,
     number: Callable[[sp.Expr, Point], arb],
-    nodes: int = NODES,
+    nodes: int | None = None,
 ) -> Numbers:
-    """The integral of each component over all material coordinates, the last one innermost."""
+    """The integral of each component over all material coordinates, the last one innermost.
+
+    Without `nodes` there are as many as the length of the interval needs.
+    """
     if not material:
         return of(point)
     first, *rest = material
     lower, upper = number(first.lower, point), number(first.upper, point)
     half, middle = (upper - lower) / 2, (upper + lower) / 2
     total: Numbers = ()
-    for node in range(nodes):
-        place, weight = arb.legendre_p_root(nodes, node, weight=True)
+    count = nodes or (FEW_NODES if half < SHORT else NODES)
+    for node in range(count):
+        place, weight = arb.legendre_p_root(count, node, weight=True)
         inside = placed(point, first.symbol.name, middle + half * place)
         values = integral(of, tuple(rest), inside, number, nodes)
         summands = [half * weight * value for value in values]

@@ -28,6 +28,7 @@ BITS = 512
 TOLERANCE = arb(2) ** -80
 POINTS = 2
 ATTEMPTS = 8
+HALF = arb(2) ** -20  # of the interval of an action: so short that few nodes integrate over it
 
 
 def verified(derivation: Derivation, system: System) -> Derivation:
@@ -78,7 +79,21 @@ def random_points(system: System, seed: int = 1) -> Iterator[Point]:
     symbols = dict.fromkeys([*moving, *(symbol.name for symbol in system.scene.names.symbols), "d(t)"])
     symbols |= dict.fromkeys([system.omega.name, system.exponent.name])
     for _ in range(ATTEMPTS):
-        yield {name: arb(source.randint(2**20, 7 * 2**20)) / 2**22 for name in symbols}
+        point = {name: arb(source.randint(2**20, 7 * 2**20)) / 2**22 for name in symbols}
+        yield with_fixed_ends(system, point)
     own = {parameter.name: arb(parameter.value) for parameter in system.scene.parameters}
     for _ in range(POINTS):
-        yield {name: own.get(name, arb(source.randint(2**20, 7 * 2**20)) / 2**22) for name in symbols}
+        point = {name: own.get(name, arb(source.randint(2**20, 7 * 2**20)) / 2**22) for name in symbols}
+        yield with_fixed_ends(system, point)
+
+
+def with_fixed_ends(system: System, point: Point) -> Point:
+    """The point with a short interval around its time, and each δq a parabola that vanishes at both ends."""
+    start, end = system.ends
+    before, after = HALF, 2 * HALF
+    times = {start.name: point["t"] - before, end.name: point["t"] + after}
+    jets: dict[str, arb] = {}
+    for name in system.coordinates:
+        height = point[f"delta({name})"] / (before * after)
+        jets |= {f"dot(delta({name}))": height * (after - before), f"ddot(delta({name}))": -2 * height}
+    return {**point, **times, **jets}

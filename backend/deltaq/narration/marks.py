@@ -8,7 +8,7 @@ from collections.abc import Callable
 from ..language.order import split_symbol
 from ..mechanics.scene import Scene
 
-MARK = re.compile(r"\\htmlClass\{[^}]*\}")
+MARK = re.compile(r"\\htmlClass\{[^}]*\}|\\(?:left|right)(?![a-z])|\\,|[{}\s]")
 ROLES = {4: " differential", 5: " variation", 6: " variation", 7: " variation"}  # by the kind of the symbol
 
 Wrap = Callable[[str, str], str]
@@ -25,8 +25,8 @@ def unmarked(_css: str, latex: str) -> str:
 
 
 def bare(latex: str) -> str:
-    """What the LaTeX says, without its classes, braces and spaces: two texts that read alike are equal."""
-    return re.sub(r"[{}\s]", "", MARK.sub("", latex))
+    """What the LaTeX says, without classes, braces, spaces and sizes of brackets; alike texts are equal."""
+    return MARK.sub("", latex)
 
 
 def by_coordinate(scene: Scene, wrap: Wrap) -> Wrap:

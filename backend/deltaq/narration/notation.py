@@ -88,7 +88,9 @@ class Notation:
         return self.symbols.latex(quantity) + (f"({inside})" if arguments else "")
 
     def at_time(self, of: Formula, time: sp.Expr) -> str:
-        """A formula at an instant."""
+        """A formula at an instant; a single symbol as a function of time."""
+        if isinstance(of, Explicit) and of.value.is_Symbol:
+            return f"{self.value(of.value)}({self.value(time)})"
         return rf"\left.{self.formula(of)}\right|_{{t = {self.value(time)}}}"
 
     def relation(self, relation: Relation) -> list[str]:

@@ -30,6 +30,8 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "kinetic-energy": ("E{of}", "energy-kinetic"),
     "potential-energy": ("V{of}", "energy-potential"),
     "lagrangian": ("L", ""),
+    "integral-functional": ("S", ""),
+    "variation-of-integral": (r"\delta S", ""),
     "momentum": ("p_{{{i}}}", ""),
     "mass-matrix": (r"\mathbf{{M}}", ""),
     "mass-scalar": ("M", ""),

@@ -9,7 +9,7 @@ from pydantic import ConfigDict, Field
 from ..languages import Language
 from .base import Answer, Guides, Names, Request, SceneReference, Values
 
-Formulation = Literal["dalembert-lagrange"]
+Formulation = Literal["dalembert-lagrange", "hamilton"]
 
 
 class DerivationRequest(Request):

@@ -1,0 +1,45 @@
+"""The action S = ∫ L dt of a scene, as a functional of its free coordinates.
+
+Both ends are fixed: every motion that is compared starts and ends at the same places, δq(t₀) = δq(t₁) = 0.
+Source: Hamilton, On a General Method in Dynamics (1834); Lanczos, The Variational Principles of Mechanics, ch. V.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import sympy as sp
+
+from ..language.tree import Name
+from .formula import Named, Quantity
+from .functional import Functional, Interval
+from .system import System
+
+
+@dataclass(frozen=True, eq=False)
+class Action(Functional):
+    """The integral of Lagrange's function, with the guides put in."""
+
+    system: System = field(kw_only=True)
+
+    @property
+    def functions(self) -> tuple[str, ...]:
+        return self.system.free
+
+    @cached_property
+    def value(self) -> sp.Expr:
+        return self.system.lagrangian
+
+    @property
+    def named(self) -> Named:
+        return Named(Quantity("lagrangian"), self.value)
+
+    def momentum(self, function: str) -> sp.Expr:
+        return self.system.momentum(function)
+
+
+def action(system: System) -> Action:
+    """S between two instants that no symbol of the scene names."""
+    start, end = (Name(instant.name) for instant in system.ends)
+    return Action(system.scene.names, (), Interval(start, end, "fixed"), system=system)

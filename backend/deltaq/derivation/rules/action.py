@@ -1,0 +1,20 @@
+"""The action: S = ∫ L dt from t₀ to t₁, a functional of the motion q(t).
+
+Source: Hamilton, On a General Method in Dynamics (1834); Landau, Lifshitz, Mechanics, §2.
+"""
+
+from __future__ import annotations
+
+from ..action import Action
+from ..formula import Quantity
+from ..function_formula import Called
+from ..step import Relation, Step
+
+RULE = "action"
+
+
+def apply(action: Action) -> Step:
+    whole = Called(Quantity("integral-functional"), action.on(action.explicit))
+    line = Relation((whole, action.on(action.named), action.on(action.explicit)))
+    system = action.system
+    return Step(RULE, "", (line,), system.body_sources + system.conservative_sources)

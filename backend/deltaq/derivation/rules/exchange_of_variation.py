@@ -1,0 +1,18 @@
+"""Variation and time derivative commute: δq̇ = d/dt δq, because the time is not varied.
+
+Source: Lanczos, The Variational Principles of Mechanics, ch. II.9.
+"""
+
+from __future__ import annotations
+
+from ..action import Action
+from ..formula import Explicit, Rate
+from ..functional import direction
+from ..step import Relation, Step
+
+RULE = "exchange-of-variation"
+
+
+def apply(action: Action) -> Step:
+    lines = tuple(Relation((Explicit(direction(x, 1)), Rate(Explicit(direction(x))))) for x in action.moving)
+    return Step(RULE, "", lines)

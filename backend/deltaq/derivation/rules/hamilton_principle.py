@@ -1,0 +1,41 @@
+"""Hamilton's principle: δS = 0 for every δq that vanishes at t₀ and t₁; with other forces δS + ∫ Qᵢᵈ δqᵢ dt = 0.
+
+It is d'Alembert's principle integrated over the time, and is stated here, not derived.
+Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §2.1; Lanczos, ch. V.1.
+"""
+
+from __future__ import annotations
+
+from ..action import Action
+from ..formula import Equation, Explicit, Formula, Named, Plus, Quantity, Term, Times
+from ..step import Relation, Step
+from .functional import variation
+
+RULE = "hamilton-principle"
+
+
+def apply(action: Action) -> Step:
+    system = action.system
+    outside = other_work(action)
+    left: Formula = Plus((Term(variation(action)), Term(action.on(outside)))) if outside else variation(action)
+    line = Relation((Equation(left, Explicit(system.zero)),))
+    return Step(RULE, "", (line,), (), {"outcome": "driven" if outside else "text"})
+
+
+def other_work(action: Action) -> Plus | None:
+    """Qᵢᵈ δqᵢ of the forces that have no potential, or None if there are none."""
+    terms = tuple(
+        Term(Times((other_force(action, x), Explicit(action.system.variation(x)))))
+        for x in action.functions
+        if has_other_force(action, x)
+    )
+    return Plus(terms) if terms else None
+
+
+def has_other_force(action: Action, coordinate: str) -> bool:
+    return bool(action.system.nonconservative_force(coordinate) != 0)
+
+
+def other_force(action: Action, coordinate: str) -> Named:
+    """Qᵢᵈ"""
+    return Named(Quantity("nonconservative-force", coordinate), action.system.nonconservative_force(coordinate))

@@ -1,0 +1,99 @@
+"""Hamilton's principle: the same equations by another road, every step of it verified."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import pytest
+import sympy as sp
+from tests.derivation.scenes import chain, spring_in_space
+
+from deltaq.derivation.action import action
+from deltaq.derivation.engine import derive, formulation_names
+from deltaq.derivation.formula import Explicit
+from deltaq.derivation.result import result_of
+from deltaq.derivation.rules import exchange_of_variation, integration_by_parts
+from deltaq.derivation.step import Relation, Step
+from deltaq.derivation.system import System
+from deltaq.derivation.verification import random_points, verified_step
+from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.scene import Scene
+
+OWN = {"chain of three": chain(3), "spring in space": spring_in_space()}
+
+
+def scene_of(name: str) -> Scene:
+    return OWN[name] if name in OWN else load_scene(name)
+
+
+@pytest.mark.parametrize("name", [*scene_ids(), *OWN])
+def test_it_leads_to_the_same_equations(name: str) -> None:
+    results = []
+    for formulation in formulation_names():
+        system, derivation = derive(scene_of(name), formulation)
+        assert [step.id for step in derivation.steps() if not step.verified] == []
+        results.append(result_of(system))
+    by_work, by_action = results
+    assert dataclasses.replace(by_action, scene=by_work.scene) == by_work
+
+
+@pytest.mark.parametrize("name", scene_ids())
+def test_the_factor_of_each_variation_is_the_equation_of_motion(name: str) -> None:
+    system, derivation = derive(load_scene(name), "hamilton")
+    lemma = next(step for step in derivation.steps() if step.rule == "fundamental-lemma")
+    factors = [relation.after for relation in lemma.relations[1:]]
+    equations = result_of(system).equations.values()
+    for factor, equation in zip(factors, equations, strict=True):
+        assert isinstance(factor.left, Explicit)  # type: ignore[union-attr]
+        assert system.is_zero(factor.left.value + equation)  # type: ignore[union-attr]
+
+
+CHAPTERS = {
+    "dalembert-lagrange": (
+        "configuration variation virtual-work kinetic-energy dalembert-to-lagrange decomposition lagrange model"
+    ),
+    "hamilton": "configuration kinetic-energy variation virtual-work decomposition hamilton lagrange model",
+}
+
+
+@pytest.mark.parametrize("formulation", formulation_names())
+def test_chapters(formulation: str) -> None:
+    _, derivation = derive(load_scene("elastic-pendulum"), formulation)
+    assert " ".join(chapter.id for chapter in derivation.chapters) == CHAPTERS[formulation]
+
+
+def is_found(step: Step, system: System) -> bool:
+    return not verified_step(step, tuple(random_points(system))).verified
+
+
+def altered(step: Step, before: sp.Expr, after: sp.Expr) -> Step:
+    """The step with one written-out expression replaced wherever it stands at the end of a line."""
+    lines = tuple(
+        Relation((*line.members[:-1], Explicit(after))) if line.after == Explicit(before) else line
+        for line in step.relations
+    )
+    assert lines != step.relations
+    return dataclasses.replace(step, relations=lines)
+
+
+def test_a_wrong_exchange_is_found() -> None:
+    system = System(load_scene("pendulum"))
+    step = exchange_of_variation.apply(action(system))
+    (line,) = step.relations
+    doubled = Relation((line.before, Explicit(2 * system.symbols.variation("phi", 1))))
+    assert not is_found(step, system)
+    assert is_found(dataclasses.replace(step, relations=(doubled,)), system)
+
+
+def test_a_lost_boundary_term_is_found_where_the_ends_are_not_fixed() -> None:
+    """The boundary term counts: without fixed ends, parts alone do not make the two integrals equal."""
+    system = System(load_scene("pendulum"))
+    step = integration_by_parts.apply(action(system), "phi")
+    (line,) = step.relations
+    speed, formal, written = line.members
+    points = tuple({**point, "dot(delta(phi))": point["phi"]} for point in random_points(system))
+    whole = dataclasses.replace(step, relations=(Relation((speed, formal, written)),))
+    without = tuple(dataclasses.replace(member, terms=member.terms[1:]) for member in (formal, written))  # type: ignore[arg-type, union-attr, type-var]
+    lost = dataclasses.replace(step, relations=(Relation((speed, *without)),))
+    assert verified_step(whole, points).verified
+    assert not verified_step(lost, points).verified
