@@ -1,0 +1,82 @@
+"""What each body and load adds to the results: pairs of a source, `body:bob` or `load:weight`, and its share.
+
+Energies, virtual works and all that is linear in them are sums over bodies and loads.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from .system import System
+
+Share = tuple[str, sp.Expr]
+
+
+def of_virtual_work(system: System) -> Iterator[Share]:
+    """δW = Σ Qᵢ δqᵢ of each load."""
+    for load in system.load_names:
+        yield f"load:{load}", sp.Add(*(system.load_force(load, q) * system.variation(q) for q in system.free))
+
+
+def of_kinetic_energy(system: System) -> Iterator[Share]:
+    for body in system.scene.bodies:
+        yield f"body:{body.name}", system.kinetic_energy_of(body)
+
+
+def of_potential_energy(system: System) -> Iterator[Share]:
+    for load in filter(system.is_conservative, system.load_names):
+        yield f"load:{load}", system.load_potential(load)
+
+
+def of_lagrangian(system: System) -> Iterator[Share]:
+    """E − V"""
+    yield from of_kinetic_energy(system)
+    for source, energy in of_potential_energy(system):
+        yield source, -energy
+
+
+def of_force(system: System, coordinate: str) -> Iterator[Share]:
+    """Qᵢ"""
+    for load in system.load_names:
+        yield f"load:{load}", system.load_force(load, coordinate)
+
+
+def of_conservative_force(system: System, coordinate: str) -> Iterator[Share]:
+    """Qᵢᵖ = −∂V/∂qᵢ"""
+    for source, energy in of_potential_energy(system):
+        yield source, -energy.diff(system.q(coordinate))
+
+
+def of_nonconservative_force(system: System, coordinate: str) -> Iterator[Share]:
+    """Qᵢᵈ"""
+    for load in system.load_names:
+        if not system.is_conservative(load):
+            yield f"load:{load}", system.load_force(load, coordinate)
+
+
+def of_momentum(system: System, coordinate: str) -> Iterator[Share]:
+    """∂L/∂q̇ᵢ; potentials do not depend on rates."""
+    for source, energy in of_kinetic_energy(system):
+        yield source, energy.diff(system.rate(coordinate))
+
+
+def of_jacobi_energy(system: System) -> Iterator[Share]:
+    """h = Σ q̇ᵢ ∂E/∂q̇ᵢ − E + V"""
+    for source, energy in of_kinetic_energy(system):
+        work = sp.Add(*(system.rate(q) * energy.diff(system.rate(q)) for q in system.free))
+        yield source, work - energy
+    yield from of_potential_energy(system)
+
+
+def of_equation(system: System, coordinate: str) -> Iterator[Share]:
+    """d/dt ∂L/∂q̇ᵢ − ∂L/∂qᵢ − Qᵢᵈ, the left side of `… = 0`."""
+    q, rate = system.q(coordinate), system.rate(coordinate)
+    for source, energy in of_kinetic_energy(system):
+        yield source, system.time_derivative(energy.diff(rate)) - energy.diff(q)
+    for load in system.load_names:
+        if system.is_conservative(load):
+            yield f"load:{load}", system.load_potential(load).diff(q)
+        else:
+            yield f"load:{load}", -system.load_force(load, coordinate)
