@@ -1,24 +1,29 @@
 /** Pointing at a quantity lights it up wherever it stands: in formulas, drawing, plots and sliders. */
 
 const QUANTITY = /^(q-\d+|load-.+|body-.+|energy-(kinetic|potential)|time-term)$/;
+const SOURCE = /^(load|body)-/;
 
-/** The innermost quantity at an element. @param {Element | null} element @returns {string} */
-function quantityAt(element) {
+/**
+ * The innermost quantity at an element: one name, or all bodies and loads that a term comes from.
+ * @param {Element | null} element @returns {string[]}
+ */
+function quantitiesAt(element) {
   for (let node = element; node && node.id !== "page"; node = node.parentElement) {
-    const name = [...node.classList].find((candidate) => QUANTITY.test(candidate));
-    if (name) return name;
+    const names = [...node.classList].filter((candidate) => QUANTITY.test(candidate));
+    const sources = names.filter((name) => SOURCE.test(name));
+    if (names.length) return sources.length ? sources : names.slice(0, 1);
   }
-  return "";
+  return [];
 }
 
 /** @param {HTMLElement} root */
 export function linkHighlights(root) {
   let lit = "";
   root.addEventListener("pointerover", ({ target }) => {
-    const name = quantityAt(target instanceof Element ? target : null);
-    if (name === lit) return;
-    lit = name;
+    const names = quantitiesAt(target instanceof Element ? target : null).map((name) => `.${CSS.escape(name)}`).join();
+    if (names === lit) return;
+    lit = names;
     root.querySelectorAll(".lit").forEach((element) => element.classList.remove("lit"));
-    if (name) root.querySelectorAll(`.${CSS.escape(name)}`).forEach((element) => element.classList.add("lit"));
+    if (names) root.querySelectorAll(names).forEach((element) => element.classList.add("lit"));
   });
 }

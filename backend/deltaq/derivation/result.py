@@ -8,10 +8,15 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..mechanics.scene import Scene
+from . import provenance
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
+from .formula import Term
 from .linearization import Linearization, linearizations
 from .matrix_form import forcing, left_side, mass_matrix
 from .system import System
+from .terms import terms_by_source, terms_of
+
+Terms = Mapping[str, Mapping[str, tuple[Term, ...]]]
 
 
 @dataclass(frozen=True)
@@ -28,7 +33,8 @@ class Result:
     """Expressions in the scene's symbols; vectors are columns, forces and equations go by coordinate.
 
     An equation is the left side of `… = 0`; mass matrix and forcing are those of M(q, t) q̈ = f(q, q̇, t). `is_energy`
-    says whether the Jacobi energy is E + V.
+    says whether the Jacobi energy is E + V. `terms` are the sums, by what they add up to and by coordinate ("" for what
+    belongs to none), with the bodies and loads each term comes from.
     """
 
     scene: Scene
@@ -49,6 +55,7 @@ class Result:
     jacobi_energy: sp.Expr
     is_energy: bool
     routh: Reduction | None
+    terms: Terms
 
 
 def result_of(system: System) -> Result:
@@ -72,7 +79,29 @@ def result_of(system: System) -> Result:
         jacobi_energy=jacobi_energy(system),
         is_energy=is_energy(system),
         routh=reduction(system),
+        terms=_terms(system),
     )
+
+
+def _terms(system: System) -> Terms:
+    whole = {
+        "virtual_work": provenance.of_virtual_work,
+        "kinetic_energy": provenance.of_kinetic_energy,
+        "potential_energy": provenance.of_potential_energy,
+        "lagrangian": provenance.of_lagrangian,
+        "jacobi_energy": provenance.of_jacobi_energy,
+    }
+    by_coordinate = {
+        "total": provenance.of_force,
+        "conservative": provenance.of_conservative_force,
+        "nonconservative": provenance.of_nonconservative_force,
+        "momentum": provenance.of_momentum,
+    }
+    return {
+        **{key: {"": terms_of(system, shares(system))} for key, shares in whole.items()},
+        **{key: {q: terms_of(system, of(system, q)) for q in system.free} for key, of in by_coordinate.items()},
+        "equations": {q: terms_by_source(system, q) for q in system.free},
+    }
 
 
 def _conserved(system: System) -> list[Conserved]:

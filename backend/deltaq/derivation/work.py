@@ -86,3 +86,7 @@ class Work(Kinematics):
     def generalized_force(self, coordinate: str) -> sp.Expr:
         """Qᵢ of all loads."""
         return self.display(sp.Add(*(self.load_force(load, coordinate) for load in self.load_names)))
+
+    def force_sources(self, coordinate: str) -> tuple[str, ...]:
+        """The loads that act on a coordinate."""
+        return tuple(f"load:{load}" for load in self.load_names if self.load_force(load, coordinate) != 0)

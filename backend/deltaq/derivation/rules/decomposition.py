@@ -60,8 +60,12 @@ def _split(system: System, coordinate: str, potential: Named) -> Relation:
     total = system.generalized_force(coordinate)
     conservative = system.derivative(-system.potential_energy, system.q(coordinate))
     rest = system.nonconservative_force(coordinate)
-    named = Plus((minus(Partial(potential, system.q(coordinate))), Term(Named(_dissipative(coordinate), rest))))
-    written = Plus((Term(Explicit(conservative)), Term(Explicit(rest))))
+    acting = system.force_sources(coordinate)
+    kept = tuple(source for source in acting if source in system.conservative_sources)
+    others = tuple(source for source in acting if source not in kept)
+    slope = minus(Partial(potential, system.q(coordinate)), *kept)
+    named = Plus((slope, Term(Named(_dissipative(coordinate), rest), others)))
+    written = Plus((Term(Explicit(conservative), kept), Term(Explicit(rest), others)))
     return Relation((Named(Quantity("generalized-force", coordinate), total), named, written))
 
 

@@ -21,7 +21,10 @@ def apply(system: System) -> Step:
     total = system.collected(sum(map(system.virtual_work, system.scene.contributions), system.zero))
     forces = {q: system.generalized_force(q) for q in system.free}
     compared = tuple(
-        Term(Times((Named(Quantity("generalized-force", q), force), Explicit(system.variation(q)))))
+        Term(
+            Times((Named(Quantity("generalized-force", q), force), Explicit(system.variation(q)))),
+            system.force_sources(q),
+        )
         for q, force in forces.items()
     )
     lines = (

@@ -16,9 +16,10 @@ def apply(system: System) -> Step:
     kinetic = Named(Quantity("kinetic-energy"), system.kinetic_energy)
     potential = Named(Quantity("potential-energy"), system.potential_energy)
     written = (*_energies(system), *_potentials(system))
-    symbols = Plus((Term(kinetic, role="energy-kinetic"), Term(potential, (), -1, "energy-potential")))
+    bodies, loads = system.body_sources, system.conservative_sources
+    symbols = Plus((Term(kinetic, bodies, 1, "energy-kinetic"), Term(potential, loads, -1, "energy-potential")))
     line = Relation((Named(Quantity("lagrangian"), system.lagrangian), symbols, Plus(written)))
-    return Step(RULE, "", (line,), system.body_sources + system.conservative_sources)
+    return Step(RULE, "", (line,), bodies + loads)
 
 
 def _energies(system: System) -> tuple[Term, ...]:

@@ -1,0 +1,72 @@
+"""The result of a derivation as data: each expression as plain text of the language, as LaTeX, and term by term."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ..derivation.formula import Term
+from ..derivation.result import Conserved, Result
+from ..language.latex_printer import Typography, latex
+from ..language.plain_printer import plain
+from .model_answer import equilibrium, routh
+
+Document = dict[str, object]
+
+
+def written(result: Result, typography: Typography) -> Document:
+    """The `result` of the answer to POST /derivations."""
+    write = _Writer(result, typography)
+    return {
+        "positions": {name: write.vector(value) for name, value in result.positions.items()},
+        "virtual_displacements": {name: write.vector(value) for name, value in result.virtual_displacements.items()},
+        "virtual_work": write.sum("virtual_work", result.virtual_work),
+        "kinetic_energy": write.sum("kinetic_energy", result.kinetic_energy),
+        "potential_energy": write.sum("potential_energy", result.potential_energy),
+        "generalized_forces": {
+            "total": write.each("total", result.total_forces),
+            "conservative": write.each("conservative", result.conservative_forces),
+            "nonconservative": write.each("nonconservative", result.nonconservative_forces),
+        },
+        "lagrangian": write.sum("lagrangian", result.lagrangian),
+        "equations": write.each("equations", result.equations, " = 0"),
+        "mass_matrix": {
+            "plain": [[plain(entry) for entry in row] for row in result.mass_matrix.tolist()],
+            "latex": latex(result.mass_matrix, typography),
+        },
+        "forcing": write.vector(result.forcing),
+        "conserved": [write.conserved(each) for each in result.conserved],
+        "equilibria": [equilibrium(linear, result.scene, typography) for linear in result.equilibria],
+        "jacobi_energy": {**write.sum("jacobi_energy", result.jacobi_energy), "equals_energy": result.is_energy},
+        "routh": routh(result.routh, typography),
+    }
+
+
+@dataclass(frozen=True)
+class _Writer:
+    result: Result
+    typography: Typography
+
+    def both(self, value: sp.Expr, suffix: str = "") -> Document:
+        return {"plain": plain(value) + suffix, "latex": latex(value, self.typography) + suffix}
+
+    def vector(self, value: sp.ImmutableMatrix) -> Document:
+        return {"plain": [plain(component) for component in value], "latex": latex(value, self.typography)}
+
+    def sum(self, key: str, value: sp.Expr, coordinate: str = "", suffix: str = "") -> Document:
+        """The expression, and its terms with the bodies and loads they come from."""
+        terms = self.result.terms[key][coordinate]
+        return {**self.both(value, suffix), "terms": [self._term(term) for term in terms]}
+
+    def each(self, key: str, values: Mapping[str, sp.Expr], suffix: str = "") -> list[Document]:
+        return [{"coordinate": q, **self.sum(key, value, q, suffix)} for q, value in values.items()]
+
+    def conserved(self, quantity: Conserved) -> Document:
+        key = "momentum" if quantity.coordinate else "jacobi_energy"
+        head = {"kind": quantity.kind, "coordinate": quantity.coordinate}
+        return head | self.sum(key, quantity.value, quantity.coordinate)
+
+    def _term(self, term: Term) -> Document:
+        return {**self.both(term.sign * term.formula.value), "sources": list(term.sources)}  # type: ignore[union-attr]
