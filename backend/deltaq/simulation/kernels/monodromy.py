@@ -1,0 +1,131 @@
+"""Monodromy matrices over a table of parameter values: how a small deviation looks one period later.
+
+Each column is the central difference of the motion through y ± d eⱼ after one period. Where the state is not periodic,
+Newton's method first moves it onto the periodic motion nearby: (Φ − 1) Δy = y − y(T).
+Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, XI; Seydel, Practical Bifurcation Analysis, §7.3.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .compiler import inner, kernel
+from .explicit_runge_kutta import integrate
+from .linear import decompose, substitute
+from .motion import CANCELLED, FINE, Floats, Motion
+from .step import Room, Weights
+from .step_control import Control
+
+NUDGE = 1e-4
+PASSES, CLOSE = 12, 1e-9
+NOT_PERIODIC = 100
+
+
+class Survey(NamedTuple):
+    """What is varied: inputs number `first` and `second` of the motion, row by row, and the period of each row."""
+
+    first: int
+    second: int
+    values: Floats  # shape (points, 2)
+    periods: Floats
+
+
+class Found(NamedTuple):
+    """Per point: the periodic state, the monodromy matrix at it, and how it went."""
+
+    states: Floats  # shape (points, 2n)
+    matrices: Floats  # shape (points, 2n, 2n)
+    outcomes: NDArray[np.int64]
+
+
+class Flow(NamedTuple):
+    """What it takes to follow the motion from `times[0]` to `times[1]`; out[1] becomes the state there."""
+
+    motion: Motion
+    weights: Weights
+    control: Control
+    room: Room
+    times: Floats
+    out: Floats  # shape (2, 2n)
+    cancelled: NDArray[np.int64]
+
+
+class Desk(NamedTuple):
+    """Arrays to solve (Φ − 1) Δy = y − y(T) in."""
+
+    system: Floats  # shape (2n, 2n)
+    gap: Floats
+    places: NDArray[np.int64]
+
+
+def make_desk(width: int) -> Desk:
+    return Desk(np.zeros((width, width)), np.zeros(width), np.zeros(width, dtype=np.int64))
+
+
+@kernel
+def survey(flow: Flow, start: Floats, table: Survey, span: tuple[int, int], found: Found, desk: Desk) -> int:
+    """Fills the points span[0] … span[1] − 1 of `found`, each from the state `start`; FINE or CANCELLED."""
+    for point in range(span[0], span[1]):
+        if flow.cancelled[0] != 0:
+            return CANCELLED
+        flow.motion.inputs[table.first] = table.values[point, 0]
+        flow.motion.inputs[table.second] = table.values[point, 1]
+        flow.times[1] = table.periods[point]
+        state = found.states[point]
+        for d in range(start.size):
+            state[d] = start[d]
+        found.outcomes[point] = periodic(flow, state, found.matrices[point], desk)
+    return FINE
+
+
+@inner
+def periodic(flow: Flow, state: Floats, matrix: Floats, desk: Desk) -> int:
+    """Moves the state onto a periodic motion, and finds the monodromy matrix there."""
+    for _ in range(PASSES):
+        outcome = follow(flow, state, 0, 0.0)
+        if outcome != FINE:
+            return outcome
+        distance = 0.0
+        for d in range(state.size):
+            desk.gap[d] = flow.out[1, d] - state[d]
+            distance = max(distance, abs(desk.gap[d]))
+        outcome = columns(flow, state, matrix)
+        if outcome != FINE or distance < CLOSE:
+            return outcome
+        for i in range(state.size):
+            for j in range(state.size):
+                desk.system[i, j] = (1.0 if i == j else 0.0) - matrix[i, j]
+        if not decompose(desk.system, desk.places):
+            return NOT_PERIODIC
+        substitute(desk.system, desk.places, desk.gap)
+        for d in range(state.size):
+            state[d] += desk.gap[d]
+    return NOT_PERIODIC
+
+
+@inner
+def columns(flow: Flow, state: Floats, matrix: Floats) -> int:
+    """The monodromy matrix by central differences."""
+    for j in range(state.size):
+        for sign in (1.0, -1.0):
+            outcome = follow(flow, state, j, sign * NUDGE)
+            if outcome != FINE:
+                return outcome
+            for i in range(state.size):
+                before = matrix[i, j] if sign < 0.0 else 0.0
+                matrix[i, j] = before + sign * flow.out[1, i] / (2.0 * NUDGE)
+    return FINE
+
+
+@kernel
+def follow(flow: Flow, state: Floats, moved: int, by: float) -> int:
+    """The state a period later, for a start with one component moved."""
+    for d in range(state.size):
+        flow.room.old[d] = state[d]
+        flow.room.lost[d] = 0.0
+    flow.room.old[moved] += by
+    result = integrate(flow.motion, flow.weights, flow.control, flow.room, flow.times, flow.out, flow.cancelled)
+    return result.outcome
