@@ -148,6 +148,67 @@ async def test_wrong_question(
     assert all(one["message"] != one["code"] for one in answer["problems"])
 
 
+ROD = {"name": "rod", "kind": "continuum", "material": [{"name": "s", "from": "0", "to": "l"}]}
+
+
+def scene(**changes: Any) -> dict[str, Any]:
+    """A particle in the plane, with changes."""
+    base = {
+        "coordinates": [{"name": "x"}, {"name": "y"}],
+        "parameters": [{"name": "m"}, {"name": "k"}, {"name": "l"}],
+        "bodies": [{"name": "bob", "kind": "particle", "mass": "m", "position": ["x", "y"]}],
+    }
+    return base | changes
+
+
+def bob(*position: str) -> list[dict[str, Any]]:
+    return [{"name": "bob", "kind": "particle", "mass": "m", "position": list(position)}]
+
+
+def rod(density: str) -> list[dict[str, Any]]:
+    return [{**ROD, "density": density, "position": ["x + s*sin(y)", "s*cos(y)"]}]
+
+
+@pytest.mark.parametrize(
+    ("changes", "pointer", "code"),
+    [
+        pytest.param({"bodies": bob("x + y", "0")}, "/coordinates/1", "dependent-coordinates", id="dependent"),
+        pytest.param(
+            {"coordinates": [{"name": "x"}, {"name": "y"}, {"name": "z"}], "bodies": bob("x + l*sin(z)", "y")},
+            "/coordinates/2",
+            "dependent-coordinates",
+            id="three coordinates for a particle in the plane",
+        ),
+        pytest.param(
+            {"bodies": bob("x", "sqrt(-1 - y^2)")}, "/bodies/0/position/1", "never-defined", id="impossible position"
+        ),
+        pytest.param({"bodies": bob("x", "0")}, "/coordinates/1", "coordinate-without-inertia", id="singular M"),
+        pytest.param({"bodies": rod("m/s")}, "/bodies/0/density", "divergent-integral", id="infinite mass"),
+        pytest.param({"bodies": rod("m*exp(s^2)")}, "/bodies/0/density", "no-closed-integral", id="no closed form"),
+        pytest.param({"bodies": rod("-m/l")}, "/bodies/0/density", "density-not-positive", id="negative density"),
+        pytest.param(
+            {"loads": [{"kind": "potential", "energy": "k*dot(x)^2"}]},
+            "/loads/0/energy",
+            "potential-with-rate",
+            id="potential of a rate",
+        ),
+        pytest.param(
+            {"loads": [{"kind": "potential", "energy": "k*log(-1 - x^2)"}]},
+            "/loads/0/energy",
+            "never-defined",
+            id="potential that is nowhere real",
+        ),
+    ],
+)
+async def test_impossible_mechanics(
+    client: httpx.AsyncClient, changes: dict[str, Any], pointer: str, code: str
+) -> None:
+    response = await client.post(DERIVATIONS, json={"scene": scene(**changes), "lang": "en"})
+    assert response.status_code == 422
+    problems = [(one["pointer"], one["code"]) for one in response.json()["problems"]]
+    assert problems == [(f"/scene{pointer}", code)]
+
+
 @pytest.mark.parametrize(
     "text",
     [

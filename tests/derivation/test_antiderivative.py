@@ -7,8 +7,10 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
-from deltaq.derivation.antiderivative import antiderivative
+from deltaq.derivation.antiderivative import antiderivative, definite_integral
+from deltaq.derivation.formula import Bounds
 from deltaq.derivation.system import System
+from deltaq.errors import InputError, Problem
 from deltaq.mechanics.library import load_scene
 
 SYSTEM = System(load_scene("elastic-pendulum"))
@@ -29,10 +31,60 @@ CASES = [
 
 @pytest.mark.parametrize("integrand", CASES)
 def test_derivative_gives_the_integrand_back(integrand: sp.Expr) -> None:
-    assert SYSTEM.is_zero(antiderivative(integrand, X, SYSTEM.symbols).diff(X) - integrand)
+    found = antiderivative(integrand, X, SYSTEM.symbols)
+    assert found is not None
+    assert SYSTEM.is_zero(found.diff(X) - integrand)
 
 
 @given(st.lists(st.tuples(st.integers(-3, 3), st.integers(0, 3), st.integers(-3, 3), st.booleans()), max_size=4))
 def test_trigonometric_polynomials(terms: list[tuple[int, int, int, bool]]) -> None:
     integrand = sum((c * X**n * (sp.sin if odd else sp.cos)(k * X + Y) for c, n, k, odd in terms), sp.Integer(0))
-    assert SYSTEM.is_zero(antiderivative(integrand, X, SYSTEM.symbols).diff(X) - integrand)
+    found = antiderivative(integrand, X, SYSTEM.symbols)
+    assert found is not None
+    assert SYSTEM.is_zero(found.diff(X) - integrand)
+
+
+@pytest.mark.parametrize(
+    "integrand",
+    [
+        pytest.param(sp.exp(X**2), id="imaginary error function"),
+        pytest.param(sp.sin(X) / X, id="integral sine"),
+        pytest.param(sp.exp(sp.sin(X)), id="nothing at all"),
+    ],
+)
+def test_what_has_no_closed_form(integrand: sp.Expr) -> None:
+    assert antiderivative(integrand, X, SYSTEM.symbols) is None
+
+
+def interval(lower: sp.Expr, upper: sp.Expr) -> Bounds:
+    return Bounds(X, sp.sympify(lower), sp.sympify(upper))
+
+
+LENGTH = SYSTEM.q("l")
+
+
+@pytest.mark.parametrize(
+    ("integrand", "code"),
+    [
+        pytest.param(1 / X, "divergent-integral", id="pole at the end"),
+        pytest.param(1 / (X - LENGTH / 3) ** 2, "divergent-integral", id="double pole inside"),
+        pytest.param(1 / (X**2 - LENGTH**2 / 2), "divergent-integral", id="simple pole inside"),
+        pytest.param(sp.exp(X**2), "no-closed-integral", id="no closed form"),
+    ],
+)
+def test_integrals_that_are_refused(integrand: sp.Expr, code: str) -> None:
+    with pytest.raises(InputError) as caught:
+        definite_integral(integrand, interval(sp.S.Zero, LENGTH), SYSTEM.symbols, SYSTEM.parameter_values)
+    assert caught.value.problems == (Problem(code, parameters={"name": "phi"}),)
+
+
+@pytest.mark.parametrize(
+    ("integrand", "value"),
+    [
+        pytest.param(1 / sp.sqrt(X), 2 * sp.sqrt(LENGTH), id="integrable at the end"),
+        pytest.param(1 / (X + LENGTH) ** 2, 1 / (2 * LENGTH), id="pole outside"),
+    ],
+)
+def test_poles_that_do_no_harm(integrand: sp.Expr, value: sp.Expr) -> None:
+    found = definite_integral(integrand, interval(sp.S.Zero, LENGTH), SYSTEM.symbols, SYSTEM.parameter_values)
+    assert sp.simplify(found - value) == 0

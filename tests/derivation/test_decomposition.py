@@ -106,3 +106,40 @@ def test_time_may_stand_in_a_potential(force: tuple[str, str], outcome: str) -> 
 def test_a_potential_that_depends_on_time() -> None:
     system = System(pushed("k*sin(w*t)", "0"))
     assert system.load_potential("push") == -system.q("k") * system.q("x") * sp.sin(system.q("w") * system.t)
+
+
+@pytest.mark.parametrize(
+    "force",
+    [
+        pytest.param("k*exp(x^2)", id="imaginary error function"),
+        pytest.param("k*sqrt(2 + sin(x))", id="elliptic integral"),
+        pytest.param("k*sin(x)/x", id="integral sine"),
+    ],
+)
+def test_a_potential_without_closed_form_leaves_the_force_where_it_is(force: str) -> None:
+    system = System(pushed(force, "0"))
+    assert (system.has_potential("push"), system.is_conservative("push")) == (True, False)
+    assert system.nonconservative_force("x") == system.load_force("push", "x")
+    found = steps(pushed(force, "0"))
+    assert found["curl-test:push"].about["outcome"] == "no-closed-form"
+    assert "potential:push" not in found
+
+
+@pytest.mark.parametrize(
+    ("force", "potential"),
+    [
+        pytest.param(("-k*x/(x^2 + y^2)^(3/2)", "-k*y/(x^2 + y^2)^(3/2)"), "-k/sqrt(x^2 + y^2)", id="1/r^2"),
+        pytest.param(("-k*x/(x^2 + y^2)", "-k*y/(x^2 + y^2)"), "k*log(x^2 + y^2)/2", id="1/r"),
+    ],
+)
+def test_central_forces_that_are_infinite_at_the_origin(force: tuple[str, str], potential: str) -> None:
+    system = System(pushed(*force))
+    assert system.load_potential("push") == system.expression(parse(potential, system.scene.names).tree)
+
+
+def test_dry_friction_and_kinks_are_derived() -> None:
+    drag = {"kind": "force", "name": "drag", "at": "bob", "force": ["-c*sign(dot(x)) - k*x", "0"]}
+    kink = {"kind": "potential", "name": "kink", "energy": "c*abs(x)"}
+    for load in (drag, kink):
+        _, derivation = derive(particle(["x"], {"c": 0.2, "k": 3.0}, ["x", "0"], load))
+        assert [step.id for step in derivation.steps() if not step.verified] == []

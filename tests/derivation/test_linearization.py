@@ -10,7 +10,6 @@ from tests.derivation.model_scenes import model_steps, particle, spherical_pendu
 from tests.derivation.scenes import chain
 
 from deltaq.derivation.linearization import linearizations
-from deltaq.derivation.matrix_form import parameter_values
 from deltaq.derivation.modes import symbolic_modes
 from deltaq.derivation.system import System
 from deltaq.mechanics.library import load_scene
@@ -44,7 +43,7 @@ def test_numbers_agree_with_the_characteristic_polynomial(n: int) -> None:
     lowest = linearizations(system)[0]
     assert lowest.spectrum is not None
     omega = sp.Symbol("x")
-    numbers = dict(parameter_values(system))
+    numbers = dict(system.parameter_values)
     matrix = sp.Matrix((lowest.stiffness - omega * lowest.mass).xreplace(numbers))
     zeros = sorted(float(z) for z in sp.Poly(matrix.det(method="berkowitz"), omega).nroots(n=20))
     assert [float(mode.square) for mode in lowest.spectrum.modes] == pytest.approx(zeros, rel=1e-12)

@@ -29,6 +29,17 @@ def bob(*position: str, mass: str = "m") -> list[dict[str, object]]:
     return [{"name": "bob", "kind": "particle", "mass": mass, "position": list(position)}]
 
 
+def rigid(inertia: str) -> list[dict[str, object]]:
+    body = {"name": "bob", "kind": "rigid", "mass": "m", "position": ["x", "0"], "inertia": inertia, "angle": "phi"}
+    return [body]
+
+
+def rod(density: str, lower: str = "0", upper: str = "l") -> list[dict[str, object]]:
+    material = [{"name": "s", "from": lower, "to": upper}]
+    position = ["x + s*sin(phi)", "s*cos(phi)"]
+    return [{"name": "rod", "kind": "continuum", "material": material, "density": density, "position": position}]
+
+
 def units(term: str, found: str, expected: str) -> dict[str, str]:
     return {"term": term, "found": found, "expected": expected}
 
@@ -97,6 +108,42 @@ CASES = [
         {"bodies": bob("x + l*sin(phi)", "l*cos(phi)", mass="m - 2*m")},
         (Problem("mass-not-positive", "/bodies/0/mass", parameters={"name": "bob", "value": "-1"}),),
         id="negative mass",
+    ),
+    pytest.param(
+        {"bodies": rigid("-m*l^2")},
+        (Problem("inertia-not-positive", "/bodies/0/inertia", parameters={"name": "bob", "value": "-1"}),),
+        id="negative inertia",
+    ),
+    pytest.param(
+        {"bodies": rod("m/l*(1 - 2*s/l)")},
+        (Problem("density-not-positive", "/bodies/0/density", parameters={"name": "rod", "value": "-0.774597"}),),
+        id="density that becomes negative",
+    ),
+    pytest.param(
+        {"bodies": rod("m/l", "l", "0")},
+        (Problem("empty-material", "/bodies/0/material/0/to", parameters={"name": "s", "min": "1", "max": "0"}),),
+        id="material bounds the wrong way round",
+    ),
+    pytest.param(
+        {"bodies": rod("m/l", "0", "l*cos(phi)^2")},
+        (Problem("mass-varies", "/bodies/0/material/0/to", parameters={"name": "rod"}),),
+        id="rod whose length varies",
+    ),
+    pytest.param(
+        {"bodies": bob("x + l*sqrt(-1 - sin(phi)^2)", "l*cos(phi)")},
+        (
+            Problem(
+                "never-defined",
+                "/bodies/0/position/0",
+                parameters={"expression": "x + l*sqrt(-1 - sin(phi)^2)"},
+            ),
+        ),
+        id="root of what is always negative",
+    ),
+    pytest.param(
+        {"loads": [{"kind": "potential", "energy": "m*x^2/t^2/(phi - phi)"}]},
+        (Problem("never-defined", "/loads/0/energy", parameters={"expression": "m*x^2/t^2/(phi - phi)"}),),
+        id="potential divided by zero",
     ),
 ]
 

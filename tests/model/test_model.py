@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.simulation.scenes import oscillator, scene
+from tests.simulation.scenes import scene
 
 from deltaq.errors import Problem, SceneError
 from deltaq.mechanics.changes import change
@@ -45,16 +45,17 @@ def test_model_survives_pickling() -> None:
 
 
 @pytest.mark.parametrize(
-    ("force", "detail"),
+    ("motion", "detail"),
     [
-        pytest.param("x/(x - x)", "LLVMDouble can only represent real valued infinity", id="division by zero"),
-        pytest.param("x*sqrt(k - k - 1)", "I", id="complex"),
-        pytest.param("F0*log(k - k)", "LLVMDouble can only represent real valued infinity", id="log of zero"),
+        pytest.param("t/(t - t)", "LLVMDouble can only represent real valued infinity", id="division by zero"),
+        pytest.param("t*sqrt(m - m - 1)", "I", id="complex"),
+        pytest.param("t*log(m - m)", "LLVMDouble can only represent real valued infinity", id="log of zero"),
     ],
 )
-def test_force_without_real_value_is_the_users_problem(force: str, detail: str) -> None:
+def test_guide_without_real_value_is_the_users_problem(motion: str, detail: str) -> None:
+    guided = change(load_scene("base-pendulum"), guides=[{"coordinate": "y", "value": motion}])
     with pytest.raises(SceneError) as caught:
-        compile_model(oscillator(force))
+        compile_model(guided)
     assert caught.value.problems == (Problem("not-computable", parameters={"detail": detail}),)
 
 

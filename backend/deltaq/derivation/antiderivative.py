@@ -2,31 +2,71 @@
 
 For xⁿ times cos(ax + b) or sin(ax + b), parts take the power down one by one:
 ∫ xⁿ cos(ax + b) dx = xⁿ sin(ax + b)/a − n/a ∫ xⁿ⁻¹ sin(ax + b) dx, and likewise for the sine.
-Source: Bronshtein, Semendyayev, Handbook of Mathematics, table of indefinite integrals. Everything else is SymPy's.
+Source: Bronshtein, Semendyayev, Handbook of Mathematics, table of indefinite integrals. Everything else is SymPy's, as
+long as it is made of functions that the language has: an erf or Si would be no closed form to a reader.
 """
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import sympy as sp
 
 from ..errors import InputError, Problem
 from ..language.canonical import canonical
+from ..language.functions import FUNCTIONS
 from ..language.symbols import Symbols
 from .formula import Bounds
 
+Values = Mapping[sp.Symbol, sp.Expr]
 
-def antiderivative(integrand: sp.Expr, x: sp.Symbol, symbols: Symbols) -> sp.Expr:
-    """F with ∂F/∂x = integrand, term by term of the canonical form."""
+NEAR = 1e-6  # double zeros are found no better
+
+
+def antiderivative(integrand: sp.Expr, x: sp.Symbol, symbols: Symbols) -> sp.Expr | None:
+    """F with ∂F/∂x = integrand, term by term of the canonical form; None if it has no closed form."""
     terms = sp.Add.make_args(canonical(integrand, symbols).expand())
-    return sp.Add(*(_of_term(term, x) for term in terms))
+    whole = sp.Add(*(_of_term(term, x) for term in terms))
+    return whole if _is_closed(whole) else None
 
 
-def definite_integral(integrand: sp.Expr, bounds: Bounds, symbols: Symbols) -> sp.Expr:
-    """∫ from the lower to the upper bound. Raises InputError if there is no closed form."""
-    whole = antiderivative(integrand, bounds.symbol, symbols)
-    if whole.has(sp.Integral):
-        raise InputError(Problem("no-closed-integral", parameters={"name": bounds.symbol.name}))
-    return whole.xreplace({bounds.symbol: bounds.upper}) - whole.xreplace({bounds.symbol: bounds.lower})
+def definite_integral(integrand: sp.Expr, bounds: Bounds, symbols: Symbols, values: Values) -> sp.Expr:
+    """∫ from the lower to the upper bound. `values` are numbers for parameters, to look for poles with.
+
+    Raises InputError if there is no closed form, or if the integral diverges.
+    """
+    x = bounds.symbol
+    whole = antiderivative(integrand, x, symbols)
+    if whole is None:
+        raise InputError(Problem("no-closed-integral", parameters={"name": x.name}))
+    value = whole.xreplace({x: bounds.upper}) - whole.xreplace({x: bounds.lower})
+    if not is_finite(value) or _has_pole(integrand, bounds, values):
+        raise InputError(Problem("divergent-integral", parameters={"name": x.name}))
+    return value
+
+
+def is_finite(value: sp.Expr) -> bool:
+    """Whether the expression holds no infinity, nothing undefined and nothing imaginary."""
+    return not value.has(sp.zoo, sp.oo, -sp.oo, sp.nan, sp.I)
+
+
+def _is_closed(value: sp.Expr) -> bool:
+    calls = value.atoms(sp.Function)
+    known = all(type(call).__name__.lower() in FUNCTIONS for call in calls)
+    return known and not value.has(sp.Integral, sp.Piecewise, sp.I)
+
+
+def _has_pole(integrand: sp.Expr, bounds: Bounds, values: Values) -> bool:
+    """Whether a denominator vanishes inside the interval, where the antiderivative would jump unseen."""
+    numbers, x = dict(values), bounds.symbol
+    lower, upper = bounds.lower.xreplace(numbers), bounds.upper.xreplace(numbers)
+    powers = (power for power in integrand.atoms(sp.Pow) if power.exp.is_negative)
+    denominators = (power.base.xreplace(numbers) for power in powers)
+    polynomials = [base for base in denominators if base.free_symbols == {x} and base.is_polynomial(x)]
+    if not (lower.is_number and upper.is_number):
+        return False
+    zeros = (root for base in polynomials for root in sp.Poly(base, x).nroots() if abs(sp.im(root)) < NEAR)
+    return any(lower < sp.re(root) < upper for root in zeros)
 
 
 def _of_term(term: sp.Expr, x: sp.Symbol) -> sp.Expr:

@@ -86,6 +86,11 @@ class Calculus:
         return self.fresh("t_0", "t_a", "tau_0"), self.fresh("t_1", "t_b", "tau_1")
 
     @cached_property
+    def parameter_values(self) -> Mapping[sp.Symbol, sp.Rational]:
+        """The scene's values of its parameters, as the decimals that the scene states."""
+        return {self.q(p.name): sp.Rational(repr(float(p.value))) for p in self.scene.parameters}
+
+    @cached_property
     def variations(self) -> Mapping[sp.Symbol, sp.Symbol]:
         """δq of every free coordinate q."""
         return {self.q(name): self.variation(name) for name in self.free}

@@ -30,7 +30,7 @@ def _compiled(expression: sp.Expr, slots: Mapping[sp.Symbol, int]) -> Function:
         slot = slots[expression]
         return lambda values: values[slot]
     if expression.is_number:
-        number = float(expression)
+        number = math.nan if expression.is_real is False else float(expression)
         return lambda _: number
     parts = [_compiled(argument, slots) for argument in expression.args]
     if expression.is_Add:
@@ -40,5 +40,11 @@ def _compiled(expression: sp.Expr, slots: Mapping[sp.Symbol, int]) -> Function:
     if expression.is_Pow:
         base, exponent = parts
         return lambda values: math.pow(base(values), exponent(values))
-    function = FUNCTIONS[type(expression).__name__.lower()].evaluate
+    name = type(expression).__name__.lower()
+    function = _impulse if name == "diracdelta" else FUNCTIONS[name].evaluate
     return lambda values: function(*(part(values) for part in parts))
+
+
+def _impulse(x: float, *_order: float) -> float:
+    """The slope of a jump, sgn x/2: nothing but at the jump, where it has no value."""
+    return 0.0 if x else math.nan

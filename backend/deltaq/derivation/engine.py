@@ -20,10 +20,16 @@ def formulation_names() -> tuple[str, ...]:
 
 def derive(scene: Scene, formulation: str = "dalembert-lagrange") -> tuple[System, Derivation]:
     """The derivation of a scene, every step verified. Raises UnknownNameError for an unknown formulation."""
-    roads = {module.FORMULATION: module for module in modules_of(FORMULATIONS)}
+    check_formulation(formulation)
+    road = next(module for module in modules_of(FORMULATIONS) if formulation == module.FORMULATION)
+    system = System(scene)
+    return system, verified(road.derive(system), system)
+
+
+def check_formulation(formulation: str) -> None:
+    """Raises UnknownNameError if there is no such formulation."""
+    roads = formulation_names()
     if formulation not in roads:
         near = get_close_matches(formulation, roads, n=1)
         parameters = {"name": formulation[:40], "known": ", ".join(roads), "suggestion": near[0] if near else ""}
         raise UnknownNameError(Problem("unknown-formulation", "/formulation", parameters=parameters))
-    system = System(scene)
-    return system, verified(roads[formulation].derive(system), system)

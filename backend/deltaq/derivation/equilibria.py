@@ -18,7 +18,7 @@ import sympy as sp
 from ..mechanics.coordinate import Coordinate
 from .closed_form import Known, Sought, closed_form
 from .compiled import compiled
-from .matrix_form import forces_at_rest, forcing, is_autonomous, mass_matrix, parameter_values
+from .matrix_form import forces_at_rest, forcing, is_autonomous, mass_matrix
 from .memory import kept
 from .newton import root
 from .refinement import refined
@@ -93,7 +93,7 @@ def _parts(system: System) -> Iterator[_Part]:
 def _solutions(system: System, part: _Part) -> Iterator[Equilibrium]:
     """The solutions of one part, each as closed form or as refined numbers; those that fail both are dropped."""
     symbols = [system.q(c.name) for c in part.unknowns]
-    parameters = parameter_values(system)
+    parameters = system.parameter_values
     angles = frozenset(q for q in symbols if is_angle(system, q))
     found = _roots(part, symbols, parameters, angles)
     for numbers in found:

@@ -42,6 +42,8 @@ BY_CLASS: Mapping[str, Callable[..., arb]] = {
     "Add": lambda *terms: sum(terms, arb(0)),
     "Mul": lambda *factors: math.prod(factors, start=arb(1)),
     "Pow": power,
+    # The slope of a jump: nothing beside it, and no value at it.
+    "DiracDelta": lambda x, *_order: arb("nan") if x.contains(0) else arb(0),
 }
 CONSTANTS: Mapping[sp.Basic, Callable[[], arb]] = {sp.pi: arb.pi, sp.E: arb.const_e}
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..errors import InputError, SceneError
 from ..language.tree import Node
 from ..mechanics.contributions import DistributedForce
 from ..mechanics.material import Material
@@ -42,11 +43,20 @@ class Kinematics(Calculus):
             Bounds(self.q(m.name), self.expression(m.lower.tree), self.expression(m.upper.tree)) for m in material
         )
 
-    def integrated(self, density: sp.Expr, material: tuple[Material, ...]) -> sp.Expr:
-        """∫ density over the material coordinates, in closed form."""
-        for bounds in reversed(self.bounds(material)):
-            density = definite_integral(density, bounds, self.symbols)
+    def integrated(self, density: sp.Expr, material: tuple[Material, ...], place: str) -> sp.Expr:
+        """∫ density over the material coordinates, in closed form. Raises SceneError that points at the density."""
+        try:
+            for bounds in reversed(self.bounds(material)):
+                density = definite_integral(density, bounds, self.symbols, self.parameter_values)
+        except InputError as error:
+            raise SceneError(*(problem.below(self._density_of(place)) for problem in error.problems)) from None
         return self.display(density)
+
+    def _density_of(self, place: str) -> str:
+        """Where the scene states the density of a continuum or of a distributed force."""
+        bodies = {body.name: f"/bodies/{i}" for i, body in enumerate(self.scene.bodies)}
+        loads = {load.name: f"/loads/{i}" for i, load in enumerate(self.scene.loads)}
+        return f"{(loads | bodies)[place]}/density"
 
     def named_position(self, place: str) -> Named:
         """r with what it depends on: r(q₁, q₂, t)."""

@@ -15,7 +15,7 @@ from flint import arb, ctx
 from .calculus import column
 from .equilibria import Equilibrium, equilibria, free_coordinates
 from .evaluation import components, number
-from .matrix_form import forces_at_rest, forcing, mass_matrix, parameter_values
+from .matrix_form import forces_at_rest, forcing, mass_matrix
 from .memory import kept
 from .refinement import rational
 from .spectrum import Spectrum, spectrum
@@ -30,7 +30,7 @@ ORDER = ("stable", "undecided", "unstable")
 class Linearization:
     """The matrices about one equilibrium, in the parameters where it is exact, else in numbers.
 
-    `spectrum` holds the numbers at the scene's parameter values; there is none where M₀ is singular.
+    `spectrum` holds the numbers at the scene's parameter values; there is none where M₀ is singular or a force jumps.
     """
 
     equilibrium: Equilibrium
@@ -91,7 +91,8 @@ def _about(system: System, equilibrium: Equilibrium) -> Linearization:
     try:
         point = numeric_point(system, equilibrium)
         mass, damping, stiffness = numbers = [list(components(matrix, point)) for matrix in raw]
-        found = spectrum(mass, damping, stiffness, len(system.free))
+        smooth = all(part.is_finite() for values in numbers for part in values)
+        found = spectrum(mass, damping, stiffness, len(system.free)) if smooth else None
         judged = stability(system, numbers, found)
         if equilibrium.exact:
             matrices = [system.display(matrix.xreplace(dict(equilibrium.values))) for matrix in raw]
@@ -108,7 +109,7 @@ def _rational(values: list[arb], size: int) -> sp.ImmutableMatrix:
 
 def numeric_point(system: System, equilibrium: Equilibrium) -> dict[str, arb]:
     """The equilibrium in numbers; what is free there stands where the scene starts."""
-    point = {symbol.name: number(value, {}) for symbol, value in parameter_values(system).items()}
+    point = {symbol.name: number(value, {}) for symbol, value in system.parameter_values.items()}
     point |= {c.name: arb(c.value) for c in system.scene.free}
     return point | {q.name: number(value, point) for q, value in equilibrium.values.items()}
 

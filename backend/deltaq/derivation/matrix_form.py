@@ -43,9 +43,3 @@ def forces_at_rest(system: System) -> sp.ImmutableMatrix:
 def is_autonomous(system: System) -> bool:
     """Whether the equations of motion do not depend on time explicitly."""
     return not (mass_matrix(system).has(system.t) or forcing(system).has(system.t))
-
-
-@kept
-def parameter_values(system: System) -> dict[sp.Symbol, sp.Rational]:
-    """The scene's values of its parameters, as the decimals that the scene states."""
-    return {system.q(p.name): sp.Rational(repr(float(p.value))) for p in system.scene.parameters}

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import sympy as sp
 
 from .linearization import Linearization
-from .matrix_form import parameter_values
 from .system import System
 
 LONGEST = 24  # operations in ω²
@@ -51,7 +50,7 @@ def _squares(system: System, linear: Linearization) -> tuple[sp.Expr, ...] | Non
         return (system.display(K[0, 0] / M[0, 0]),)
     if M.shape != (2, 2):
         return None
-    values = parameter_values(system)
+    values = system.parameter_values
     found = _roots(system, M, K)
     if not found or any(square.count_ops() > LONGEST for square in found):
         return None

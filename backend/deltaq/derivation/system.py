@@ -12,7 +12,7 @@ from ..language.tree import Node
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import PotentialEnergy
 from ..mechanics.kinetics import Distribution, Kinetics, Rotation, Translation
-from .antiderivative import antiderivative
+from .antiderivative import antiderivative, is_finite
 from .formula import Formula, Given, Named, Quantity, Substituted
 from .memory import kept
 from .work import Work
@@ -69,7 +69,7 @@ class System(Work):
                 squares = (omega**2 for omega in self.angular_velocity(part))
                 return sp.Add(*(self.expression(j) * w / 2 for j, w in zip(inertia, squares, strict=True)))
             case Distribution(density=density, material=material):
-                return self.integrated(self.expression(density) * square / 2, material)
+                return self.integrated(self.expression(density) * square / 2, material, part.body)
 
     def named_kinetic_energy(self, body: Body) -> Named:
         """E, or E of this body where there are several."""
@@ -81,7 +81,7 @@ class System(Work):
         return self.display(sp.Add(*(self.kinetic_energy_of(body) for body in self.scene.bodies)))
 
     @kept
-    def is_conservative(self, load: str) -> bool:
+    def has_potential(self, load: str) -> bool:
         """Whether the load's forces have a potential: no rates in them, and a symmetric Jacobian."""
         forces = {self.q(q): self.load_force(load, q) for q in self.free}
         rates = {self.rate(q) for q in self.free}
@@ -90,27 +90,46 @@ class System(Work):
         pairs = combinations(forces.items(), 2)
         return all(self.is_zero(f.diff(p) - g.diff(q)) for (q, f), (p, g) in pairs)
 
+    def is_conservative(self, load: str) -> bool:
+        """Whether the load's forces have a potential that can be written down."""
+        return self.has_potential(load) and self._potential(load) is not None
+
     @property
     def conservative_sources(self) -> tuple[str, ...]:
         return tuple(f"load:{load}" for load in self.load_names if self.is_conservative(load))
 
-    @kept
     def load_potential(self, load: str) -> sp.Expr:
-        """V of a conservative load: as given, or by line integral along the axes; up to a function of time."""
+        """V of a conservative load."""
+        found = self._potential(load)
+        if found is None:
+            raise ValueError(f"{load} has no potential in closed form")
+        return found
+
+    @kept
+    def _potential(self, load: str) -> sp.Expr | None:
+        """V as given, or by line integral along the axes; up to a function of time. None: it has no closed form."""
         parts = [part for part in self.scene.contributions if part.source == load]
         given = [self.energy(part) for part in parts if isinstance(part, PotentialEnergy)]
         if len(given) == len(parts):
             return self.display(sp.Add(*given))
-        return self.display(self._line_integral({self.q(q): -self.load_force(load, q) for q in self.free}))
+        slopes = {self.q(q): -self.load_force(load, q) for q in self.free}
+        found = (self._line_integral(slopes, start) for start in map(sp.Integer, (0, 1)))
+        return next((self.display(energy) for energy in found if energy is not None), None)
 
-    def _line_integral(self, slopes: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-        """The function whose partial derivatives are the slopes, less what does not depend on the coordinates."""
-        total, later = self.zero, dict.fromkeys(slopes, sp.Integer(0))
+    def _line_integral(self, slopes: dict[sp.Symbol, sp.Expr], start: sp.Expr) -> sp.Expr | None:
+        """The function whose partial derivatives are the slopes, less what does not depend on the coordinates.
+
+        All coordinates have the value `start` where the path begins; a force such as 1/r² is infinite at the origin.
+        """
+        total, later = self.zero, dict.fromkeys(slopes, start)
         for q, slope in slopes.items():
             del later[q]
-            on_axis = slope.xreplace(later)
-            integral = antiderivative(on_axis, q, self.symbols)
-            total += integral - integral.xreplace({q: sp.Integer(0)})
+            integral = antiderivative(slope.xreplace(later), q, self.symbols)
+            if integral is None:
+                return None
+            total += integral - integral.xreplace({q: start})
+        if not is_finite(total):
+            return None
         terms = sp.Add.make_args(total.expand())
         return sp.Add(*(term for term in terms if term.free_symbols & slopes.keys()))
 

@@ -65,7 +65,7 @@ class Work(Kinematics):
                 work = self._dissipated(self.dissipation(load))
             case DistributedForce():
                 density = self.dot(self.force(load), self.virtual_displacement(load.place))
-                work = self.integrated(density, load.material)
+                work = self.integrated(density, load.material, load.place)
         return self.collected(work)
 
     def _dissipated(self, function: sp.Expr) -> sp.Expr:

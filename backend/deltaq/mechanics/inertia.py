@@ -12,6 +12,7 @@ import random
 from collections.abc import Iterator, Mapping
 
 from ..errors import Problem
+from ..language.expression import Expression
 from ..language.floats import evaluate
 from ..language.tree import Node, TimeDerivative
 from .bodies import Body
@@ -47,18 +48,50 @@ def _varying(scene: Scene) -> Iterator[Problem]:
     """Lagrange's equations in this form need masses that stay as they are."""
     moving = {coordinate.name for coordinate in scene.coordinates} | {"t"}
     for index, body in enumerate(scene.bodies):
-        for key in ("mass", "inertia", "density"):
-            quantity = getattr(body, key, ())
-            for part in quantity if isinstance(quantity, tuple) else (quantity,):
-                if part.names & moving:
-                    yield Problem("mass-varies", f"/bodies/{index}/{key}", parameters={"name": body.name})
+        for pointer, part in _of_mass(body):
+            if part.names & moving:
+                yield Problem("mass-varies", f"/bodies/{index}{pointer}", parameters={"name": body.name})
+
+
+def _of_mass(body: Body) -> Iterator[tuple[str, Expression]]:
+    """What says how much mass there is and where it ends."""
+    for key in ("mass", "inertia", "density"):
+        quantity = getattr(body, key, ())
+        yield from ((f"/{key}", part) for part in (quantity if isinstance(quantity, tuple) else (quantity,)))
+    for number, material in enumerate(body.material):
+        yield f"/material/{number}/from", material.lower
+        yield f"/material/{number}/to", material.upper
 
 
 def _light(index: int, body: Body, values: Point) -> Iterator[Problem]:
     for part in body.kinetics:
-        if isinstance(part, Translation) and not (mass := evaluate(part.mass, values)) > 0:
-            parameters = {"name": body.name, "value": f"{mass:g}"}
-            yield Problem("mass-not-positive", f"/bodies/{index}/mass", parameters=parameters)
+        match part:
+            case Translation(mass=mass):
+                yield from _not_positive("mass", index, body, evaluate(mass, values))
+            case Rotation(inertia=inertia):
+                least = min(evaluate(moment, values) for moment in inertia)
+                yield from _not_positive("inertia", index, body, least) if least < 0 else ()
+            case Distribution(density=density, material=material):
+                yield from _light_continuum(index, body, density, material, values)
+
+
+def _light_continuum(
+    index: int, body: Body, density: Node, material: tuple[Material, ...], values: Point
+) -> Iterator[Problem]:
+    for number, each in enumerate(material):
+        lower, upper = evaluate(each.lower.tree, values), evaluate(each.upper.tree, values)
+        if not lower < upper:
+            parameters = {"name": each.name, "min": f"{lower:g}", "max": f"{upper:g}"}
+            yield Problem("empty-material", f"/bodies/{index}/material/{number}/to", parameters=parameters)
+            return
+    densities = [value for _, inside in _nodes(material, values) if math.isfinite(value := evaluate(density, inside))]
+    yield from _not_positive("density", index, body, min(densities, default=math.nan))
+
+
+def _not_positive(key: str, index: int, body: Body, value: float) -> Iterator[Problem]:
+    if not value > 0:
+        parameters = {"name": body.name, "value": f"{value:g}"}
+        yield Problem(f"{key}-not-positive", f"/bodies/{index}/{key}", parameters=parameters)
 
 
 def mass_matrix(scene: Scene, point: Point) -> Matrix | None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 
 from ..errors import Problem
 from ..language.expression import Expression
+from .definedness import definedness_problems
 from .dimensions import SECOND, dimension_problems
 from .inertia import inertia_problems
 from .material import Material
@@ -24,11 +25,12 @@ class Field:
 
 
 def soundness_problems(scene: Scene) -> Iterator[Problem]:
-    """Errors and warnings, in the order of the document."""
+    """Errors and warnings. Masses are looked at where every expression has a value."""
     found = tuple(expressions(scene))
     yield from _idle_parameters(scene, found)
     yield from _units(scene, found)
-    yield from inertia_problems(scene)
+    undefined = tuple(definedness_problems(scene, ((field.pointer, field.expression) for field in found)))
+    yield from undefined or inertia_problems(scene)
 
 
 def expressions(scene: Scene) -> Iterator[Field]:

@@ -7,11 +7,11 @@ import json
 from collections.abc import Mapping
 from typing import cast
 
-from ..derivation.engine import derive
+from ..derivation.engine import check_formulation, derive
 from ..derivation.result import result_of
 from ..derivation.system import System
 from ..language.latex_printer import Typography
-from ..mechanics.requests import changed_scene
+from ..mechanics.requests import changed_scene, inside
 from ..mechanics.scene import Scene
 from .catalog import language_of
 from .marks import Wrap, by_coordinate, in_class, unmarked
@@ -30,7 +30,9 @@ def derive_request(document: Mapping[str, object]) -> Document:
     """
     scene = scene_of(document)
     formulation = str(document.get("formulation") or "dalembert-lagrange")
-    system, derivation = derive(scene, formulation)
+    check_formulation(formulation)
+    with inside("/scene"):
+        system, derivation = derive(scene, formulation)
     narrator = _narrator(system, language_of(cast("str | None", document.get("lang"))))
     key = json.dumps(document, sort_keys=True, ensure_ascii=False)
     return {

@@ -6,7 +6,6 @@ import sympy as sp
 
 from ..formula import Explicit, Named, Quantity, Value
 from ..linearization import Linearization, deviations
-from ..matrix_form import parameter_values
 from ..system import System
 
 
@@ -55,4 +54,4 @@ def at_rest(system: System, linear: Linearization) -> dict[sp.Symbol, sp.Expr]:
 def numbers(system: System) -> dict[sp.Symbol, sp.Expr]:
     """Parameters at the scene's values; coordinates that an equilibrium leaves free, where the scene starts."""
     start = {system.q(c.name): sp.Rational(repr(float(c.value))) for c in system.scene.free}
-    return {**start, **parameter_values(system)}
+    return {**start, **system.parameter_values}

@@ -20,10 +20,13 @@ def apply(system: System, load: str) -> Step:
     """The test for one load; the pairs that differ are shown with ≠."""
     pairs = combinations(system.free, 2)
     lines = tuple(line for a, b in pairs for line in _compare(system, load, a, b))
-    return Step(RULE, load, lines, (f"load:{load}",), {"load": load, "outcome": _outcome(system, load)})
+    return Step(RULE, load, lines, (f"load:{load}",), {"load": load, "outcome": outcome(system, load)})
 
 
-def _outcome(system: System, load: str) -> str:
+def outcome(system: System, load: str) -> str:
+    """What the test says, in one word of the catalog."""
+    if system.has_potential(load) and not system.is_conservative(load):
+        return "no-closed-form"
     if system.is_conservative(load):
         kind = "conservative" if len(system.free) > 1 else "single"
         timed = any(system.load_force(load, q).has(system.t) for q in system.free)

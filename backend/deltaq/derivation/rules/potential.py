@@ -1,4 +1,5 @@
-"""Potential by line integral: V(q, t) = −∫ Qᵢ dqᵢ from the origin to q, along the coordinate axes one by one.
+"""Potential by line integral: V(q, t) = −∫ Qᵢ dqᵢ to q along the coordinate axes one by one,
+from the origin, or from (1, …, 1) where the force is infinite at the origin or V has no closed form from there.
 
 It is determined up to a function of time, which is left out. The proof is in the step itself: −∂V/∂qᵢ = Qᵢ.
 Source: Arnold, Mathematical Methods of Classical Mechanics, 2nd ed., §5.
