@@ -241,9 +241,14 @@ HOSTILE = [
     ),
     pytest.param({"tend": 3}, RequestError, error("unknown-field", "/tend", field="tend"), id="misspelt field"),
     pytest.param(
-        {"scene": write_scene(oscillator("x/(x - x)"))}, SceneError,
+        {"scene": "base-pendulum", "guides": [{"coordinate": "y", "value": "t/(t - t)"}]}, SceneError,
         error("not-computable", "/scene", detail="LLVMDouble can only represent real valued infinity"),
-        id="force without value",
+        id="guide without value",
+    ),
+    pytest.param(
+        {"scene": {**write_scene(oscillator()), "loads": [{"kind": "potential", "energy": "k*x^2/(x - x)"}]}},
+        SceneError, error("never-defined", "/scene/loads/0/energy", expression="k*x^2/(x - x)"),
+        id="potential without value",
     ),
 ]  # fmt: skip
 
