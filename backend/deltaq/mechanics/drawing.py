@@ -25,10 +25,11 @@ ELEMENTS: dict[str, tuple[str, ...]] = {
     "rod": ("from", "to"),
     "spring": ("from", "to"),
     "trail": ("at",),
+    "wall": ("from", "to"),
     "weight": ("at",),
 }
 TEXTS = ("load", "coordinate", "direction", "label")
-NUMBERS = ("radius", "width", "height")
+SIZES = ("radius", "width", "height")  # a number, or the name of a parameter
 
 
 @dataclass(frozen=True)
@@ -48,11 +49,15 @@ class Element:
         kind = table.text("kind")
         places = tuple((key, table.place(key)) for key in ELEMENTS.get(kind, ()))
         texts = ((key, table.text(key)) for key in TEXTS if key in table.table)
-        numbers = ((key, table.number(key, 1.0)) for key in NUMBERS if key in table.table)
-        return cls(kind, places, (*texts, *numbers))
+        sizes = ((key, _size(table, key)) for key in SIZES if key in table.table)
+        return cls(kind, places, (*texts, *sizes))
 
     def write(self) -> dict[str, object]:
         return {"kind": self.kind, **dict(self.places), **dict(self.options)}
+
+
+def _size(table: Reader, key: str) -> str | float:
+    return table.text(key) if isinstance(table.table[key], str) else table.number(key, 1.0)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 /** What holds a system: ground, pivot, guide. */
 
-import { add, circle, hatching, line, normal, polygon, scaled, subtract } from "./geometry.js";
+import { add, circle, hatching, lengthOf, line, normal, polygon, scaled, subtract } from "./geometry.js";
 import { placeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
@@ -23,6 +23,22 @@ export function ground(element, stage, now, key) {
   const base = holdsPivot(element, stage) ? add(place, scaled(away, triangleHeight(stage))) : place;
   const from = /** @type {Pixel} */ ([base[0] - half, base[1]]);
   const to = /** @type {Pixel} */ ([base[0] + half, base[1]]);
+  const shapes = [
+    { key: `${key}-hatch`, d: hatching(from, to, away, stage.unit * 0.75), className: "hatch" },
+    { key: `${key}-line`, d: line(from, to), className: "ink thick" },
+  ];
+  return { shapes, labels: [] };
+}
+
+/**
+ * A fixed line, hatched on its right-hand side as seen from its start: a floor, where it goes to the left.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function wall(element, stage, now, key) {
+  const from = placeOf(stage, now, element.from ?? "");
+  const to = placeOf(stage, now, element.to ?? "");
+  const away = scaled(normal(subtract(to, from)), 1 / (lengthOf(subtract(to, from)) || 1));
   const shapes = [
     { key: `${key}-hatch`, d: hatching(from, to, away, stage.unit * 0.75), className: "hatch" },
     { key: `${key}-line`, d: line(from, to), className: "ink thick" },
