@@ -14,6 +14,7 @@ Vertical = Literal["up", "down"]
 # Each kind of element, and the fields that say where it hangs.
 ELEMENTS: dict[str, tuple[str, ...]] = {
     "angle": ("at",),
+    "block": ("at",),
     "bob": ("at",),
     "cart": ("at",),
     "dimension": ("from", "to"),
@@ -21,6 +22,7 @@ ELEMENTS: dict[str, tuple[str, ...]] = {
     "force": (),
     "ground": ("at",),
     "guide": ("at",),
+    "hoop": ("at",),
     "pivot": ("at",),
     "rod": ("from", "to"),
     "spring": ("from", "to"),

@@ -1,7 +1,7 @@
 /** The whole drawing at a moment: every element of the scene, in the order in which it lies on the paper. */
 
 import { ground, guide, pivot, wall } from "./supports.js";
-import { bob, cart, disc, rod, spring, trail } from "./members.js";
+import { bob, cart, disc, hoop, rod, spring, trail } from "./members.js";
 import { angle, dimension, force, weight } from "./marks.js";
 import { sketchOf, verticalOf } from "./sketch.js";
 
@@ -11,7 +11,7 @@ import { sketchOf, verticalOf } from "./sketch.js";
 
 /** Kinds of elements, undermost first. */
 export const KINDS = {
-  ground, wall, trail, dimension, angle, guide, spring, rod, cart, disc, weight, force, pivot, bob,
+  ground, wall, trail, dimension, angle, guide, spring, hoop, rod, cart, block: cart, disc, weight, force, pivot, bob,
 };
 const ORDER = Object.keys(KINDS);
 

@@ -1,4 +1,4 @@
-/** What a system is made of: rod, spring, bob, cart, disc, and the trail a place leaves. */
+/** What a system is made of: rod, spring, bob, cart, block, disc, hoop, and the trail a place leaves. */
 
 import { circle, coil, lengthOf, line, polygon, polyline, subtract } from "./geometry.js";
 import { placeOf } from "./stage.js";
@@ -39,8 +39,8 @@ export function bob(element, stage, now, key) {
 export function disc(element, stage, now, key) {
   const radius = sizeOf(element.radius, stage) * stage.scale || stage.unit * 2;
   const place = placeOf(stage, now, element.at ?? "");
-  const angle = now.coordinates[element.coordinate ?? ""] ?? 0;
-  const mark = line([0, 0], [radius * Math.sin(angle), -radius * Math.cos(angle)]);
+  const angle = now.coordinates[element.coordinate ?? ""];
+  const mark = angle === undefined ? "" : line([0, 0], [radius * Math.sin(angle), -radius * Math.cos(angle)]);
   const shapes = [
     { key, d: circle(radius), className: `ink steel body-${element.at}`, at: place },
     { key: `${key}-mark`, d: mark, className: "ink", at: place },
@@ -49,20 +49,41 @@ export function disc(element, stage, now, key) {
   return { shapes, labels: [] };
 }
 
+/** Sides of the polygon that a hoop is drawn as. */
+const SIDES = 72;
+
+/**
+ * A ring about a place; in space it stands upright, turned about the vertical by its coordinate.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function hoop(element, stage, now, key) {
+  const radius = sizeOf(element.radius, stage);
+  const turn = now.coordinates[element.coordinate ?? ""] ?? 0;
+  const centre = now.positions[element.at ?? ""] ?? [0, 0, 0].slice(0, stage.scene.dimension);
+  const ring = Array.from({ length: SIDES + 1 }, (_, i) => {
+    const [across, along] = [radius * Math.sin((i * 2 * Math.PI) / SIDES), radius * Math.cos((i * 2 * Math.PI) / SIDES)];
+    const offset = centre.length < 3 ? [across, along] : [across * Math.cos(turn), across * Math.sin(turn), along];
+    return stage.project(centre.map((x, c) => x + offset[c]));
+  });
+  return { shapes: [{ key, d: polyline(ring), className: `ink body-${element.at}` }], labels: [] };
+}
+
 /** A length given as a number or as the name of a parameter. @param {number | string | undefined} given @param {Stage} stage */
 function sizeOf(given, stage) {
   const named = stage.scene.parameters.find((parameter) => parameter.name === given);
   return named?.value ?? (Number(given) || 0);
 }
 
-/** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+/** A box on two wheels, or (as `block`) without. @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
 export function cart(element, stage, now, key) {
   const place = placeOf(stage, now, element.at ?? "");
   const w = element.width ? (element.width * stage.scale) / 2 : stage.unit * 2.4;
   const h = element.height ? (element.height * stage.scale) / 2 : stage.unit * 1.1;
   const wheel = stage.unit * 0.5;
+  const wheels = element.kind === "block" ? [] : [-1, 1];
   const shapes = [
-    ...[-1, 1].map((side) => ({
+    ...wheels.map((side) => ({
       key: `${key}-wheel${side}`,
       d: circle(wheel, [side * w * 0.6, h + wheel]),
       className: "ink paper",
