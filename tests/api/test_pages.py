@@ -28,6 +28,7 @@ def site(tmp_path: Path) -> Path:
     """A small front end, with files beside it that nobody may get."""
     files = {
         "index.html": INDEX,
+        "proof.html": INDEX.replace("app", "proof"),
         "app.js": "export const δq = 1;\n" * 100,
         "view/drawing.js": "// drawing",
         "icon.svg": "<svg/>",
@@ -64,6 +65,16 @@ async def test_page_names_the_libraries_by_version(browser: httpx.AsyncClient) -
         "/vendor/0123abcd/katex/katex.css",
         "/vendor/0123abcd/lit-html/lit-html.js",
     ]
+
+
+async def test_a_page_has_its_name_as_address(browser: httpx.AsyncClient) -> None:
+    page = await browser.get("/proof")
+    assert page.headers["content-type"] == "text/html; charset=utf-8"
+    assert 'src="/proof.js"' in page.text
+    assert "/vendor/0123abcd/" in page.text
+    assert page.headers["content-security-policy"] == (await browser.get("/")).headers["content-security-policy"]
+    assert (await browser.get("/proof", headers={"If-None-Match": page.headers["etag"]})).status_code == 304
+    assert (await browser.get("/Proof")).status_code == 404
 
 
 async def test_policy_allows_the_import_map_and_no_other_inline_script(browser: httpx.AsyncClient) -> None:

@@ -75,7 +75,7 @@ def test_euler_lagrange(text: str, left: sp.Expr | None) -> None:
     assert sp.simplify(found - expected) == 0
 
 
-@pytest.mark.parametrize("ends", ["fixed", "free"])
+@pytest.mark.parametrize("ends", ["fixed", "free", "fixed-free", "free-fixed"])
 @pytest.mark.parametrize(
     "text",
     [
@@ -132,9 +132,9 @@ def test_wrong_lines_do_not(formula: Formula, equal: Formula) -> None:
 
 def test_boundary_terms_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     """Free ends told as fixed ones: the terms that are left out are missed."""
-    monkeypatch.setattr(Functional, "has_fixed_ends", True)
+    monkeypatch.setattr(Functional, "fixed", (True, True))
     subject = functional("dot(x)^2", ends="free")
-    monkeypatch.setattr("deltaq.derivation.variation.function_points", lambda s, fixed=False: function_points(s))
+    monkeypatch.setattr("deltaq.derivation.variation.function_points", lambda s, fixed=None: function_points(s))
     wrong = {step.id for step in vary(subject).steps() if not step.verified}
     assert wrong == {"boundary-terms", "collected-variation"}
 

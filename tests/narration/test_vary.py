@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 
 import pytest
@@ -124,6 +125,36 @@ def test_quotient() -> None:
     assert len(quotient["h"]) == len(quotient["central"]["error"]) == 65
     assert quotient["central"]["best"]["error"] == pytest.approx(0, abs=1e-10)
     assert quotient["one_sided"]["best"]["h"] < quotient["h"][0]
+
+
+@pytest.mark.parametrize(
+    ("functional", "numeric", "span", "at"),
+    [
+        pytest.param(None, NUMERIC | {"t": 0.5}, (0, 1), 0.5, id="expression: the instant in the middle"),
+        pytest.param(None, NUMERIC | {"t": -0.5}, (-1, 0), -0.5, id="before zero"),
+        pytest.param(None, NUMERIC | {"t": 0.0}, (0, 1), 0, id="at zero"),
+        pytest.param({"kind": "value", "at": "2"}, NUMERIC, (0, 4), 2, id="value"),
+        pytest.param({"kind": "integral", "from": "1", "to": "3"}, NUMERIC, (1, 3), None, id="integral"),
+    ],
+)
+def test_curves(functional: dict | None, numeric: dict, span: tuple[float, float], at: float | None) -> None:
+    answer = vary(expression="x", functions=["x"], functional=functional, include=["quotient"], numeric=numeric)
+    curves = answer["quotient"]["curves"]
+    assert (curves["t"][0], curves["t"][-1], curves["at"]) == (*span, at)
+    assert curves["functions"]["x"] == pytest.approx([math.sin(t) for t in curves["t"]])
+    assert curves["direction"]["x"] == pytest.approx([t**2 for t in curves["t"]])
+
+
+def test_one_end_fixed_and_one_free() -> None:
+    integral = {**INTEGRAL, "ends": "fixed-free"}
+    answer = vary(expression="dot(x)^2", functions=["x"], parameters=["T"], functional=integral)
+    (term,) = answer["result"]["boundary_terms"]
+    assert (term["vanishes"], term["at"], term["condition"]["plain"]) == (False, ["T"], "2*dot(x) = 0")
+    steps = all_steps(answer)
+    assert r"\delta x(0) &= 0" in steps["boundary-terms"]["latex"]
+    assert r"\dot{x}(T) = 0" in steps["boundary-terms"]["latex"]
+    assert r"\dot{x}(0)" not in steps["boundary-terms"]["latex"]
+    assert "left[" not in steps["collected-variation"]["latex"]
 
 
 @pytest.mark.parametrize(

@@ -28,6 +28,7 @@ FOR_EVER = "public, max-age=31536000, immutable"
 ASK_AGAIN = "no-cache"
 
 _IMPORT_MAP = re.compile(r'<script type="importmap"[^>]*>(.*?)</script>', re.DOTALL)
+_PAGE_NAME = re.compile(r"[a-z]+")
 _VENDOR_PATH = re.compile(r"""(?<=["'])(\.?/)?vendor/""")
 
 
@@ -57,12 +58,12 @@ class Assets:
         stamp = self.root / "vendor" / "version.txt"
         return stamp.read_text(encoding="utf-8").strip() if stamp.is_file() else "unversioned"
 
-    def page(self) -> str | None:
-        """index.html, with the versioned addresses of the libraries; None if there is no page."""
-        index = self.root / "index.html"
-        if not index.is_file():
+    def page(self, name: str) -> str | None:
+        """<name>.html, with the versioned addresses of the libraries; None if there is no such page."""
+        file = self.root / f"{name}.html"
+        if not _PAGE_NAME.fullmatch(name) or not file.is_file():
             return None
-        return _VENDOR_PATH.sub(f"/vendor/{self.version}/", index.read_text(encoding="utf-8"))
+        return _VENDOR_PATH.sub(f"/vendor/{self.version}/", file.read_text(encoding="utf-8"))
 
     def find(self, path: str) -> Asset | None:
         """The file at an address below /, or None if there is none that may be served."""

@@ -14,13 +14,14 @@ from .functional import Functional, Interval, direction
 from .points import Point
 from .verification import BITS
 
+Fixed = tuple[bool, bool]
 ATTEMPTS = 8
 # The functions are made larger or smaller by these powers of two, for logarithms, square roots and inverse sines.
 SIZES = (0, -2, -6, 4)
 RATE = -2  # rates are smaller still, so that the test functions keep their sign
 
 
-def function_points(functional: Functional, *, fixed: bool = False, seed: int = 1) -> tuple[Point, ...]:
+def function_points(functional: Functional, *, fixed: Fixed = (False, False), seed: int = 1) -> tuple[Point, ...]:
     """Jets of test functions with positive values and small rates; directions vanish at fixed ends."""
     precision, ctx.prec = ctx.prec, BITS
     try:
@@ -29,7 +30,7 @@ def function_points(functional: Functional, *, fixed: bool = False, seed: int = 
         ctx.prec = precision
 
 
-def _points(functional: Functional, source: random.Random, *, fixed: bool) -> Iterator[Point]:
+def _points(functional: Functional, source: random.Random, *, fixed: Fixed) -> Iterator[Point]:
     for size in islice(cycle(SIZES), ATTEMPTS):
         point = {symbol.name: _random(source, 0) for symbol in functional.names.symbols}
         for x in functional.functions:
@@ -43,16 +44,27 @@ def _random(source: random.Random, size: int) -> arb:
     return arb(source.randint(2**20, 7 * 2**20)) * arb(2) ** (size - 22)
 
 
-def _anchored(functional: Functional, point: Point, *, fixed: bool) -> Point:
-    """The jets taken at the start of the interval; with fixed ends δx is a parabola through both."""
+def _anchored(functional: Functional, point: Point, *, fixed: Fixed) -> Point:
+    """The jets taken at the start of the interval; δx is a parabola that is zero at the fixed ends."""
     if not isinstance(functional.domain, Interval):
         return point
     bounds = functional.interval
     lower, upper = number(bounds.lower, point), number(bounds.upper, point)
     anchored = {**point, "t": lower}
-    if fixed:
+    if any(fixed):
         for x in functional.functions:
-            height = point[direction(x).name]
-            jets = (arb(0), height * (upper - lower), -2 * height)
+            jets = _held([point[direction(x, n).name] for n in range(3)], upper - lower, fixed)
             anchored |= {direction(x, n).name: jet for n, jet in enumerate(jets)}
     return anchored
+
+
+def _held(jets: list[arb], length: arb, fixed: Fixed) -> list[arb]:
+    """Value, slope and curvature at the start, changed so that the parabola is zero at the fixed ends."""
+    _, slope, curvature = jets
+    match fixed:
+        case (True, True):
+            return [arb(0), -curvature * length / 2, curvature]
+        case (True, False):
+            return [arb(0), slope, curvature]
+        case _:
+            return [-slope * length - curvature * length**2 / 2, slope, curvature]

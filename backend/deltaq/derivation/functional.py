@@ -20,7 +20,13 @@ from .calculus import by_component, column
 from .formula import Bounds, Explicit, Formula, Given, Integral, Named, Quantity, Value
 from .function_formula import AtTime
 
-Ends = Literal["fixed", "free"]
+Ends = Literal["fixed", "free", "fixed-free", "free-fixed"]
+FIXED: Mapping[Ends, tuple[bool, bool]] = {
+    "fixed": (True, True),
+    "free": (False, False),
+    "fixed-free": (True, False),
+    "free-fixed": (False, True),
+}
 UNDEFINED = (sp.DiracDelta, sp.Derivative, sp.Subs)
 
 
@@ -33,7 +39,10 @@ class Instant:
 
 @dataclass(frozen=True)
 class Interval:
-    """The functional that integrates from `lower` to `upper`; the functions are prescribed at fixed ends only."""
+    """The functional that integrates from `lower` to `upper`; the functions are prescribed at fixed ends only.
+
+    `ends` holds for both of them, or names the lower one first: "fixed-free".
+    """
 
     lower: Node
     upper: Node
@@ -162,8 +171,23 @@ class Functional:
         return Bounds(self.symbols.time, self.expression(self.domain.lower), self.expression(self.domain.upper))
 
     @property
-    def has_fixed_ends(self) -> bool:
-        return isinstance(self.domain, Interval) and self.domain.ends == "fixed"
+    def fixed(self) -> tuple[bool, bool]:
+        """Whether the lower and the upper end are fixed."""
+        return FIXED[self.domain.ends] if isinstance(self.domain, Interval) else (False, False)
+
+    @property
+    def fixed_ends(self) -> tuple[sp.Expr, ...]:
+        """The instants at which the functions are prescribed."""
+        return tuple(end for end, fixed in zip(self._ends, self.fixed, strict=True) if fixed)
+
+    @property
+    def free_ends(self) -> tuple[sp.Expr, ...]:
+        """The instants at which they are not."""
+        return tuple(end for end, fixed in zip(self._ends, self.fixed, strict=True) if not fixed)
+
+    @property
+    def _ends(self) -> tuple[sp.Expr, sp.Expr]:
+        return self.interval.lower, self.interval.upper
 
     def momentum(self, function: str) -> sp.Expr:
         """∂F/∂ẋ, zero if the rate does not occur."""

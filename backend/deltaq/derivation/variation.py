@@ -25,7 +25,7 @@ FORMULATION = "first-variation"
 def vary(subject: Functional) -> Derivation:
     """The chapters: what is varied, the two routes, that they agree; for an integral the Euler–Lagrange equations."""
     points = function_points(subject)
-    at_ends = function_points(subject, fixed=subject.has_fixed_ends)
+    at_ends = function_points(subject, fixed=subject.fixed)
     chapters = {
         "functional": (functional.apply(subject),),
         "variation-by-definition": (variation_by_definition.apply(subject),),

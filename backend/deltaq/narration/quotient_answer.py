@@ -11,6 +11,7 @@ import sympy as sp
 from ..derivation.difference_quotient import SIZES, Quotients, compare
 from ..derivation.functional import Functional
 from ..derivation.functional_values import Motion, line_of
+from ..derivation.motion_curves import Curves, curves_of
 from ..errors import ExpressionError, Problem, RequestError
 from ..language.names import Names
 from ..language.parser import parse
@@ -22,7 +23,7 @@ Document = dict[str, object]
 
 
 def quotient_answer(question: Question, document: Mapping[str, object]) -> Document:
-    """`numeric`: {functions: {x: text}, direction: {x: text}, t?, parameters?} → h, quotients, and their errors' parts.
+    """`numeric`: {functions: {x: text}, direction: {x: text}, t?, parameters?} → h, quotients, errors' parts, curves.
 
     Keys of `direction` are the functions' names. Raises RequestError for what is missing or has no value.
     """
@@ -32,12 +33,13 @@ def quotient_answer(question: Question, document: Mapping[str, object]) -> Docum
         raise RequestError(Problem("missing-field", "/numeric", parameters={"field": "numeric"}))
     if len(functional.trees) > 1:
         raise RequestError(Problem("not-scalar", "/expression"))
-    line = line_of(functional, _motion(functional, numeric), cast("float", numeric.get("t") or 0.0))
-    compared = compare(line)
+    motion, time = _motion(functional, numeric), cast("float", numeric.get("t") or 0.0)
+    compared = compare(line_of(functional, motion, time))
     if not (math.isfinite(compared.value) and math.isfinite(compared.derivative)):
         raise RequestError(Problem("value-undefined", "/numeric"))
     kinds = {kind: _written(quotients) for kind, quotients in compared.quotients.items()}
-    return {"value": compared.value, "derivative": compared.derivative, "h": list(SIZES), **kinds}
+    drawn = _drawn(curves_of(functional, motion, time))
+    return {"value": compared.value, "derivative": compared.derivative, "h": list(SIZES), **kinds, "curves": drawn}
 
 
 def _motion(functional: Functional, numeric: Mapping[str, object]) -> Motion:
@@ -92,6 +94,13 @@ def _written(quotients: Quotients) -> Document:
         "best": None if best is None else {"h": SIZES[best], "error": quotients.error[best]},
         "predicted": quotients.predicted if math.isfinite(quotients.predicted) else None,
     }
+
+
+def _drawn(curves: Curves) -> Document:
+    functions, directions = (
+        {name: _finite(values) for name, values in part.items()} for part in (curves.functions, curves.directions)
+    )
+    return {"t": list(curves.t), "at": curves.at, "functions": functions, "direction": directions}
 
 
 def _finite(values: tuple[float, ...]) -> list[float | None]:

@@ -32,7 +32,7 @@ def vary_request(document: Mapping[str, object]) -> Document:
 
     `document`: {expression, syntax?, functions, direction?, parameters?, functional?, include?, numeric?, lang?},
     already checked for types. `functional` is {kind: "value", at} or {kind: "integral", from, to, ends}, where the ends
-    are "fixed" or "free".
+    are "fixed" or "free", or one of both, the lower first: "fixed-free".
     """
     question = read_question(document)
     language = language_of(cast("str | None", document.get("lang")))
@@ -104,8 +104,9 @@ def _boundary(functional: Functional, function: str, both: _Writer) -> list[Docu
     momentum = functional.momentum(function)
     written = both.formula(boundary(functional, Explicit(momentum), function))
     found: Document = {"function": function, "plain": both.plain(momentum * direction(function)), "latex": written}
-    vanishes = functional.has_fixed_ends
-    return [found | {"vanishes": vanishes, "condition": None if vanishes else both.equation(momentum)}]
+    ends = [plain(end) for end in functional.free_ends]
+    vanishes = not functional.free_ends
+    return [found | {"vanishes": vanishes, "at": ends, "condition": None if vanishes else both.equation(momentum)}]
 
 
 class _Writer:

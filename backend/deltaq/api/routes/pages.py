@@ -23,14 +23,12 @@ def _documentation(name: str) -> str:
 
 
 @router.api_route("/", methods=["GET", "HEAD"])
-def page(request: Request) -> Response:
-    """The page; its policy names the hash of its import map."""
-    html = service_of(request).assets.page()
+def start(request: Request) -> Response:
+    """The page of the scenes."""
+    html = service_of(request).assets.page("index")
     if html is None:
         raise HTTPException(404)
-    inline = import_map_hash(html)
-    policy = content_security_policy(*([inline] if inline else []))
-    return _text(request, html, "text/html", {"Content-Security-Policy": policy})
+    return _page(request, html)
 
 
 @router.api_route("/docs", methods=["GET", "HEAD"])
@@ -48,11 +46,22 @@ def documentation_script(request: Request) -> Response:
 
 @router.api_route("/{path:path}", methods=["GET", "HEAD"])
 def file(request: Request, path: str) -> Response:
-    """A file of the page."""
-    asset = service_of(request).assets.find(path)
+    """A page by its name without suffix, or a file of the pages."""
+    assets = service_of(request).assets
+    html = assets.page(path)
+    if html is not None:
+        return _page(request, html)
+    asset = assets.find(path)
     if asset is None:
         raise HTTPException(404)
     return _file(request, asset)
+
+
+def _page(request: Request, html: str) -> Response:
+    """A page; its policy names the hash of its import map."""
+    inline = import_map_hash(html)
+    policy = content_security_policy(*([inline] if inline else []))
+    return _text(request, html, "text/html", {"Content-Security-Policy": policy})
 
 
 def _text(request: Request, content: str, media_type: str, headers: dict[str, str] | None = None) -> Response:

@@ -36,7 +36,9 @@ class IntegralFunctional(Request):
     kind: Literal["integral"]
     start: ExpressionText = Field(alias="from", description="a number or an expression of parameters", examples=["0"])
     to: ExpressionText = Field(examples=["T"])
-    ends: Literal["fixed", "free"] = Field("fixed", description="whether the functions are prescribed at both ends")
+    ends: Literal["fixed", "free", "fixed-free", "free-fixed"] = Field(
+        "fixed", description="whether the functions are prescribed at both ends, or at the lower and at the upper one"
+    )
 
     model_config = ConfigDict(serialize_by_alias=True)
 
@@ -109,6 +111,15 @@ class QuotientErrors(Answer):
     predicted: float | None = Field(description="where theory expects the smallest error; null if the error only falls")
 
 
+class Curves(Answer):
+    """The given functions and directions over the time; null where they have no value."""
+
+    t: tuple[float, ...]
+    at: float | None = Field(description="the instant that is looked at; null for an integral")
+    functions: dict[str, tuple[float | None, ...]]
+    direction: dict[str, tuple[float | None, ...]]
+
+
 class Quotient(Answer):
     """Difference quotients in double precision against the derivative."""
 
@@ -117,6 +128,7 @@ class Quotient(Answer):
     h: tuple[float, ...]
     one_sided: QuotientErrors
     central: QuotientErrors
+    curves: Curves
 
 
 class VariationAnswer(Answer):

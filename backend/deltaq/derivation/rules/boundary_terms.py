@@ -17,31 +17,27 @@ from ..step import Relation, Step
 from .integration_by_parts import boundary
 
 RULE = "boundary-terms"
+OUTCOMES = {(True, True): "fixed", (False, False): "free", (True, False): "mixed", (False, True): "mixed"}
 ZERO = Explicit(sp.Integer(0))
 
 
 def apply(functional: Functional) -> Step:
-    lines = _vanishing(functional) if functional.has_fixed_ends else _natural(functional)
-    return Step(RULE, "", tuple(lines), (), {"outcome": "fixed" if functional.has_fixed_ends else "free"})
+    lines = (line for x in functional.moving for line in (*_vanishing(functional, x), *_natural(functional, x)))
+    return Step(RULE, "", tuple(lines), (), {"outcome": OUTCOMES[functional.fixed]})
 
 
-def _vanishing(functional: Functional) -> Iterator[Relation]:
-    """δx = 0 at both ends, and with it the boundary term."""
-    for x in functional.moving:
-        ends = (AtTime(Explicit(direction(x)), end) for end in _ends(functional))
-        yield from (Relation((value, ZERO)) for value in ends)
+def _vanishing(functional: Functional, x: str) -> Iterator[Relation]:
+    """δx = 0 at each fixed end; if both are, the boundary term is zero."""
+    ends = (AtTime(Explicit(direction(x)), end) for end in functional.fixed_ends)
+    yield from (Relation((value, ZERO)) for value in ends)
+    if not functional.free_ends:
         momentum = Partial(functional.named, functional.symbols.rate(x, 1))
         yield Relation((boundary(functional, momentum, x), ZERO))
 
 
-def _natural(functional: Functional) -> Iterator[Relation]:
-    """∂F/∂ẋ = 0 at each end."""
-    for x in functional.moving:
-        momentum = Partial(functional.named, functional.symbols.rate(x, 1))
-        written = Explicit(functional.momentum(x))
-        for end in _ends(functional):
-            yield Relation((Equation(AtTime(momentum, end), ZERO), Equation(AtTime(written, end), ZERO)), "⇔")
-
-
-def _ends(functional: Functional) -> tuple[sp.Expr, sp.Expr]:
-    return functional.interval.lower, functional.interval.upper
+def _natural(functional: Functional, x: str) -> Iterator[Relation]:
+    """∂F/∂ẋ = 0 at each free end."""
+    momentum = Partial(functional.named, functional.symbols.rate(x, 1))
+    written = Explicit(functional.momentum(x))
+    for end in functional.free_ends:
+        yield Relation((Equation(AtTime(momentum, end), ZERO), Equation(AtTime(written, end), ZERO)), "⇔")

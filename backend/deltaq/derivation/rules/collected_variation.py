@@ -1,14 +1,17 @@
 """δI without the rates of the directions: δI = [∂F/∂ẋ δx] + ∫ (∂F/∂x − d/dt ∂F/∂ẋ) δx dt.
 
-At fixed ends the boundary terms are gone.
+Of the boundary terms only those at free ends are left.
 Source: Gelfand, Fomin, Calculus of Variations, §4, eq. (5).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+
+import sympy as sp
 
 from ..formula import Explicit, Formula, Partial, Plus, Rate, Term, Times, minus
+from ..function_formula import AtTime
 from ..functional import Functional, direction
 from ..step import Relation, Step
 from .functional import variation
@@ -41,7 +44,22 @@ def euler_expression(functional: Functional, function: str) -> Plus:
 
 def _sum(functional: Functional, expression: Callable[[str], Formula], slope: Callable[[str], Formula]) -> Plus:
     """The boundary terms where there are any, and the integral."""
-    ends = () if functional.has_fixed_ends else functional.moving
+    ends = tuple(term for x in functional.moving for term in _at_free_ends(functional, slope(x), x))
     terms = [Times((expression(x), Explicit(direction(x)))) for x in functional.present]
     inside = terms[0] if len(terms) == 1 else Plus(tuple(map(Term, terms)))
-    return Plus((*(Term(boundary(functional, slope(x), x)) for x in ends), Term(functional.on(inside))))
+    return Plus((*ends, Term(functional.on(inside))))
+
+
+def _at_free_ends(functional: Functional, slope: Formula, x: str) -> Iterator[Term]:
+    """[p δx] over both ends, or p δx at the one that is free, less at the lower."""
+    match functional.fixed:
+        case (False, False):
+            yield Term(boundary(functional, slope, x))
+        case (True, False):
+            yield Term(_at(functional.interval.upper, slope, x))
+        case (False, True):
+            yield minus(_at(functional.interval.lower, slope, x))
+
+
+def _at(end: sp.Expr, slope: Formula, x: str) -> AtTime:
+    return AtTime(Times((slope, Explicit(direction(x)))), end)
