@@ -49,7 +49,7 @@ def _span(functional: Functional, motion: Motion, time: float) -> tuple[tuple[fl
             return (float(number(bounds.lower, point)), float(number(bounds.upper, point))), None
         case Instant(node):
             time = float(number(functional.expression(node), point))
-    return (min(0.0, 2 * time), max(0.0, 2 * time) or 1.0), time
+    return ((min(0.0, 2 * time), max(0.0, 2 * time)) if time else (0.0, 1.0)), time
 
 
 def _sampled(
