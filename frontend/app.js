@@ -16,7 +16,6 @@ import { createReadouts } from "./view/readouts.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
 import { listen } from "./view/keys.js";
 import { linkHighlights } from "./view/highlight.js";
-import { openDialog } from "./view/overlays.js";
 import { page } from "./view/page.js";
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
@@ -34,6 +33,14 @@ let parts = null;
 /** The editor, once it has been opened: most readers never need it, so it is fetched then. @type {import("./view/page.js").View["editor"]} */
 let editor = null;
 let opening = false;
+
+/** What lies above the page, fetched when it is first asked for. @type {typeof import("./view/overlays.js") | null} */
+let above = null;
+
+async function fetchOverlays() {
+  above = await import("./view/overlays.js");
+  update();
+}
 
 async function openEditor() {
   if (opening) return;
@@ -67,7 +74,7 @@ function view() {
   const section = (/** @type {string} */ name) => /** @type {Record<string, unknown>} */ (state.catalog[name] ?? {});
   const methods = translator(section("methods"));
   return {
-    state, session, clock, togglePlay, scrub, fullscreen, editor,
+    state, session, clock, togglePlay, scrub, fullscreen, editor, overlays: above?.overlays,
     t: translator({ ...section("page"), ...section("editor") }),
     methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,
     link: (patch) => location.pathname + writePlace({ ...state.place, ...patch }) + ((patch.scene ?? state.place.scene) === OWN ? state.fragment : ""),
@@ -125,7 +132,8 @@ function update() {
   document.documentElement.lang = place.lang;
   document.title = current.t("title");
   render(page(current), root);
-  openDialog(root);
+  if (state.overlay && !above) void fetchOverlays();
+  above?.openDialog(root);
   parts ??= assemble();
   parts.drawing.show(scene, trajectory, clock.time);
   parts.readouts.show(scene, trajectory, place.lang);

@@ -56,14 +56,18 @@ export function createApi(send, base = "/api/v1") {
     scene: (id, lang) => call(`/scenes/${encodeURIComponent(id)}?lang=${lang}`),
     /** @returns {Promise<{methods: import("./types.js").Method[]}>} */
     methods: () => call("/methods"),
-    /** @param {string} lang @returns {Promise<import("./types.js").Catalog>} */
-    catalog: (lang, editing = false) => call(`/catalogs/${lang}?sections=page,methods${editing ? ",editor" : ""}`),
+    /** @param {string} lang @param {string[]} sections  besides those of every page @returns {Promise<import("./types.js").Catalog>} */
+    catalog: (lang, ...sections) => call(`/catalogs/${lang}?sections=${["page", ...sections]}`),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Derivation>} */
     derive: (body, signal) => post("/derivations", body, signal),
     /** @param {object} scene @param {string} lang @param {AbortSignal} [signal] @returns {Promise<{valid: boolean, problems: import("./types.js").Problem[]}>} */
     validate: (scene, lang, signal) => post(`/scenes/validate?lang=${lang}`, scene, signal),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<{expressions: {latex: string}[]}>} */
     typeset: (body, signal) => post("/expressions/batch", body, signal),
+    /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<any>} */
+    vary: (body, signal) => post("/variations", body, signal),
+    /** @param {string} id @param {string} lang @returns {Promise<import("./types.js").Derivation>} */
+    proof: (id, lang) => call(`/proofs/${id}?lang=${lang}`),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Trajectory>} */
     simulate: (body, signal) => post("/simulations", body, signal),
   };

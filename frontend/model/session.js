@@ -115,7 +115,7 @@ export function createSession(store, api, clock) {
   /** @param {string} lang */
   async function speak(lang) {
     move({ lang });
-    await attempt("page", async () => set({ catalog: await api.catalog(lang, get().place.edit !== "") }));
+    await attempt("page", async () => set({ catalog: await api.catalog(lang, "methods", ...(get().place.edit ? ["editor"] : [])) }));
   }
 
   return {

@@ -37,6 +37,12 @@ function fit(element) {
   if (needed > width) element.style.setProperty("--fit", String(Math.max(SMALLEST, Math.floor((width / needed) * 98) / 100)));
 }
 
+// What was measured before the fonts of the formulas had come was not their width.
+document.fonts.addEventListener("loadingdone", () => document.querySelectorAll(".formula").forEach((element) => {
+  fittedWidths.delete(/** @type {HTMLElement} */ (element));
+  fit(/** @type {HTMLElement} */ (element));
+}));
+
 class Typeset extends Directive {
   latex = "";
 

@@ -5,9 +5,12 @@ import { live } from "lit-html/directives/live.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
 import { OWN } from "../model/own.js";
+import { HOME, writePlace } from "../model/url.js";
 
 /** @typedef {import("./page.js").View} View */
+/** @typedef {{state: Pick<View["state"], "place">, session: Pick<View["session"], "language" | "move">, t: View["t"]}} Appearance */
 
+const PAGES = ["variations", "proof"];
 const THEMES = ["auto", "light", "dark", "projector"];
 
 /** @param {Event} event */
@@ -15,20 +18,16 @@ const chosen = (event) => /** @type {HTMLSelectElement} */ (event.target).value;
 
 /** @param {View} view */
 export function header(view) {
-  const { state, session, t } = view;
+  const { session, t } = view;
   return html`
     <header class="top">
       <a class="brand" href="/" title=${t("tagline")}><span class="delta">δ</span><span class="q">q</span></a>
       ${sceneChooser(view)}
+      ${places(view, "")}
       <div class="tools">
         ${pen(view)}
         ${language(view)}
-        <label class="choice theme" title=${t("theme.choose")}>
-          <span class="unseen">${t("theme.choose")}</span>${icon("theme")}
-          <select .value=${live(state.place.theme)} @change=${(/** @type {Event} */ e) => session.move({ theme: chosen(e) })}>
-            ${THEMES.map((theme) => html`<option value=${theme} ?selected=${theme === state.place.theme}>${t(`theme.${theme}`)}</option>`)}
-          </select>${icon("chevron")}
-        </label>
+        ${appearance(view)}
         <button class="tool" title=${t("tool.overview")} aria-label=${t("tool.overview")} @click=${() => session.overlay("overview")}>${icon("overview")}</button>
         <button class="tool wide-only" title=${t("tool.fullscreen")} aria-label=${t("tool.fullscreen")} @click=${view.fullscreen}>${icon("fullscreen")}</button>
         <button class="tool wide-only" title=${t("tool.help")} aria-label=${t("tool.help")} @click=${() => session.overlay("help")}>${icon("help")}</button>
@@ -36,6 +35,15 @@ export function header(view) {
     </header>
   `;
 }
+
+/** The other pages, in the same language and appearance. @param {Pick<Appearance, "state" | "t">} view @param {string} here */
+export function places({ state, t }, here) {
+  return html`<nav class="places" aria-label=${t("places")}>${PAGES.map((name) => html`
+    <a href=${addressOf(name, state.place)} aria-current=${name === here ? "page" : nothing}>${t(`place.${name}`)}</a>`)}</nav>`;
+}
+
+/** @param {string} name @param {import("../model/types.js").Place} place */
+const addressOf = (name, { lang, theme }) => `/${name}${writePlace({ ...HOME, lang, theme })}`;
 
 /** Into the editor with a copy of the scene, or with one's own; and out of it. @param {View} view */
 function pen({ state, session, editor, t }) {
@@ -62,6 +70,7 @@ function sceneChooser({ state, session, t }) {
   const entries = entriesOf(state);
   const entry = entries.find((candidate) => candidate.id === scene);
   const leaveFor = (/** @type {string} */ id) => {
+    if (id.startsWith("/")) return location.assign(id);
     session.move({ edit: "" });
     void session.choose(id);
   };
@@ -74,6 +83,7 @@ function sceneChooser({ state, session, t }) {
           <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => leaveFor(chosen(e))}>
             ${entry ? nothing : html`<option value=${scene} selected>${t("scene.choose")}</option>`}
             ${entries.map((s) => html`<option value=${s.id} ?selected=${s.id === scene}>${inLanguage(s.title, lang)}</option>`)}
+            <optgroup label=${t("places.general")}>${PAGES.map((name) => html`<option value=${addressOf(name, state.place)}>${t(`place.${name}`)}</option>`)}</optgroup>
           </select>${icon("chevron")}
         </label>
       </h1>
@@ -83,8 +93,20 @@ function sceneChooser({ state, session, t }) {
   `;
 }
 
-/** @param {View} view */
-function language({ state, session, t }) {
+/** @param {Appearance} view */
+export function appearance({ state, session, t }) {
+  return html`
+    <label class="choice theme" title=${t("theme.choose")}>
+      <span class="unseen">${t("theme.choose")}</span>${icon("theme")}
+      <select .value=${live(state.place.theme)} @change=${(/** @type {Event} */ e) => session.move({ theme: chosen(e) })}>
+        ${THEMES.map((theme) => html`<option value=${theme} ?selected=${theme === state.place.theme}>${t(`theme.${theme}`)}</option>`)}
+      </select>${icon("chevron")}
+    </label>
+  `;
+}
+
+/** @param {Appearance} view */
+export function language({ state, session, t }) {
   return html`
     <div class="segments" role="group" aria-label=${t("language.choose")}>
       ${["de", "en"].map((lang) => html`

@@ -4,7 +4,8 @@ import { html, nothing } from "lit-html";
 import { prose } from "./formula.js";
 import { icon } from "./icons.js";
 
-/** @typedef {import("./page.js").View} View */
+/** @typedef {import("./steps.js").View & {state: Pick<import("./page.js").View["state"], "overlay">,
+ *   session: Pick<import("./page.js").View["session"], "overlay">}} View  what overlays need of a page */
 
 /** Opens a dialog that has just been put into the page; it takes the focus. @param {HTMLElement} root */
 export function openDialog(root) {

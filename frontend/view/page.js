@@ -4,7 +4,6 @@ import { html, nothing } from "lit-html";
 import { chapters, pager, steps } from "./steps.js";
 import { failure } from "./failure.js";
 import { header } from "./header.js";
-import { overlays } from "./overlays.js";
 import { player } from "./player.js";
 import { report } from "./report.js";
 import { values } from "./values.js";
@@ -23,6 +22,7 @@ import { inLanguage } from "../model/catalog.js";
  * @property {(t: number) => void} scrub
  * @property {() => void} fullscreen
  * @property {() => void} reload
+ * @property {(typeof import("./overlays.js")["overlays"]) | undefined} overlays  once one has been asked for
  * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
  */
 
@@ -49,7 +49,7 @@ export function page(view) {
       </section>
     </main>
     ${panels(view)}
-    ${overlays(view)}
+    ${view.overlays?.(view)}
   `;
 }
 

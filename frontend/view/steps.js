@@ -8,7 +8,9 @@ import { indexOf } from "../model/reveal.js";
 
 /** @typedef {import("../model/types.js").Step} Step */
 /** @typedef {import("../model/reveal.js").Line} Line */
-/** @typedef {import("./page.js").View} View */
+/** @typedef {{state: Pick<import("./page.js").View["state"], "place" | "lines" | "derivation">,
+ *   session: Pick<import("./page.js").View["session"], "go" | "goTo">,
+ *   link: (patch: {step: string}) => string, follow: import("./page.js").View["follow"], t: import("./page.js").View["t"]}} View  what steps need of a page */
 
 /** @param {View} view */
 export function steps(view) {
@@ -24,8 +26,8 @@ export function steps(view) {
 
 const skeleton = () => [62, 88, 74].map((width) => html`<div class="bone" style="width:${width}%"></div>`);
 
-/** @param {Line} line @param {boolean} current @param {View} view */
-function step(line, current, view) {
+/** @param {Line} line @param {boolean} current @param {Pick<View, "link" | "follow" | "session" | "t">} view */
+export function step(line, current, view) {
   const opens = line.number.endsWith(".1");
   const { step: content, number } = line;
   return html`
@@ -49,14 +51,14 @@ function formulaOf({ marked, latex }) {
   return marked || latex ? displayed(marked || latex) : nothing;
 }
 
-/** @param {Step} content @param {View} view */
+/** @param {Step} content @param {Pick<View, "t">} view */
 function verdict(content, { t }) {
   return content.verified
     ? html`<span class="verdict" title=${t("step.verified-why")}>${icon("verified")}<span>${t("step.verified")}</span></span>`
     : html`<span class="verdict doubtful" title=${t("step.unverified-why")}><span>${t("step.unverified")}</span></span>`;
 }
 
-/** @param {Step} content @param {View} view @returns {import("lit-html").TemplateResult} */
+/** @param {Step} content @param {Pick<View, "t">} view @returns {import("lit-html").TemplateResult} */
 function substeps(content, view) {
   const count = content.substeps.length;
   return html`

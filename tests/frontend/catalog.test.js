@@ -3,6 +3,8 @@ import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { inLanguage, translator } from "../../frontend/model/catalog.js";
 import { SECTIONS } from "../../frontend/model/editor/schema.js";
+import { EXAMPLES } from "../../frontend/model/variations/examples.js";
+import { KINDS } from "../../frontend/model/variations/question.js";
 
 const FRONTEND = new URL("../../frontend/", import.meta.url);
 const LOCALES = new URL("../../backend/deltaq/narration/locales/", import.meta.url);
@@ -22,9 +24,9 @@ test("a text in the asked language, else in English, else in any", () => {
   assert.equal(inLanguage(undefined, "en"), "");
 });
 
-const source = ["app.js", ...["view", "model"].flatMap((folder) => readdirSync(new URL(folder, FRONTEND), { recursive: true }).map(String).filter((f) => f.endsWith(".js")).map((f) => `${folder}/${f}`))]
+const source = ["app.js", "proof.js", "variations.js", ...["view", "model"].flatMap((folder) => readdirSync(new URL(folder, FRONTEND), { recursive: true }).map(String).filter((f) => f.endsWith(".js")).map((f) => `${folder}/${f}`))]
   .map((file) => readFileSync(new URL(file, FRONTEND), "utf8")).join("\n");
-const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor"].map((section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"))))]));
+const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations"].map((section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"))))]));
 
 test("both languages have the same texts with the same parameters", () => {
   const holes = (/** @type {string} */ text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort().join();
@@ -47,10 +49,20 @@ const EDITOR = [
   ...["waiting", "valid", "invalid", "unreachable"].map((verdict) => `editor.${verdict}`),
 ];
 
-test("every text of the editor is there", () => assert.deepEqual(EDITOR.filter((key) => !(key in catalogs.en)), []));
+/** What the page of variations asks for by example, kind, end and quotient. */
+const VARIATIONS = [
+  ...EXAMPLES.map((id) => `variations.example.${id}`),
+  ...KINDS.map((kind) => `variations.kind-${kind}`),
+  ...["from", "to", "end-from", "end-to", "end-fixed", "end-free", "syntax-plain", "syntax-latex", "declare-functions", "declare-parameters", "one_sided", "central"].map((key) => `variations.${key}`),
+  "place.variations", "place.proof",
+];
+
+for (const [name, asked] of Object.entries({ editor: EDITOR, variations: VARIATIONS })) {
+  test(`every text of the part "${name}" is there`, () => assert.deepEqual(asked.filter((key) => !(key in catalogs.en)), []));
+}
 
 test("every text that is there is used", () => {
   const composed = ["theme.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical."];
-  const unused = Object.keys(catalogs.en).filter((key) => !EDITOR.includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
+  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });

@@ -5,12 +5,14 @@ from __future__ import annotations
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-_ON_EVERYTHING = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "same-origin"}
+_ON_EVERYTHING = {"X-Content-Type-Options": "nosniff"}
 _ON_DOCUMENTS = {
+    "Referrer-Policy": "same-origin",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
 }
-# Only what a browser shows as a page of its own obeys a policy; on dozens of modules it would be dead weight.
+# Only what a browser shows as a page of its own needs a policy: its modules may fetch from here alone, and on dozens
+# of them it would be dead weight.
 _DOCUMENTS = ("text/html", "image/svg+xml")
 
 

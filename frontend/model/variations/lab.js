@@ -1,0 +1,97 @@
+/** The question that is being asked, and what the server answers when the hand rests: the steps, then the quotients. */
+
+import { ApiError } from "../api.js";
+import { createStore } from "../store.js";
+import { namesIn, quotientRequestOf, requestOf } from "./question.js";
+
+/** @typedef {import("./question.js").Question} Question */
+/** @typedef {import("../types.js").Problem} Problem */
+/** @typedef {{plain: string | string[], latex: string}} Written */
+/** @typedef {{function: string, plain: string, latex: string, vanishes: boolean, at: string[], condition: Written | null}} BoundaryTerm */
+/** @typedef {{chapters: import("../types.js").Chapter[], result: {first_variation: Written, euler_lagrange?: Written[], boundary_terms?: BoundaryTerm[]}}} Answer */
+/** @typedef {{quotient: (number | null)[], truncation: (number | null)[], rounding: (number | null)[], error: (number | null)[], best: {h: number, error: number} | null, predicted: number | null}} Errors */
+/** @typedef {{t: number[], at: number | null, functions: Record<string, (number | null)[]>, direction: Record<string, (number | null)[]>}} Curves */
+/** @typedef {{value: number, derivative: number, h: number[], one_sided: Errors, central: Errors, curves: Curves}} Quotient */
+/**
+ * @typedef {object} Asking
+ * @property {Question} question
+ * @property {"waiting" | "answered" | "refused" | "unreachable"} verdict
+ * @property {Answer | null} answer  to the last question that had one
+ * @property {Problem[]} problems
+ * @property {Quotient | null} quotient
+ * @property {Problem[]} numericProblems
+ * @property {number} size  which h is shown
+ */
+
+const REST = 300;
+
+/** @param {unknown} error */
+const problemsOf = (error) => (error instanceof ApiError ? /** @type {Problem[]} */ (error.failure.problems) : []);
+
+/**
+ * @param {{vary: (body: object, signal: AbortSignal) => Promise<any>, lang: () => string}} around
+ * @param {Question} question @param {number} size
+ */
+export function createLab({ vary, lang }, question, size) {
+  /** @type {Asking} */
+  const start = { question, verdict: "waiting", answer: null, problems: [], quotient: null, numericProblems: [], size };
+  const store = createStore(start);
+  const { get, set } = store;
+  let timer = /** @type {ReturnType<typeof setTimeout> | undefined} */ (undefined);
+  let control = new AbortController();
+
+  /** @param {Partial<Asking>} patch @param {number} rest */
+  function take(patch, rest) {
+    set({ verdict: "waiting", ...patch });
+    clearTimeout(timer);
+    control.abort();
+    control = new AbortController();
+    const { signal } = control;
+    timer = setTimeout(() => void ask(signal), rest);
+  }
+
+  /** @param {AbortSignal} signal */
+  async function ask(signal) {
+    const asked = get().question;
+    try {
+      const answer = await vary(requestOf(asked, lang()), signal);
+      if (signal.aborted) return;
+      set({ verdict: "answered", answer, problems: [] });
+      if (Array.isArray(answer.result.first_variation.plain)) set({ quotient: null, numericProblems: [] });
+      else await measure(asked, signal);
+    } catch (error) {
+      if (signal.aborted) return;
+      const problems = problemsOf(error);
+      set({ verdict: problems.length ? "refused" : "unreachable", problems });
+    }
+  }
+
+  /** @param {Question} asked @param {AbortSignal} signal */
+  async function measure(asked, signal) {
+    try {
+      const { quotient } = await vary(quotientRequestOf(asked, lang()), signal);
+      if (!signal.aborted) set({ quotient, numericProblems: [] });
+    } catch (error) {
+      if (!signal.aborted) set({ quotient: null, numericProblems: problemsOf(error) });
+    }
+  }
+
+  return {
+    get,
+    subscribe: store.subscribe,
+    /** @param {Partial<Question>} patch */
+    edit: (patch) => take({ question: { ...get().question, ...patch } }, REST),
+    /** Another question: what belonged to the one before goes. @param {Question} question */
+    begin: (question) => take({ question, problems: [], quotient: null, numericProblems: [] }, 0),
+    /** A name nobody knows becomes a function or a parameter. @param {"functions" | "parameters"} list @param {string} name */
+    declare(list, name) {
+      const { question } = get();
+      take({ question: { ...question, [list]: [...namesIn(question[list]), name].join(", ") } }, 0);
+    },
+    again: () => take({}, 0),
+    /** @param {number} size */
+    show: (size) => set({ size }),
+  };
+}
+
+/** @typedef {ReturnType<typeof createLab>} Lab */

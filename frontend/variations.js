@@ -1,0 +1,108 @@
+/** The driver of the page "Variations": it connects question, answers, view and address. */
+
+import { render } from "lit-html";
+import { createApi } from "./model/api.js";
+import { translator } from "./model/catalog.js";
+import { createStore } from "./model/store.js";
+import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { example } from "./model/variations/examples.js";
+import { createLab } from "./model/variations/lab.js";
+import { readQuestion, writeQuestion } from "./model/variations/question.js";
+import { page } from "./view/variations/page.js";
+
+const WIDE = 660;
+const FIRST_SIZE = 2;
+
+const root = /** @type {HTMLElement} */ (document.getElementById("page"));
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const api = createApi(fetch.bind(globalThis));
+const asked = readPlace(location.search);
+const size = Number(new URLSearchParams(location.search).get("h"));
+const store = createStore({
+  place: { ...HOME, step: asked.step, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  catalog: /** @type {import("./model/types.js").Catalog} */ ({}), width: 0,
+});
+const { get, set } = store;
+const lab = createLab({ vary: api.vary, lang: () => get().place.lang }, readQuestion(location.search) ?? example("identity"), size > 0 ? size : FIRST_SIZE);
+
+/** @param {Partial<import("./model/types.js").Place>} patch */
+const move = (patch) => set({ place: { ...get().place, ...patch } });
+
+/** @param {string} lang */
+async function speak(lang) {
+  move({ lang });
+  const catalog = await api.catalog(lang, "variations").catch(() => null);
+  if (catalog && get().place.lang === lang) set({ catalog });
+}
+
+/** @param {string} step */
+function goTo(step) {
+  move({ step });
+  requestAnimationFrame(() => root.querySelector(`[data-step="${CSS.escape(step)}"]`)?.scrollIntoView({ block: "start" }));
+}
+
+const session = {
+  move, goTo, go() {},
+  /** @param {string} lang */
+  async language(lang) {
+    await speak(lang);
+    lab.again();
+  },
+};
+
+/** @param {Partial<import("./model/types.js").Place>} patch */
+function link(patch) {
+  const { question, size } = lab.get();
+  const place = writePlace({ ...get().place, ...patch });
+  return `${location.pathname}${place}${place ? "&" : "?"}${writeQuestion(question)}${size === FIRST_SIZE ? "" : `&h=${size}`}`;
+}
+
+/** @param {Event} event @param {() => void} go */
+function follow(event, go) {
+  const { ctrlKey, metaKey, shiftKey } = /** @type {MouseEvent} */ (event);
+  if (ctrlKey || metaKey || shiftKey) return;
+  event.preventDefault();
+  go();
+}
+
+/** Two charts beside each other where there is room for them, else one below the other. */
+function chartSize() {
+  const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
+  const { width } = get();
+  const own = width > WIDE * (em / 16) ? Math.floor((width - em) / 2) - 1 : width;
+  return { width: Math.max(own, 200), height: Math.max(16 * em, Math.min(own * 0.72, 24 * em)), em: 0.75 * em };
+}
+
+const observer = new ResizeObserver(([{ contentRect }]) => set({ width: Math.floor(contentRect.width) }));
+/** @type {Element | null} */
+let observed = null;
+
+function observe() {
+  const charts = root.querySelector(".slide");
+  if (!charts || charts === observed) return;
+  observer.disconnect();
+  observer.observe((observed = charts));
+}
+
+let arrived = false;
+function update() {
+  const { place, catalog } = get();
+  if (!catalog.page) return;
+  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.variations) });
+  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
+  document.documentElement.lang = place.lang;
+  document.title = `δq · ${t("place.variations")}`;
+  render(page({ state: { place }, asking: lab.get(), lab, session, t, link, follow, size: chartSize() }), root);
+  observe();
+  history.replaceState(null, "", link({}));
+  if (lab.get().answer && !arrived) {
+    arrived = true;
+    if (place.step) goTo(place.step);
+  }
+}
+
+store.subscribe(update);
+lab.subscribe(update);
+dark.addEventListener("change", update);
+lab.again();
+void speak(get().place.lang);

@@ -1,0 +1,98 @@
+"""The pages without a scene, in a real browser: variations of anything, and the general proof."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import expect
+from tests.e2e.lecture import Lecture
+
+pytestmark = pytest.mark.e2e
+PATIENCE = 60_000.0
+
+
+@pytest.fixture
+def variations(lecture: Lecture) -> Lecture:
+    """The page with the lecture's identity functional, answered and charted."""
+    lecture.page.goto(f"{lecture.address}variations?lang=en")
+    lecture.page.locator(".errors circle.now").first.wait_for(timeout=PATIENCE)
+    return lecture
+
+
+def test_both_routes_stand_beside_each_other(variations: Lecture) -> None:
+    page = variations.page
+    left, right = (page.locator(".routes > .steps").nth(i).bounding_box() for i in range(2))
+    assert left is not None
+    assert right is not None
+    assert left["x"] + left["width"] <= right["x"] + 1
+    assert page.locator(".doubtful, .untypeset, .katex-error").count() == 0
+    page.set_viewport_size({"width": 360, "height": 740})
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    left, right = (page.locator(".routes > .steps").nth(i).bounding_box() for i in range(2))
+    assert left is not None
+    assert right is not None
+    assert left["y"] + left["height"] <= right["y"] + 1
+
+
+def test_a_mistake_is_marked_and_a_name_can_be_declared(variations: Lecture) -> None:
+    page = variations.page
+    page.locator(".examples select").select_option("action")
+    expect(page.locator(".outcome")).to_contain_text("Euler", timeout=PATIENCE)
+    page.locator("[data-pointer='/expression'] input").fill("m*dot(x)^2/2 - c*x^2/2")
+    wrong = page.locator("[data-pointer='/expression']")
+    expect(wrong.locator("mark")).to_have_text("c", timeout=PATIENCE)
+    wrong.get_by_role("button", name="c is a parameter").click()
+    expect(page.locator("[data-pointer='/parameters'] input")).to_have_value("m, k, T, c")
+    expect(page.locator("mark")).to_have_count(0, timeout=PATIENCE)
+    variations.complaints.clear()  # the browser reports that the server refused the unknown name
+
+
+def test_each_end_is_fixed_or_free_by_itself(variations: Lecture) -> None:
+    page = variations.page
+    page.locator(".examples select").select_option("length")
+    conditions = page.locator(".outcome .so")
+    expect(conditions).to_have_text("as both ends are fixed", timeout=PATIENCE)
+    page.get_by_role("group", name="Upper end").get_by_role("button", name="free").click()
+    expect(conditions).to_have_text("natural condition at t = 1:", timeout=PATIENCE)
+    expect(page).to_have_url(re.compile("ends=fixed-free"))
+
+
+def test_the_slider_asks_nothing_and_its_place_is_in_the_address(variations: Lecture) -> None:
+    page = variations.page
+    sent: list[str] = []
+    page.on("request", lambda request: sent.append(request.url) if "/api/" in request.url else None)
+    neighbour = page.locator("path.neighbour").first
+    before = neighbour.get_attribute("d")
+    page.locator("#h").focus()
+    page.keyboard.press("Home")
+    expect(page.locator(".dial output")).to_have_text("1.0·10⁻¹⁶")
+    assert neighbour.get_attribute("d") != before
+    assert sent == []
+    expect(page).to_have_url(re.compile("h=64"))
+    page.reload()
+    expect(page.locator(".dial output")).to_have_text("1.0·10⁻¹⁶", timeout=PATIENCE)
+
+
+def test_the_proof_is_read_step_by_step_in_both_languages(lecture: Lecture) -> None:
+    page = lecture.page
+    page.goto(f"{lecture.address}proof?lang=de")
+    lecture.steps.first.wait_for(timeout=PATIENCE)
+    page.keyboard.press("End")
+    expect(lecture.steps).to_have_count(lecture.number_of_steps())
+    assert page.locator(".doubtful, .untypeset, .katex-error").count() == 0
+    step = lecture.current_step
+    page.locator(".segments [lang=en]").click()
+    expect(page.locator(".pager .main")).to_contain_text("Next", timeout=PATIENCE)
+    page.reload()
+    lecture.steps.first.wait_for(timeout=PATIENCE)
+    assert lecture.current_step == step
+
+
+def test_the_pages_are_one_click_from_the_scenes(lecture: Lecture) -> None:
+    lecture.open("?scene=pendulum&lang=de&theme=dark")
+    lecture.page.get_by_role("link", name="Variationen").click()
+    expect(lecture.page).to_have_url(re.compile(r"/variations\?lang=de&theme=dark"))
+    lecture.page.get_by_role("link", name="Allgemeiner Beweis").click()
+    lecture.steps.first.wait_for(timeout=PATIENCE)
+    expect(lecture.page).to_have_url(re.compile(r"/proof\?step=.*lang=de&theme=dark"))
