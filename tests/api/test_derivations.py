@@ -49,6 +49,8 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "equilibria",
         "jacobi_energy",
         "routh",
+        "loads",
+        "symbols",
     }
 
 

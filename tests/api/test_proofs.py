@@ -3,7 +3,7 @@ from __future__ import annotations
 import httpx
 import pytest
 
-from deltaq.api.wire.proof import ProofAnswer
+from deltaq.api.wire.proof import ProofAnswer, ProofList
 
 pytestmark = pytest.mark.anyio
 PROOF = "/api/v1/proofs/dalembert-lagrange"
@@ -35,3 +35,12 @@ async def test_unknown_language(client: httpx.AsyncClient) -> None:
     response = await client.get(PROOF, params={"lang": "fr"})
     assert response.status_code == 422
     assert response.json()["problems"][0]["code"] == "request-not-one-of"
+
+
+@pytest.mark.parametrize("language", ["de", "en"])
+async def test_every_listed_proof_is_there_under_its_title(client: httpx.AsyncClient, language: str) -> None:
+    listed = ProofList.model_validate((await client.get("/api/v1/proofs", params={"lang": language})).json()).proofs
+    assert "dalembert-lagrange" in [proof.id for proof in listed]
+    for entry in listed:
+        answer = await client.get(f"/api/v1/proofs/{entry.id}", params={"lang": language})
+        assert (answer.status_code, answer.json()["title"]) == (200, entry.title)

@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator
 
 import pytest
 
+from deltaq.derivation.engine import formulation_names
 from deltaq.errors import InputError, Problem
+from deltaq.language.canonical import zero_test
+from deltaq.language.names import Names, Symbol
 from deltaq.language.parser import parse
+from deltaq.language.plain_printer import plain
+from deltaq.language.symbols import Symbols
+from deltaq.language.sympy_algebra import to_sympy
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.narration.derive import derive_request
 from deltaq.narration.marks import bare
@@ -43,15 +50,60 @@ def test_every_scene_is_told(scene: str, lang: str) -> None:
         assert bare(step["marked"]) == bare(step["latex"])
 
 
+def plain_texts(part: object) -> Iterator[str]:
+    """Everything an answer gives as plain text, component by component."""
+    if isinstance(part, dict):
+        if "plain" in part:
+            yield from leaves(part["plain"])
+        for value in part.values():
+            yield from plain_texts(value)
+    elif isinstance(part, list):
+        for value in part:
+            yield from plain_texts(value)
+
+
+def leaves(part: object) -> Iterator[str]:
+    if isinstance(part, list):
+        for inner in part:
+            yield from leaves(inner)
+    else:
+        assert isinstance(part, str)
+        yield part
+
+
+@pytest.mark.parametrize("formulation", formulation_names())
 @pytest.mark.parametrize("scene", scene_ids())
-def test_plain_results_are_read_back_by_the_parser(scene: str) -> None:
-    names = load_scene(scene).names
-    result = derive_request({"scene": scene})["result"]
-    for key in ("virtual_work", "kinetic_energy", "potential_energy", "lagrangian"):
-        parse(result[key]["plain"], names)
-    for equation in result["equations"]:
-        assert equation["plain"].endswith(" = 0")
-        parse(equation["plain"], names)
+def test_plain_texts_are_read_back_by_the_parser(scene: str, formulation: str) -> None:
+    """With the scene's names, and those that the answer declares."""
+    answer = derive_request({"scene": scene, "formulation": formulation})
+    known = [symbol for symbol in load_scene(scene).names.symbols if symbol.kind not in ("time", "constant")]
+    own = [Symbol(symbol["name"], "parameter", symbol["latex"]) for symbol in answer["result"]["symbols"]]
+    names = Names((*known, *own))
+    texts = list(plain_texts(answer))
+    assert len(texts) > 10
+    for text in texts:
+        read = parse(text, names)
+        if "= 0" in text:
+            continue
+        value = to_sympy(read.tree, Symbols(names))
+        assert zero_test(to_sympy(parse(plain(value), names).tree, Symbols(names)) - value, Symbols(names)).outcome
+
+
+def test_momenta_of_the_routh_function_are_declared() -> None:
+    result = derive_request({"scene": "spherical-pendulum"})["result"]
+    assert result["symbols"] == [{"name": "p_psi", "latex": r"p_{\psi}", "kind": "momentum", "coordinate": "psi"}]
+    assert "p_psi" in result["routh"]["plain"]
+
+
+def test_each_load_says_whether_it_has_a_potential() -> None:
+    loads = {each["load"]: each for each in derive_request({"scene": "elastic-pendulum"})["result"]["loads"]}
+    weight, drive = loads["weight"], loads["drive"]
+    assert (weight["outcome"], weight["potential"] is not None) == ("conservative", True)
+    assert [pair["plain"] for pair in weight["curl"]] == ["0"]
+    assert (drive["outcome"], drive["has_potential"]) == ("nonconservative", False)
+    assert drive["potential"] is None
+    assert [pair["coordinates"] for pair in drive["curl"]] == [["y", "phi"]]
+    assert drive["curl"][0]["plain"] == "-F0*cos(phi)"
 
 
 def test_changes_of_a_request() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import combinations
 
 import sympy as sp
 
@@ -13,6 +14,7 @@ from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_en
 from .formula import Term
 from .linearization import Linearization, linearizations
 from .matrix_form import forcing, left_side, mass_matrix
+from .rules.curl_test import outcome
 from .system import System
 from .terms import terms_by_source, terms_of
 
@@ -26,6 +28,20 @@ class Conserved:
     kind: str
     coordinate: str
     value: sp.Expr
+
+
+@dataclass(frozen=True)
+class LoadPotential:
+    """Whether a load has a potential: the outcome of its curl test, and V where it can be written down.
+
+    `curl` holds ∂Qᵢ/∂qₖ − ∂Qₖ/∂qᵢ for every pair of free coordinates.
+    """
+
+    load: str
+    outcome: str
+    has_potential: bool
+    potential: sp.Expr | None
+    curl: Mapping[tuple[str, str], sp.Expr]
 
 
 @dataclass(frozen=True)
@@ -56,6 +72,7 @@ class Result:
     is_energy: bool
     routh: Reduction | None
     terms: Terms
+    loads: tuple[LoadPotential, ...]
 
 
 def result_of(system: System) -> Result:
@@ -80,6 +97,7 @@ def result_of(system: System) -> Result:
         is_energy=is_energy(system),
         routh=reduction(system),
         terms=_terms(system),
+        loads=tuple(_potential_of(system, load) for load in system.load_names),
     )
 
 
@@ -102,6 +120,16 @@ def _terms(system: System) -> Terms:
         **{key: {q: terms_of(system, of(system, q)) for q in system.free} for key, of in by_coordinate.items()},
         "equations": {q: terms_by_source(system, q) for q in system.free},
     }
+
+
+def _potential_of(system: System, load: str) -> LoadPotential:
+    forces = {q: system.load_force(load, q) for q in system.free}
+    differences = {
+        (a, b): forces[a].diff(system.q(b)) - forces[b].diff(system.q(a)) for a, b in combinations(system.free, 2)
+    }
+    curl = {pair: system.zero if system.is_zero(d) else system.display(d) for pair, d in differences.items()}
+    potential = system.load_potential(load) if system.is_conservative(load) else None
+    return LoadPotential(load, outcome(system, load), system.has_potential(load), potential, curl)
 
 
 def _conserved(system: System) -> list[Conserved]:

@@ -1,13 +1,14 @@
 """Eigenvalues and mode shapes of M ẍ + D ẋ + K x = 0, in numbers.
 
 Without D the squares ω² are the eigenvalues of M⁻¹K, and the shapes span the kernels of K − ω²M. With D the λ are the
-eigenvalues of the companion matrix of λ²M + λD + K.
+eigenvalues of the companion matrix of λ²M + λD + K, and the complex shapes span the kernels of that.
 Source: Meirovitch, Methods of Analytical Dynamics, §6.4 and §6.6; Tisseur, Meerbergen, SIAM Review 43 (2001), 235.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import sympy as sp
 from flint import acb, acb_mat, arb, arb_mat
@@ -15,7 +16,7 @@ from flint import acb, acb_mat, arb, arb_mat
 from .refinement import rational
 
 ZERO = arb(2) ** -140  # of the largest: below it a number of 512 bits is taken as zero
-Rows = list[list[arb]]
+N = TypeVar("N", arb, acb)
 
 
 @dataclass(frozen=True)
@@ -39,11 +40,28 @@ class Mode:
 
 
 @dataclass(frozen=True)
+class ComplexMode:
+    """A motion x = Re(a e^λt) with Im λ ≥ 0 and a = real + i imaginary, whose largest part is 1.
+
+    The coordinates do not pass through zero at the same time: with λ = −δ + iω, x = e^−δt (real cos ωt − imaginary
+    sin ωt).
+    """
+
+    eigenvalue: Eigenvalue
+    real: tuple[sp.Rational, ...]
+    imaginary: tuple[sp.Rational, ...]
+
+
+@dataclass(frozen=True)
 class Spectrum:
-    """All eigenvalues, those with the smallest imaginary part first; modes where nothing depends on rates."""
+    """All eigenvalues, those with the smallest imaginary part first.
+
+    Real modes where nothing depends on rates and M, K are symmetric; complex ones elsewhere.
+    """
 
     eigenvalues: tuple[Eigenvalue, ...]
     modes: tuple[Mode, ...] = ()
+    complex_modes: tuple[ComplexMode, ...] = ()
 
     @property
     def frequencies(self) -> tuple[sp.Rational, ...]:
@@ -59,13 +77,37 @@ def spectrum(mass: list[arb], damping: list[arb], stiffness: list[arb], size: in
     except ZeroDivisionError:
         return None
     if all(part == 0 for part in damping):
-        return _undamped(M, K, flexible, size)
+        found = _undamped(M, K, flexible, size)
+        return found if found.modes else replace(found, complex_modes=_complex_modes(M, D, K, found.eigenvalues))
     companion = acb_mat(2 * size, 2 * size)
     for i in range(size):
         companion[i, size + i] = 1
         for k in range(size):
             companion[size + i, k], companion[size + i, size + k] = -flexible[i, k], -dragged[i, k]
-    return Spectrum(_ordered(_cleaned(companion.eig(algorithm="approx"))))
+    eigenvalues = _ordered(_cleaned(companion.eig(algorithm="approx")))
+    return Spectrum(eigenvalues, (), _complex_modes(M, D, K, eigenvalues))
+
+
+def _complex_modes(M: arb_mat, D: arb_mat, K: arb_mat, eigenvalues: tuple[Eigenvalue, ...]) -> tuple[ComplexMode, ...]:
+    """The kernels of λ²M + λD + K, of each pair of conjugate λ for the upper one."""
+    modes: list[ComplexMode] = []
+    size = M.nrows()
+    for value in dict.fromkeys(value for value in eigenvalues if value.imaginary >= 0):
+        root = acb(arb(value.real.p) / value.real.q, arb(value.imaginary.p) / value.imaginary.q)
+        if any(_is_near(value, mode.eigenvalue) for mode in modes):
+            continue
+        law = acb_mat(M) * (root * root) + acb_mat(D) * root + acb_mat(K)
+        rows = [[law[i, k].mid() for k in range(size)] for i in range(size)]
+        for shape in kernel(rows):
+            real, imaginary = ([part.real for part in shape], [part.imag for part in shape])
+            modes.append(ComplexMode(value, tuple(map(rational, real)), tuple(map(rational, imaginary))))
+    return tuple(modes)
+
+
+def _is_near(one: Eigenvalue, other: Eigenvalue) -> bool:
+    """Whether two are the same but for rounding: a double root is found to half the digits."""
+    gap = complex(float(one.real - other.real), float(one.imaginary - other.imaginary))
+    return abs(gap) <= 1e-30 * (one.size + other.size)
 
 
 def _undamped(M: arb_mat, K: arb_mat, flexible: arb_mat, size: int) -> Spectrum:
@@ -100,8 +142,8 @@ def _distinct(values: list[arb]) -> list[arb]:
     return found
 
 
-def kernel(rows: Rows) -> list[list[arb]]:
-    """A basis of the solutions of A x = 0, in echelon form, each scaled so that its largest part is 1."""
+def kernel(rows: list[list[N]]) -> list[list[N]]:
+    """A basis of the solutions of A x = 0, real or complex, in echelon form, its largest part scaled to 1."""
     rows, size = [list(row) for row in rows], len(rows)
     limit = ZERO * max(abs(entry) for row in rows for entry in row)
     pivots: list[int] = []
@@ -119,14 +161,14 @@ def kernel(rows: Rows) -> list[list[arb]]:
     return [_scaled(_solution(rows, pivots, k)) for k in range(size) if k not in pivots]
 
 
-def _solution(rows: Rows, pivots: list[int], free: int) -> list[arb]:
-    x = [arb(0)] * len(rows)
-    x[free] = arb(1)
+def _solution(rows: list[list[N]], pivots: list[int], free: int) -> list[N]:
+    x = [type(rows[0][0])(0)] * len(rows)
+    x[free] = type(rows[0][0])(1)
     for row, pivot in zip(rows, pivots, strict=False):
         x[pivot] = -row[free]
     return x
 
 
-def _scaled(x: list[arb]) -> list[arb]:
+def _scaled(x: list[N]) -> list[N]:
     largest = max(x, key=lambda part: float(abs(part)))
     return [(part / largest).mid() for part in x]

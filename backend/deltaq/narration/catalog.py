@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 from string import Formatter
+from typing import cast
 
 from ..errors import Problem
 
@@ -42,6 +43,14 @@ def template(language: str, key: str) -> str:
 def text(language: str, key: str, **parameters: object) -> str:
     """The sentence under a key, its {placeholders} put in."""
     return filled(template(language, key), parameters)
+
+
+def keys(language: str, key: str) -> tuple[str, ...]:
+    """What there is under a key: `rules.proofs` names the proofs."""
+    entry: object = catalog(language)
+    for part in key.split("."):
+        entry = cast("Catalog", entry)[part]
+    return tuple(cast("Catalog", entry))
 
 
 def filled(template: str, parameters: Mapping[str, object]) -> str:

@@ -10,9 +10,11 @@ from flint import arb
 from ..derivation.conservation import Reduction
 from ..derivation.evaluation import number
 from ..derivation.linearization import Linearization
-from ..derivation.spectrum import Mode
+from ..derivation.result import LoadPotential, Result
+from ..derivation.spectrum import ComplexMode, Mode
 from ..language.latex_printer import Typography, latex
 from ..language.plain_printer import plain
+from ..language.spelling import latex_of
 from ..mechanics.scene import Scene
 from .matrix_writing import rounded
 
@@ -37,6 +39,7 @@ def equilibrium(linear: Linearization, scene: Scene, typography: Typography) -> 
         "eigenvalues": [[_float(v.real), _float(v.imaginary)] for v in spectrum.eigenvalues] if spectrum else [],
         "eigenfrequencies": [_float(frequency) for frequency in spectrum.frequencies] if spectrum else [],
         "modes": [_mode(mode, free) for mode in spectrum.modes] if spectrum else [],
+        "complex_modes": [_complex_mode(mode, free) for mode in spectrum.complex_modes] if spectrum else [],
     }
 
 
@@ -53,9 +56,42 @@ def _mode(mode: Mode, free: list[str]) -> Document:
     return {"eigenfrequency_squared": _float(mode.square), "shape": shape}
 
 
+def _complex_mode(mode: ComplexMode, free: list[str]) -> Document:
+    """x = Re(a e^λt): circular frequency in rad/s, decay in 1/s (negative: growth), a as [real, imaginary] parts."""
+    parts = zip(free, mode.real, mode.imaginary, strict=True)
+    return {
+        "eigenfrequency": _float(mode.eigenvalue.imaginary),
+        "decay": _float(-mode.eigenvalue.real),
+        "shape": {name: [_float(real), _float(imaginary)] for name, real, imaginary in parts},
+    }
+
+
 def _float(value: sp.Expr | arb) -> float:
     found = float(f"{float(value):.{DIGITS}g}")
     return found if abs(found) > 10.0**-DIGITS else 0.0
+
+
+def own_symbols(result: Result) -> list[Document]:
+    """Names in plain texts of the result that the scene does not have: the constant momenta of Routh's function."""
+    momenta = result.routh.momenta if result.routh else {}
+    return [
+        {"name": p.name, "latex": latex_of(p.name), "kind": "momentum", "coordinate": q} for q, p in momenta.items()
+    ]
+
+
+def load(found: LoadPotential, typography: Typography) -> Document:
+    """Whether a load has a potential, and the curl test: ∂Qᵢ/∂qₖ − ∂Qₖ/∂qᵢ for every pair of coordinates."""
+    energy = found.potential
+    return {
+        "load": found.load,
+        "outcome": found.outcome,
+        "has_potential": found.has_potential,
+        "potential": None if energy is None else {"plain": plain(energy), "latex": latex(energy, typography)},
+        "curl": [
+            {"coordinates": list(pair), "plain": plain(value), "latex": latex(value, typography)}
+            for pair, value in found.curl.items()
+        ],
+    }
 
 
 def routh(reduction: Reduction | None, typography: Typography) -> Document | None:

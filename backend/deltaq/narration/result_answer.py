@@ -11,7 +11,7 @@ from ..derivation.formula import Term
 from ..derivation.result import Conserved, Result
 from ..language.latex_printer import Typography, latex
 from ..language.plain_printer import plain
-from .model_answer import equilibrium, routh
+from .model_answer import equilibrium, load, own_symbols, routh
 
 Document = dict[str, object]
 
@@ -40,6 +40,8 @@ def written(result: Result, typography: Typography) -> Document:
         "conserved": [write.conserved(each) for each in result.conserved],
         "equilibria": [equilibrium(linear, result.scene, typography) for linear in result.equilibria],
         "jacobi_energy": {**write.sum("jacobi_energy", result.jacobi_energy), "equals_energy": result.is_energy},
+        "loads": [load(each, typography) for each in result.loads],
+        "symbols": own_symbols(result),
         "routh": routh(result.routh, typography),
     }
 

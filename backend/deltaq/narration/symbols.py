@@ -54,6 +54,8 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "deviation-acceleration-scalar": (r"\ddot{{x}}", ""),
     "zero-vector": (r"\mathbf{{0}}", ""),
     "mode": (r"\mathbf{{a}}{of}", ""),
+    "mode-real": (r"\mathbf{{u}}{of}", ""),
+    "mode-imaginary": (r"\mathbf{{w}}{of}", ""),
     "work-of-loop": ("W", ""),
     "jacobi-energy": ("h", ""),
     "routh-function": ("R", ""),

@@ -4,15 +4,24 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
+from ...narration.catalog import keys, text
 from ..languages import Language, language_of
-from ..responses import packed
+from ..responses import packed, tagged
 from ..service import service_of
-from ..wire.proof import ProofAnswer
+from ..wire.proof import ProofAnswer, ProofList
 from ..workers.job import Job
 from .common import failures
 
 router = APIRouter(prefix="/proofs", tags=["proofs"])
 PROVE = Job("deltaq.api.jobs:prove", deadline=60.0)
+
+
+@router.get("", response_model=ProofList, responses=failures())
+def list_proofs(request: Request) -> Response:
+    """The proofs there are, titles in the language asked for."""
+    language = language_of(request)
+    entries = [{"id": name, "title": text(language, f"rules.proofs.{name}")} for name in keys(language, "rules.proofs")]
+    return tagged(request, {"proofs": entries})
 
 
 @router.get("/{identifier}", response_model=ProofAnswer, responses=failures(404, 503, 504))

@@ -14,3 +14,16 @@ class ProofAnswer(Answer):
     id: str = Field(examples=["dalembert-lagrange"])
     title: str
     chapters: tuple[Chapter, ...]
+
+
+class ProofEntry(Answer):
+    """A proof by its id."""
+
+    id: str = Field(examples=["dalembert-lagrange"])
+    title: str
+
+
+class ProofList(Answer):
+    """All proofs."""
+
+    proofs: tuple[ProofEntry, ...]

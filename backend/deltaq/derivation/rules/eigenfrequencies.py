@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import count
 
 import sympy as sp
 
@@ -19,6 +18,8 @@ from ..modes import SymbolicModes, damped_root, symbolic_modes
 from ..spectrum import Spectrum
 from ..step import Relation, Step
 from ..system import System
+from . import complex_mode_shapes
+from ._roots import roots_of
 from ._shape import is_scalar, matrices, numbers, plain_value, zero
 
 RULE = "eigenfrequencies"
@@ -32,7 +33,9 @@ NEAR = sp.Rational(1, 2**60)
 def apply(system: System, linear: Linearization, spectrum: Spectrum, number: int) -> Step:
     """The characteristic equation by its roots, and what they are in numbers."""
     if not spectrum.modes:
-        return Step(RULE, str(number), tuple(_damped(system, linear, spectrum)), (), _about("damped", number))
+        damped = Step(RULE, str(number), tuple(_damped(system, linear, spectrum)), (), _about("damped", number))
+        shapes = () if is_scalar(system) else (complex_mode_shapes.apply(system, linear, spectrum, number),)
+        return damped.with_substeps(*shapes)
     squares = tuple(mode.square for mode in spectrum.modes)
     found = symbolic_modes(system, linear)
     symbols = [_root_symbol(system, square, index) for index, square in enumerate(squares, 1)]
@@ -107,20 +110,9 @@ def _damped(system: System, linear: Linearization, spectrum: Spectrum) -> Iterat
     exponent = system.exponent
     drag = (Term(Times((Explicit(exponent), damping))),) if linear.is_damped else ()
     law = Plus((Term(Times((Explicit(exponent**2), mass))), *drag, Term(stiffness)))
-    known: Values = {}
-    factors: list[Formula] = [_determinant(system, mass)]
-    index = count(1)
-    for value in spectrum.eigenvalues:
-        k = next(index) if value.imaginary >= 0 else 0
-        if value.imaginary > 0:
-            decay = system.fresh(f"delta_{k}", f"beta_{k}", f"delta_{k}_0")
-            frequency = system.fresh(f"{system.omega.name}_{k}", f"nu_{k}", f"omega_{k}_0")
-            known |= {decay: -value.real, frequency: value.imaginary}
-            factors.append(Explicit((exponent + decay) ** 2 + frequency**2))
-        elif value.imaginary == 0:
-            root = system.fresh(f"{system.exponent.name}_{k}", f"mu_{k}", f"lambda_{k}_0")
-            known[root] = value.real
-            factors.append(Explicit(exponent - root))
+    roots = roots_of(system, spectrum)
+    known = {symbol: number for root in roots for symbol, number in root.known.items()}
+    factors = [_determinant(system, mass), *(Explicit(root.factor(exponent)) for root in roots)]
     written = _written(system, linear, known)
     exact = written is not None
     yield _compared(system, _determinant(system, law), Times(tuple(factors)), written or known, exact=exact)
