@@ -87,11 +87,12 @@ export function createSession(store, api, clock) {
   }
 
   async function derive() {
-    const { lang } = get().place;
+    const { lang, formulation } = get().place;
     const scene = asked();
     await attempt("derivation", async () => {
-      const derivation = await api.derive({ scene, lang });
-      if (asked() !== scene || get().place.lang !== lang) return;
+      const derivation = await api.derive({ scene, lang, formulation });
+      const { place } = get();
+      if (asked() !== scene || place.lang !== lang || place.formulation !== formulation) return;
       const lines = linesOf(derivation.chapters);
       set({ derivation, lines });
       move({ step: moved(lines, get().place.step, 0) });
@@ -153,6 +154,11 @@ export function createSession(store, api, clock) {
       await speak(lang);
       await derive();
       askSimulation();
+    },
+    /** @param {string} formulation the road to the equations */
+    async formulate(formulation) {
+      move({ formulation });
+      await derive();
     },
     /** The editor's texts are fetched when it opens. @param {Partial<import("./types.js").Place>} patch */
     move(patch) {

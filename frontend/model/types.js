@@ -46,7 +46,7 @@
  * @typedef {Record<string, string | Record<string, unknown>>} Catalog
  * @typedef {"derivation" | "plots" | "values"} Panel
  * @typedef {"" | "form" | "json" | "toml"} Editing  which side of the editor is open
- * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, duration: number,
- *   panel: Panel, edit: Editing}} Place  what the address says
+ * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, formulation: string,
+ *   duration: number, panel: Panel, edit: Editing}} Place  what the address says
  */
 export {};

@@ -3,10 +3,11 @@
 /** @typedef {import("./types.js").Place} Place */
 
 /** @type {Place} */
-export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", duration: 10, panel: "derivation", edit: "" };
+export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "" };
 
 const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
+export const FORMULATIONS = ["dalembert-lagrange", "hamilton"];
 const PANELS = ["derivation", "plots", "values"];
 const EDITING = ["form", "json", "toml"];
 const LONGEST = 100;
@@ -24,6 +25,7 @@ export function readPlace(query) {
     lang: oneOf(LANGUAGES, given.get("lang"), HOME.lang),
     theme: oneOf(THEMES, given.get("theme"), HOME.theme),
     method: slug(given.get("method")),
+    formulation: oneOf(FORMULATIONS, given.get("formulation"), HOME.formulation),
     duration: seconds > 0 && seconds <= LONGEST ? seconds : HOME.duration,
     panel: /** @type {import("./types.js").Panel} */ (oneOf(PANELS, given.get("panel"), HOME.panel)),
     edit: /** @type {import("./types.js").Editing} */ (given.get("edit") === "" ? "form" : oneOf(EDITING, given.get("edit"), HOME.edit)),

@@ -7,7 +7,9 @@ import { header } from "./header.js";
 import { player } from "./player.js";
 import { report } from "./report.js";
 import { values } from "./values.js";
+import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
+import { FORMULATIONS } from "../model/url.js";
 
 /**
  * @typedef {object} View  what views may know and do
@@ -58,12 +60,24 @@ function reading(view) {
   const { t } = view;
   return html`
     <section class="derivation" id="derivation" aria-label=${t("derivation")}>
-      ${chapters(view)}
+      <div class="contents">${road(view)}${chapters(view)}</div>
       <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
         ${trouble(view) ?? steps(view)}
       </div>
       ${pager(view)}
     </section>`;
+}
+
+/** Which formulation leads to the equations. @param {View} view */
+function road({ state, session, t }) {
+  const chosen = (/** @type {Event} */ { target }) => session.formulate(/** @type {HTMLSelectElement} */ (target).value);
+  return html`
+    <label class="choice road" title=${t("formulation.choose")}>
+      <span class="unseen">${t("formulation.choose")}</span>
+      <select @change=${chosen}>
+        ${FORMULATIONS.map((id) => html`<option value=${id} ?selected=${id === state.place.formulation}>${t(`formulation.${id}`)}</option>`)}
+      </select>${icon("chevron")}
+    </label>`;
 }
 
 /** @param {View} view */

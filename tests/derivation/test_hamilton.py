@@ -44,8 +44,9 @@ def test_the_factor_of_each_variation_is_the_equation_of_motion(name: str) -> No
     factors = [relation.after for relation in lemma.relations[1:]]
     equations = result_of(system).equations.values()
     for factor, equation in zip(factors, equations, strict=True):
-        assert isinstance(factor.left, Explicit)  # type: ignore[union-attr]
-        assert system.is_zero(factor.left.value + equation)  # type: ignore[union-attr]
+        terms = factor.left.terms  # type: ignore[union-attr]
+        assert all(term.sources for term in terms)
+        assert system.is_zero(sum(term.sign * term.formula.value for term in terms) + equation)
 
 
 CHAPTERS = {

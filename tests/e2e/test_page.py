@@ -205,3 +205,19 @@ def test_bytes_before_the_first_plot(lecture: Lecture) -> None:
     print(f"{len(before)} requests, {total} bytes before the first plot")
     assert len(before) > 10
     assert total < BYTES_BEFORE_FIRST_PLOT, sorted(before, key=lambda entry: -entry[1])[:12]
+
+
+def test_two_formulations_with_addresses(lecture: Lecture) -> None:
+    """Hamilton's principle is one choice away, can be linked to, and ends in the same equations."""
+    lecture.open("?scene=elastic-pendulum&lang=en&step=equation:phi")
+    expect(lecture.page.locator(".step[aria-current]")).to_have_attribute("data-step", "equation:phi")
+    equation = lecture.page.locator("[data-step='equation:phi'] .katex-mathml").first
+    by_work = equation.text_content()
+    lecture.page.locator(".road select").select_option("hamilton")
+    chapters = lecture.page.locator(".chapters")
+    expect(chapters).to_contain_text("Hamilton’s principle")
+    assert "formulation=hamilton" in lecture.page.url
+    assert equation.text_content() == by_work
+    lecture.page.reload()
+    expect(chapters).to_contain_text("Hamilton’s principle")
+    expect(lecture.page.locator(".road select")).to_have_value("hamilton")

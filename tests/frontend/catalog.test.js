@@ -62,7 +62,7 @@ for (const [name, asked] of Object.entries({ editor: EDITOR, variations: VARIATI
 }
 
 test("every text that is there is used", () => {
-  const composed = ["theme.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical."];
+  const composed = ["theme.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical."];
   const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });

@@ -5,12 +5,15 @@ Source: Gelfand, Fomin, Calculus of Variations, §3, lemma 1; Goldstein, Poole, 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..action import Action
 from ..formula import Equation, Explicit, Plus, Term, Times
 from ..functional import direction
 from ..step import Relation, Step
+from ..terms import terms_by_source
 from .collected_variation import euler_expression
-from .hamilton_principle import has_other_force, other_force
+from .hamilton_principle import has_other_force, other_force, other_sources
 
 RULE = "fundamental-lemma"
 
@@ -23,13 +26,15 @@ def apply(action: Action) -> Step:
     inside = products[0] if len(products) == 1 else Plus(tuple(map(Term, products)))
     lines = [Relation((Equation(action.on(inside), zero),))]
     for x, each in factors.items():
-        value = system.display(action.euler_lagrange(x) + system.nonconservative_force(x))
-        lines.append(Relation((Equation(each, zero), Equation(Explicit(value), zero)), "⇔"))
-    return Step(RULE, "", tuple(lines))
+        written = tuple(replace(term, sign=-term.sign) for term in terms_by_source(system, x))
+        lines.append(Relation((Equation(each, zero), Equation(Plus(written) if written else zero, zero)), "⇔"))
+    sources = (source for x in factors for term in terms_by_source(system, x) for source in term.sources)
+    return Step(RULE, "", tuple(lines), tuple(dict.fromkeys(sources)))
 
 
 def factor(action: Action, coordinate: str) -> Plus:
     """∂L/∂qᵢ − d/dt ∂L/∂q̇ᵢ, and Qᵢᵈ where there is any."""
     inner = euler_expression(action, coordinate)
-    other = (Term(other_force(action, coordinate)),) if has_other_force(action, coordinate) else ()
-    return Plus((*inner.terms, *other))
+    if not has_other_force(action, coordinate):
+        return inner
+    return Plus((*inner.terms, Term(other_force(action, coordinate), other_sources(action, coordinate))))

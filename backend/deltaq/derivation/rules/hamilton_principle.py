@@ -19,13 +19,14 @@ def apply(action: Action) -> Step:
     outside = other_work(action)
     left: Formula = Plus((Term(variation(action)), Term(action.on(outside)))) if outside else variation(action)
     line = Relation((Equation(left, Explicit(system.zero)),))
-    return Step(RULE, "", (line,), (), {"outcome": "driven" if outside else "text"})
+    sources = tuple(dict.fromkeys(source for x in action.functions for source in other_sources(action, x)))
+    return Step(RULE, "", (line,), sources, {"outcome": "driven" if outside else "text"})
 
 
 def other_work(action: Action) -> Plus | None:
     """Qᵢᵈ δqᵢ of the forces that have no potential, or None if there are none."""
     terms = tuple(
-        Term(Times((other_force(action, x), Explicit(action.system.variation(x)))))
+        Term(Times((other_force(action, x), Explicit(action.system.variation(x)))), other_sources(action, x))
         for x in action.functions
         if has_other_force(action, x)
     )
@@ -34,6 +35,12 @@ def other_work(action: Action) -> Plus | None:
 
 def has_other_force(action: Action, coordinate: str) -> bool:
     return bool(action.system.nonconservative_force(coordinate) != 0)
+
+
+def other_sources(action: Action, coordinate: str) -> tuple[str, ...]:
+    """The loads without potential that act on a coordinate."""
+    system = action.system
+    return tuple(source for source in system.force_sources(coordinate) if source not in system.conservative_sources)
 
 
 def other_force(action: Action, coordinate: str) -> Named:
