@@ -69,3 +69,20 @@ def warm(document: Document) -> Document:
     """Bring the compiled kernels to disk and into this worker, so that nobody waits for a compiler."""
     import_module("deltaq.simulation.service").warm()
     return document
+
+
+def tasks(document: Document) -> Document:
+    """The tasks of a scene."""
+    answer: Document = import_module("deltaq.homework.service").tasks_request(document)
+    return answer
+
+
+def check(document: Document) -> Document:
+    """The verdict on one answer."""
+    answer: Document = import_module("deltaq.homework.service").check_request(document)
+    return answer
+
+
+def check_batch(document: Document) -> Document:
+    """The verdicts on several answers."""
+    return {"verdicts": import_module("deltaq.homework.service").batch_request(document)}

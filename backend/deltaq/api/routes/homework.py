@@ -1,0 +1,55 @@
+"""Homework: the tasks of a scene, and answers checked."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Request, Response
+
+from ..body import StrictRoute
+from ..languages import language_of
+from ..responses import packed
+from ..service import service_of
+from ..wire.homework import BatchAnswer, BatchRequest, CheckRequest, TaskList, TasksRequest, VerdictAnswer
+from ..workers.job import Job
+from .common import failures, question_of
+
+router = APIRouter(tags=["homework"], route_class=StrictRoute)
+TASKS = Job("deltaq.api.jobs:tasks", deadline=8.0)
+CHECK = Job("deltaq.api.jobs:check", deadline=15.0)
+BATCH = Job("deltaq.api.jobs:check_batch", deadline=60.0)
+
+
+@router.get("/scenes/{identifier}/tasks", response_model=TaskList, responses=failures(404, 503, 504))
+async def tasks_of_scene(
+    request: Request,
+    identifier: str,
+    *,
+    seed: Annotated[str | None, Query(max_length=64, description="draws parameter values for one student")] = None,
+) -> Response:
+    """The tasks of a built-in scene."""
+    return await tasks(request, TasksRequest(scene=identifier, seed=seed))
+
+
+@router.post("/tasks", response_model=TaskList, responses=failures(400, 404, 413, 422, 503, 504))
+async def tasks(request: Request, body: TasksRequest) -> Response:
+    """The tasks of a scene that the request brings or changes."""
+    return await _answered(request, TASKS, question_of(request, body))
+
+
+@router.post("/checks", response_model=VerdictAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+async def check(request: Request, body: CheckRequest) -> Response:
+    """Check one answer: any equivalent form is right, and a mistake is looked for where it is not."""
+    return await _answered(request, CHECK, question_of(request, body))
+
+
+@router.post("/checks/batch", response_model=BatchAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+async def check_batch(request: Request, body: BatchRequest) -> Response:
+    """Check several answers, of the same or of different scenes."""
+    return await _answered(request, BATCH, body.model_dump() | {"lang": language_of(request)})
+
+
+async def _answered(request: Request, job: Job, question: dict[str, Any]) -> Response:
+    service = service_of(request)
+    key = service.key(job.target, question)
+    return packed(request, key, await service.answer(key, job, question))

@@ -1,0 +1,155 @@
+"""Homework: tasks, answers and verdicts."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import ConfigDict, Field
+
+from ..languages import Language
+from .base import Answer, Guides, Names, Request, SceneReference, Values
+
+Seed = Annotated[str, Field(max_length=64, description="draws each student's own parameter values")]
+TaskId = Annotated[str, Field(min_length=1, max_length=80, examples=["equation:phi"])]
+
+
+class SceneWithChanges(Request):
+    """A scene, and what is changed before it is asked about."""
+
+    scene: SceneReference
+    guides: Guides = ()
+    freeze: Names = ()
+    parameters: Values = Field({}, description="values of parameters", examples=[{"l": 0.8}])
+    seed: Seed | None = None
+
+
+class TasksRequest(SceneWithChanges):
+    """Which tasks a scene has."""
+
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+
+class TaskSymbol(Answer):
+    """A symbol that answers may hold."""
+
+    name: str
+    latex: str
+    kind: str
+    unit: str
+    value: float | None
+
+
+class TaskEntry(Answer):
+    """One task: what to answer, in which form, with hints in three levels."""
+
+    id: str = Field(examples=["equation:phi"])
+    kind: str
+    subject: str
+    title: str
+    statement: str
+    form: Literal["expression", "vector", "equation", "equations", "set"]
+    form_text: str
+    components: int | None = Field(description="of a vector")
+    points: float
+    needs: tuple[str, ...] = Field(description="the tasks whose answers this one is derived from")
+    hints: tuple[str, ...]
+    solution: dict[str, Any] = Field(description="the chapter of the derivation that answers it")
+
+
+class TaskList(Answer):
+    """The tasks of a scene, its document with the values asked about, and the symbols for a keyboard."""
+
+    scene: dict[str, Any]
+    symbols: tuple[TaskSymbol, ...]
+    tasks: tuple[TaskEntry, ...]
+
+
+class AnswerText(Request):
+    """What a student wrote."""
+
+    syntax: Literal["plain", "latex"] = "plain"
+    value: Annotated[str, Field(max_length=2000)] = Field(examples=["m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"])
+
+
+class SingleCheck(SceneWithChanges):
+    """One answer to one task."""
+
+    task: TaskId
+    answer: AnswerText
+
+
+class CheckRequest(SingleCheck):
+    """One answer to one task, and the language of the feedback."""
+
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {"scene": "pendulum", "task": "equation:phi", "answer": {"value": "ddot(phi) = -g/l*sin(phi)"}},
+                {"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
+                {
+                    "scene": "elastic-pendulum",
+                    "task": "virtual-displacement:bob",
+                    "answer": {
+                        "syntax": "latex",
+                        "value": "\\begin{bmatrix} \\ell\\cos q_2\\,\\delta q_2 \\\\ "
+                        "\\delta q_1 - \\ell\\sin q_2\\,\\delta q_2\\end{bmatrix}",
+                    },
+                },
+            ]
+        }
+    )
+
+
+class BatchRequest(Request):
+    """Several answers at once."""
+
+    checks: Annotated[tuple[SingleCheck, ...], Field(strict=False, min_length=1, max_length=64)]
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+
+class VerdictProblem(Answer):
+    """Why an answer could not be read."""
+
+    code: str
+    offset: int | None
+    length: int | None
+    message: str
+
+
+class NamedMisconception(Answer):
+    """A mistake that leads to exactly the answer given."""
+
+    id: str
+    title: str
+
+
+class CounterexampleAnswer(Answer):
+    """A state at which the answer given and the right one have different values."""
+
+    values: dict[str, float]
+    of: str
+    yours: float
+    right: float
+
+
+class VerdictAnswer(Answer):
+    """What the checker says of an answer."""
+
+    outcome: Literal["correct", "wrong", "undecided", "invalid", "follow_through"]
+    understood_as: str = Field(description="LaTeX of what was read")
+    feedback: str
+    remark: str | None = Field(description="in which sense a correct answer is equal, or why a wrong one is")
+    misconception: str | None
+    misconceptions: tuple[NamedMisconception, ...]
+    slip: str | None = Field(description="sign, missing, half or double: one term")
+    problems: tuple[VerdictProblem, ...]
+    offset: int | None
+    counterexample: CounterexampleAnswer | None
+
+
+class BatchAnswer(Answer):
+    """The verdicts in the order of the checks."""
+
+    verdicts: tuple[VerdictAnswer, ...]

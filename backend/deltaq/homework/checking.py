@@ -1,0 +1,73 @@
+"""Checking one answer: read, compared by numbers, decided exactly, and what went wrong looked for."""
+
+from __future__ import annotations
+
+from ..errors import ExpressionError
+from ..language.latex_printer import Typography, latex
+from ..language.parser import Syntax
+from .counterexamples import counterexample
+from .diagnosis import Diagnosis, diagnose, own_term
+from .dimensions import dimension_problem
+from .equality import Match, Parts, equation
+from .reading import Reading, read
+from .sampling import close
+from .task import Task
+from .verdict import Slip, Verdict
+from .workbook import Workbook
+
+
+def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
+    """The verdict on one answer to one task."""
+    try:
+        reading = read(task, workbook.road, text, syntax)
+    except ExpressionError as error:
+        return Verdict("invalid", problems=error.problems)
+    typography = Typography(workbook.scene.names)
+    shown = latex(reading.shown, typography)
+    match = compare(workbook, task, reading.parts)
+    if match.equal:
+        return Verdict("correct", shown, match.remark)
+    if match.equal is None:
+        return Verdict("undecided", shown)
+    return _wrong(workbook, task, reading, match, shown)
+
+
+def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
+    """Whether an answer is right: numbers that differ settle it, else the exact test does."""
+    own = task.quantity.equality.fingerprint(given, workbook.sampler)
+    right = workbook.fingerprint(task)
+    if own == () and task.quantity.form != "set":
+        return Match(equal=False, remark="degenerate")
+    differs = own is not None and right is not None and not (len(own) == len(right) and close(own, right))
+    if task.quantity.form == "set":
+        differs = False  # numbers at the scene's values are answers, too
+    if not differs:
+        return task.quantity.equality.same(given, workbook.right(task), workbook.road)
+    return _solved(workbook, task, given)
+
+
+def _solved(workbook: Workbook, task: Task, given: Parts) -> Match:
+    """An equation solved for its own acceleration is another combination of the set, and right as well."""
+    others = {workbook.road.acceleration(q) for q in workbook.road.free if q != task.subject}
+    own = workbook.road.acceleration(task.subject) if task.subject else None
+    symbols = given[0].free_symbols if given else set()
+    if task.quantity.kind == "equation" and len(workbook.road.free) > 1 and own in symbols and not symbols & others:
+        match = equation.same_solved(given, workbook.road)
+        return match if match.equal else Match(equal=False)
+    return Match(equal=False)
+
+
+def _wrong(workbook: Workbook, task: Task, reading: Reading, match: Match, shown: str) -> Verdict:
+    given, right = reading.parts, workbook.right(task)
+    if match.remark == "degenerate":
+        return Verdict("wrong", shown, match.remark)
+    example = counterexample(task, given, right, workbook.road)
+    unit = dimension_problem(reading, workbook.scene)
+    found = Diagnosis() if match.remark else diagnose(workbook, task, given)
+    if unit is not None and not found.misconceptions:
+        told = {key: str(value) for key, value in unit.parameters.items()}
+        return Verdict("wrong", shown, "", ("wrong-dimension",), counterexample=example, parameters=told)
+    slip = own_term(found.slip) if found.slip else None
+    told_slip = Slip(slip.kind, latex(slip.term, Typography(workbook.scene.names))) if slip else None
+    about = found.about[0] if found.about else ""
+    return Verdict("wrong", shown, match.remark, found.misconceptions, about, told_slip, example)

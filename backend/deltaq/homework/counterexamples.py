@@ -1,0 +1,95 @@
+"""A state at which a wrong answer has another value than the right one, in the scene's values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ..derivation.compiled import compiled
+from .equality import Parts
+from .road import Road
+from .sampling import Sampler, echelon
+from .task import Task
+from .verdict import Counterexample
+
+SHIFTS = (0.3, 0.5, 0.8)
+RELATIVE = 1e-6
+
+
+def counterexample(task: Task, given: Parts, right: Parts, road: Road) -> Counterexample | None:
+    """The first state at which the two differ; None where none was found or nothing can be evaluated."""
+    for state in _states(road):
+        for of, yours, true in _values(task, given, right, road, state):
+            finite = math.isfinite(yours) and math.isfinite(true)
+            if finite and abs(yours - true) > RELATIVE * max(abs(yours), abs(true), 1e-3):
+                return Counterexample(_shown(state, (*given, *right)), _rounded(yours), _rounded(true), of)
+    return None
+
+
+def _states(road: Road) -> Iterator[dict[str, float]]:
+    """Parameters as the scene states them; coordinates near where it starts, with rates of their own."""
+    stated = {p.name: p.value for p in road.scene.parameters}
+    # A parameter that is 1 hides its power: the last states have other values.
+    other = {p.name: round(p.value * (1.3 + 0.1 * k), 3) for k, p in enumerate(road.scene.parameters)}
+    sampler = Sampler(road)
+    for values, shift in ((v, s) for v in (stated, other) for s in SHIFTS):
+        moving = [name.name for name in sampler.slots if name.name not in values]
+        state = {name: round(shift + 0.1 * index, 2) for index, name in enumerate(moving)}
+        starts = {c.name: round(c.value + shift, 2) for c in road.scene.coordinates}
+        yield values | state | starts
+
+
+def _values(
+    task: Task, given: Parts, right: Parts, road: Road, state: dict[str, float]
+) -> Iterator[tuple[str, float, float]]:
+    if task.quantity.form in ("equation", "equations"):
+        yield from _accelerations(given, right, road, state)
+        return
+    for index, (a, b) in enumerate(zip(given, right, strict=False), 1):
+        yield str(index) if len(right) > 1 else "", _at(a, state), _at(b, state)
+
+
+def _accelerations(
+    given: Parts, right: Parts, road: Road, state: dict[str, float]
+) -> Iterator[tuple[str, float, float]]:
+    """Solved for the accelerations: one equation for its first one, the others given."""
+    slots = [f"ddot({q})" for q in road.free]
+    left, other = (echelon([_row(part, slots, state) for part in parts]) for parts in (given, right))
+    for index, q in enumerate(road.free):
+        if index < len(left) and index < len(other):
+            yield f"ddot({q})", _solved(left[index], slots, state), _solved(other[index], slots, state)
+
+
+def _solved(row: tuple[float, ...], slots: list[str], state: dict[str, float]) -> float:
+    """The pivot's acceleration, from a row whose first entry other than 0 is 1."""
+    pivot = next((k for k, entry in enumerate(row) if entry), 0)
+    return -row[-1] - sum(row[k] * state[slot] for k, slot in enumerate(slots) if k > pivot)
+
+
+def _row(part: object, slots: list[str], state: dict[str, float]) -> list[float]:
+    still = state | dict.fromkeys(slots, 0.0)
+    rest = _at(part, still)
+    return [*(_at(part, still | {slot: 1.0}) - rest for slot in slots), rest]
+
+
+def _at(part: object, state: dict[str, float]) -> float:
+    symbols = {s: k for k, s in enumerate(part.free_symbols)}  # type: ignore[attr-defined]
+    values = [state.get(s.name, math.nan) for s in symbols]
+    try:
+        return compiled(part, symbols)(values)
+    except (TypeError, KeyError):
+        return math.nan
+
+
+def _shown(state: dict[str, float], parts: Parts) -> dict[str, float]:
+    """Only what the two answers depend on."""
+    used = {symbol.name for part in parts for symbol in part.free_symbols}
+    return {name: value for name, value in state.items() if name in used}
+
+
+def rounded_text(value: float) -> str:
+    return f"{value:.4g}"
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.6g}")

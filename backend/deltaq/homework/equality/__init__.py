@@ -1,0 +1,42 @@
+"""When two answers say the same: one kind of equality, one module.
+
+A module has `fingerprint(parts, sampler)`, numbers that equal answers share (None: it cannot be told from numbers, ():
+the answer says nothing), and `same(given, right, road)`, the exact decision. Parts are the components of a vector, the
+residuals of equations, or one expression.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import sympy as sp
+
+from ..road import Road
+from ..sampling import Sampler
+
+Parts = tuple[sp.Expr, ...]
+Fingerprint = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Match:
+    """Whether two answers are equal (None: undecided), and in which sense if not literally."""
+
+    equal: bool | None
+    remark: str = ""
+
+
+class Equality(Protocol):
+    """What every module here offers."""
+
+    def fingerprint(self, parts: Parts, sampler: Sampler, /) -> Fingerprint | None: ...
+    def same(self, given: Parts, right: Parts, road: Road, /) -> Match: ...
+
+
+def weakest(outcomes: Sequence[bool | None]) -> bool | None:
+    """All true: true; one false: false; else undecided."""
+    if False in outcomes:
+        return False
+    return None if None in outcomes else True

@@ -1,0 +1,24 @@
+"""One equation of motion: as equations, or solved for its own acceleration with all others eliminated."""
+
+from __future__ import annotations
+
+from ...language.canonical import is_zero
+from ..road import Road
+from . import Match, Parts, equations, weakest
+from .equations import fingerprint
+
+__all__ = ["fingerprint", "same", "same_solved"]
+
+
+def same(given: Parts, right: Parts, road: Road) -> Match:
+    return equations.same(given, right, road)
+
+
+def same_solved(given: Parts, road: Road) -> Match:
+    """Whether the equation follows from the whole set: with q̈ = −M⁻¹b put in, nothing is left."""
+    matrix, rest = equations.system_of(tuple(road.equation(q) for q in road.free), road)
+    row, own = equations.system_of(given, road)
+    determinant = matrix.det(method="berkowitz")
+    left = own[0, 0] * determinant - (row * matrix.adjugate() * rest)[0, 0]
+    equal = weakest([is_zero(left, road.symbols)])
+    return Match(equal, "solved" if equal else "")

@@ -1,0 +1,104 @@
+"""Equations of motion: equal if they are invertible combinations of one another, with factors that never vanish.
+
+Rows (a₁ … a_f, b) of Σ aᵢ q̈ᵢ + b = 0 span the same space at every state. Sides, signs, factors such as m l and the
+solved form make no difference; 0 = 0 and a factor that can be zero do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import product
+
+import sympy as sp
+
+from ...derivation.compiled import compiled
+from ...language.canonical import is_zero
+from ..road import Road
+from ..sampling import Sampler, defined, echelon
+from . import Fingerprint, Match, Parts, weakest
+
+SPECIAL = (0.0, math.pi / 2, math.pi, -math.pi / 2, -0.7, 0.9)
+MOST_STATES = 400
+NOTHING = 1e-12
+
+
+def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
+    """The reduced rows at every point: all invertible combinations share them."""
+    rows = [sampler.rows(part) for part in parts]
+    if not all(defined(row) for each in rows for row in each):
+        return None
+    reduced = [echelon([each[point] for each in rows]) for point in range(len(sampler.points))]
+    if any(len(each) < len(parts) for each in reduced):
+        return ()
+    return tuple(entry for each in reduced for row in each for entry in row)
+
+
+def same(given: Parts, right: Parts, road: Road) -> Match:
+    if len(given) != len(right):
+        return Match(equal=False)
+    matrix, rest = system_of(right, road)
+    own, own_rest = system_of(given, road)
+    if own.free_symbols & {road.acceleration(q) for q in road.free}:
+        return Match(equal=False)
+    columns = _pivots(matrix, road)
+    if columns is None:
+        return Match(equal=None)
+    square, given_square = matrix[:, columns], own[:, columns]
+    determinant, factor = square.det(method="berkowitz"), given_square.det(method="berkowitz")
+    if is_zero(factor, road.symbols) is not False:
+        return Match(equal=False)
+    # own = X · right with X = given_square · square⁻¹: cleared of the determinant, so that nothing is divided.
+    combined = given_square * square.adjugate()
+    whole, own_whole = matrix.row_join(rest), own.row_join(own_rest)
+    equal = weakest([is_zero(entry, road.symbols) for entry in determinant * own_whole - combined * whole])
+    if equal and _vanishes(factor, determinant, road):
+        return Match(equal=False, remark="factor-vanishes")
+    return Match(equal)
+
+
+def system_of(parts: Parts, road: Road) -> tuple[sp.Matrix, sp.Matrix]:
+    """A and b of residuals A q̈ + b."""
+    accelerations = [road.acceleration(q) for q in road.free]
+    still = dict.fromkeys(accelerations, road.zero)
+    matrix = sp.Matrix([[part.diff(a) for a in accelerations] for part in parts])
+    return matrix, sp.Matrix([part.xreplace(still) for part in parts])
+
+
+def _pivots(matrix: sp.Matrix, road: Road) -> list[int] | None:
+    """Columns whose square block is regular; all of them for the complete set of equations."""
+    rows, columns = matrix.shape
+    if rows == columns:
+        return list(range(columns))
+    if rows == 1:
+        return next(([k] for k in range(columns) if is_zero(matrix[0, k], road.symbols) is False), None)
+    return None
+
+
+def _vanishes(above: sp.Expr, below: sp.Expr, road: Road) -> bool:
+    """Whether above/below is zero or undefined somewhere, by the states where such things happen; 0/0 tells nothing."""
+    fixed = {road.q(p.name) for p in road.scene.parameters if p.positive}
+    used = sorted(above.free_symbols | below.free_symbols, key=lambda symbol: (symbol in fixed, symbol.name))
+    slots = {symbol: index for index, symbol in enumerate(used)}
+    functions = [compiled(part, slots) for part in (above, below)]
+    moving = sum(symbol not in fixed for symbol in used)
+    rest = [1.3 + 0.1 * k for k in range(len(used) - moving)]
+    pairs = [[function([*state, *rest]) for function in functions] for state in _states(moving)]
+    signs = {_sign(a / b if abs(b) > NOTHING else math.inf) for a, b in pairs if max(abs(a), abs(b)) > NOTHING}
+    return len(signs) > 1 or 0 in signs
+
+
+def _states(size: int) -> Iterator[Sequence[float]]:
+    """Each symbol at its special values, alone and (for few symbols) together with the others."""
+    if len(SPECIAL) ** size <= MOST_STATES:
+        yield from product(SPECIAL, repeat=size)
+        return
+    for index in range(size):
+        for value in SPECIAL:
+            yield [value if k == index else 0.4 + 0.1 * k for k in range(size)]
+
+
+def _sign(value: float) -> int:
+    if not math.isfinite(value) or abs(value) < NOTHING or abs(value) > 1 / NOTHING:
+        return 0
+    return 1 if value > 0 else -1

@@ -1,0 +1,21 @@
+"""Expressions and vectors: equal in every component, identically in all symbols."""
+
+from __future__ import annotations
+
+from ...language.canonical import is_zero
+from ..road import Road
+from ..sampling import Sampler, defined
+from . import Fingerprint, Match, Parts, weakest
+
+
+def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
+    """The values of all components at all points."""
+    values = tuple(value for part in parts for value in sampler.values(part))
+    return values if defined(values) else None
+
+
+def same(given: Parts, right: Parts, road: Road) -> Match:
+    if len(given) != len(right):
+        return Match(equal=False)
+    pairs = zip(given, right, strict=True)
+    return Match(weakest([is_zero(a - b, road.symbols) for a, b in pairs]))

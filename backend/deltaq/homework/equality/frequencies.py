@@ -1,0 +1,42 @@
+"""Eigenfrequencies: the same set of numbers ω > 0, as expressions or as numbers at the scene's values."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ...derivation.matrix_form import parameter_values
+from ...language.canonical import is_zero
+from ..road import Road
+from ..sampling import Sampler, defined
+from . import Fingerprint, Match, Parts, weakest
+
+ROUNDED = 5e-3  # how far a number may be off that was written with three digits
+
+
+def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
+    """The values at the sampling parameters, in order of size."""
+    values = tuple(sorted(sampler.values(part)[0] for part in parts))
+    return values if defined(values) else None
+
+
+def same(given: Parts, right: Parts, road: Road) -> Match:
+    if len(given) != len(right):
+        return Match(equal=False)
+    ordered = [sorted(parts, key=lambda part: number_of(part, road)) for parts in (given, right)]
+    numeric = [_near(a, b, road) for a, b in zip(*ordered, strict=True)]
+    if not all(numeric):
+        return Match(equal=False)
+    if not any(part.free_symbols for part in given):
+        return Match(equal=True, remark="rounded")
+    return Match(weakest([is_zero(a**2 - b**2, road.symbols) for a, b in zip(*ordered, strict=True)]))
+
+
+def number_of(part: sp.Expr, road: Road) -> float:
+    """The value at the scene's parameters; NaN if it is not real."""
+    value = sp.N(part.xreplace(parameter_values(road)))
+    return float(value) if value.is_Float or value.is_Rational else float("nan")
+
+
+def _near(given: sp.Expr, right: sp.Expr, road: Road) -> bool:
+    a, b = number_of(given, road), number_of(right, road)
+    return a > 0 and abs(a - b) <= ROUNDED * abs(b)

@@ -1,0 +1,36 @@
+"""Lagrange functions: equal up to a constant and a total time derivative dF(q, t)/dt, which the equations do not see.
+
+L and L′ have the same equations exactly if the Euler–Lagrange expression of L′ − L vanishes identically.
+Source: Landau, Lifshitz, Mechanics, §2.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ...language.canonical import is_zero
+from ..road import Road
+from ..sampling import Sampler
+from . import Fingerprint, Match, Parts, up_to_constant, weakest
+
+
+def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
+    """The Euler–Lagrange expressions of every coordinate at all points."""
+    values = [v for q in sampler.road.free for v in sampler.values(_euler_lagrange(parts[0], q, sampler.road))]
+    return tuple(values) if all(abs(value) < 1e100 for value in values) else None
+
+
+def same(given: Parts, right: Parts, road: Road) -> Match:
+    constant = up_to_constant.same(given, right, road)
+    if constant.equal:
+        return constant
+    difference = given[0] - right[0]
+    if difference.free_symbols & {road.acceleration(q) for q in road.coordinates}:
+        return Match(equal=False)
+    equal = weakest([is_zero(_euler_lagrange(difference, q, road), road.symbols) for q in road.free])
+    return Match(equal, "total-derivative" if equal else "")
+
+
+def _euler_lagrange(lagrangian: sp.Expr, coordinate: str, road: Road) -> sp.Expr:
+    """d/dt ∂L/∂q̇ − ∂L/∂q"""
+    return road.time_derivative(lagrangian.diff(road.rate(coordinate))) - lagrangian.diff(road.q(coordinate))

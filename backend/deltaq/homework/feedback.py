@@ -1,0 +1,135 @@
+"""Verdicts and tasks as documents, their texts in one language."""
+
+from __future__ import annotations
+
+from ..language.latex_printer import Typography, latex
+from ..language.plain_printer import plain
+from ..mechanics.scene import Scene
+from ..narration.catalog import message, text
+from .counterexamples import rounded_text
+from .task import Task
+from .verdict import Counterexample, Verdict
+from .workbook import Workbook
+
+Document = dict[str, object]
+
+
+def verdict_document(verdict: Verdict, scene: Scene, language: str) -> Document:
+    """{outcome, understood_as, feedback, misconception?, misconceptions?, offset?, counterexample? …}"""
+    problems = [
+        {"code": p.code, "offset": p.offset, "length": p.length, "message": message(language, p)}
+        for p in verdict.problems
+    ]
+    document: Document = {
+        "outcome": verdict.outcome,
+        "understood_as": verdict.understood_as,
+        "feedback": " ".join(_sentences(verdict, scene, language)),
+        "remark": verdict.remark or None,
+        "misconception": verdict.misconceptions[0] if verdict.misconceptions else None,
+        "misconceptions": [_named(each, verdict, scene, language) for each in verdict.misconceptions],
+        "slip": verdict.slip.kind if verdict.slip else None,
+        "problems": problems,
+        "offset": problems[0]["offset"] if problems else None,
+        "counterexample": _example(verdict.counterexample),
+    }
+    return document
+
+
+def _named(identifier: str, verdict: Verdict, scene: Scene, language: str) -> Document:
+    values = _about(verdict, scene, language)
+    return {"id": identifier, "title": text(language, f"homework.misconceptions.{identifier}.title", **values)}
+
+
+def _sentences(verdict: Verdict, scene: Scene, language: str) -> list[str]:
+    """The outcome, what can be said of it, and the hint that leads on; never the right answer."""
+    sentences = [text(language, f"homework.outcomes.{verdict.outcome}")]
+    sentences += [message(language, problem) for problem in verdict.problems]
+    if verdict.remark:
+        sentences.append(text(language, f"homework.remarks.{verdict.remark}"))
+    if verdict.misconceptions:
+        key = f"homework.misconceptions.{verdict.misconceptions[0]}.hint"
+        sentences.append(text(language, key, **_about(verdict, scene, language)))
+    if verdict.slip:
+        slip = text(language, f"homework.slips.{verdict.slip.kind}", term=verdict.slip.term)
+        besides = verdict.misconceptions and text(language, "homework.feedback.besides", slip=slip)
+        sentences.append(str(besides or slip))
+    if verdict.counterexample and not (verdict.misconceptions or verdict.slip):
+        sentences.append(_told(verdict.counterexample, language))
+    return sentences
+
+
+def _told(example: Counterexample, language: str) -> str:
+    state = ", ".join(f"{name} = {value:g}" for name, value in example.state.items())
+    yours, right = rounded_text(example.yours), rounded_text(example.right)
+    return text(language, "homework.feedback.counterexample", state=state, yours=yours, right=right)
+
+
+def _about(verdict: Verdict, scene: Scene, language: str) -> dict[str, str]:
+    """What the texts of a misconception may speak of."""
+    parts = [_label(part, scene, language) for part in verdict.about.replace(":", "/").split("/") if part]
+    return {"about": ", ".join(parts[-2:] if "/" in verdict.about else parts[-1:]), **verdict.parameters}
+
+
+def _label(name: str, scene: Scene, language: str) -> str:
+    """A coordinate or parameter as a formula, a body or load by its label."""
+    symbol = scene.names.get(name)
+    return f"${symbol.typeset}$" if symbol else scene.label(name, language)
+
+
+def _example(example: Counterexample | None) -> Document | None:
+    if example is None:
+        return None
+    return {"values": dict(example.state), "of": example.of, "yours": example.yours, "right": example.right}
+
+
+def task_document(task: Task, workbook: Workbook, language: str) -> Document:
+    """A task with its statement, the form wanted, three hints, and where the derivation answers it."""
+    key = f"homework.tasks.{task.quantity.kind}"
+    values = _subject(task, workbook, language)
+    return {
+        "id": task.id,
+        "kind": task.quantity.kind,
+        "subject": task.subject,
+        "title": text(language, f"{key}.title", **values),
+        "statement": text(language, f"{key}.statement", **values),
+        "form": task.quantity.form,
+        "form_text": text(language, f"homework.forms.{task.quantity.form}"),
+        "components": workbook.scene.dimension if task.quantity.form == "vector" else None,
+        "points": task.quantity.points,
+        "needs": _needs(task, workbook),
+        "hints": [text(language, f"{key}.hints.{level}", **values) for level in (1, 2, 3)],
+        "solution": {"chapter": task.quantity.chapter},
+    }
+
+
+def _needs(task: Task, workbook: Workbook) -> list[str]:
+    """The tasks from whose answers this one is derived."""
+    known = workbook.tasks
+    return [each.id for each in known if each.quantity.kind in task.quantity.needs]
+
+
+def _subject(task: Task, workbook: Workbook, language: str) -> dict[str, object]:
+    scene = workbook.scene
+    values: dict[str, object] = {"subject": _label(task.subject, scene, language), "dimension": scene.dimension}
+    if task.quantity.kind in ("linearized", "eigenfrequencies"):
+        typography = Typography(scene.names)
+        rest = workbook.road.rest or {}
+        values["rest"] = ", ".join(f"${latex(q, typography)} = {latex(v, typography)}$" for q, v in rest.items())
+    if task.quantity.kind == "conserved":
+        coordinate = workbook.road.conserved_of[int(task.subject) - 1]
+        kind = "momentum" if coordinate else "energy"
+        values["number"] = task.subject
+        label = _label(coordinate, scene, language)
+        values["what"] = text(language, f"homework.conserved.{kind}", coordinate=label)
+    return values
+
+
+def model_answer(task: Task, workbook: Workbook) -> Document:
+    """The right answer as plain text and LaTeX, in its display form."""
+    typography = Typography(workbook.scene.names)
+    shown = workbook.shown(task)
+    ending = " = 0" if task.quantity.form in ("equation", "equations") else ""
+    return {
+        "plain": [plain(part) + ending for part in shown],
+        "latex": [latex(part, typography) + ending for part in shown],
+    }

@@ -1,0 +1,46 @@
+"""Two names of the same kind are mixed up."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+from typing import ClassVar, Self
+
+import sympy as sp
+
+from ...derivation.calculus import V
+from ...mechanics.bodies import Body
+from ...mechanics.contributions import Contribution
+from ..detour import Detour
+from ..road import Road
+
+
+@dataclass(frozen=True, eq=False)
+class NamesMixedUp(Detour):
+    """m₁ and m₂, l₁ and l₂ or φ₁ and φ₂ are exchanged while copying from the drawing."""
+
+    id: ClassVar[str] = "names-mixed-up"
+    likely: ClassVar[int] = 4
+
+    @classmethod
+    def variants(cls, true: Road) -> Iterator[Self]:
+        for one, other in combinations(true.scene.parameters, 2):
+            if one.unit == other.unit and one.unit:
+                yield cls(true.scene, true, f"{one.name}/{other.name}")
+
+    def position(self, place: str) -> sp.ImmutableMatrix:
+        return self._exchanged(super().position(place))
+
+    def kinetic_energy_of(self, body: Body) -> sp.Expr:
+        return self._exchanged(self.true.kinetic_energy_of(body))
+
+    def virtual_work(self, load: Contribution) -> sp.Expr:
+        return self._exchanged(self.true.virtual_work(load))
+
+    def load_potential(self, load: str) -> sp.Expr:
+        return self._exchanged(self.true.load_potential(load))
+
+    def _exchanged(self, value: V) -> V:
+        first, second = map(self.q, self.about.split("/"))
+        return value.xreplace({first: second, second: first})

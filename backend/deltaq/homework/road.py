@@ -1,0 +1,94 @@
+"""The road from a scene to every answer, one law per method, so that each law can be got wrong alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ..derivation.calculus import V
+from ..derivation.conservation import cyclic, jacobi_energy, jacobi_energy_rate
+from ..derivation.linearization import linearizations
+from ..derivation.memory import kept
+from ..derivation.system import System
+from ..language.canonical import display
+
+
+@dataclass(frozen=True, eq=False)
+class Road(System):
+    """A system whose expressions stay as they fall out: they are compared, not shown, so no form is the best one."""
+
+    def display(self, value: V) -> V:
+        return value
+
+    @kept
+    def momentum_rate(self, coordinate: str) -> sp.Expr:
+        """d/dt ∂E/∂q̇"""
+        return self.time_derivative(self.kinetic_energy.diff(self.rate(coordinate)))
+
+    def energy_slope(self, coordinate: str) -> sp.Expr:
+        """∂E/∂q"""
+        return self.kinetic_energy.diff(self.q(coordinate))
+
+    def potential_slope(self, coordinate: str) -> sp.Expr:
+        """∂V/∂q"""
+        return self.potential_energy.diff(self.q(coordinate))
+
+    @kept
+    def equation(self, coordinate: str) -> sp.Expr:
+        """d/dt ∂E/∂q̇ − ∂E/∂q + ∂V/∂q − Qᵈ, the left side of `… = 0`."""
+        inertia = self.momentum_rate(coordinate) - self.energy_slope(coordinate)
+        return inertia + self.potential_slope(coordinate) - self.nonconservative_force(coordinate)
+
+    @cached_property
+    def rest(self) -> dict[sp.Symbol, sp.Expr] | None:
+        """The first equilibrium that is stable and known in the parameters; None where there is none."""
+        for linear in linearizations(System(self.scene)):
+            regular = linear.equilibrium.exact and linear.spectrum is not None
+            if regular and linear.stability == "stable":
+                return dict(linear.equilibrium.values)
+        return None
+
+    def _at_rest(self, value: sp.Expr) -> sp.Expr:
+        still = {symbol: self.zero for q in self.free for symbol in (self.rate(q), self.acceleration(q))}
+        return value.xreplace(still).xreplace(self.rest or {})
+
+    @kept
+    def linear_row(self, coordinate: str) -> tuple[tuple[sp.Expr, ...], ...]:
+        """The rows of M₀, D₀ and K₀ that belong to a coordinate."""
+        equation = self.equation(coordinate)
+        kinds = (self.acceleration, self.rate, self.q)
+        rows = [[self._at_rest(equation.diff(kind(q))) for q in self.free] for kind in kinds]
+        return tuple(tuple(display(entry, self.symbols) for entry in row) for row in rows)
+
+    @kept
+    def linear_equation(self, coordinate: str) -> sp.Expr:
+        """M₀ẍ + D₀ẋ + K₀x about the equilibrium; the deviation x goes by the name of its coordinate."""
+        kinds = (self.acceleration, self.rate, self.q)
+        rows = zip(kinds, self.linear_row(coordinate), strict=True)
+        return sp.Add(*(c * kind(q) for kind, row in rows for c, q in zip(row, self.free, strict=True)))
+
+    @cached_property
+    def frequencies(self) -> tuple[sp.Expr, ...]:
+        """ω of det(K₀ − ω²M₀) = 0 for one and two degrees of freedom; none where there is damping."""
+        rows = [self.linear_row(q) for q in self.free]
+        if len(rows) > 2 or any(entry != 0 for _, damping, _ in rows for entry in map(sp.expand, damping)):
+            return ()
+        M, K = (sp.Matrix([row[kind] for row in rows]) for kind in (0, 2))
+        a = M.det()
+        if len(rows) == 1:
+            return () if a == 0 else (sp.sqrt(K[0, 0] / a),)
+        b = M[0, 1] * K[1, 0] + M[1, 0] * K[0, 1] - M[0, 0] * K[1, 1] - M[1, 1] * K[0, 0]
+        root = sp.sqrt((b**2 - 4 * a * K.det()).expand())
+        return () if self.is_zero(a) else tuple(sp.sqrt((-b + sign * root) / (2 * a)) for sign in (-1, 1))
+
+    @cached_property
+    def conserved_of(self) -> tuple[str, ...]:
+        """What is conserved: the cyclic coordinates by name, and "" for the Jacobi energy."""
+        energy = ("",) if self.is_zero(jacobi_energy_rate(self)) else ()
+        return (*cyclic(self), *energy)
+
+    def conserved(self, coordinate: str) -> sp.Expr:
+        """The momentum of a cyclic coordinate, or the Jacobi energy."""
+        return self.momentum(coordinate) if coordinate else jacobi_energy(self)

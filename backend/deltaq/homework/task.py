@@ -1,0 +1,48 @@
+"""Tasks: what a scene lets one ask."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from ..errors import Problem, UnknownNameError
+from .equality import Parts
+from .quantities import QUANTITIES, Quantity, quantity_of
+from .road import Road
+
+
+@dataclass(frozen=True)
+class Task:
+    """One question: a quantity of a subject (a body, a coordinate, a number), "" where there is only one."""
+
+    quantity: Quantity
+    subject: str = ""
+
+    @property
+    def id(self) -> str:
+        """`kinetic-energy`, `equation:phi`"""
+        return f"{self.quantity.kind}:{self.subject}" if self.subject else self.quantity.kind
+
+    def value(self, road: Road) -> Parts:
+        """The parts of the answer that a road leads to; none where it leads nowhere."""
+        return self.quantity.value(road, self.subject)
+
+
+def tasks_of(road: Road) -> Iterator[Task]:
+    """All tasks of a scene, in the order in which a derivation answers them."""
+    for quantity in QUANTITIES:
+        for subject in quantity.subjects(road):
+            yield Task(quantity, subject)
+
+
+def task_of(road: Road, identifier: str) -> Task:
+    """The task of this id. Raises UnknownNameError with the nearest one."""
+    kind, _, subject = identifier.partition(":")
+    quantity = quantity_of(kind)
+    if quantity is not None and subject in quantity.subjects(road):
+        return Task(quantity, subject)
+    known = [task.id for task in tasks_of(road)]
+    near = get_close_matches(identifier, known, n=1)
+    parameters = {"name": identifier[:64], "known": ", ".join(known), "suggestion": near[0] if near else ""}
+    raise UnknownNameError(Problem("unknown-task", "/task", parameters=parameters))

@@ -1,0 +1,48 @@
+"""What the checker says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from ..errors import Problem
+
+Outcome = Literal["correct", "wrong", "undecided", "invalid", "follow_through"]
+
+
+@dataclass(frozen=True)
+class Counterexample:
+    """A state at which two answers have different values, in the scene's values of the parameters."""
+
+    state: Mapping[str, float]
+    yours: float
+    right: float
+    of: str = ""
+
+
+@dataclass(frozen=True)
+class Slip:
+    """One term that differs from what it should be: `factor` −1 is a wrong sign, 0 a missing term, 2 or ½ a factor."""
+
+    kind: str
+    term: str
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The outcome, what was understood, and what can be said about it.
+
+    `remark` tells in which sense a correct answer is equal, or why a wrong one is; `misconceptions` are all that lead
+    to exactly this answer, the likeliest first; `about` fills the texts.
+    """
+
+    outcome: Outcome
+    understood_as: str = ""
+    remark: str = ""
+    misconceptions: tuple[str, ...] = ()
+    about: str = ""
+    slip: Slip | None = None
+    counterexample: Counterexample | None = None
+    problems: tuple[Problem, ...] = ()
+    parameters: Mapping[str, str] = field(default_factory=dict)

@@ -1,0 +1,116 @@
+"""A scene ready to be asked about: its true road, the points at which answers are evaluated, and the wrong answers."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import cast
+
+from ..derivation.memory import kept
+from ..errors import InputError
+from ..language.canonical import display
+from ..mechanics.requests import changed_scene
+from ..mechanics.scene import Scene
+from .detour import Detour, misconceptions
+from .equality import Fingerprint, Parts
+from .road import Road
+from .sampling import Sampler, close
+from .seeds import seeded
+from .task import Task, task_of, tasks_of
+
+KEPT = 48
+MOST_OPERATIONS = 6000  # of a right answer: beyond it the wrong ones take seconds each
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A wrong answer: the road that leads to it, its parts, and the numbers by which it is found."""
+
+    road: Detour
+    parts: Parts
+    fingerprint: Fingerprint
+
+
+@dataclass(frozen=True, eq=False)
+class Workbook:
+    """What is computed once for a scene, and serves every answer to it."""
+
+    scene: Scene
+
+    @cached_property
+    def road(self) -> Road:
+        return Road(self.scene)
+
+    @cached_property
+    def sampler(self) -> Sampler:
+        return Sampler(self.road)
+
+    @cached_property
+    def tasks(self) -> tuple[Task, ...]:
+        return tuple(tasks_of(self.road))
+
+    @kept
+    def task(self, identifier: str) -> Task:
+        """The task of this id. Raises UnknownNameError."""
+        return task_of(self.road, identifier)
+
+    @kept
+    def right(self, task: Task) -> Parts:
+        return task.value(self.road)
+
+    @kept
+    def shown(self, task: Task) -> Parts:
+        """The right answer in its display form."""
+        return tuple(display(part.expand(), self.road.symbols) for part in self.right(task))
+
+    @kept
+    def fingerprint(self, task: Task) -> Fingerprint | None:
+        return task.quantity.equality.fingerprint(self.right(task), self.sampler)
+
+    @cached_property
+    def detours(self) -> tuple[Detour, ...]:
+        """Every misconception in every way it can be made on this scene."""
+        return tuple(detour for kind in misconceptions() for detour in kind.variants(self.road))
+
+    @kept
+    def candidates(self, task: Task) -> tuple[Candidate, ...]:
+        """The wrong answers to a task, each road that changes the answer once, the likely ones first."""
+        size = sum(part.count_ops() for part in self.right(task))
+        return tuple(self._candidates(task)) if size <= MOST_OPERATIONS else ()
+
+    def _candidates(self, task: Task) -> Iterator[Candidate]:
+        right = self.fingerprint(task)
+        for road in self.detours:
+            parts = _attempt(task, road)
+            found = task.quantity.equality.fingerprint(parts, self.sampler) if parts else None
+            if found and (right is None or len(found) != len(right) or not close(found, right)):
+                yield Candidate(road, parts, found)
+
+
+def _attempt(task: Task, road: Detour) -> Parts:
+    """The answer that a wrong road leads to; none where it leads nowhere (an integral without a closed form)."""
+    try:
+        return task.value(road)
+    except (InputError, ZeroDivisionError):
+        return ()
+
+
+def workbook_of(document: Mapping[str, object]) -> Workbook:
+    """The workbook of {scene, guides?, freeze?, parameters?, seed?}; the same content has the same one."""
+    fields = ("scene", "guides", "freeze", "parameters", "seed")
+    return _kept_workbook(json.dumps({field: document.get(field) for field in fields}, sort_keys=True))
+
+
+@lru_cache(maxsize=KEPT)
+def _kept_workbook(text: str) -> Workbook:
+    document = json.loads(text)
+    scene = changed_scene(
+        document["scene"],
+        cast("list[dict[str, str]]", document["guides"] or []),
+        cast("list[str]", document["freeze"] or []),
+        cast("dict[str, float]", document["parameters"] or {}),
+    )
+    seed = document["seed"]
+    return Workbook(scene if seed is None else seeded(scene, str(seed)))

@@ -1,0 +1,85 @@
+from __future__ import annotations
+
+from typing import Any
+
+import httpx
+import pytest
+
+from deltaq.api.wire.homework import CheckRequest, TaskList, VerdictAnswer
+
+pytestmark = pytest.mark.anyio
+API = "/api/v1"
+EXAMPLES = CheckRequest.model_config["json_schema_extra"]["examples"]  # type: ignore[index, call-overload]
+
+
+async def test_tasks_of_a_built_in_scene(client: httpx.AsyncClient) -> None:
+    response = await client.get(f"{API}/scenes/elastic-pendulum/tasks", params={"lang": "de", "seed": "ada"})
+    assert response.status_code == 200, response.text
+    found = TaskList.model_validate(response.json())
+    ids = {task.id for task in found.tasks}
+    assert {"position:bob", "virtual-work", "generalized-force:y", "equations"} <= ids
+    assert found.tasks[0].title == "Ort von Masse"
+    assert found.scene["drawing"]["elements"]
+
+
+async def test_tasks_of_a_changed_scene(client: httpx.AsyncClient) -> None:
+    guides = [{"coordinate": "y", "value": "0.1*sin(3*t)"}]
+    response = await client.post(f"{API}/tasks", json={"scene": "base-pendulum", "guides": guides})
+    assert response.status_code == 200, response.text
+    assert "equation:y" not in {task["id"] for task in response.json()["tasks"]}
+
+
+@pytest.mark.parametrize("number", range(len(EXAMPLES)))
+async def test_examples_of_the_documentation_work(client: httpx.AsyncClient, number: int) -> None:
+    response = await client.post(f"{API}/checks", json=EXAMPLES[number])
+    assert response.status_code == 200, response.text
+    verdict = VerdictAnswer.model_validate(response.json())
+    assert verdict.outcome == ("wrong" if number == 1 else "correct")
+    assert verdict.misconception == ("half-in-kinetic-energy" if number == 1 else None)
+
+
+BASE: dict[str, Any] = {"scene": "pendulum", "task": "equation:phi", "answer": {"value": "ddot(phi) = 0"}}
+
+
+async def test_wrong_answer_has_feedback_and_a_counterexample(client: httpx.AsyncClient) -> None:
+    response = await client.post(f"{API}/checks", json=BASE | {"lang": "en"})
+    verdict = response.json()
+    assert (verdict["outcome"], verdict["understood_as"]) == ("wrong", r"\ddot{\varphi} = 0")
+    assert verdict["counterexample"]["yours"] != verdict["counterexample"]["right"]
+    assert verdict["feedback"].startswith("Not right yet. ")
+
+
+async def test_unreadable_answer_is_a_verdict_with_an_offset(client: httpx.AsyncClient) -> None:
+    response = await client.post(f"{API}/checks", json=BASE | {"answer": {"value": "ddot(phi) = foo"}, "lang": "de"})
+    verdict = response.json()
+    assert (response.status_code, verdict["outcome"], verdict["offset"]) == (200, "invalid", 12)
+    assert "foo" in verdict["problems"][0]["message"]
+
+
+@pytest.mark.parametrize(
+    ("change", "status", "pointer", "code"),
+    [
+        pytest.param({"task": "equation:psi"}, 404, "/task", "unknown-task", id="task"),
+        pytest.param({"scene": "pendulun"}, 404, "/scene", "unknown-scene", id="scene"),
+        pytest.param({"answer": {"value": 3}}, 422, "/answer/value", "request-not-text", id="not text"),
+        pytest.param({"answer": {"value": "x" * 2001}}, 422, "/answer/value", "request-text-too-long", id="long"),
+        pytest.param({"extra": 1}, 422, "/extra", "unknown-field", id="unknown field"),
+    ],
+)
+async def test_wrong_question(
+    client: httpx.AsyncClient, change: dict[str, Any], status: int, pointer: str, code: str
+) -> None:
+    response = await client.post(f"{API}/checks", json=BASE | change)
+    assert response.status_code == status, response.text
+    assert (pointer, code) in [(one["pointer"], one["code"]) for one in response.json()["problems"]]
+
+
+async def test_batch_answers_in_order(client: httpx.AsyncClient) -> None:
+    checks = [BASE, BASE | {"answer": {"value": "ddot(phi) = -g/l*sin(phi)"}}]
+    response = await client.post(f"{API}/checks/batch", json={"checks": checks})
+    assert [verdict["outcome"] for verdict in response.json()["verdicts"]] == ["wrong", "correct"]
+
+
+async def test_batch_is_bounded(client: httpx.AsyncClient) -> None:
+    response = await client.post(f"{API}/checks/batch", json={"checks": [BASE] * 65})
+    assert (response.status_code, response.json()["problems"][0]["code"]) == (422, "request-too-many")
