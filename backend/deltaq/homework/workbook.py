@@ -93,7 +93,7 @@ def _attempt(task: Task, road: Detour) -> Parts:
     """The answer that a wrong road leads to; none where it leads nowhere (an integral without a closed form)."""
     try:
         return task.value(road)
-    except (InputError, ZeroDivisionError):
+    except (InputError, ValueError, ZeroDivisionError):
         return ()
 
 

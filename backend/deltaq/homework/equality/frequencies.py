@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ...derivation.matrix_form import parameter_values
 from ...language.canonical import is_zero
 from ..road import Road
 from ..sampling import Sampler, defined
@@ -33,7 +32,7 @@ def same(given: Parts, right: Parts, road: Road) -> Match:
 
 def number_of(part: sp.Expr, road: Road) -> float:
     """The value at the scene's parameters; NaN if it is not real."""
-    value = sp.N(part.xreplace(parameter_values(road)))
+    value = sp.N(part.xreplace(dict(road.parameter_values)))
     return float(value) if value.is_Float or value.is_Rational else float("nan")
 
 

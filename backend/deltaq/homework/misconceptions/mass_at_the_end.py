@@ -31,7 +31,7 @@ class MassAtTheEnd(Detour):
         if body.name != self.about:
             return super().kinetic_energy_of(body)
         (part,) = (part for part in body.kinetics if isinstance(part, Distribution))
-        mass = self.integrated(self.expression(part.density), part.material)
+        mass = self.integrated(self.expression(part.density), part.material, body.name)
         ends = {bounds.symbol: bounds.upper for bounds in self.bounds(part.material)}
         v = self.velocity(body.name).xreplace(ends)
         return mass * self.dot(v, v) / 2

@@ -37,7 +37,8 @@ class PointMassForBody(Detour):
             return self.expression(mass) * self.dot(v, v) / 2
         (part,) = (part for part in body.kinetics if isinstance(part, Distribution))
         density = self.expression(part.density)
-        mass = self.integrated(density, part.material)
-        centre = column(self.integrated(density * r, part.material) / mass for r in self.position(body.name))
+        mass = self.integrated(density, part.material, body.name)
+        moments = (self.integrated(density * r, part.material, body.name) for r in self.position(body.name))
+        centre = column(moment / mass for moment in moments)
         v = column(map(self.time_derivative, centre))
         return mass * self.dot(v, v) / 2
