@@ -62,6 +62,8 @@ export function createApi(send, base = "/api/v1") {
     derive: (body, signal) => post("/derivations", body, signal),
     /** @param {object} scene @param {string} lang @param {AbortSignal} [signal] @returns {Promise<{valid: boolean, problems: import("./types.js").Problem[]}>} */
     validate: (scene, lang, signal) => post(`/scenes/validate?lang=${lang}`, scene, signal),
+    /** @param {string} text @param {string} lang @returns {Promise<{scene: import("./own.js").SceneDocument}>} */
+    readToml: (text, lang) => call(`/scenes/toml?lang=${lang}`, { method: "POST", headers: { "content-type": "application/toml" }, body: text }),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<{expressions: {latex: string}[]}>} */
     typeset: (body, signal) => post("/expressions/batch", body, signal),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<any>} */

@@ -165,3 +165,26 @@ async def test_warnings_do_not_make_a_scene_invalid(client: httpx.AsyncClient) -
             "message": "The parameter k is not used.",
         }
     ]
+
+
+async def test_scene_in_toml(client: httpx.AsyncClient) -> None:
+    text = 'format = 1\nid = "größe"\n[[points]]\nname = "A"\nposition = ["0", "1"]\n'
+    response = await client.post("/api/v1/scenes/toml", content=text, headers={"content-type": "application/toml"})
+    assert response.status_code == 200, response.text
+    scene = {"format": 1, "id": "größe", "points": [{"name": "A", "position": ["0", "1"]}]}
+    assert response.json() == {"scene": scene}
+
+
+@pytest.mark.parametrize(
+    ("body", "code", "offset"),
+    [
+        pytest.param(b"a == 1", "toml-syntax", 3, id="syntax"),
+        pytest.param(b"a = \xff", "toml-syntax", 4, id="bytes that are no text"),
+        pytest.param(b"a = " + b"[" * 9000, "toml-depth", None, id="nested"),
+    ],
+)
+async def test_no_toml(client: httpx.AsyncClient, body: bytes, code: str, offset: int | None) -> None:
+    response = await client.post("/api/v1/scenes/toml?lang=de", content=body)
+    assert response.status_code == 422
+    (problem,) = response.json()["problems"]
+    assert (problem["code"], problem["offset"], problem["pointer"]) == (code, offset, "")

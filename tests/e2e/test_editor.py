@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from importlib.resources import files
 
 import pytest
 from playwright.sync_api import Locator, Page, Request, expect
@@ -120,3 +121,17 @@ def test_a_scene_from_nothing(lecture: Lecture) -> None:
     page.locator(".menu select").select_option("empty:")
     page.get_by_role("button", name="Bring it back").click()
     expect(field(page, POSITION).locator("input")).to_have_value("x")
+
+
+def test_a_scene_file_is_opened(editor: Lecture) -> None:
+    page = editor.page
+    text = (files("deltaq") / "scenes" / "atwood.toml").read_bytes()
+    page.locator(".files summary").click()
+    page.locator(".files input").set_input_files({"name": "a.toml", "mimeType": "application/toml", "buffer": text})
+    expect(field(page, "/id").locator("input")).to_have_value("atwood")
+    valid(page)
+    page.locator(".files input").set_input_files(
+        {"name": "a.toml", "mimeType": "application/toml", "buffer": b"a == 1"}
+    )
+    expect(page.locator(".editor .warning")).to_contain_text("line 1, column 4")
+    editor.complaints.clear()  # the browser reports that the server refused the text

@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import Any
 
 from ..mechanics.document import examine
+from ..mechanics.toml import read_toml
 from ..narration.catalog import text
 from .problems import describe
 
@@ -50,6 +51,11 @@ def validate(document: Document) -> Document:
     _, problems = examine(document["scene"])
     valid = not any(problem.severity == "error" for problem in problems)
     return {"valid": valid, "problems": describe(problems, document["lang"])}
+
+
+def read_scene_toml(document: Document) -> Document:
+    """A scene document in TOML as JSON."""
+    return {"scene": read_toml(document["text"])}
 
 
 def typeset(document: Document) -> Document:

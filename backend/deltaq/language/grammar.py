@@ -187,6 +187,7 @@ class Grammar:
     def _trailing(self) -> NoReturn:
         if self.cursor.token.is_operator(","):
             self.brackets.decimal_comma()
+            fail("separating-comma", self.cursor.token.span)
         self.unexpected()
 
     def unexpected(self) -> NoReturn:

@@ -15,7 +15,7 @@ import { tableOf } from "../own.js";
  * @property {Verdict} verdict
  * @property {import("../types.js").Problem[]} problems
  * @property {Map<string, string>} formulas  LaTeX by the text it was made from
- * @property {string} notice  the key of a sentence
+ * @property {string} notice  the key of a sentence, or what the server says
  * @property {boolean} kept  whether the browser keeps what is typed
  */
 

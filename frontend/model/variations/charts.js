@@ -13,7 +13,7 @@ const CEILING = 2;
 const DECADES = 16;
 
 /** @param {Size} size @returns {Frame} */
-export const frameOf = ({ width, height, em }) => ({ left: 3.4 * em, right: width - 0.8 * em, top: 0.7 * em, bottom: height - 2.6 * em });
+export const frameOf = ({ width, height, em }) => ({ left: 4.8 * em, right: width - 0.8 * em, top: 0.7 * em, bottom: height - 2.6 * em });
 
 /** @param {number} low @param {number} high @param {number} from @param {number} to */
 const scale = (low, high, from, to) => (/** @type {number} */ value) => from + ((value - low) / (high - low || 1)) * (to - from);

@@ -12,7 +12,7 @@ import { menu } from "./menu.js";
 
 /**
  * @typedef {import("../page.js").View & {editing: import("../../model/editor/editor.js").Editor,
- *   api: Pick<import("../../model/api.js").Api, "scene">}} EditorView
+ *   api: Pick<import("../../model/api.js").Api, "scene" | "readToml">}} EditorView
  * @typedef {EditorView & {writing: import("../../model/editor/editor.js").Writing,
  *   problems: Map<string, import("../../model/types.js").Problem[]>, put: (pointer: string, value: unknown) => void}} Sheet
  */

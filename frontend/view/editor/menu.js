@@ -24,7 +24,7 @@ export function menu(sheet) {
         <div>
           <button class="quiet" @click=${() => save(sheet, "json")}>${t("editor.save-json")}</button>
           <button class="quiet" @click=${() => save(sheet, "toml")}>${t("editor.save-toml")}</button>
-          <label class="load"><input class="unseen" type="file" accept=".json,application/json" @change=${(/** @type {Event} */ e) => void load(sheet, e)}>${t("editor.load-json")}</label>
+          <label class="load"><input class="unseen" type="file" accept=".json,.toml,application/json,application/toml" @change=${(/** @type {Event} */ e) => void load(sheet, e)}>${t("editor.load-json")}</label>
         </div>
       </details>
     </div>`;
@@ -77,16 +77,17 @@ function save({ writing }, format) {
 }
 
 /** @param {Sheet} sheet @param {Event} event */
-async function load({ editing }, event) {
+async function load({ editing, api, state }, event) {
   const input = /** @type {HTMLInputElement} */ (event.target);
   const file = input.files?.[0];
   input.value = "";
   if (!file) return;
   try {
-    const read = file.size <= LARGEST_FILE ? tableOf(JSON.parse(await file.text())) : null;
+    const text = file.size <= LARGEST_FILE ? await file.text() : "";
+    const read = tableOf(file.name.endsWith(".toml") ? (await api.readToml(text, state.place.lang)).scene : JSON.parse(text));
     if (read) editing.begin(read);
     else editing.tell("editor.load-refused");
-  } catch {
-    editing.tell("editor.load-refused");
+  } catch (error) {
+    editing.tell(/** @type {any} */ (error).failure?.problems[0]?.message ?? "editor.load-refused");
   }
 }

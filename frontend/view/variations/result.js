@@ -58,6 +58,7 @@ export function contents({ asking, t, link, follow, session }) {
 /** @param {VariationsView} view */
 export function derivation(view) {
   const lines = linesOf(view.asking.answer?.chapters ?? []);
+  if (!lines.length && view.asking.verdict !== "waiting") return nothing;
   if (!lines.length) return html`<div class="steps waiting" role="status"><div class="bone"></div><div class="bone"></div></div>`;
   const [first, left, right, rest] = [[lines[0]], ...ROUTES.map((id) => lines.filter((line) => line.chapter.id === id)), lines.filter((line) => line !== lines[0] && !ROUTES.includes(line.chapter.id))];
   return html`

@@ -13,11 +13,13 @@ from ..body import StrictRoute
 from ..languages import language_of
 from ..responses import JSON, tagged
 from ..service import service_of
-from ..wire.scene import EXAMPLE, SceneDocument, SceneList, SceneValidity
+from ..wire.scene import EXAMPLE, SceneDocument, SceneList, SceneText, SceneValidity
 from ..workers.job import Job
 from .common import failures
 
 router = APIRouter(prefix="/scenes", tags=["scenes"], route_class=StrictRoute)
+TOML = {"requestBody": {"required": True, "content": {"application/toml": {"schema": {"type": "string"}}}}}
+READ = Job("deltaq.api.jobs:read_scene_toml", deadline=2.0)
 VALIDATE = Job("deltaq.api.jobs:validate", deadline=2.0)
 
 
@@ -56,3 +58,12 @@ async def validate_scene(request: Request, scene: Annotated[SceneDocument, Body(
     """Whether a scene document describes a mechanical system, and all that is wrong with it."""
     document = {"scene": scene, "lang": language_of(request)}
     return Response(await service_of(request).pool.run(VALIDATE, document), media_type=JSON)
+
+
+@router.post("/toml", response_model=SceneText, responses=failures(400, 413, 422, 503, 504), openapi_extra=TOML)
+async def read_toml_scene(request: Request) -> Response:
+    """A scene document written in TOML, as JSON. Whether it describes a mechanical system, `/scenes/validate` says."""
+    text = (await request.body()).decode("utf-8", errors="replace")
+    return Response(
+        await service_of(request).pool.run(READ, {"text": text, "lang": language_of(request)}), media_type=JSON
+    )

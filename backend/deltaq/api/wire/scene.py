@@ -32,6 +32,12 @@ class SceneValidity(Answer):
     problems: tuple[ProblemEntry, ...]
 
 
+class SceneText(Answer):
+    """What a text in TOML says, as JSON."""
+
+    scene: dict[str, Any]
+
+
 EXAMPLE = {
     "format": 1,
     "id": "my-pendulum",
