@@ -48,7 +48,7 @@ async def test_methods(client: httpx.AsyncClient, language: str) -> None:
 async def test_catalog(client: httpx.AsyncClient, language: str) -> None:
     response = await client.get(f"{API}/catalogs/{language}")
     answer = response.json()
-    assert answer.keys() == {"rules", "errors", "statuses", "page", "methods", "editor", "variations"}
+    assert answer.keys() == {"rules", "errors", "statuses", "page", "methods", "editor", "homework", "variations"}
     assert {"type", "request-scene-type", "missing-field"} <= answer["errors"].keys()  # of three files
     again = await client.get(f"{API}/catalogs/{language}", headers={"If-None-Match": response.headers["etag"]})
     assert again.status_code == 304
@@ -98,10 +98,16 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
         "GET /methods",
         "GET /scenes",
         "GET /scenes/{identifier}",
+        "POST /scenes/toml",
         "POST /scenes/validate",
         "POST /simulations",
         "POST /variations",
+        "GET /proofs",
         "GET /proofs/{identifier}",
+        "GET /scenes/{identifier}/tasks",
+        "POST /tasks",
+        "POST /checks",
+        "POST /checks/batch",
     }
     for path, methods in description["paths"].items():
         for method, call in methods.items():
