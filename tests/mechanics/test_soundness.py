@@ -120,6 +120,25 @@ CASES = [
         id="density that becomes negative",
     ),
     pytest.param(
+        {"bodies": rod("m/s")},
+        (Problem("divergent-integral", "/bodies/0/density", parameters={"name": "s"}),),
+        id="rod of infinite mass",
+    ),
+    pytest.param(
+        {
+            "loads": [
+                {
+                    "kind": "distributed",
+                    "material": [{"name": "s", "from": "0", "to": "l"}],
+                    "position": ["x + s", "0"],
+                    "density": ["m/(s - l/3)^2", "0"],
+                }
+            ]
+        },
+        (Problem("divergent-integral", "/loads/0/density", parameters={"name": "s"}),),
+        id="load with a pole",
+    ),
+    pytest.param(
         {"bodies": rod("m/l", "l", "0")},
         (Problem("empty-material", "/bodies/0/material/0/to", parameters={"name": "s", "min": "1", "max": "0"}),),
         id="material bounds the wrong way round",

@@ -264,6 +264,12 @@ def test_wrong_requests_are_told_where_and_why(
     assert all(message(language, told) for told in caught.value.problems for language in LANGUAGES)
 
 
+def test_a_motion_that_cannot_start_has_no_samples() -> None:
+    """The force is infinite where the particle stands at first."""
+    answer = ask(scene=write_scene(oscillator("-k/x", x=0.0)))
+    assert (answer["status"], answer["t"], answer["energy"]["balance"]) == ("diverged", [], [])
+
+
 def test_all_problems_are_told_at_once() -> None:
     with pytest.raises(RequestError) as caught:
         ask(t_end="x", samples=0, initial={"phi": {"value": math.nan}})

@@ -10,6 +10,7 @@ from ..language.expression import Expression
 from .definedness import definedness_problems
 from .dimensions import SECOND, dimension_problems
 from .inertia import inertia_problems
+from .integrability import integrability_problems
 from .material import Material
 from .scene import Scene
 from .units import Dimension, dimension_of
@@ -25,12 +26,12 @@ class Field:
 
 
 def soundness_problems(scene: Scene) -> Iterator[Problem]:
-    """Errors and warnings. Masses are looked at where every expression has a value."""
+    """Errors and warnings. Masses, and then integrals, are looked at where all else is sound."""
     found = tuple(expressions(scene))
     yield from _idle_parameters(scene, found)
     yield from _units(scene, found)
     undefined = tuple(definedness_problems(scene, ((field.pointer, field.expression) for field in found)))
-    yield from undefined or inertia_problems(scene)
+    yield from undefined or tuple(inertia_problems(scene)) or integrability_problems(scene)
 
 
 def expressions(scene: Scene) -> Iterator[Field]:

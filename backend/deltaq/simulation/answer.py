@@ -69,7 +69,7 @@ def _energy(trajectory: Trajectory, seen: Observation, errors: Floats) -> Docume
         "potential": rounded(seen.potential, doubt).tolist(),
         "work": rounded(trajectory.work, doubt).tolist(),
         "balance": rounded(balance, doubt).tolist(),
-        "drift": float(f"{np.max(np.abs(balance - balance[0])):.3g}"),
+        "drift": float(f"{np.max(np.abs(balance - balance[:1]), initial=0.0):.3g}"),  # no sample where it cannot start
     }
 
 
