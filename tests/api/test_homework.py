@@ -83,3 +83,24 @@ async def test_batch_answers_in_order(client: httpx.AsyncClient) -> None:
 async def test_batch_is_bounded(client: httpx.AsyncClient) -> None:
     response = await client.post(f"{API}/checks/batch", json={"checks": [BASE] * 65})
     assert (response.status_code, response.json()["problems"][0]["code"]) == (422, "request-too-many")
+
+
+WORKING = [
+    {"task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
+    {"task": "equation:phi", "answer": {"value": "2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"}},
+]
+
+
+async def test_previous_lines_make_a_consequence(client: httpx.AsyncClient) -> None:
+    alone = await client.post(f"{API}/checks", json={"scene": "pendulum", **WORKING[1]})
+    after = await client.post(f"{API}/checks", json={"scene": "pendulum", **WORKING[1], "previous": WORKING[:1]})
+    assert [alone.json()["outcome"], after.json()["outcome"]] == ["wrong", "follow_through"]
+
+
+async def test_a_working_is_marked(client: httpx.AsyncClient) -> None:
+    scheme = {"points": {"equation:phi": 4.0}, "follow_through": 0.25}
+    response = await client.post(f"{API}/checks/lines", json={"scene": "pendulum", "lines": WORKING, "scheme": scheme})
+    assert response.status_code == 200, response.text
+    answer = response.json()
+    assert [line["outcome"] for line in answer["lines"]] == ["wrong", "follow_through"]
+    assert (answer["first_wrong"], answer["points"], answer["of"]) == (0, 1.0, 6.0)

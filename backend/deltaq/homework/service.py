@@ -8,15 +8,15 @@ from typing import cast
 from ..language.parser import Syntax
 from ..mechanics.writing import write_scene
 from ..narration.catalog import language_of
-from .checking import check
 from .feedback import Document, task_document, verdict_document
 from .workbook import Workbook, workbook_of
+from .working import Line, Scheme, check_following, mark, wrong_among
 
 
 def tasks_request(document: Mapping[str, object]) -> Document:
     """{scene, guides?, freeze?, parameters?, seed?, lang?} → {scene, symbols, tasks}."""
     workbook = workbook_of(document)
-    language = language_of(cast("str | None", document.get("lang")))
+    language = _language(document)
     return {
         "scene": write_scene(workbook.scene),
         "symbols": _symbols(workbook),
@@ -38,10 +38,44 @@ def _symbols(workbook: Workbook) -> list[Document]:
 def check_request(document: Mapping[str, object]) -> Document:
     """{scene, task, answer: {syntax, value}, …} → the verdict. Raises InputError for what is not an answer."""
     workbook = workbook_of(document)
+    line = _line(document)
+    previous = [_line(one) for one in cast("Sequence[Mapping[str, object]]", document.get("previous") or ())]
+    wrong = wrong_among(workbook, previous)
+    verdict = check_following(workbook, workbook.task(line.task), line, wrong)
+    return verdict_document(verdict, workbook.scene, _language(document))
+
+
+def _line(document: Mapping[str, object]) -> Line:
     answer = cast("Mapping[str, str]", document["answer"])
-    task = workbook.task(str(document["task"]))
-    verdict = check(workbook, task, answer["value"], cast("Syntax", answer.get("syntax") or "plain"))
-    return verdict_document(verdict, workbook.scene, language_of(cast("str | None", document.get("lang"))))
+    return Line(str(document["task"]), answer["value"], cast("Syntax", answer.get("syntax") or "plain"))
+
+
+def _language(document: Mapping[str, object]) -> str:
+    return language_of(cast("str | None", document.get("lang")))
+
+
+def lines_request(document: Mapping[str, object]) -> Document:
+    """{scene, lines, scheme?, …} → the verdict and the points of every line, and where the first mistake is."""
+    workbook = workbook_of(document)
+    lines = [_line(one) for one in cast("Sequence[Mapping[str, object]]", document["lines"])]
+    marked = mark(workbook, lines, _scheme(cast("Mapping[str, object]", document.get("scheme") or {})))
+    first = next((n for n, each in enumerate(marked) if each.verdict.outcome in ("wrong", "invalid")), None)
+    worth = {line.task: each.of for line, each in zip(lines, marked, strict=True)}
+    language = _language(document)
+    return {
+        "lines": [
+            {**verdict_document(each.verdict, workbook.scene, language), "points": each.points, "of": each.of}
+            for each in marked
+        ],
+        "first_wrong": first,
+        "points": sum(each.points for each in marked),
+        "of": sum(worth.values()),
+    }
+
+
+def _scheme(document: Mapping[str, object]) -> Scheme:
+    points = cast("Mapping[str, float]", document.get("points") or {})
+    return Scheme(points, float(cast("float", document.get("follow_through", Scheme.follow_through))))
 
 
 def batch_request(document: Mapping[str, object]) -> list[Document]:

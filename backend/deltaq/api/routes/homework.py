@@ -10,13 +10,23 @@ from ..body import StrictRoute
 from ..languages import language_of
 from ..responses import packed
 from ..service import service_of
-from ..wire.homework import BatchAnswer, BatchRequest, CheckRequest, TaskList, TasksRequest, VerdictAnswer
+from ..wire.homework import (
+    BatchAnswer,
+    BatchRequest,
+    CheckRequest,
+    LinesAnswer,
+    LinesRequest,
+    TaskList,
+    TasksRequest,
+    VerdictAnswer,
+)
 from ..workers.job import Job
 from .common import failures, question_of
 
 router = APIRouter(tags=["homework"], route_class=StrictRoute)
 TASKS = Job("deltaq.api.jobs:tasks", deadline=8.0)
 CHECK = Job("deltaq.api.jobs:check", deadline=15.0)
+LINES = Job("deltaq.api.jobs:check_lines", deadline=30.0)
 BATCH = Job("deltaq.api.jobs:check_batch", deadline=60.0)
 
 
@@ -41,6 +51,12 @@ async def tasks(request: Request, body: TasksRequest) -> Response:
 async def check(request: Request, body: CheckRequest) -> Response:
     """Check one answer: any equivalent form is right, and a mistake is looked for where it is not."""
     return await _answered(request, CHECK, question_of(request, body))
+
+
+@router.post("/checks/lines", response_model=LinesAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+async def check_lines(request: Request, body: LinesRequest) -> Response:
+    """Check a whole working line by line: the first mistake, and what follows correctly from it."""
+    return await _answered(request, LINES, question_of(request, body))
 
 
 @router.post("/checks/batch", response_model=BatchAnswer, responses=failures(400, 404, 413, 422, 503, 504))

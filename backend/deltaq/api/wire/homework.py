@@ -71,11 +71,51 @@ class AnswerText(Request):
     value: Annotated[str, Field(max_length=2000)] = Field(examples=["m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"])
 
 
-class SingleCheck(SceneWithChanges):
-    """One answer to one task."""
+class AnsweredTask(Request):
+    """A line of a working: a task and what was answered."""
 
     task: TaskId
     answer: AnswerText
+
+
+Lines = Annotated[tuple[AnsweredTask, ...], Field(strict=False, max_length=24)]
+
+
+class SingleCheck(SceneWithChanges):
+    """One answer to one task, in the light of the lines before it."""
+
+    task: TaskId
+    answer: AnswerText
+    previous: Lines = Field((), description="the student's own earlier lines: what follows from a wrong one is told")
+
+
+class PointScheme(Request):
+    """How points are given."""
+
+    points: dict[TaskId, Annotated[float, Field(ge=0, le=1000)]] = Field({}, max_length=64, description="by task id")
+    follow_through: float = Field(0.5, ge=0, le=1, description="share of the points for a right consequence")
+
+
+class LinesRequest(SceneWithChanges):
+    """A whole working."""
+
+    lines: Annotated[tuple[AnsweredTask, ...], Field(strict=False, min_length=1, max_length=24)]
+    scheme: PointScheme = PointScheme()
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {
+                    "scene": "pendulum",
+                    "lines": [
+                        {"task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
+                        {"task": "equation:phi", "answer": {"value": "2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"}},
+                    ],
+                }
+            ]
+        }
+    )
 
 
 class CheckRequest(SingleCheck):
@@ -147,6 +187,22 @@ class VerdictAnswer(Answer):
     problems: tuple[VerdictProblem, ...]
     offset: int | None
     counterexample: CounterexampleAnswer | None
+
+
+class MarkedLine(VerdictAnswer):
+    """The verdict on a line, and the points it earns."""
+
+    points: float
+    of: float
+
+
+class LinesAnswer(Answer):
+    """A working, marked: a task earns its points once."""
+
+    lines: tuple[MarkedLine, ...]
+    first_wrong: int | None = Field(description="index of the first line that is wrong or cannot be read")
+    points: float
+    of: float
 
 
 class BatchAnswer(Answer):

@@ -1,0 +1,140 @@
+"""A student's whole working, line by line: right, wrong, or following correctly from a line that was wrong.
+
+A line that makes everything after it trivial carries nothing: what follows from it must hold the coordinates that the
+right answer holds, and most of its terms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import sympy as sp
+
+from ..language.canonical import display
+from ..language.parser import Syntax
+from .checking import check
+from .equality import Parts
+from .own import OwnRoad
+from .reading import read
+from .road import Road
+from .task import Task
+from .verdict import Verdict
+from .workbook import Workbook
+
+SUBSTANTIAL = 0.6  # of the terms of the right answer
+MOST_WRONG = 6
+
+
+@dataclass(frozen=True)
+class Line:
+    """One answer in a working."""
+
+    task: str
+    text: str
+    syntax: Syntax = "plain"
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """How points are given: by task, and the share that a line earns which follows correctly from a wrong one."""
+
+    points: Mapping[str, float] = field(default_factory=dict)
+    follow_through: float = 0.5
+
+    def of(self, task: Task) -> float:
+        return self.points.get(task.id, task.quantity.points)
+
+
+@dataclass(frozen=True)
+class Marked:
+    """A line with its verdict and the points it earns."""
+
+    verdict: Verdict
+    points: float
+    of: float
+
+
+def mark(workbook: Workbook, lines: Sequence[Line], scheme: Scheme) -> list[Marked]:
+    """The lines in order. A task earns its points once, however often it is answered."""
+    earned: dict[str, float] = {}
+    wrong: dict[str, Parts] = {}
+    marked = []
+    for line in lines:
+        task = workbook.task(line.task)
+        verdict = check_following(workbook, task, line, wrong)
+        worth = scheme.of(task) * _share(verdict, scheme)
+        gained = max(0.0, worth - earned.get(task.id, 0.0))
+        earned[task.id] = earned.get(task.id, 0.0) + gained
+        marked.append(Marked(verdict, gained, scheme.of(task)))
+        if verdict.outcome in ("wrong", "follow_through"):
+            wrong[task.id] = read(task, workbook.road, line.text, line.syntax).parts
+        elif verdict.outcome == "correct":
+            wrong.pop(task.id, None)
+    return marked
+
+
+def _share(verdict: Verdict, scheme: Scheme) -> float:
+    if verdict.outcome == "follow_through":
+        return 0.0 if verdict.remark == "repeated" else scheme.follow_through
+    return 1.0 if verdict.outcome == "correct" else 0.0
+
+
+def wrong_among(workbook: Workbook, lines: Sequence[Line]) -> dict[str, Parts]:
+    """The wrong answers of earlier lines, by task."""
+    found: dict[str, Parts] = {}
+    for line in lines:
+        task = workbook.task(line.task)
+        verdict = check_following(workbook, task, line, found)
+        if verdict.outcome in ("wrong", "follow_through"):
+            found[task.id] = read(task, workbook.road, line.text, line.syntax).parts
+    return found
+
+
+def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[str, Parts]) -> Verdict:
+    """The verdict on a line in the light of the wrong lines before it."""
+    verdict = check(workbook, task, line.text, line.syntax)
+    if verdict.outcome != "wrong" or not wrong or verdict.remark == "degenerate":
+        return verdict
+    given = read(task, workbook.road, line.text, line.syntax).parts
+    if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.road).equal:
+        return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slip=None)
+    if any(_follows(workbook, task, given, road) for road in _roads(workbook, task, wrong)):
+        return replace(verdict, outcome="follow_through", remark="", misconceptions=(), slip=None, counterexample=None)
+    return verdict
+
+
+def _roads(workbook: Workbook, task: Task, wrong: Mapping[str, Parts]) -> Iterator[Road]:
+    """From all wrong lines, then from each of them alone; never from an earlier answer to the same task."""
+    others = {name: parts for name, parts in wrong.items() if name != task.id}
+    if not others:
+        return
+    yield OwnRoad(workbook.scene, workbook.road, others)
+    for name in list(others)[-MOST_WRONG:] if len(others) > 1 else ():
+        yield OwnRoad(workbook.scene, workbook.road, {name: others[name]})
+
+
+def _follows(workbook: Workbook, task: Task, given: Parts, road: Road) -> bool:
+    """Whether the line is what their own lines lead to, and that is no triviality."""
+    try:
+        expected = task.value(road)
+    except (ValueError, ZeroDivisionError):
+        return False
+    if not expected or not task.quantity.equality.same(given, expected, road).equal:
+        return False
+    return _substantial(expected, workbook.shown(task), workbook)
+
+
+def _substantial(expected: Parts, right: Parts, workbook: Workbook) -> bool:
+    """Every coordinate, rate and acceleration of the right answer, and most of its terms."""
+    parameters = {workbook.road.q(p.name) for p in workbook.scene.parameters}
+    own, true = (_content(parts, workbook) for parts in (expected, right))
+    needed = {symbol for part in right for symbol in part.free_symbols} - parameters
+    held = {symbol for part in expected for symbol in part.free_symbols}
+    return needed <= held and own >= SUBSTANTIAL * true
+
+
+def _content(parts: Parts, workbook: Workbook) -> int:
+    """The number of terms in display form."""
+    shown = (display(sp.expand(part), workbook.road.symbols).expand() for part in parts)
+    return sum(len(sp.Add.make_args(part)) for part in shown if part != 0)
