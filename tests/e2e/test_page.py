@@ -211,7 +211,7 @@ def test_two_formulations_with_addresses(lecture: Lecture) -> None:
     """Hamilton's principle is one choice away, can be linked to, and ends in the same equations."""
     lecture.open("?scene=elastic-pendulum&lang=en&step=equation:phi")
     expect(lecture.page.locator(".step[aria-current]")).to_have_attribute("data-step", "equation:phi")
-    equation = lecture.page.locator("[data-step='equation:phi'] .katex-mathml").first
+    equation = lecture.page.locator("[data-step='equation:phi'] .formula .katex-mathml").first
     by_work = equation.text_content()
     lecture.page.locator(".road select").select_option("hamilton")
     chapters = lecture.page.locator(".chapters")
@@ -221,3 +221,14 @@ def test_two_formulations_with_addresses(lecture: Lecture) -> None:
     lecture.page.reload()
     expect(chapters).to_contain_text("Hamilton’s principle")
     expect(lecture.page.locator(".road select")).to_have_value("hamilton")
+
+
+def test_terms_light_up_what_they_come_from(lecture: Lecture) -> None:
+    """A term of the equation of motion points at its load or body in the drawing."""
+    lecture.open("?scene=elastic-pendulum&lang=en&step=equation:phi")
+    equation = lecture.page.locator("[data-step='equation:phi'] .formula .katex-html").first
+    drawing = lecture.page.locator(".drawing")
+    for source in ("load-drive", "body-bob"):
+        equation.locator(f".{source}").last.dispatch_event("pointerover")
+        expect(drawing.locator(f".lit.{source}").first).to_be_attached()
+    expect(drawing.locator(".lit.load-drive")).to_have_count(0)

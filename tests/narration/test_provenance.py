@@ -16,7 +16,10 @@ from deltaq.narration.derive import derive_request
 def sums(part: object, path: str = "") -> Iterator[tuple[str, dict]]:
     """Every expression of a result that has terms, by its place in the answer."""
     if isinstance(part, dict):
-        if "terms" in part:
+        if "terms" in part and isinstance(part["plain"], list):
+            for index, (text, terms) in enumerate(zip(part["plain"], part["terms"], strict=True)):
+                yield f"{path}/{index}", {"plain": text, "terms": terms}
+        elif "terms" in part:
             yield path, part
         for key, value in part.items():
             yield from sums(value, f"{path}/{key}")
@@ -34,7 +37,14 @@ def test_terms_sum_to_the_expression(scene: str) -> None:
     system = System(load_scene(scene))
     known = {f"body:{body.name}" for body in system.scene.bodies} | {f"load:{load}" for load in system.load_names}
     found = dict(sums(derive_request({"scene": scene})["result"]))
-    assert {"/virtual_work", "/kinetic_energy", "/lagrangian", "/equations/0", "/jacobi_energy"} <= found.keys()
+    assert {
+        "/virtual_work",
+        "/kinetic_energy",
+        "/lagrangian",
+        "/equations/0",
+        "/forcing/0",
+        "/jacobi_energy",
+    } <= found.keys()
     for place, expression in found.items():
         whole = sum((value(system, term["plain"]) for term in expression["terms"]), sp.Integer(0))
         assert system.is_zero(whole - value(system, expression["plain"])), place

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import sympy as sp
@@ -119,7 +119,19 @@ def _terms(system: System) -> Terms:
         **{key: {"": terms_of(system, shares(system))} for key, shares in whole.items()},
         **{key: {q: terms_of(system, of(system, q)) for q in system.free} for key, of in by_coordinate.items()},
         "equations": {q: terms_by_source(system, q) for q in system.free},
+        "forcing": {q: _forcing_terms(system, q) for q in system.free},
     }
+
+
+def _forcing_terms(system: System, coordinate: str) -> tuple[Term, ...]:
+    """What does not hang on accelerations, on the right."""
+    accelerations = {system.acceleration(q) for q in system.free}
+    terms = terms_by_source(system, coordinate)
+    return tuple(
+        replace(term, sign=-term.sign)
+        for term in terms
+        if not term.formula.value.free_symbols & accelerations  # type: ignore[union-attr]
+    )
 
 
 def _potential_of(system: System, load: str) -> LoadPotential:

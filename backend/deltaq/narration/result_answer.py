@@ -36,7 +36,7 @@ def written(result: Result, typography: Typography) -> Document:
             "plain": [[plain(entry) for entry in row] for row in result.mass_matrix.tolist()],
             "latex": latex(result.mass_matrix, typography),
         },
-        "forcing": write.vector(result.forcing),
+        "forcing": {**write.vector(result.forcing), "terms": write.rows("forcing")},
         "conserved": [write.conserved(each) for each in result.conserved],
         "equilibria": [equilibrium(linear, result.scene, typography) for linear in result.equilibria],
         "jacobi_energy": {**write.sum("jacobi_energy", result.jacobi_energy), "equals_energy": result.is_energy},
@@ -64,6 +64,10 @@ class _Writer:
 
     def each(self, key: str, values: Mapping[str, sp.Expr], suffix: str = "") -> list[Document]:
         return [{"coordinate": q, **self.sum(key, value, q, suffix)} for q, value in values.items()]
+
+    def rows(self, key: str) -> list[list[Document]]:
+        """The terms of a vector, component by component."""
+        return [[self._term(term) for term in terms] for terms in self.result.terms[key].values()]
 
     def conserved(self, quantity: Conserved) -> Document:
         key = "momentum" if quantity.coordinate else "jacobi_energy"
