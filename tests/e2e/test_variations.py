@@ -81,6 +81,9 @@ def test_the_proof_is_read_step_by_step_in_both_languages(lecture: Lecture) -> N
     page.keyboard.press("End")
     expect(lecture.steps).to_have_count(lecture.number_of_steps())
     assert page.locator(".doubtful, .untypeset, .katex-error").count() == 0
+    page.set_viewport_size({"width": 360, "height": 740})
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    expect(page.locator(".step[aria-current] .title")).to_be_visible()
     step = lecture.current_step
     page.locator(".segments [lang=en]").click()
     expect(page.locator(".pager .main")).to_contain_text("Next", timeout=PATIENCE)

@@ -51,7 +51,7 @@ export function contents({ asking, t, link, follow, session }) {
   return html`
     <nav class="chapters" aria-label=${t("chapters")}><ol>
       ${chapters.map(({ title, steps }, i) => html`<li><a href=${link({ step: steps[0].id })} @click=${to(steps[0].id)}><span class="ordinal">${i + 1}</span>${title}</a></li>`)}
-      <li><a href=${link({ step: "slide" })} @click=${to("slide")}>${t("variations.slide")}</a></li>
+      ${chapters.length ? html`<li><a href=${link({ step: "slide" })} @click=${to("slide")}>${t("variations.slide")}</a></li>` : nothing}
     </ol></nav>`;
 }
 

@@ -16,7 +16,9 @@ const KINDS = /** @type {const} */ (["one_sided", "central"]);
 /** @param {VariationsView} view */
 export function slider(view) {
   const { asking, t } = view;
-  const vector = Array.isArray(asking.answer?.result.first_variation.plain);
+  // It comes together with the steps above it, so that it need not make way for them.
+  if (!asking.answer) return nothing;
+  const vector = Array.isArray(asking.answer.result.first_variation.plain);
   return html`
     <section class="slide" data-step="slide" aria-labelledby="slide-title">
       <h2 id="slide-title" class="chapter">${t("variations.slide")}</h2>
