@@ -12,6 +12,7 @@ import { page } from "./view/variations/page.js";
 
 const WIDE = 660;
 const FIRST_SIZE = 2;
+const ADDRESS_REST = 150;
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -84,6 +85,13 @@ function observe() {
   observer.observe((observed = charts));
 }
 
+let addressing = 0;
+/** Browsers refuse addresses that change too often, as they would under a slider. */
+function address() {
+  clearTimeout(addressing);
+  addressing = window.setTimeout(() => history.replaceState(null, "", link({})), ADDRESS_REST);
+}
+
 let arrived = false;
 function update() {
   const { place, catalog } = get();
@@ -94,7 +102,7 @@ function update() {
   document.title = `δq · ${t("place.variations")}`;
   render(page({ state: { place }, asking: lab.get(), lab, session, t, link, follow, size: chartSize() }), root);
   observe();
-  history.replaceState(null, "", link({}));
+  address();
   if (lab.get().answer && !arrived) {
     arrived = true;
     if (place.step) goTo(place.step);
