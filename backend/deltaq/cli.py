@@ -8,6 +8,7 @@ import socket
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import __version__
@@ -24,6 +25,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.command == "serve":
         return serve(options.host, options.port, open_page=options.open)
+    if options.command == "check":
+        return check(options)
+    if options.command == "export-stack":
+        return export_stack(options)
     parser.print_help()
     return 0
 
@@ -44,7 +49,61 @@ def _parser() -> argparse.ArgumentParser:
         "--port", type=_port, default=8000, help="port; 0 takes a free one (default: %(default)s)"
     )
     serve_parser.add_argument("--open", action="store_true", help="open the page in the browser")
+    check_parser = commands.add_parser(
+        "check",
+        help="check a table of answers",
+        description="Checks the answers of a CSV table with the columns task and answer, and student, scene, syntax "
+        "(plain or latex) and seed where wanted; writes the verdicts, and tells which mistakes were made how often.",
+    )
+    check_parser.add_argument("answers", type=Path, help="CSV with a header")
+    check_parser.add_argument("--output", type=Path, help="where the results go (default: beside, -results.csv)")
+    check_parser.add_argument("--assignment", type=Path, help="TOML or JSON file with scenes, tasks and points")
+    check_parser.add_argument("--lang", choices=("en", "de"), default="en", help="language (default: %(default)s)")
+    stack_parser = commands.add_parser(
+        "export-stack",
+        help="export tasks as questions of STACK",
+        description="Writes tasks of a built-in scene as Moodle XML of the question type STACK.",
+    )
+    stack_parser.add_argument("scene", help="id of a built-in scene")
+    stack_parser.add_argument("tasks", nargs="*", help="ids of tasks such as equation:phi (default: all)")
+    stack_parser.add_argument("--output", type=Path, required=True, help="where the XML goes")
+    stack_parser.add_argument("--lang", choices=("en", "de"), default="en", help="language (default: %(default)s)")
     return parser
+
+
+def export_stack(options: argparse.Namespace) -> int:
+    """Write questions for STACK."""
+    from .errors import InputError
+    from .homework.command import stack_file, told
+
+    try:
+        count = stack_file(options.scene, options.tasks, options.output, options.lang)
+    except InputError as error:
+        print(told(error, options.lang), file=sys.stderr)
+        return BUSY
+    except OSError as error:
+        print(f"deltaq: {error}", file=sys.stderr)
+        return BUSY
+    print(f"{count} → {options.output}")
+    return 0
+
+
+def check(options: argparse.Namespace) -> int:
+    """Check a table of answers, and print what went wrong how often."""
+    from .errors import InputError
+    from .homework.command import check_file, told
+
+    output = options.output or options.answers.with_name(f"{options.answers.stem}-results.csv")
+    try:
+        print(check_file(options.answers, output, options.assignment, options.lang))
+    except InputError as error:
+        print(told(error, options.lang), file=sys.stderr)
+        return BUSY
+    except (OSError, UnicodeDecodeError) as error:
+        print(f"deltaq: {error}", file=sys.stderr)
+        return BUSY
+    print(f"→ {output}")
+    return 0
 
 
 def _port(text: str) -> int:

@@ -104,3 +104,9 @@ async def test_a_working_is_marked(client: httpx.AsyncClient) -> None:
     answer = response.json()
     assert [line["outcome"] for line in answer["lines"]] == ["wrong", "follow_through"]
     assert (answer["first_wrong"], answer["points"], answer["of"]) == (0, 1.0, 6.0)
+
+
+async def test_export_for_stack(client: httpx.AsyncClient) -> None:
+    response = await client.post(f"{API}/tasks/stack", json={"scene": "pendulum", "tasks": ["equation:phi"]})
+    assert (response.status_code, response.headers["content-type"]) == (200, "application/xml")
+    assert response.text.count('<question type="stack">') == 1

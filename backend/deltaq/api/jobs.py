@@ -89,6 +89,12 @@ def check(document: Document) -> Document:
     return answer
 
 
+def export_stack(document: Document) -> Document:
+    """Questions for STACK as XML."""
+    answer: Document = import_module("deltaq.homework.service").stack_request(document)
+    return answer
+
+
 def check_lines(document: Document) -> Document:
     """The verdicts on a whole working, with points."""
     answer: Document = import_module("deltaq.homework.service").lines_request(document)

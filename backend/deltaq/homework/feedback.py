@@ -66,8 +66,13 @@ def _told(example: Counterexample, language: str) -> str:
 
 def _about(verdict: Verdict, scene: Scene, language: str) -> dict[str, str]:
     """What the texts of a misconception may speak of."""
-    parts = [_label(part, scene, language) for part in verdict.about.replace(":", "/").split("/") if part]
-    return {"about": ", ".join(parts[-2:] if "/" in verdict.about else parts[-1:]), **verdict.parameters}
+    return {**about_texts(verdict.about, scene, language), **verdict.parameters}
+
+
+def about_texts(about: str, scene: Scene, language: str) -> dict[str, str]:
+    """Two names mixed up (a/b), the body of a load (load:body), or one name, as a sentence calls them."""
+    parts = [_label(part, scene, language) for part in about.replace(":", "/").split("/") if part]
+    return {"about": ", ".join(parts[-2:] if "/" in about else parts[-1:])}
 
 
 def _label(name: str, scene: Scene, language: str) -> str:

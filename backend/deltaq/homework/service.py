@@ -9,6 +9,7 @@ from ..language.parser import Syntax
 from ..mechanics.writing import write_scene
 from ..narration.catalog import language_of
 from .feedback import Document, task_document, verdict_document
+from .stack.question import quiz
 from .workbook import Workbook, workbook_of
 from .working import Line, Scheme, check_following, mark, wrong_among
 
@@ -76,6 +77,14 @@ def lines_request(document: Mapping[str, object]) -> Document:
 def _scheme(document: Mapping[str, object]) -> Scheme:
     points = cast("Mapping[str, float]", document.get("points") or {})
     return Scheme(points, float(cast("float", document.get("follow_through", Scheme.follow_through))))
+
+
+def stack_request(document: Mapping[str, object]) -> Document:
+    """{scene, tasks?, …} → {xml}: questions for STACK, of all tasks if none is named."""
+    workbook = workbook_of(document)
+    named = cast("Sequence[str]", document.get("tasks") or ())
+    tasks = [workbook.task(identifier) for identifier in named] or workbook.tasks
+    return {"xml": quiz(workbook, tasks, _language(document))}
 
 
 def batch_request(document: Mapping[str, object]) -> list[Document]:

@@ -63,7 +63,11 @@ class Workbook:
     @kept
     def shown(self, task: Task) -> Parts:
         """The right answer in its display form."""
-        return tuple(display(part.expand(), self.road.symbols) for part in self.right(task))
+        return self.short(self.right(task))
+
+    def short(self, parts: Parts) -> Parts:
+        """Any answer in its display form."""
+        return tuple(display(part.expand(), self.road.symbols) for part in parts)
 
     @kept
     def fingerprint(self, task: Task) -> Fingerprint | None:

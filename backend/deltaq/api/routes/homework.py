@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from json import loads
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request, Response
@@ -16,6 +17,7 @@ from ..wire.homework import (
     CheckRequest,
     LinesAnswer,
     LinesRequest,
+    StackRequest,
     TaskList,
     TasksRequest,
     VerdictAnswer,
@@ -26,6 +28,7 @@ from .common import failures, question_of
 router = APIRouter(tags=["homework"], route_class=StrictRoute)
 TASKS = Job("deltaq.api.jobs:tasks", deadline=8.0)
 CHECK = Job("deltaq.api.jobs:check", deadline=15.0)
+STACK = Job("deltaq.api.jobs:export_stack", deadline=60.0)
 LINES = Job("deltaq.api.jobs:check_lines", deadline=30.0)
 BATCH = Job("deltaq.api.jobs:check_batch", deadline=60.0)
 
@@ -45,6 +48,13 @@ async def tasks_of_scene(
 async def tasks(request: Request, body: TasksRequest) -> Response:
     """The tasks of a scene that the request brings or changes."""
     return await _answered(request, TASKS, question_of(request, body))
+
+
+@router.post("/tasks/stack", responses=failures(400, 404, 413, 422, 503, 504))
+async def export_stack(request: Request, body: StackRequest) -> Response:
+    """Tasks as questions of STACK (Moodle XML): input, model answer, feedback tree made of the misconceptions."""
+    answer = await service_of(request).pool.run(STACK, question_of(request, body))
+    return Response(loads(answer)["xml"], media_type="application/xml")
 
 
 @router.post("/checks", response_model=VerdictAnswer, responses=failures(400, 404, 413, 422, 503, 504))

@@ -29,6 +29,13 @@ class TasksRequest(SceneWithChanges):
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
 
+class StackRequest(SceneWithChanges):
+    """Which tasks to export."""
+
+    tasks: Annotated[tuple[TaskId, ...], Field(strict=False, max_length=32, description="all if empty")] = ()
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+
 class TaskSymbol(Answer):
     """A symbol that answers may hold."""
 

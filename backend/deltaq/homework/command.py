@@ -1,0 +1,54 @@
+"""`deltaq check answers.csv` and `deltaq export-stack`: homework without a server."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import TextIO
+
+from ..errors import InputError
+from ..narration.catalog import message
+from .assignment import load_assignment
+from .grading import Graded, grade, read_answers, results_csv, summary
+from .stack.question import quiz
+from .workbook import workbook_of
+
+WIDTH = 30
+
+
+def check_file(
+    answers: Path, output: Path, assignment: Path | None = None, language: str = "en", *, screen: TextIO = sys.stderr
+) -> str:
+    """Grade the answers of a CSV into `output`; the text is the summary. Raises InputError for a wrong table."""
+    known = load_assignment(assignment) if assignment else None
+    rows = read_answers(answers.read_text(encoding="utf-8-sig"))
+    graded = list(_with_progress(grade(rows, known, language), len(rows), screen))
+    output.write_text(results_csv(graded), encoding="utf-8")
+    return summary(graded, language)
+
+
+def _with_progress(graded: Iterable[Graded], total: int, screen: TextIO) -> Iterator[Graded]:
+    """The rows, a bar on the screen growing with them if it is a terminal."""
+    shown = screen.isatty()
+    for done, each in enumerate(graded, 1):
+        if shown:
+            filled = WIDTH * done // total
+            screen.write(f"\r[{'#' * filled}{'.' * (WIDTH - filled)}] {done}/{total}")
+            screen.flush()
+        yield each
+    if shown and total:
+        screen.write("\n")
+
+
+def stack_file(scene: str, tasks: Sequence[str], output: Path, language: str) -> int:
+    """Write questions for STACK: the named tasks of a built-in scene, all of them if none is named; their number."""
+    workbook = workbook_of({"scene": scene})
+    wanted = [workbook.task(task) for task in tasks] or workbook.tasks
+    output.write_text(quiz(workbook, wanted, language), encoding="utf-8")
+    return len(wanted)
+
+
+def told(error: InputError, language: str) -> str:
+    """Why it could not be done, one line for each problem."""
+    return "\n".join(f"deltaq: {p.pointer + ': ' if p.pointer else ''}{message(language, p)}" for p in error.problems)

@@ -1,0 +1,148 @@
+"""Tables of answers: results, summary, assignments, and what is said of tables that are wrong."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import pytest
+
+from deltaq.cli import main
+from deltaq.errors import InputError
+from deltaq.homework.assignment import load_assignment, read_assignment
+from deltaq.homework.command import check_file
+from deltaq.homework.grading import grade, read_answers, results_csv, summary
+
+TABLE = """student;scene;task;answer;syntax
+ada;pendulum;kinetic-energy;m*l^2*dot(phi)^2/2;
+emmy;pendulum;kinetic-energy;m*l^2*dot(phi)^2;plain
+max;pendulum;kinetic-energy;\\frac{1}{2} m\\ell^2\\dot\\varphi^2;latex
+zoe;pendulum;lagrange;1;
+"""
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_rows_are_graded_and_one_spoils_no_other() -> None:
+    graded = list(grade(read_answers(TABLE), None, "en"))
+    assert [each.outcome for each in graded] == ["correct", "wrong", "correct", "invalid"]
+    assert [each.misconception for each in graded] == ["", "half-in-kinetic-energy", "", ""]
+    assert [(each.points, each.of) for each in graded[:2]] == [(2.0, 2.0), (0.0, 2.0)]
+    assert "lagrangian" in graded[3].feedback
+
+
+def test_summary_counts_misconceptions_by_task() -> None:
+    told = summary(grade(read_answers(TABLE), None, "en"), "en")
+    assert "pendulum  kinetic-energy: 2/3 right" in told
+    assert any(line.strip().startswith("half-in-kinetic-energy  █") for line in told.splitlines())
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_separators_of_spreadsheets(separator: str) -> None:
+    content = separator.join(("Task", "Answer")) + "\n" + separator.join(("kinetic-energy", "m")) + "\n"
+    assert read_answers(content) == [{"task": "kinetic-energy", "answer": "m"}]
+
+
+def test_results_hold_no_formulas_of_spreadsheets() -> None:
+    content = "student,scene,task,answer\n=HYPERLINK(1),pendulum,kinetic-energy,m\n"
+    assert "\n'=HYPERLINK(1)," in results_csv(grade(read_answers(content), None, "en"))
+
+
+@pytest.mark.parametrize("content", ["", "a,b\n1,2\n", "task\nx\n"])
+def test_table_without_its_columns(content: str) -> None:
+    with pytest.raises(InputError) as caught:
+        read_answers(content)
+    assert [problem.code for problem in caught.value.problems] == ["answers-column"]
+
+
+def test_command_writes_results_and_shows_progress(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    answers = tmp_path / "answers.csv"
+    answers.write_text(TABLE, encoding="utf-8-sig")
+    screen = Terminal()
+    check_file(answers, tmp_path / "out.csv", screen=screen)
+    assert screen.getvalue().endswith("4/4\n")
+    assert main(["check", str(answers), "--lang", "de"]) == 0
+    assert "2/3 richtig" in capsys.readouterr().out
+    rows = (tmp_path / "answers-results.csv").read_text(encoding="utf-8").splitlines()
+    assert len(rows) == 5
+
+
+def test_command_says_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    answers = tmp_path / "answers.csv"
+    answers.write_text("a,b\n", encoding="utf-8")
+    assert main(["check", str(answers)]) == 2
+    assert capsys.readouterr().err == "deltaq: The table has no column “task”. It has: a, b.\n"
+    assert main(["check", str(tmp_path / "missing.csv")]) == 2
+    assert main(["export-stack", "pendulun", "--output", str(tmp_path / "x.xml")]) == 2
+    assert main(["export-stack", "pendulum", "equation:phi", "--output", str(tmp_path / "x.xml")]) == 0
+    assert (tmp_path / "x.xml").read_text(encoding="utf-8").count("<question ") == 1
+
+
+SHEET = """
+format = 1
+title = { de = "Blatt 1", en = "Sheet 1" }
+individual = true
+[[tasks]]
+scene = "pendulum"
+task = "equation:phi"
+points = 5
+[[tasks]]
+scene = "base-pendulum"
+guides = [{ coordinate = "y", value = "0.1*sin(3*t)" }]
+task = "kinetic-energy"
+"""
+
+
+def test_assignment_names_tasks_by_number_and_counts_their_points(tmp_path: Path) -> None:
+    path = tmp_path / "sheet.toml"
+    path.write_text(SHEET, encoding="utf-8")
+    sheet = load_assignment(path)
+    rows = [{"student": "ada", "task": "1", "answer": "ddot(phi) = -g/l*sin(phi)"}, {"task": "3", "answer": "1"}]
+    graded = list(grade(rows, sheet, "en"))
+    assert [(each.outcome, each.points, each.of) for each in graded] == [("correct", 5.0, 5.0), ("invalid", 0.0, 0.0)]
+    assert [task.points for task in sheet.tasks] == [5.0, None]
+
+
+@pytest.mark.parametrize(
+    ("document", "problems"),
+    [
+        pytest.param([], [("", "request-not-object")], id="list"),
+        pytest.param({"format": 1}, [("/tasks", "assignment-no-task")], id="no task"),
+        pytest.param(
+            {"format": 2, "tasks": [{}], "extra": 1, "follow_through": 3},
+            [
+                ("/format", "assignment-format"),
+                ("/extra", "unknown-field"),
+                ("/follow_through", "assignment-share"),
+                ("/tasks/0/scene", "missing-field"),
+                ("/tasks/0/task", "missing-field"),
+            ],
+            id="several at once",
+        ),
+        pytest.param(
+            {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:psi"}]},
+            [("/tasks/0/task", "unknown-task")],
+            id="unknown task",
+        ),
+        pytest.param(
+            {"format": 1, "tasks": [{"scene": "none", "task": "lagrangian"}]},
+            [("/tasks/0/scene", "unknown-scene")],
+            id="unknown scene",
+        ),
+    ],
+)
+def test_wrong_assignment(document: object, problems: list[tuple[str, str]]) -> None:
+    with pytest.raises(InputError) as caught:
+        read_assignment(document)
+    assert [(problem.pointer, problem.code) for problem in caught.value.problems] == problems
+
+
+def test_assignment_that_is_no_toml(tmp_path: Path) -> None:
+    path = tmp_path / "sheet.toml"
+    path.write_text("tasks = [", encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        load_assignment(path)
+    assert [problem.code for problem in caught.value.problems] == ["assignment-syntax"]

@@ -1,0 +1,145 @@
+"""The export for STACK has the structure of the questions that STACK exports, and its Maxima says what is meant."""
+
+from __future__ import annotations
+
+import re
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from deltaq.homework.stack.maxima import maxima, maxima_name
+from deltaq.homework.stack.question import quiz
+from deltaq.homework.workbook import Workbook, workbook_of
+
+# Elements of a question, an input and a node, in the order in which STACK writes them.
+QUESTION = [
+    "name",
+    "questiontext",
+    "generalfeedback",
+    "defaultgrade",
+    "penalty",
+    "hidden",
+    "idnumber",
+    "stackversion",
+    "questionvariables",
+    "specificfeedback",
+    "questionnote",
+    "questiondescription",
+    "questionsimplify",
+    "assumepositive",
+    "assumereal",
+    "decimals",
+    "scientificnotation",
+    "multiplicationsign",
+    "sqrtsign",
+    "complexno",
+    "inversetrig",
+    "logicsymbol",
+    "matrixparens",
+    "variantsselectionseed",
+    "input",
+    "prt",
+]
+INPUT = [
+    "name",
+    "type",
+    "tans",
+    "boxsize",
+    "strictsyntax",
+    "insertstars",
+    "syntaxhint",
+    "syntaxattribute",
+    "forbidwords",
+    "allowwords",
+    "forbidfloat",
+    "requirelowestterms",
+    "checkanswertype",
+    "mustverify",
+    "showvalidation",
+    "options",
+]
+BRANCH = ["scoremode", "score", "penalty", "nextnode", "answernote", "feedback"]
+NODE = ["name", "description", "answertest", "sans", "tans", "testoptions", "quiet"]
+NODE += [f"{branch}{name}" for branch in ("true", "false") for name in BRANCH]
+TREE = ["name", "value", "autosimplify", "feedbackstyle", "feedbackvariables"]
+SCENES = ["pendulum", "elastic-pendulum", "guided-pendulum"]
+
+
+@pytest.fixture(scope="module", params=SCENES)
+def exported(request: pytest.FixtureRequest) -> tuple[Workbook, list[ET.Element]]:
+    workbook = workbook_of({"scene": request.param})
+    root = ET.fromstring(quiz(workbook, workbook.tasks, "de"))
+    assert root.tag == "quiz"
+    return workbook, list(root)
+
+
+def tags(element: ET.Element) -> list[str]:
+    return [child.tag for child in element]
+
+
+def content(element: ET.Element, path: str) -> str:
+    return element.findtext(path) or ""
+
+
+def test_every_task_is_a_question_with_the_documented_elements(exported: tuple[Workbook, list]) -> None:
+    workbook, questions = exported
+    assert [content(question, "questionnote/text").split(", ")[1] for question in questions] == [
+        task.id for task in workbook.tasks
+    ]
+    for question in questions:
+        assert question.attrib == {"type": "stack"}
+        assert tags(question) == QUESTION
+        assert tags(question.find("input")) == INPUT
+        assert {"[[input:ans1]]", "[[validation:ans1]]"} <= set(
+            re.findall(r"\[\[\w+:\w+\]\]", content(question, "questiontext/text"))
+        )
+        assert "[[feedback:prt1]]" in content(question, "specificfeedback/text")
+
+
+def test_trees_are_connected_and_score_the_right_answer_only(exported: tuple[Workbook, list]) -> None:
+    for question in exported[1]:
+        tree = question.find("prt")
+        nodes = tree.findall("node")
+        assert tags(tree) == TREE + ["node"] * len(nodes)
+        for number, node in enumerate(nodes):
+            assert tags(node) == NODE
+            assert content(node, "name") == str(number)
+            following = -1 if number == len(nodes) - 1 else number + 1
+            assert (content(node, "truenextnode"), content(node, "falsenextnode")) == ("-1", str(following))
+        right = [content(node, "description") for node in nodes if content(node, "truescore") == "1"]
+        assert right == ["correct"]
+        notes = [content(node, name) for node in nodes for name in ("trueanswernote", "falseanswernote")]
+        assert len(set(notes)) == len(notes)
+
+
+def test_misconceptions_have_feedback_of_their_own(exported: tuple[Workbook, list]) -> None:
+    for question in exported[1]:
+        nodes = question.findall("prt/node")
+        told = [content(node, "truefeedback/text") for node in nodes]
+        assert all(told)
+        assert "$" not in "".join(told)
+    kinds = {content(node, "description") for question in exported[1] for node in question.findall("prt/node")}
+    assert len(kinds) > 10
+
+
+def test_maxima_is_balanced_and_knows_no_dots(exported: tuple[Workbook, list]) -> None:
+    for question in exported[1]:
+        texts = [node.text or "" for node in question.iter() if node.tag in ("sans", "tans")]
+        for text in [*texts, content(question, "questionvariables/text")]:
+            assert all(text.count(a) == text.count(b) for a, b in ("()", "[]", "{}"))
+            assert "dot(" not in text
+            assert "delta(" not in text
+
+
+@pytest.mark.parametrize(
+    ("name", "written"),
+    [("phi", "phi"), ("dot(phi)", "phi_dot"), ("ddot(q)", "q_ddot"), ("delta(y)", "delta_y"), ("lambda", "lam")],
+)
+def test_names_that_can_be_typed(name: str, written: str) -> None:
+    assert maxima_name(name) == written
+
+
+def test_maxima_of_an_expression() -> None:
+    workbook = workbook_of({"scene": "pendulum"})
+    (energy,) = workbook.shown(workbook.task("kinetic-energy"))
+    assert maxima(energy) == "l^2*m*phi_dot^2/2"
