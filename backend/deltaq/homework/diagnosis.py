@@ -32,11 +32,11 @@ def diagnose(workbook: Workbook, task: Task, given: Parts) -> Diagnosis:
     found = list(islice(_direct(workbook, task, given), MOST_NAMED))
     if found:
         return Diagnosis(tuple(c.road.id for c in found), tuple(c.road.about for c in found))
-    slips = Slips(workbook.sampler, task.quantity.form)
+    slips = Slips(workbook.sampler, task.quantity.form, up_to_constant=task.quantity.up_to_constant)
     right = _slip(slips, given, workbook.right(task), task, workbook.road)
     if right is not None:
         return Diagnosis(slip=right)
-    for candidate in workbook.candidates(task):
+    for candidate in workbook.candidates(task) if any(part != 0 for part in given) else ():
         besides = _slip(slips, given, candidate.parts, task, candidate.road)
         if besides is not None:
             return Diagnosis((candidate.road.id,), (candidate.road.about,), besides)

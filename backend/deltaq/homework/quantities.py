@@ -43,6 +43,11 @@ class Quantity:
     needs: tuple[str, ...] = ()
     points: float = 1.0
 
+    @property
+    def up_to_constant(self) -> bool:
+        """Whether an added constant makes no difference."""
+        return self.equality in (up_to_constant, lagrangian, conserved)
+
 
 def _bodies(road: Road) -> list[str]:
     return [body.name for body in road.scene.bodies]

@@ -21,6 +21,7 @@ from .task import Task
 
 LABEL = re.compile(r"[^=+*/^≠<>]{1,48}=(?!=)")
 CONSTANT = re.compile(r"=\s*(\\(text|mathrm|operatorname)\s*\{\s*)?const(ant|\.)?\.?\s*\}?\s*\.?\s*$", re.IGNORECASE)
+ADDED = re.compile(r"\+\s*(C|(\\text\s*\{)?\s*const\.?\s*\}?)\s*$")
 DECORATION = re.compile(r"\\(vec|mathbf|boldsymbol|bm|mathrm|text|underline|left|right|,|;|!|quad)|[\s{}\\]")
 SEPARATOR = re.compile(r";|\n")
 MAX_EQUATIONS = 12
@@ -66,7 +67,7 @@ def _pieces(task: Task, text: str, names: Names, syntax: Syntax) -> Iterator[tup
     """Where in the text the expressions stand."""
     start, end = 0, len(text)
     if task.quantity.form in ("expression", "vector"):
-        constant = CONSTANT.search(text) if task.quantity.kind == "conserved" else None
+        constant = _constant(task, text, names)
         end = constant.start() if constant else end
         start = _after_label(task, text[:end], names, syntax)
     if task.quantity.form not in ("equations", "set"):
@@ -77,6 +78,13 @@ def _pieces(task: Task, text: str, names: Names, syntax: Syntax) -> Iterator[tup
     ends = [*(cut.start() for cut in cuts), len(text)]
     found = [(a, b) for a, b in zip(starts, ends, strict=True) if text[a:b].strip(" ,")]
     yield from found or [(0, len(text))]
+
+
+def _constant(task: Task, text: str, names: Names) -> re.Match[str] | None:
+    """`= const` after a conserved quantity, `+ C` after what is known up to a constant."""
+    if task.quantity.kind == "conserved" and (found := CONSTANT.search(text)):
+        return found
+    return ADDED.search(text) if task.quantity.up_to_constant and names.get("C") is None else None
 
 
 def _after_label(task: Task, text: str, names: Names, syntax: Syntax) -> int:

@@ -31,6 +31,7 @@ class Slips:
 
     sampler: Sampler
     form: str
+    up_to_constant: bool = False
 
     @kept
     def _terms(self, base: Parts) -> tuple[tuple[int, sp.Expr, Values], ...]:
@@ -54,6 +55,8 @@ class Slips:
                     yield SlippedParts(kind, term, parts)
 
     def _fits(self, own: list[Values], slipped: list[Values]) -> bool:
+        if self.up_to_constant:
+            own, slipped = ([tuple(v - each[0] for v in each) for each in side] for side in (own, slipped))
         if self.form != "equation":
             return all(close(a, b) for a, b in zip(own, slipped, strict=True))
         (a,), (b,) = own, slipped

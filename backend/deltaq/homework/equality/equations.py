@@ -29,8 +29,8 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     if not all(defined(row) for each in rows for row in each):
         return None
     reduced = [echelon([each[point] for each in rows]) for point in range(len(sampler.points))]
-    if any(len(each) < len(parts) for each in reduced):
-        return ()
+    if any(len(each) < len(parts) or not any(each[-1][:-1]) for each in reduced):
+        return ()  # dependent rows, or one without any acceleration
     return tuple(entry for each in reduced for row in each for entry in row)
 
 
@@ -81,21 +81,30 @@ def _vanishes(above: sp.Expr, below: sp.Expr, road: Road) -> bool:
     used = sorted(above.free_symbols | below.free_symbols, key=lambda symbol: (symbol in fixed, symbol.name))
     slots = {symbol: index for index, symbol in enumerate(used)}
     functions = [compiled(part, slots) for part in (above, below)]
-    moving = sum(symbol not in fixed for symbol in used)
-    rest = [1.3 + 0.1 * k for k in range(len(used) - moving)]
-    pairs = [[function([*state, *rest]) for function in functions] for state in _states(moving)]
+    choices = [_special(symbol, road) for symbol in used if symbol not in fixed]
+    rest = [1.3 + 0.1 * k for k in range(len(used) - len(choices))]
+    pairs = [[function([*state, *rest]) for function in functions] for state in _states(choices)]
     signs = {_sign(a / b if abs(b) > NOTHING else math.inf) for a, b in pairs if max(abs(a), abs(b)) > NOTHING}
     return len(signs) > 1 or 0 in signs
 
 
-def _states(size: int) -> Iterator[Sequence[float]]:
-    """Each symbol at its special values, alone and (for few symbols) together with the others."""
-    if len(SPECIAL) ** size <= MOST_STATES:
-        yield from product(SPECIAL, repeat=size)
+def _states(choices: Sequence[Sequence[float]]) -> Iterator[Sequence[float]]:
+    """Every symbol at its special values: all combinations of few, each by itself of many."""
+    if math.prod(map(len, choices)) <= MOST_STATES:
+        yield from product(*choices)
         return
-    for index in range(size):
-        for value in SPECIAL:
-            yield [value if k == index else 0.4 + 0.1 * k for k in range(size)]
+    for index, values in enumerate(choices):
+        for value in values:
+            yield [value if k == index else own[-1] - 0.01 * k for k, own in enumerate(choices)]
+
+
+def _special(symbol: sp.Symbol, road: Road) -> Sequence[float]:
+    """The values at which factors tend to vanish; of a coordinate only those in its range, where it makes sense."""
+    found = next((c for c in road.scene.coordinates if c.name == symbol.name), None)
+    if found is None or found.min is None or found.max is None:
+        return SPECIAL
+    inside = [value for value in SPECIAL if found.min <= value <= found.max]
+    return [*inside, found.value + 0.3, (found.min + found.max) / 2 + 0.1]
 
 
 def _sign(value: float) -> int:

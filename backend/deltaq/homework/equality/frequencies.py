@@ -4,23 +4,25 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ...language.canonical import is_zero
+from ...language.canonical import display, is_zero
 from ..road import Road
 from ..sampling import Sampler, defined
 from . import Fingerprint, Match, Parts, weakest
 
+ROUNDING = 1e-9
 ROUNDED = 5e-3  # how far a number may be off that was written with three digits
 
 
 def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     """The values at the sampling parameters, in order of size."""
     values = tuple(sorted(sampler.values(part)[0] for part in parts))
-    return values if defined(values) else None
+    return values if defined(values) and values[0] > ROUNDING else None
 
 
 def same(given: Parts, right: Parts, road: Road) -> Match:
     if len(given) != len(right):
         return Match(equal=False)
+    given = tuple(_simple(part, road) for part in given)
     ordered = [sorted(parts, key=lambda part: number_of(part, road)) for parts in (given, right)]
     numeric = [_near(a, b, road) for a, b in zip(*ordered, strict=True)]
     if not all(numeric):
@@ -34,6 +36,12 @@ def number_of(part: sp.Expr, road: Road) -> float:
     """The value at the scene's parameters; NaN if it is not real."""
     value = sp.N(part.xreplace(dict(road.parameter_values)))
     return float(value) if value.is_Float or value.is_Rational else float("nan")
+
+
+def _simple(part: sp.Expr, road: Road) -> sp.Expr:
+    """The part with sin² + cos² and the like of coordinates done away with."""
+    moving = {road.q(q) for q in road.coordinates}
+    return display(part, road.symbols) if part.free_symbols & moving else part
 
 
 def _near(given: sp.Expr, right: sp.Expr, road: Road) -> bool:

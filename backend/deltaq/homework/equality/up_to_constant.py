@@ -19,4 +19,6 @@ def same(given: Parts, right: Parts, road: Road) -> Match:
     moving = sorted(difference.free_symbols - {road.q(p.name) for p in road.scene.parameters} - {road.t}, key=str)
     equal = weakest([is_zero(difference.diff(symbol), road.symbols) for symbol in moving])
     literal = equal is True and is_zero(difference, road.symbols) is True
-    return Match(equal, "constant" if equal and not literal else "")
+    if not equal or literal:
+        return Match(equal)
+    return Match(equal, "function-of-time" if difference.has(road.t) else "constant")

@@ -18,7 +18,7 @@ class BodyMissing(Detour):
     """The drawing draws the eye to the body that swings; the one that carries it is overlooked."""
 
     id: ClassVar[str] = "body-missing"
-    likely: ClassVar[int] = 2
+    likely: ClassVar[int] = 1
 
     @classmethod
     def variants(cls, true: Road) -> Iterator[Self]:

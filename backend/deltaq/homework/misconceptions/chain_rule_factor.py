@@ -9,6 +9,7 @@ from typing import ClassVar
 import sympy as sp
 
 from ...derivation.calculus import column
+from ...mechanics.contributions import Contribution
 from ..detour import Detour
 
 
@@ -24,6 +25,12 @@ class ChainRuleFactor(Detour):
 
     def virtual_displacement(self, place: str) -> sp.ImmutableMatrix:
         return column(self._without_inner(r, self.variation) for r in self.position(place))
+
+    def virtual_work(self, load: Contribution) -> sp.Expr:
+        return self.true.virtual_work(load)
+
+    def load_potential(self, load: str) -> sp.Expr:
+        return self.true.load_potential(load)
 
     def _without_inner(self, component: sp.Expr, change: Callable[[str], sp.Expr]) -> sp.Expr:
         slopes = {q: component.diff(self.q(q)) for q in self.free}

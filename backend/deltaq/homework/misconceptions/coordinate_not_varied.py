@@ -26,3 +26,6 @@ class CoordinateNotVaried(Detour):
 
     def virtual_displacement(self, place: str) -> sp.ImmutableMatrix:
         return super().virtual_displacement(place).xreplace({self.variation(self.about): self.zero})
+
+    def load_potential(self, load: str) -> sp.Expr:
+        return self.true.load_potential(load)

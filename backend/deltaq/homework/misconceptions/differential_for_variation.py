@@ -26,6 +26,12 @@ class DifferentialForVariation(Detour):
     def virtual_work(self, load: Contribution) -> sp.Expr:
         return self.true.virtual_work(load).xreplace(self._differentials)
 
+    def load_force(self, load: str, coordinate: str) -> sp.Expr:
+        return self.true.load_force(load, coordinate)
+
+    def load_potential(self, load: str) -> sp.Expr:
+        return self.true.load_potential(load)
+
     def generalized_force(self, coordinate: str) -> sp.Expr:
         return self.true.generalized_force(coordinate)
 

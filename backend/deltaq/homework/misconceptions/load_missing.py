@@ -18,7 +18,7 @@ class LoadMissing(Detour):
     """The loads are not listed before the work is written down, and the spring or the damper is forgotten."""
 
     id: ClassVar[str] = "load-missing"
-    likely: ClassVar[int] = 2
+    likely: ClassVar[int] = 1
 
     @classmethod
     def variants(cls, true: Road) -> Iterator[Self]:

@@ -24,3 +24,6 @@ class PositionForDisplacement(Detour):
             return right
         work = self.dot(self.force(load), self.position(load.place))
         return sp.Add(*(work * self.variation(q) for q in self.free)) if len(self.free) == 1 else right
+
+    def load_potential(self, load: str) -> sp.Expr:
+        return self.true.load_potential(load)

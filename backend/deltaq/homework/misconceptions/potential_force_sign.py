@@ -32,3 +32,7 @@ class PotentialForceSign(Detour):
 
     def load_potential(self, load: str) -> sp.Expr:
         return self.true.load_potential(load)
+
+    def potential_slope(self, coordinate: str) -> sp.Expr:
+        own = self.true.load_potential(self.about).diff(self.q(coordinate))
+        return self.true.potential_slope(coordinate) - 2 * own

@@ -23,3 +23,6 @@ class VelocityForVirtualDisplacement(Detour):
 
     def virtual_work(self, load: Contribution) -> sp.Expr:
         return self.true.virtual_work(load)
+
+    def load_potential(self, load: str) -> sp.Expr:
+        return self.true.load_potential(load)
