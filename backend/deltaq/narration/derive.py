@@ -14,7 +14,7 @@ from ..language.latex_printer import Typography
 from ..mechanics.requests import changed_scene, inside
 from ..mechanics.scene import Scene
 from .catalog import language_of
-from .marks import Wrap, by_coordinate, in_class, unmarked
+from .marks import by_coordinate, in_class
 from .narrator import Narrator
 from .notation import Notation
 from .result_answer import written
@@ -33,14 +33,14 @@ def derive_request(document: Mapping[str, object]) -> Document:
     check_formulation(formulation)
     with inside("/scene"):
         system, derivation = derive(scene, formulation)
-    narrator = _narrator(system, language_of(cast("str | None", document.get("lang"))))
+    language = language_of(cast("str | None", document.get("lang")))
     key = json.dumps(document, sort_keys=True, ensure_ascii=False)
     return {
         "id": hashlib.sha256(key.encode()).hexdigest()[:24],
         "scene": scene.id,
         "formulation": formulation,
-        "chapters": narrator.chapters(derivation),
-        "result": written(result_of(system), narrator.clean.typography),
+        "chapters": Narrator(language, _notation(system, language)).chapters(derivation),
+        "result": written(result_of(system), Typography(scene.names)),
     }
 
 
@@ -54,11 +54,7 @@ def scene_of(document: Mapping[str, object]) -> Scene:
     )
 
 
-def _narrator(system: System, language: str) -> Narrator:
-    return Narrator(language, _notation(system, language, unmarked), _notation(system, language, in_class))
-
-
-def _notation(system: System, language: str, wrap: Wrap) -> Notation:
-    typography = Typography(system.scene.names, mark=by_coordinate(system.scene, wrap))
+def _notation(system: System, language: str) -> Notation:
+    typography = Typography(system.scene.names, mark=by_coordinate(system.scene, in_class))
     names = {symbol.name: symbol.typeset for symbol in system.scene.names.symbols if symbol.kind == "coordinate"}
-    return Notation(typography, QuantitySymbols(system.scene, language, names, wrap), system.h)
+    return Notation(typography, QuantitySymbols(system.scene, language, names, in_class), system.h)

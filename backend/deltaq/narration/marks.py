@@ -11,6 +11,9 @@ from ..mechanics.scene import Scene
 MARK = re.compile(r"\\htmlClass\{[^}]*\}|\\(?:left|right)(?![a-z])|\\,|[{}\s]")
 ROLES = {4: " differential", 5: " variation", 6: " variation", 7: " variation"}  # by the kind of the symbol
 
+BRACE = re.compile(r"(?<!\\)(?:(?P<opening>\{)|(?P<closing>\}))|(?P<mark>\\htmlClass\{[^}]*\}\{)")
+COMMAND = re.compile(r"\\[A-Za-z]+$")
+
 Wrap = Callable[[str, str], str]
 
 
@@ -27,6 +30,27 @@ def unmarked(_css: str, latex: str) -> str:
 def bare(latex: str) -> str:
     """What the LaTeX says, without classes, braces, spaces and sizes of brackets; alike texts are equal."""
     return MARK.sub("", latex)
+
+
+def without_classes(latex: str) -> str:
+    """The LaTeX as it is written without marks; a command and the letter that stood in a mark behind it stay apart."""
+    pieces: list[str] = [""]
+    is_mark: list[bool] = []
+    position = 0
+    for brace in BRACE.finditer(latex):
+        pieces.append(latex[position : brace.start()])
+        position = brace.end()
+        match brace.lastgroup:
+            case "mark":
+                is_mark.append(True)
+                before = pieces[-1] or pieces[-2]
+                pieces.append(" " if COMMAND.search(before) and latex[position].isalpha() else "")
+            case "opening":
+                is_mark.append(False)
+                pieces.append("{")
+            case "closing":
+                pieces.append("" if is_mark.pop() else "}")
+    return "".join([*pieces, latex[position:]])
 
 
 def by_coordinate(scene: Scene, wrap: Wrap) -> Wrap:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from ..derivation.step import Chapter, Derivation, Step
 from .catalog import text
+from .marks import without_classes
 from .notation import Notation
 
 Document = dict[str, object]
@@ -14,11 +15,10 @@ Document = dict[str, object]
 
 @dataclass(frozen=True)
 class Narrator:
-    """Tells a derivation. `clean` writes LaTeX for everyone, `marked` the same with the classes of the page."""
+    """Tells a derivation. `notation` writes LaTeX with the classes of the page; the LaTeX for everyone is without."""
 
     language: str
-    clean: Notation
-    marked: Notation
+    notation: Notation
 
     def chapters(self, derivation: Derivation) -> list[Document]:
         return [self.chapter(chapter) for chapter in derivation.chapters if chapter.steps]
@@ -31,13 +31,14 @@ class Narrator:
         names = self._names(step.about)
         outcome = step.about.get("outcome")
         key = f"rules.steps.{step.rule}"
+        marked = self.notation.block(step.relations)
         return {
             "id": step.id,
             "rule": step.rule,
             "title": text(self.language, f"{key}.title", **names),
             "text": text(self.language, f"{key}.{outcome or 'text'}", **names),
-            "latex": self.clean.block(step.relations),
-            "marked": self.marked.block(step.relations),
+            "latex": without_classes(marked),
+            "marked": marked,
             "verified": step.verified,
             "sources": list(step.sources),
             "substeps": [self.step(substep) for substep in step.substeps],
@@ -49,6 +50,6 @@ class Narrator:
 
     def _name(self, key: str, value: str) -> str:
         if key != "coordinate":
-            return ", ".join(map(self.clean.symbols.label, value.split(", ")))
-        latex = self.clean.symbols.coordinate_latex
+            return ", ".join(map(self.notation.symbols.label, value.split(", ")))
+        latex = self.notation.symbols.coordinate_latex
         return ", ".join(f"${latex.get(name, name)}$" for name in value.split(", "))

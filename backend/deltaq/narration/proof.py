@@ -11,7 +11,7 @@ from ..errors import Problem, UnknownNameError
 from .catalog import language_of, text
 from .function_notation import FunctionNotation, FunctionTypography
 from .general_symbols import DIRECTIONS, NAMES, GeneralSymbols
-from .marks import Wrap, in_class, unmarked
+from .marks import Wrap, in_class
 from .narrator import Narrator
 
 Document = dict[str, object]
@@ -25,7 +25,7 @@ def proof_request(document: Mapping[str, object]) -> Document:
         parameters = {"name": identifier[:40], "known": ", ".join(PROOFS)}
         raise UnknownNameError(Problem("unknown-proof", parameters=parameters))
     language = language_of(cast("str | None", document.get("lang")))
-    narrator = Narrator(language, _notation(unmarked), _notation(in_class))
+    narrator = Narrator(language, _notation(in_class))
     chapters = narrator.chapters(prove())
     return {"id": identifier, "title": text(language, f"rules.proofs.{identifier}"), "chapters": chapters}
 

@@ -46,7 +46,7 @@ def vary_request(document: Mapping[str, object]) -> Document:
     key = json.dumps(document, sort_keys=True, ensure_ascii=False)
     answer: Document = {
         "id": hashlib.sha256(key.encode()).hexdigest()[:24],
-        "chapters": Narrator(language, clean, _notation(question, in_class)).chapters(derivation),
+        "chapters": Narrator(language, _notation(question, in_class)).chapters(derivation),
         "result": _result(question, clean),
     }
     if "quotient" in cast("list[str]", document.get("include") or []):
