@@ -10,6 +10,7 @@ from typing import TypeVar
 import sympy as sp
 
 from ..language import canonical
+from ..language.form_calculus import derivative
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import time_derivative, to_sympy
 from ..language.tree import Node
@@ -122,7 +123,12 @@ class Calculus:
         return value.xreplace(dict(self.guides)) if self.guides else value
 
     def time_derivative(self, value: sp.Expr) -> sp.Expr:
+        """d(value)/dt along the motion."""
         return time_derivative(value, self.symbols)
+
+    def slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
+        """∂value/∂by"""
+        return derivative(value, by)
 
     def display(self, value: V) -> V:
         """The shortest of a few equivalent forms."""
@@ -130,7 +136,7 @@ class Calculus:
 
     def derivative(self, value: V, by: sp.Symbol) -> V:
         """∂value/∂by, in its display form."""
-        return self.display(value.diff(by))
+        return self.display(by_component(value, lambda component: self.slope(component, by)))
 
     def vary(self, value: sp.Expr) -> sp.Expr:
         """δvalue by the chain rule, the time held fixed."""

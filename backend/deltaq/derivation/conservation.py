@@ -16,7 +16,7 @@ MOST_CYCLIC = 2
 def is_cyclic(system: System, coordinate: str) -> bool:
     """Whether neither L nor a force without potential acts on the coordinate: its momentum is conserved."""
     passive = system.is_zero(system.nonconservative_force(coordinate))
-    return passive and system.is_zero(system.lagrangian.diff(system.q(coordinate)))
+    return passive and system.is_zero(system.slope(system.lagrangian, system.q(coordinate)))
 
 
 def cyclic(system: System) -> tuple[str, ...]:
@@ -40,7 +40,7 @@ def power(system: System) -> sp.Expr:
 @kept
 def jacobi_energy_rate(system: System) -> sp.Expr:
     """dh/dt along the motion: Σ Qᵢᵈ q̇ᵢ − ∂L/∂t."""
-    return system.display(power(system) - system.lagrangian.diff(system.t))
+    return system.display(power(system) - system.slope(system.lagrangian, system.t))
 
 
 @kept

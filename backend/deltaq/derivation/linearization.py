@@ -50,7 +50,7 @@ class Linearization:
 def damping_at_rest(system: System) -> sp.ImmutableMatrix:
     """−∂f/∂q̇ at q̇ = 0, as a function of q."""
     at_rest = {system.rate(q): system.zero for q in system.free}
-    slopes = [[-f.diff(system.rate(q)).xreplace(at_rest) for q in system.free] for f in forcing(system)]
+    slopes = [[-system.slope(f, system.rate(q)).xreplace(at_rest) for q in system.free] for f in forcing(system)]
     return system.display(sp.ImmutableMatrix(slopes))
 
 

@@ -22,7 +22,7 @@ def mass_matrix(system: System) -> sp.ImmutableMatrix:
     """M(q, t), symmetric."""
     accelerations = [system.acceleration(q) for q in system.free]
     return system.display(
-        sp.ImmutableMatrix([[left_side(system, q).diff(a) for a in accelerations] for q in system.free])
+        sp.ImmutableMatrix([[system.slope(left_side(system, q), a) for a in accelerations] for q in system.free])
     )
 
 

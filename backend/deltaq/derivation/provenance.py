@@ -59,13 +59,13 @@ def of_nonconservative_force(system: System, coordinate: str) -> Iterator[Share]
 def of_momentum(system: System, coordinate: str) -> Iterator[Share]:
     """∂L/∂q̇ᵢ; potentials do not depend on rates."""
     for source, energy in of_kinetic_energy(system):
-        yield source, energy.diff(system.rate(coordinate))
+        yield source, system.slope(energy, system.rate(coordinate))
 
 
 def of_jacobi_energy(system: System) -> Iterator[Share]:
     """h = Σ q̇ᵢ ∂E/∂q̇ᵢ − E + V"""
     for source, energy in of_kinetic_energy(system):
-        work = sp.Add(*(system.rate(q) * energy.diff(system.rate(q)) for q in system.free))
+        work = sp.Add(*(system.rate(q) * system.slope(energy, system.rate(q)) for q in system.free))
         yield source, work - energy
     yield from of_potential_energy(system)
 
@@ -74,7 +74,7 @@ def of_equation(system: System, coordinate: str) -> Iterator[Share]:
     """d/dt ∂L/∂q̇ᵢ − ∂L/∂qᵢ − Qᵢᵈ, the left side of `… = 0`."""
     q, rate = system.q(coordinate), system.rate(coordinate)
     for source, energy in of_kinetic_energy(system):
-        yield source, system.time_derivative(energy.diff(rate)) - energy.diff(q)
+        yield source, system.time_derivative(system.slope(energy, rate)) - system.slope(energy, q)
     for load in system.load_names:
         if system.is_conservative(load):
             yield f"load:{load}", system.load_potential(load).diff(q)

@@ -42,8 +42,8 @@ class System(Work):
     def inertia_work(self, coordinate: str) -> sp.Expr:
         """d/dt ∂E/∂q̇ᵢ − ∂E/∂qᵢ"""
         energy = self.kinetic_energy
-        momentum = energy.diff(self.rate(coordinate))
-        return self.display(self.time_derivative(momentum) - energy.diff(self.q(coordinate)))
+        momentum = self.slope(energy, self.rate(coordinate))
+        return self.display(self.time_derivative(momentum) - self.slope(energy, self.q(coordinate)))
 
     def given_rate(self, tree: Node) -> Formula:
         """A rate as the scene states it, with the guides put in where there are any."""

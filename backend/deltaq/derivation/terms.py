@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any, TypeVar
 
 import sympy as sp
 
+from ..language import fourier
 from ..language.canonical import canonical
+from ..language.display import display_form
+from ..language.form_calculus import plain_forms
+from ..language.normal_form import Reader
 from .formula import Explicit, Term
 from .memory import kept
-from .provenance import of_equation
+from .provenance import Share, of_equation
 from .system import System
+
+Origin = tuple[str, ...]  # sources: bodies and loads
+K = TypeVar("K")
+V = TypeVar("V", bound=Any)
 
 
 @kept
@@ -24,28 +33,60 @@ def terms_of(system: System, shares: Iterable[tuple[str, sp.Expr]]) -> tuple[Ter
 
     Terms of different sources that are alike are one term with several sources; those that cancel are gone.
     """
-    total: dict[sp.Expr, sp.Expr] = {}
-    sources: dict[sp.Expr, list[str]] = {}
-    for source, share in shares:
-        for term in sp.Add.make_args(canonical(share, system.symbols).expand()):
-            number, rest = term.as_coeff_Mul()
-            total[rest] = total.get(rest, sp.Integer(0)) + number
-            sources.setdefault(rest, []).append(source)
-    by_origin: dict[tuple[str, ...], sp.Expr] = {}
-    for rest, number in total.items():
-        origin = tuple(dict.fromkeys(sources[rest]))
-        by_origin[origin] = by_origin.get(origin, sp.Integer(0)) + number * rest
-    # Fourier terms of one origin may be shorter as products: sin φ sin ωt.
+    given = tuple(shares)
+    by_origin = _by_form(system, given) or _by_expression(system, given)
     shown = [
         (origin, *term.as_coeff_Mul())
         for origin, share in by_origin.items()
-        for term in sp.Add.make_args(system.display(share).expand())
+        for term in sp.Add.make_args(share.expand())
         if term != 0
     ]
     return tuple(
         Term(Explicit(abs(number) * rest), origin, 1 if number > 0 else -1)
         for origin, number, rest in sorted(shown, key=lambda part: _rank(system, part[2]))
     )
+
+
+def _by_form(system: System, shares: tuple[Share, ...]) -> dict[Origin, sp.Expr] | None:
+    """The sum of all Fourier terms that have the same sources; None if the shares have no plain forms."""
+    reader = Reader()
+    forms = plain_forms((share for _, share in shares), reader)
+    if forms is None:
+        return None
+    total = _gathered((source, form) for (source, _), form in zip(shares, forms, strict=True))
+    return {origin: display_form(fourier.add(parts), reader, system.symbols) for origin, parts in total.items()}
+
+
+def _by_expression(system: System, shares: tuple[Share, ...]) -> dict[Origin, sp.Expr]:
+    """The same for what has roots and quotients in it."""
+    parts = ((source, _numbers(canonical(share, system.symbols).expand())) for source, share in shares)
+    total = _gathered(parts)
+    sums = {o: sp.Add(*(n * rest for part in parts for rest, n in part.items())) for o, parts in total.items()}
+    return {origin: system.display(share) for origin, share in sums.items()}
+
+
+def _numbers(expanded: sp.Expr) -> dict[sp.Expr, sp.Expr]:
+    """The number in front of each product."""
+    found: dict[sp.Expr, sp.Expr] = {}
+    for term in sp.Add.make_args(expanded):
+        number, rest = term.as_coeff_Mul()
+        found[rest] = found.get(rest, 0) + number
+    return found
+
+
+def _gathered(shares: Iterable[tuple[str, dict[K, V]]]) -> dict[Origin, list[dict[K, V]]]:
+    """Terms with their numbers, by the sources that have them; each in a mapping of its own."""
+    total: dict[K, V] = {}
+    sources: dict[K, list[str]] = {}
+    for source, numbers in shares:
+        for term, number in numbers.items():
+            total[term] = total[term] + number if term in total else number
+            sources.setdefault(term, []).append(source)
+    by_origin: dict[Origin, list[dict[K, V]]] = {}
+    for term, number in total.items():
+        if number != 0:
+            by_origin.setdefault(tuple(dict.fromkeys(sources[term])), []).append({term: number})
+    return by_origin
 
 
 def _rank(system: System, term: sp.Expr) -> tuple[int, str]:

@@ -46,6 +46,13 @@ def display(expr: Any, symbols: Symbols) -> Any:
         raise ExpressionError(Problem("division-by-zero")) from None
 
 
+def display_form(form: Form, reader: Reader, symbols: Symbols) -> Any:
+    """The shortest of the equivalent expressions of a form whose generators are symbols."""
+    arranged = _Arrangement(reader, Order(symbols.names)).expression(form)
+    moves = any(split_symbol(name)[0] for mono, _, _ in form for name, _ in mono)
+    return arranged if moves or len(form) > _MAX_SHOWN else min(arranged, reader.expression(form), key=size)
+
+
 def size(expr: Any) -> int:
     """How long it is to write: the number of its parts."""
     return 1 + sum(map(size, expr.args)) if expr.args else 1

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
@@ -35,6 +36,12 @@ def split_symbol(name: str) -> tuple[int, str]:
     """Class and base of a symbol: "ddot(phi)" → (2, "phi"); 0 plain, 1–3 rates, 4 differential, 5–7 δ of q, q̇, q̈."""
     match = _SYMBOL.match(name)
     return (_PREFIX_CLASS[match[1]], match[2]) if match else (0, name)
+
+
+@lru_cache(maxsize=1 << 14)
+def _text(expr: sympy.Expr) -> str:
+    """The expression as text, to sort by; making it takes long, and the same parts come again and again."""
+    return str(expr)
 
 
 def natural(name: str) -> Key:
@@ -73,15 +80,15 @@ class Order:
         if base.is_Symbol:
             return (*self._symbol(base), -float(exponent) if exponent.is_Rational else 0)
         if base.is_number:
-            return (1, (), (), str(factor))
+            return (1, (), (), _text(factor))
         moving = [split_symbol(s.name)[0] for s in base.free_symbols if self.is_moving(s)]
         if not moving:
-            return (2 if base.is_Add else 6, (), (), str(factor))
+            return (2 if base.is_Add else 6, (), (), _text(factor))
         if base.is_Add and not max(moving):
-            return (5, (), (1,), str(factor))
+            return (5, (), (1,), _text(factor))
         if base.is_Add:
-            return (7 + max(moving), (1,), (), str(factor))
-        return (6, (self._angle(base),), (_FUNCTION_RANK.get(type(base).__name__, 2),), str(base))
+            return (7 + max(moving), (1,), (), _text(factor))
+        return (6, (self._angle(base),), (_FUNCTION_RANK.get(type(base).__name__, 2),), _text(base))
 
     def _angle(self, function: sympy.Expr) -> Key:
         return tuple(sorted(self.place(split_symbol(s.name)[1]) for s in function.free_symbols if self.is_moving(s)))
@@ -107,7 +114,7 @@ class Order:
             elif base.is_Symbol:
                 parameters.append(self.factor(factor))
             elif not base.is_number:
-                functions.append(str(base))
+                functions.append(_text(base))
         by_kind = tuple(_descending(powers.get(kind, {})) for kind in (5, 6, 7, 4, 3))
         acceleration = (-sum(powers.get(2, {}).values()), len(functions) if 2 in powers else 0)
         rest = tuple(_descending(powers.get(kind, {})) for kind in (2, 1, 0))

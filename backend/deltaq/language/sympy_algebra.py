@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 import sympy
 
 from ..errors import ExpressionError, Parameter, Problem
+from .form_calculus import total_derivative
 from .functions import FUNCTIONS
 from .measure import MAX_EXPONENT
 from .symbols import Symbols
@@ -45,6 +46,9 @@ def to_sympy(node: Node, symbols: Symbols) -> Value:
 def time_derivative(expr: Value, symbols: Symbols) -> Value:
     """d/dt along the motion, by the chain rule: df/dt = Σ ∂f/∂q q̇ + ∂f/∂q̇ q̈ + … + ∂f/∂t."""
     rates = _rates(symbols)
+    found = total_derivative(expr, rates)
+    if found is not None:
+        return found
     constant, moving = expr.as_independent(*rates, as_Add=False)
     # Term by term: a term has few symbols, a long sum has all of them.
     changes = (
