@@ -10,12 +10,13 @@ from typing import TypeVar
 import sympy as sp
 
 from ..language import canonical
-from ..language.form_calculus import derivative
+from ..language.form_calculus import PlainForm, plain_form
 from ..language.symbols import Symbols
-from ..language.sympy_algebra import time_derivative, to_sympy
+from ..language.sympy_algebra import rates_of, time_derivative, to_sympy
 from ..language.tree import Node
 from ..mechanics.scene import Scene
 from .formula import Given, Value
+from .memory import kept
 
 V = TypeVar("V", sp.Expr, sp.ImmutableMatrix)
 
@@ -128,7 +129,12 @@ class Calculus:
 
     def slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
         """∂value/∂by"""
-        return derivative(value, by)
+        form = self._form(value)
+        return value.diff(by) if form is None else form.derivative(by).expression
+
+    @kept
+    def _form(self, value: sp.Expr) -> PlainForm | None:
+        return plain_form(value)
 
     def display(self, value: V) -> V:
         """The shortest of a few equivalent forms."""
@@ -136,11 +142,31 @@ class Calculus:
 
     def derivative(self, value: V, by: sp.Symbol) -> V:
         """∂value/∂by, in its display form."""
-        return self.display(by_component(value, lambda component: self.slope(component, by)))
+        return by_component(value, lambda component: self._shown_slope(component, by))
+
+    def _shown_slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
+        form = self._form(value)
+        return self.display(value.diff(by)) if form is None else form.derivative(by).displayed(self.symbols)
+
+    def shown_rate(self, value: sp.Expr) -> sp.Expr:
+        """d(value)/dt along the motion, in its display form."""
+        form = self._form(value)
+        if form is None:
+            return self.display(self.time_derivative(value))
+        return form.total_derivative(rates_of(self.symbols)).displayed(self.symbols)
+
+    def euler_expression(self, energy: sp.Expr, coordinate: str) -> sp.Expr:
+        """d/dt ∂E/∂q̇ − ∂E/∂q"""
+        q, rate = self.q(coordinate), self.rate(coordinate)
+        form = self._form(energy)
+        if form is None:
+            return self.time_derivative(energy.diff(rate)) - energy.diff(q)
+        momentum = form.derivative(rate)
+        return momentum.total_derivative(rates_of(self.symbols)).minus(form.derivative(q)).expression
 
     def vary(self, value: sp.Expr) -> sp.Expr:
         """δvalue by the chain rule, the time held fixed."""
-        return sum((value.diff(q) * dq for q, dq in self.variations.items()), self.zero)
+        return sum((self.slope(value, q) * dq for q, dq in self.variations.items()), self.zero)
 
     def collected(self, work: sp.Expr) -> sp.Expr:
         """A virtual work as Σ Qᵢ δqᵢ, each coefficient in its display form."""

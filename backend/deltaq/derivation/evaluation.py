@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from functools import lru_cache
+from operator import itemgetter
 
 import sympy as sp
 from flint import arb, arb_mat
@@ -116,14 +118,20 @@ def difference(at: Callable[[Point], Evaluate], of: Formula, moved: Callable[[ar
 
 def number(expression: sp.Basic, point: Point) -> arb:
     """The expression's value, evaluated from the leaves up."""
+    return program(expression)(point)
+
+
+@lru_cache(maxsize=1 << 13)
+def program(expression: sp.Basic) -> Callable[[Point], arb]:
+    """The expression as a function of the point; the same parts come again at every point and in many formulas."""
     if isinstance(expression, sp.Symbol):
-        return point[expression.name]
+        return itemgetter(expression.name)
     if isinstance(expression, sp.Rational):
-        return arb(expression.p) / arb(expression.q)
+        return lambda _: arb(expression.p) / arb(expression.q)
     if expression in CONSTANTS:
-        return CONSTANTS[expression]()
-    arguments = [number(argument, point) for argument in expression.args]
-    return BY_CLASS[type(expression).__name__](*arguments)
+        return lambda _: CONSTANTS[expression]()
+    operation, parts = BY_CLASS[type(expression).__name__], tuple(map(program, expression.args))
+    return lambda point: operation(*[part(point) for part in parts])
 
 
 def matrix_times(matrix: Numbers, vector: Numbers) -> Numbers:

@@ -72,9 +72,9 @@ def of_jacobi_energy(system: System) -> Iterator[Share]:
 
 def of_equation(system: System, coordinate: str) -> Iterator[Share]:
     """d/dt ∂L/∂q̇ᵢ − ∂L/∂qᵢ − Qᵢᵈ, the left side of `… = 0`."""
-    q, rate = system.q(coordinate), system.rate(coordinate)
+    q = system.q(coordinate)
     for source, energy in of_kinetic_energy(system):
-        yield source, system.time_derivative(system.slope(energy, rate)) - system.slope(energy, q)
+        yield source, system.euler_expression(energy, coordinate)
     for load in system.load_names:
         if system.is_conservative(load):
             yield f"load:{load}", system.load_potential(load).diff(q)

@@ -41,9 +41,7 @@ class System(Work):
     @kept
     def inertia_work(self, coordinate: str) -> sp.Expr:
         """d/dt ∂E/∂q̇ᵢ − ∂E/∂qᵢ"""
-        energy = self.kinetic_energy
-        momentum = self.slope(energy, self.rate(coordinate))
-        return self.display(self.time_derivative(momentum) - self.slope(energy, self.q(coordinate)))
+        return self.display(self.euler_expression(self.kinetic_energy, coordinate))
 
     def given_rate(self, tree: Node) -> Formula:
         """A rate as the scene states it, with the guides put in where there are any."""

@@ -48,9 +48,11 @@ def display(expr: Any, symbols: Symbols) -> Any:
 
 def display_form(form: Form, reader: Reader, symbols: Symbols) -> Any:
     """The shortest of the equivalent expressions of a form whose generators are symbols."""
+    if len(form) > _MAX_SHOWN:
+        return reader.expression(form)
     arranged = _Arrangement(reader, Order(symbols.names)).expression(form)
     moves = any(split_symbol(name)[0] for mono, _, _ in form for name, _ in mono)
-    return arranged if moves or len(form) > _MAX_SHOWN else min(arranged, reader.expression(form), key=size)
+    return arranged if moves else min(arranged, reader.expression(form), key=size)
 
 
 def size(expr: Any) -> int:

@@ -6,49 +6,61 @@ A long sum is differentiated many times faster here than as a tree, as no tree i
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from . import fourier
+from .display import display_form
 from .fourier import Form, Monomial, Phase, TooLargeError
 from .normal_form import Reader
+from .symbols import Symbols
 
-LONG = 24  # terms
-
-
-def is_long(expr: Any) -> bool:
-    """Whether the expression, multiplied out, has so many terms that a form pays."""
-    return max((len(part.args) for part in (expr, *expr.args) if part.is_Add), default=0) > LONG
+LONG = 6  # terms
 
 
-def derivative(expr: Any, by: Any) -> Any:
-    """∂expr/∂by, of a long sum as a sum of Fourier terms where its form is simple enough."""
-    read = _plain_form(expr) if is_long(expr) else None
-    if read is None:
-        return expr.diff(by)
-    reader, form = read
-    return reader.expression(form_derivative(form, by.name))
+@dataclass(frozen=True)
+class PlainForm:
+    """The form of a long sum in which each generator is a symbol: there are no roots, quotients or other functions."""
+
+    reader: Reader
+    form: Form
+
+    @property
+    def expression(self) -> Any:
+        """The sum of its Fourier terms."""
+        return self.reader.expression(self.form)
+
+    def displayed(self, symbols: Symbols) -> Any:
+        """The shortest of the equivalent expressions."""
+        return display_form(self.form, self.reader, symbols)
+
+    def minus(self, other: PlainForm) -> PlainForm:
+        """The difference of two forms of one reader."""
+        return PlainForm(self.reader, fourier.add((self.form, fourier.scale(other.form, -1))))
+
+    def derivative(self, by: Any) -> PlainForm:
+        """∂/∂by"""
+        return PlainForm(self.reader, form_derivative(self.form, by.name))
+
+    def total_derivative(self, rates: Mapping[Any, Any]) -> PlainForm:
+        """Σ ∂/∂x · rates[x] over all x that have a rate."""
+        names = {name for mono, phase, _ in self.form for part in (mono, *(m for m, _ in phase)) for name, _ in part}
+        moving = sorted((x for x in rates if x.name in names), key=str)
+        changes = (self.reader.multiply(form_derivative(self.form, x.name), self.reader.form(rates[x])) for x in moving)
+        return PlainForm(self.reader, fourier.add(changes))
 
 
-def total_derivative(expr: Any, rates: Mapping[Any, Any]) -> Any | None:
-    """Σ ∂expr/∂x · rates[x] of a long sum as a sum of Fourier terms; None if it is short or not that simple."""
-    read = _plain_form(expr) if is_long(expr) else None
-    if read is None:
+def plain_form(expr: Any) -> PlainForm | None:
+    """The plain form of a sum that is long enough for it to pay; else None."""
+    if max((len(part.args) for part in (expr, *expr.args) if part.is_Add), default=0) <= LONG:
         return None
-    reader, form = read
-    moving = sorted(expr.free_symbols & rates.keys(), key=str)
-    changes = (reader.multiply(form_derivative(form, x.name), reader.form(rates[x])) for x in moving)
-    return reader.expression(fourier.add(changes))
-
-
-def _plain_form(expr: Any) -> tuple[Reader, Form] | None:
-    """The form with its reader, if each generator is a symbol."""
     reader = Reader()
     forms = plain_forms([expr], reader)
-    return (reader, forms[0]) if forms else None
+    return PlainForm(reader, forms[0]) if forms else None
 
 
 def plain_forms(exprs: Iterable[Any], reader: Reader) -> list[Form] | None:
-    """Forms in which each generator is a symbol: no roots, quotients or other functions; else None."""
+    """Forms in which each generator is a symbol; None if one is not so plain."""
     try:
         forms = [reader.form(expr) for expr in exprs]
     except (TooLargeError, ZeroDivisionError):

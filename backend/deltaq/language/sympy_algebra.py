@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 import sympy
 
 from ..errors import ExpressionError, Parameter, Problem
-from .form_calculus import total_derivative
+from .form_calculus import plain_form
 from .functions import FUNCTIONS
 from .measure import MAX_EXPONENT
 from .symbols import Symbols
@@ -45,10 +45,10 @@ def to_sympy(node: Node, symbols: Symbols) -> Value:
 
 def time_derivative(expr: Value, symbols: Symbols) -> Value:
     """d/dt along the motion, by the chain rule: df/dt = Σ ∂f/∂q q̇ + ∂f/∂q̇ q̈ + … + ∂f/∂t."""
-    rates = _rates(symbols)
-    found = total_derivative(expr, rates)
-    if found is not None:
-        return found
+    rates = rates_of(symbols)
+    form = plain_form(expr)
+    if form is not None:
+        return form.total_derivative(rates).expression
     constant, moving = expr.as_independent(*rates, as_Add=False)
     # Term by term: a term has few symbols, a long sum has all of them.
     changes = (
@@ -62,7 +62,7 @@ def time_derivative(expr: Value, symbols: Symbols) -> Value:
     return total
 
 
-def _rates(symbols: Symbols) -> dict[Value, Value]:
+def rates_of(symbols: Symbols) -> dict[Value, Value]:
     """How fast everything changes that does: t, and each q, q̇, q̈, δq, δq̇."""
     rates = {symbols.time: sympy.Integer(1)}
     for name in symbols.names.coordinates:

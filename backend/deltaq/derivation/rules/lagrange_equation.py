@@ -38,7 +38,7 @@ def _parts(system: System, coordinate: str, lagrangian: Named) -> tuple[Step, ..
     about = {"coordinate": coordinate}
     lines = {
         MOMENTUM: (name, Partial(lagrangian, rate), Explicit(momentum)),
-        MOMENTUM_RATE: (Rate(name), Explicit(system.display(system.time_derivative(momentum)))),
+        MOMENTUM_RATE: (Rate(name), Explicit(system.shown_rate(momentum))),
         SLOPE: (Partial(lagrangian, q), Explicit(system.derivative(system.lagrangian, q))),
     }
     return tuple(Step(rule, coordinate, (Relation(members),), (), about) for rule, members in lines.items())
