@@ -23,7 +23,7 @@ class Settings:
     queue_length: int = 1024
     queue_patience: float = 15.0
     start_timeout: float = 60.0
-    derivation_deadline: float = 5.0
+    derivation_deadline: float = 10.0
     simulation_deadline: float = 20.0
     worker_memory: int = 2048 * MEBIBYTE
     jobs_per_worker: int = 1000

@@ -1,65 +1,71 @@
-"""Milliseconds for the whole derivation of scenes, cold in a warm process, and how much of it the last chapter takes.
+"""Milliseconds from a scene to the whole answer of `POST /derivations`, and how many of its steps are verified.
 
-Run it from the checkout: `python -m tests.benchmarks.bench_derivation`. SymPy's cache is emptied before each run;
-medians. Prints; judges nothing.
+Run it from the checkout: `python -m tests.benchmarks.bench_derivation`. Cold means a warm process that has not seen
+the scene: the caches of SymPy and of δq are emptied before each run. Cached means asked for again over HTTP. Medians.
+Prints; judges nothing.
 """
 
 from __future__ import annotations
 
+import asyncio
 import statistics
 from time import perf_counter
 
+import httpx
 from sympy.core.cache import clear_cache
-from tests.derivation.scenes import chain
 
+from deltaq.api.app import create_app
 from deltaq.derivation.engine import derive
-from deltaq.derivation.model_chapter import model
-from deltaq.derivation.result import result_of
-from deltaq.derivation.system import System
-from deltaq.derivation.verification import random_points, verified_step
+from deltaq.derivation.evaluation import program
 from deltaq.mechanics.library import load_scene, scene_ids
-from deltaq.mechanics.scene import Scene
+from deltaq.narration.derive import derive_request
 
-REPEATS = 5
+COLD, CACHED = 5, 20
 
 
-def whole(scene: Scene) -> float:
-    """All chapters with their verification, and the result."""
+def cold(request: dict[str, object]) -> float:
+    """Derivation, verification, sentences and LaTeX."""
     clear_cache()
+    program.cache_clear()
     start = perf_counter()
-    system, _ = derive(scene)
-    result_of(system)
+    derive_request(request)
     return (perf_counter() - start) * 1e3
 
 
-def last_chapter(scene: Scene) -> float:
-    """The chapter "model" with its verification, when the others are done."""
-    system, _ = derive(scene)
-    fresh = System(scene)
-    for name, value in vars(system).items():
-        vars(fresh)[name] = value
-    for name in [name for name in vars(fresh) if name.startswith("answers of ") and _is_of_the_model(name)]:
-        del vars(fresh)[name]
-    start = perf_counter()
-    points = tuple(random_points(fresh))
-    for step in model(fresh):
-        verified_step(step, points)
-    return (perf_counter() - start) * 1e3
+def verified(name: str) -> tuple[int, int]:
+    """Steps verified, and all steps."""
+    _, derivation = derive(load_scene(name))
+    steps = list(derivation.steps())
+    return sum(step.verified for step in steps), len(steps)
 
 
-def _is_of_the_model(name: str) -> bool:
-    words = ("equilibria", "linearizations", "mass_matrix", "forc", "jacobi", "reduction", "rest")
-    return any(word in name for word in words)
+async def cached() -> dict[str, float]:
+    """Each scene asked for again, over HTTP in one process."""
+    app = create_app()
+    found = {}
+    async with app.router.lifespan_context(app):
+        transport = httpx.ASGITransport(app)
+        async with httpx.AsyncClient(transport=transport, base_url="http://deltaq", timeout=120.0) as client:
+            for name in scene_ids():
+                times = []
+                for _ in range(CACHED + 1):
+                    start = perf_counter()
+                    response = await client.post("/api/v1/derivations", json={"scene": name, "lang": "en"})
+                    times.append((perf_counter() - start) * 1e3)
+                    response.raise_for_status()
+                found[name] = statistics.median(times[1:])
+    return found
 
 
 def main() -> None:
-    scenes = {name: load_scene(name) for name in scene_ids()} | {f"{n}-link": chain(n) for n in (2, 3, 4)}
-    derive(scenes["pendulum"])
-    print(f"{'scene':32}{'whole, ms':>12}{'model, ms':>12}")
-    for name, scene in scenes.items():
-        rounds = [(whole(scene), last_chapter(scene)) for _ in range(REPEATS)]
-        medians = [statistics.median(each) for each in zip(*rounds, strict=True)]
-        print(f"{name:32}{medians[0]:12.1f}{medians[1]:12.1f}")
+    derive_request({"scene": "pendulum"})
+    again = asyncio.run(cached())
+    print(f"{'scene':32}{'cold, ms':>10}{'worst':>8}{'cached, ms':>12}{'verified':>12}")
+    for name in scene_ids():
+        times = [cold({"scene": name, "lang": "en"}) for _ in range(COLD)]
+        good, steps = verified(name)
+        counted = f"{good}/{steps}"
+        print(f"{name:32}{statistics.median(times):10.0f}{max(times):8.0f}{again[name]:12.1f}{counted:>12}")
 
 
 if __name__ == "__main__":
