@@ -177,6 +177,8 @@ def _mutated(parts: Parts, task: Task, source: random.Random, book: Workbook) ->
         task.quantity.form != "set" and not terms[at].free_symbols - moving and _up_to_constant(task)
     ):
         return None
+    if task.quantity.kind == "lagrangian" and _is_gauge(terms[at], book):
+        return None
     if (len(terms) == 1 and task.quantity.form in ("equation", "equations")) or _scales(task, terms):
         return None
     name, change = source.choice(MUTATIONS)
@@ -187,6 +189,19 @@ def _mutated(parts: Parts, task: Task, source: random.Random, book: Workbook) ->
 
 def _up_to_constant(task: Task) -> bool:
     return task.quantity.kind in ("potential-energy", "lagrangian", "conserved")
+
+
+def _is_gauge(term: sp.Expr, book: Workbook) -> bool:
+    """A rate times a function of time is a total derivative but for a function of time: changing it changes nothing."""
+    used = term.free_symbols
+    return (
+        not used & {book.road.q(q) for q in book.road.free}
+        and any(
+            not term.coeff(book.road.rate(q)).has(book.road.rate(q)) and term.coeff(book.road.rate(q)) != 0
+            for q in book.road.free
+        )
+        and not used & {book.road.t}
+    )
 
 
 def _scales(task: Task, terms: list[sp.Expr]) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from sympy import Mul, Rational
 from tests.language.scene_names import read
 
 from deltaq.language.latex_printer import Typography, latex
@@ -76,3 +77,17 @@ def test_marked_symbols_are_set_off_as_well() -> None:
 
 def test_a_symbol_by_its_plain_name() -> None:
     assert Typography(LECTURE).symbol("delta(phi)") == r"\delta q_2"
+
+
+@pytest.mark.parametrize(
+    ("number", "written"),
+    [
+        pytest.param(-1, "-(m + k)", id="sign"),
+        pytest.param(Rational(1, 2), r"\frac{1}{2} (m + k)", id="fraction"),
+        pytest.param(Rational(-1, 2), r"-\frac{1}{2} (m + k)", id="negative fraction"),
+        pytest.param(2, "2 (m + k)", id="number"),
+    ],
+)
+def test_a_number_multiplies_the_whole_sum(number: Rational, written: str) -> None:
+    total = read("m + k", names=LECTURE)
+    assert latex(Mul(number, total, evaluate=False), Typography(LECTURE)) == written

@@ -78,26 +78,27 @@ class _Latex:
 
     def _with_number_in_front(self, upper: list[sympy.Expr], lower: list[sympy.Expr]) -> str:
         if not lower:
-            return self.factors(upper)
+            return self.factors(upper, whole=False)
         numbers = [f for f in upper if f.is_Rational]
         rest = [f for f in upper if not f.is_Rational]
         if len(rest) == 1 and not numbers and (rest[0] is sympy.pi or rest[0].is_Symbol):
             numbers, rest = rest, []
         fraction = rf"\frac{{{self.factors(numbers)}}}{{{self.factors(lower)}}}"
-        following = self.factors(rest)
+        following = self.factors(rest, whole=False)
         return f"{fraction}{_joint(' ', following)}{following}" if rest else fraction
 
-    def factors(self, factors: list[sympy.Expr]) -> str:
+    def factors(self, factors: list[sympy.Expr], *, whole: bool = True) -> str:
         """A product; a thin space sets off δ and d, and what follows the argument of a function without brackets.
 
-        Before a bracket the argument is closed by brackets of its own.
+        Before a bracket the argument is closed by brackets of its own. A single sum needs none if it is the `whole`
+        of what is written, and no sign or number stands before it.
         """
         ordered = self._order.factors(factors)
         text = ""
         following = sympy.S.One
         for factor in reversed(ordered):
             closed = text.startswith(("(", r"\left("))
-            printed = self._factor(factor, closed=closed, alone=len(ordered) == 1)
+            printed = self._factor(factor, closed=closed, alone=whole and len(ordered) == 1)
             apart = _is_infinitesimal(following) or (not closed and _is_open(factor) and not _is_call(following))
             text = f"{printed}{_joint(_SET_OFF if apart else ' ', text)}{text}" if text else printed
             following = factor
