@@ -32,6 +32,9 @@ export function createSession(store, api, clock) {
   /** What requests call the scene: its id, or its document */
   const asked = () => (get().place.scene === OWN ? get().own : get().place.scene);
 
+  /** Changed parameters, with the size of a chain among them */
+  const parameters = () => ({ ...get().changes.parameters, ...(get().place.n ? { n: get().place.n } : {}) });
+
   /** Runs a task; what goes wrong is kept for the view of its part. @param {keyof State["failures"]} part @param {() => Promise<void>} task */
   async function attempt(part, task) {
     try {
@@ -79,7 +82,7 @@ export function createSession(store, api, clock) {
     const { place, changes, methods } = get();
     const method = methods.find((candidate) => candidate.id === place.method);
     simulations.ask({
-      scene: asked(), ...changes, t_end: place.duration, samples: Math.min(2001, place.duration * RATE + 1), include: PARTS,
+      scene: asked(), ...changes, parameters: parameters(), t_end: place.duration, samples: Math.min(2001, place.duration * RATE + 1), include: PARTS,
       lang: place.lang,
       ...(method ? { method: method.id } : {}),
       ...(method && method.adaptive === false ? { step: STEP } : {}),
@@ -87,29 +90,29 @@ export function createSession(store, api, clock) {
   }
 
   async function derive() {
-    const { lang, formulation } = get().place;
+    const { lang, formulation, n } = get().place;
     const scene = asked();
     await attempt("derivation", async () => {
-      const derivation = await api.derive({ scene, lang, formulation });
+      const derivation = await api.derive({ scene, lang, formulation, ...(n ? { parameters: { n } } : {}) });
       const { place } = get();
-      if (asked() !== scene || place.lang !== lang || place.formulation !== formulation) return;
+      if (asked() !== scene || place.lang !== lang || place.formulation !== formulation || place.n !== n) return;
       const lines = linesOf(derivation.chapters);
       set({ derivation, lines });
       move({ step: moved(lines, get().place.step, 0) });
     });
   }
 
-  /** @param {string} id @param {string} [step] */
-  async function choose(id, step = "") {
+  /** @param {string} id @param {string} [step] @param {number} [n] */
+  async function choose(id, step = "", n = 0) {
     simulations.cancel();
     clock.seek(0);
     set({ scene: null, derivation: null, lines: [], trajectory: null, changes: UNCHANGED, failures: NO_FAILURES });
-    move({ scene: id, step });
+    move({ scene: id, step, n });
     askSimulation();
     await attempt("scene", async () => {
-      const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang);
+      const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang, n);
       const [scene] = await Promise.all([document, derive()]);
-      if (get().place.scene === id) set({ scene });
+      if (get().place.scene === id && get().place.n === n) set({ scene });
     });
   }
 
@@ -130,7 +133,7 @@ export function createSession(store, api, clock) {
       const spoken = speak(place.lang);
       if (!place.scene || place.method) await listed;
       const scene = place.scene || preferred(get().scenes);
-      await Promise.all([listed, spoken, ...(scene && (scene !== OWN || own) ? [choose(scene, place.step)] : [])]);
+      await Promise.all([listed, spoken, ...(scene && (scene !== OWN || own) ? [choose(scene, place.step, place.n)] : [])]);
     },
     choose,
     /** Shows the viewer's own scene; what is on the page stays until the new is there. @param {import("./own.js").SceneDocument} own */

@@ -14,10 +14,11 @@
  *   direction?: string, radius?: number | string, width?: number, height?: number, label?: string}} Element
  * @typedef {{vertical?: "up" | "down", view?: number[] | null, elements?: Element[]}} Drawing
  * @typedef {Record<string, string>} Texts  text by language
- * @typedef {{id: string, title: Texts, summary?: Texts, degrees_of_freedom: number}} SceneEntry
+ * @typedef {{id: string, title: Texts, summary?: Texts, degrees_of_freedom: number, family?: Family}} SceneEntry
  * @typedef {{id: string, title: Texts, summary: Texts, dimension: number, coordinates: Coordinate[],
  *   parameters: Parameter[], points: Point[], bodies: Body[], loads: Load[], guides?: Guide[],
  *   drawing?: Drawing | null}} Scene
+ * @typedef {{parameter: string, min: number, max: number, value: number}} Family
  * @typedef {{id: string, rule: string, title: string, text: string, latex: string, marked: string,
  *   verified: boolean, sources: string[], substeps: Step[]}} Step
  * @typedef {{id: string, title: string, steps: Step[]}} Chapter
@@ -46,7 +47,7 @@
  * @typedef {Record<string, string | Record<string, unknown>>} Catalog
  * @typedef {"derivation" | "plots" | "values"} Panel
  * @typedef {"" | "form" | "json" | "toml"} Editing  which side of the editor is open
- * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, formulation: string,
+ * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, n: number, formulation: string,
  *   duration: number, panel: Panel, edit: Editing}} Place  what the address says
  */
 export {};

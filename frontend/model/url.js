@@ -3,7 +3,7 @@
 /** @typedef {import("./types.js").Place} Place */
 
 /** @type {Place} */
-export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "" };
+export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "" };
 
 const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
@@ -11,6 +11,7 @@ export const FORMULATIONS = ["dalembert-lagrange", "hamilton"];
 const PANELS = ["derivation", "plots", "values"];
 const EDITING = ["form", "json", "toml"];
 const LONGEST = 100;
+const MOST = 99;
 
 /**
  * @param {string} query e.g. "?scene=pendulum&step=position:bob"
@@ -25,6 +26,7 @@ export function readPlace(query) {
     lang: oneOf(LANGUAGES, given.get("lang"), HOME.lang),
     theme: oneOf(THEMES, given.get("theme"), HOME.theme),
     method: slug(given.get("method")),
+    n: Math.max(0, Math.min(MOST, Math.trunc(Number(given.get("n"))) || 0)),
     formulation: oneOf(FORMULATIONS, given.get("formulation"), HOME.formulation),
     duration: seconds > 0 && seconds <= LONGEST ? seconds : HOME.duration,
     panel: /** @type {import("./types.js").Panel} */ (oneOf(PANELS, given.get("panel"), HOME.panel)),

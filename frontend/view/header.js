@@ -67,6 +67,7 @@ function entriesOf({ scenes, scene, place }) {
 /** @param {View} view */
 function sceneChooser({ state, session, t }) {
   const { lang, scene } = state.place;
+  const shown = state.scene; // its title says how long a chain is
   const entries = entriesOf(state);
   const entry = entries.find((candidate) => candidate.id === scene);
   const leaveFor = (/** @type {string} */ id) => {
@@ -82,7 +83,7 @@ function sceneChooser({ state, session, t }) {
           <span class="unseen">${t("scene.choose")}</span>
           <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => leaveFor(chosen(e))}>
             ${entry ? nothing : html`<option value=${scene} selected>${t("scene.choose")}</option>`}
-            ${entries.map((s) => html`<option value=${s.id} ?selected=${s.id === scene}>${inLanguage(s.title, lang)}</option>`)}
+            ${entries.map((s) => html`<option value=${s.id} ?selected=${s.id === scene}>${inLanguage((s.id === scene && shown?.title) || s.title, lang)}</option>`)}
             <optgroup label=${t("places.general")}>${PAGES.map((name) => html`<option value=${addressOf(name, state.place)}>${t(`place.${name}`)}</option>`)}</optgroup>
           </select>${icon("chevron")}
         </label>

@@ -1,6 +1,6 @@
 /** Sliders for parameters and initial values. */
 
-import { html } from "lit-html";
+import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "./formula.js";
 import { isChanged, slidersOf } from "../model/values.js";
@@ -13,6 +13,7 @@ import { unitText } from "../model/numbers.js";
 export function values(view) {
   const { state, session, t } = view;
   if (!view.state.scene) return html`<section class="values" aria-label=${t("values")}></section>`;
+  const { family } = state.scenes.find(({ id }) => id === state.place.scene) ?? {};
   const sliders = slidersOf(view.state.scene, state.changes);
   const group = (/** @type {string} */ name) => sliders.filter((slider) => slider.group === name).map((slider) => row(slider, view));
   return html`
@@ -21,8 +22,23 @@ export function values(view) {
         <button class="quiet small" ?disabled=${!isChanged(state.changes)} @click=${session.reset}>${t("values.reset")}</button></div>
       ${group("initial")}
       <div class="heading"><h2>${t("values.parameters")}</h2></div>
+      ${family ? size({ ...family, value: state.place.n || family.value }, view) : nothing}
       ${group("parameter")}
     </section>
+  `;
+}
+
+/** How many members a chain has: another number is another scene. @param {import("../model/types.js").Family} family @param {View} view */
+function size({ parameter, min, max, value }, { state, session, t }) {
+  const chosen = (/** @type {Event} */ e) => void session.choose(state.place.scene, "", Number(/** @type {HTMLInputElement} */ (e.target).value));
+  return html`
+    <div class="row" data-slider="size">
+      <span class="symbol">${inline(parameter)}</span>
+      <input type="range" aria-label=${t("values.parameter", { name: parameter })} min=${min} max=${max} step="1"
+        style="--filled:${(value - min) / (max - min)}" .value=${live(String(value))} @change=${chosen}>
+      <input type="number" aria-label=${parameter} min=${min} max=${max} .value=${live(String(value))} @change=${chosen}>
+      <span class="unit"></span>
+    </div>
   `;
 }
 

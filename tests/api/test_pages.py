@@ -9,6 +9,7 @@ import re
 from collections.abc import AsyncIterator
 from pathlib import Path
 
+import brotli
 import httpx
 import pytest
 
@@ -156,12 +157,28 @@ async def test_file_that_nobody_may_get(browser: httpx.AsyncClient, path: str) -
     assert "secret" not in response.text
 
 
-async def test_file_is_compressed_and_read_again_when_it_changes(browser: httpx.AsyncClient, site: Path) -> None:
-    plain = await browser.get("/app.js", headers={"Accept-Encoding": "identity"})
-    packed = await browser.get("/app.js")
-    assert packed.headers["content-encoding"] == "gzip"
-    assert packed.content == plain.content
-    assert int(packed.headers["content-length"]) == len(gzip.compress(plain.content, 9))
+CODINGS = [
+    pytest.param("gzip, deflate, br, zstd", "br", id="browser"),
+    pytest.param("gzip", "gzip", id="no brotli"),
+    pytest.param("br;q=0, gzip;q=0.5", "gzip", id="brotli unwanted"),
+    pytest.param("identity", None, id="none"),
+]
+
+
+@pytest.mark.parametrize(("accepted", "coding"), CODINGS)
+async def test_file_is_compressed_as_the_client_takes_it(
+    browser: httpx.AsyncClient, site: Path, accepted: str, coding: str | None
+) -> None:
+    async with browser.stream("GET", "/app.js", headers={"Accept-Encoding": accepted}) as response:
+        raw = b"".join([part async for part in response.aiter_raw()])
+    assert response.headers.get("content-encoding") == coding
+    unpack = {"br": brotli.decompress, "gzip": gzip.decompress, None: bytes}[coding]
+    assert unpack(raw) == (site / "app.js").read_bytes()
+    assert set(response.headers["vary"].split(", ")) == {"Accept-Encoding"}
+
+
+async def test_file_is_read_again_when_it_changes(browser: httpx.AsyncClient, site: Path) -> None:
+    await browser.get("/app.js")
     (site / "app.js").write_text("changed", encoding="utf-8")
     assert (await browser.get("/app.js")).text == "changed"
 

@@ -13,13 +13,28 @@ pytestmark = pytest.mark.anyio
 SCENES = "/api/v1/scenes"
 
 
+async def test_member_of_a_family(client: httpx.AsyncClient) -> None:
+    entries = {entry["id"]: entry for entry in (await client.get("/api/v1/scenes")).json()["scenes"]}
+    assert entries["chain-pendulum"]["family"] == {"parameter": "n", "min": 1, "max": 12, "value": 4}
+    assert "family" not in entries["pendulum"]
+    usual, six = [(await client.get(f"/api/v1/scenes/chain-pendulum{query}")).json() for query in ("", "?n=6")]
+    assert [len(scene["bodies"]) for scene in (usual, six)] == [4, 6]
+
+
+@pytest.mark.parametrize(("n", "code"), [("13", "family-size"), ("-1", "family-size"), ("many", "request-not-integer")])
+async def test_member_that_a_family_does_not_have(client: httpx.AsyncClient, n: str, code: str) -> None:
+    response = await client.get(f"/api/v1/scenes/chain-pendulum?n={n}")
+    assert response.status_code == 422
+    assert [problem["code"] for problem in response.json()["problems"]] == [code]
+
+
 async def test_list_has_every_scene_file(client: httpx.AsyncClient) -> None:
     response = await client.get(SCENES)
     assert response.status_code == 200
     entries = response.json()["scenes"]
     assert [entry["id"] for entry in entries] == list(scene_ids())
     for entry in entries:
-        assert entry.keys() == {"id", "title", "summary", "degrees_of_freedom"}
+        assert entry.keys() - {"family"} == {"id", "title", "summary", "degrees_of_freedom"}
         assert entry["title"].keys() == entry["summary"].keys() == {"de", "en"}
         assert entry["degrees_of_freedom"] == len(load_scene(entry["id"]).free)
 
@@ -27,7 +42,7 @@ async def test_list_has_every_scene_file(client: httpx.AsyncClient) -> None:
 async def test_list_without_summaries(client: httpx.AsyncClient) -> None:
     entries = (await client.get(f"{SCENES}?summaries=false")).json()["scenes"]
     assert [entry["id"] for entry in entries] == list(scene_ids())
-    assert all(entry.keys() == {"id", "title", "degrees_of_freedom"} for entry in entries)
+    assert all(entry.keys() - {"family"} == {"id", "title", "degrees_of_freedom"} for entry in entries)
 
 
 @pytest.mark.parametrize("identifier", scene_ids())

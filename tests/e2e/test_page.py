@@ -207,6 +207,18 @@ def test_bytes_before_the_first_plot(lecture: Lecture) -> None:
     assert total < BYTES_BEFORE_FIRST_PLOT, sorted(before, key=lambda entry: -entry[1])[:12]
 
 
+def test_a_chain_of_another_length_is_another_scene(lecture: Lecture) -> None:
+    lecture.open("?scene=chain-pendulum&lang=en&n=3")
+    size = lecture.page.locator("[data-slider='size'] input[type='number']")
+    expect(size).to_have_value("3")
+    expect(lecture.page.locator("svg .bob")).to_have_count(3)
+    size.fill("2")
+    size.press("Enter")
+    expect(lecture.page.locator("svg .bob")).to_have_count(2)
+    expect(lecture.page.locator(".top h1")).to_contain_text("Chain pendulum of 2 links")
+    expect(lecture.page).to_have_url(re.compile("n=2"))
+
+
 def test_two_formulations_with_addresses(lecture: Lecture) -> None:
     """Hamilton's principle is one choice away, can be linked to, and ends in the same equations."""
     lecture.open("?scene=elastic-pendulum&lang=en&step=equation:phi")

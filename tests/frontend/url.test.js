@@ -5,8 +5,8 @@ import { HOME, readPlace, startLanguage, writePlace } from "../../frontend/model
 const PLACES = [
   ["nothing said", "", HOME],
   ["scene and step", "?scene=pendulum&step=virtual-displacement:bob", { ...HOME, scene: "pendulum", step: "virtual-displacement:bob" }],
-  ["everything", "?scene=a&step=b&lang=de&theme=dark&method=rk4&formulation=hamilton&duration=20&panel=plots&edit=json",
-    { scene: "a", step: "b", lang: "de", theme: "dark", method: "rk4", formulation: "hamilton", duration: 20, panel: "plots", edit: "json" }],
+  ["everything", "?scene=a&step=b&lang=de&theme=dark&method=rk4&n=6&formulation=hamilton&duration=20&panel=plots&edit=json",
+    { scene: "a", step: "b", lang: "de", theme: "dark", method: "rk4", n: 6, formulation: "hamilton", duration: 20, panel: "plots", edit: "json" }],
 ];
 
 for (const [name, query, place] of PLACES) {
@@ -19,6 +19,8 @@ for (const [name, query, place] of PLACES) {
 const STRANGE = [
   ["an unknown language", "?lang=xx"],
   ["an unknown side of the editor", "?edit=xml"],
+  ["a chain of no number", "?n=many"],
+  ["a chain of less than nothing", "?n=-3"],
   ["an unknown formulation", "?formulation=newton"],
   ["an unknown theme", "?theme=pink"],
   ["markup as a scene", "?scene=%3Cscript%3E"],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import json
+from collections.abc import Iterable
 from typing import Any
 
 from fastapi import Request, Response
@@ -16,7 +17,14 @@ JSON = "application/json"
 
 def accepts_gzip(request: Request) -> bool:
     """Whether the client takes gzip."""
-    return "gzip" in request.headers.get("accept-encoding", "").lower()
+    return coding_for(request, ("gzip",)) is not None
+
+
+def coding_for(request: Request, offered: Iterable[str]) -> str | None:
+    """The first of the offered content codings that the client takes."""
+    given = request.headers.get("accept-encoding", "").lower()
+    accepted = {part.split(";")[0].strip() for part in given.split(",") if not part.replace(" ", "").endswith(";q=0")}
+    return next((coding for coding in offered if coding in accepted), None)
 
 
 def not_modified(request: Request, etag: str) -> bool:

@@ -11,7 +11,7 @@ from starlette.exceptions import HTTPException
 
 from ..assets import ASK_AGAIN, Asset, import_map_hash
 from ..headers import content_security_policy
-from ..responses import accepts_gzip, not_modified
+from ..responses import coding_for, not_modified
 from ..service import service_of
 
 router = APIRouter(include_in_schema=False)
@@ -77,6 +77,7 @@ def _file(request: Request, asset: Asset) -> Response:
     if not_modified(request, asset.etag):
         return Response(status_code=304, headers=headers)
     headers["Content-Type"] = asset.media_type
-    if asset.compressed is not None and accepts_gzip(request):
-        return Response(asset.compressed, headers=headers | {"Content-Encoding": "gzip"})
+    coding = coding_for(request, asset.compressed)
+    if coding is not None:
+        return Response(asset.compressed[coding], headers=headers | {"Content-Encoding": coding})
     return Response(asset.content, headers=headers)

@@ -7,7 +7,8 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Request, Response
 
-from ...mechanics.library import load_scene, scene_ids
+from ...mechanics.library import family_of, load_scene, scene_ids
+from ...mechanics.scene import Scene
 from ...mechanics.writing import write_scene
 from ..body import StrictRoute
 from ..languages import language_of
@@ -25,16 +26,18 @@ VALIDATE = Job("deltaq.api.jobs:validate", deadline=2.0)
 
 @cache
 def _entries() -> tuple[dict[str, Any], ...]:
-    scenes = [load_scene(identifier) for identifier in scene_ids()]
-    return tuple(
-        {
-            "id": scene.id,
-            "title": dict(scene.title),
-            "summary": dict(scene.summary),
-            "degrees_of_freedom": len(scene.free),
-        }
-        for scene in scenes
-    )
+    return tuple(_entry(load_scene(identifier)) for identifier in scene_ids())
+
+
+def _entry(scene: Scene) -> dict[str, Any]:
+    """What the list says of a scene; of a family also which whole number chooses its member, with its bounds."""
+    titles = {"title": dict(scene.title), "summary": dict(scene.summary)}
+    entry = {"id": scene.id, **titles, "degrees_of_freedom": len(scene.free)}
+    family = family_of(scene.id)
+    if family is None:
+        return entry
+    bounds = {"parameter": family.parameter, "min": family.least, "max": family.most, "value": family.default}
+    return entry | {"family": bounds}
 
 
 @router.get("", response_model=SceneList, responses=failures())
@@ -47,10 +50,12 @@ def list_scenes(
     return tagged(request, {"scenes": entries})
 
 
-@router.get("/{identifier}", responses=failures(404))
-def get_scene(request: Request, identifier: str) -> Response:
-    """The document of a built-in scene, format 1."""
-    return tagged(request, write_scene(load_scene(identifier)))
+@router.get("/{identifier}", responses=failures(404, 422))
+def get_scene(
+    request: Request, identifier: str, n: Annotated[int | None, Query(description="members of a chain")] = None
+) -> Response:
+    """The document of a built-in scene, format 1; of a family the member with `n` links, or its usual one."""
+    return tagged(request, write_scene(load_scene(identifier, n)))
 
 
 @router.post("/validate", response_model=SceneValidity, responses=failures(400, 413, 422, 503, 504))

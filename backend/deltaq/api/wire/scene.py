@@ -10,6 +10,15 @@ from .base import Answer
 from .problem import ProblemEntry
 
 
+class FamilyEntry(Answer):
+    """The whole number that chooses the member of a family, its bounds and the usual value."""
+
+    parameter: str = Field(examples=["n"])
+    min: int
+    max: int
+    value: int
+
+
 class SceneEntry(Answer):
     """A built-in scene in the list."""
 
@@ -17,6 +26,7 @@ class SceneEntry(Answer):
     title: dict[str, str] = Field(examples=[{"de": "Federpendel", "en": "Elastic pendulum"}])
     summary: dict[str, str] | None = Field(None, description="what the scene is about")
     degrees_of_freedom: int = Field(examples=[2])
+    family: FamilyEntry | None = Field(None, description="of a chain: how many members it may have")
 
 
 class SceneList(Answer):
