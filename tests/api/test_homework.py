@@ -110,3 +110,26 @@ async def test_export_for_stack(client: httpx.AsyncClient) -> None:
     response = await client.post(f"{API}/tasks/stack", json={"scene": "pendulum", "tasks": ["equation:phi"]})
     assert (response.status_code, response.headers["content-type"]) == (200, "application/xml")
     assert response.text.count('<question type="stack">') == 1
+
+
+SHEET: dict[str, Any] = {
+    "format": 1,
+    "individual": True,
+    "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 5}, {"scene": "atwood", "task": "lagrangian"}],
+}
+
+
+async def test_an_assignment_is_opened_with_each_students_values(client: httpx.AsyncClient) -> None:
+    sheets = [
+        (await client.post(f"{API}/assignments", json={"assignment": SHEET, "seed": seed})).json()
+        for seed in ("ada", "emmy")
+    ]
+    assert [[entry["task"]["points"] for entry in sheet["tasks"]] for sheet in sheets] == [[5, 1], [5, 1]]
+    assert sheets[0]["tasks"][1]["scene"]["parameters"] != sheets[1]["tasks"][1]["scene"]["parameters"]
+
+
+async def test_a_wrong_assignment_points_at_its_field(client: httpx.AsyncClient) -> None:
+    sheet = {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:psi"}]}
+    response = await client.post(f"{API}/assignments", json={"assignment": sheet})
+    found = [(one["pointer"], one["code"]) for one in response.json()["problems"]]
+    assert (response.status_code, found) == (404, [("/assignment/tasks/0/task", "unknown-task")])

@@ -192,7 +192,7 @@ def _up_to_constant(task: Task) -> bool:
 
 
 def _is_gauge(term: sp.Expr, book: Workbook) -> bool:
-    """A rate times a function of time is a total derivative but for a function of time: changing it changes nothing."""
+    """A constant times a rate is a total time derivative: changing it changes nothing."""
     used = term.free_symbols
     return (
         not used & {book.road.q(q) for q in book.road.free}

@@ -89,6 +89,12 @@ def check(document: Document) -> Document:
     return answer
 
 
+def open_assignment(document: Document) -> Document:
+    """The tasks of an assignment."""
+    answer: Document = import_module("deltaq.homework.service").assignment_request(document)
+    return answer
+
+
 def export_stack(document: Document) -> Document:
     """Questions for STACK as XML."""
     answer: Document = import_module("deltaq.homework.service").stack_request(document)

@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 from typing import cast
 
 from ..language.parser import Syntax
+from ..mechanics.requests import inside
 from ..mechanics.writing import write_scene
 from ..narration.catalog import language_of
+from .assignment import AssignedTask, read_assignment
 from .feedback import Document, task_document, verdict_document
 from .stack.question import quiz
 from .workbook import Workbook, workbook_of
@@ -77,6 +79,29 @@ def lines_request(document: Mapping[str, object]) -> Document:
 def _scheme(document: Mapping[str, object]) -> Scheme:
     points = cast("Mapping[str, float]", document.get("points") or {})
     return Scheme(points, float(cast("float", document.get("follow_through", Scheme.follow_through))))
+
+
+def assignment_request(document: Mapping[str, object]) -> Document:
+    """{assignment, seed?, lang?} → its tasks in order, each with its scene, symbols and points; the seed is a student.
+
+    Raises InputError that points below /assignment.
+    """
+    with inside("/assignment"):
+        sheet = read_assignment(document["assignment"])
+    seed = cast("str | None", document.get("seed")) if sheet.individual else None
+    language = _language(document)
+    return {
+        "title": dict(sheet.title),
+        "follow_through": sheet.follow_through,
+        "tasks": [_assigned_document(assigned, seed, language) for assigned in sheet.tasks],
+    }
+
+
+def _assigned_document(assigned: AssignedTask, seed: str | None, language: str) -> Document:
+    workbook, task = assigned.resolved(seed)
+    told = task_document(task, workbook, language)
+    points = task.quantity.points if assigned.points is None else assigned.points
+    return {"scene": write_scene(workbook.scene), "symbols": _symbols(workbook), "task": told | {"points": points}}
 
 
 def stack_request(document: Mapping[str, object]) -> Document:

@@ -12,6 +12,8 @@ from ..languages import language_of
 from ..responses import packed
 from ..service import service_of
 from ..wire.homework import (
+    AssignmentAnswer,
+    AssignmentRequest,
     BatchAnswer,
     BatchRequest,
     CheckRequest,
@@ -28,6 +30,7 @@ from .common import failures, question_of
 router = APIRouter(tags=["homework"], route_class=StrictRoute)
 TASKS = Job("deltaq.api.jobs:tasks", deadline=8.0)
 CHECK = Job("deltaq.api.jobs:check", deadline=15.0)
+ASSIGNMENT = Job("deltaq.api.jobs:open_assignment", deadline=30.0)
 STACK = Job("deltaq.api.jobs:export_stack", deadline=60.0)
 LINES = Job("deltaq.api.jobs:check_lines", deadline=30.0)
 BATCH = Job("deltaq.api.jobs:check_batch", deadline=60.0)
@@ -55,6 +58,12 @@ async def export_stack(request: Request, body: StackRequest) -> Response:
     """Tasks as questions of STACK (Moodle XML): input, model answer, feedback tree made of the misconceptions."""
     answer = await service_of(request).pool.run(STACK, question_of(request, body))
     return Response(loads(answer)["xml"], media_type="application/xml")
+
+
+@router.post("/assignments", response_model=AssignmentAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+async def open_assignment(request: Request, body: AssignmentRequest) -> Response:
+    """The tasks of an assignment; with `individual` the seed draws the student's own values."""
+    return await _answered(request, ASSIGNMENT, body.model_dump() | {"lang": language_of(request)})
 
 
 @router.post("/checks", response_model=VerdictAnswer, responses=failures(400, 404, 413, 422, 503, 504))

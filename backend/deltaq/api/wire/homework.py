@@ -71,6 +71,33 @@ class TaskList(Answer):
     tasks: tuple[TaskEntry, ...]
 
 
+class AssignmentRequest(Request):
+    """An assignment, and the student who opens it."""
+
+    assignment: dict[str, Any] = Field(
+        description="format 1: title, individual, follow_through, tasks with scene, task and points",
+        examples=[{"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 3}]}],
+    )
+    seed: Seed | None = None
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+
+class AssignedTaskEntry(Answer):
+    """One task of an assignment, with its scene in the student's values."""
+
+    scene: dict[str, Any]
+    symbols: tuple[TaskSymbol, ...]
+    task: TaskEntry
+
+
+class AssignmentAnswer(Answer):
+    """An assignment, opened."""
+
+    title: dict[str, str]
+    follow_through: float
+    tasks: tuple[AssignedTaskEntry, ...]
+
+
 class AnswerText(Request):
     """What a student wrote."""
 
