@@ -10,7 +10,7 @@ from .diagnosis import Diagnosis, diagnose, own_term
 from .dimensions import dimension_problem
 from .equality import Match, Parts, equation
 from .reading import Reading, read
-from .sampling import close
+from .sampling import DISTINCT, close
 from .task import Task
 from .verdict import Slip, Verdict
 from .workbook import Workbook
@@ -38,7 +38,7 @@ def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
     right = workbook.fingerprint(task)
     if own == () and task.quantity.form != "set":
         return Match(equal=False, remark="degenerate")
-    differs = own is not None and right is not None and not (len(own) == len(right) and close(own, right))
+    differs = own is not None and right is not None and not (len(own) == len(right) and close(own, right, DISTINCT))
     if task.quantity.form == "set":
         differs = False  # numbers at the scene's values are answers, too
     if not differs:

@@ -20,6 +20,7 @@ from .road import Road
 
 POINTS = 6
 CLOSE = 1e-7
+DISTINCT = 1e-4  # values further apart than this are not so by rounding
 Values = tuple[float, ...]
 
 
@@ -88,11 +89,11 @@ def _row(function: Callable[[Sequence[float]], float], point: list[float], slots
     return (*unit, rest) if abs(direct - linear) <= CLOSE * size else (float("nan"),) * (len(unit) + 1)
 
 
-def close(left: Iterable[float], right: Iterable[float]) -> bool:
+def close(left: Iterable[float], right: Iterable[float], tolerance: float = CLOSE) -> bool:
     """Whether two lists of values are equal but for rounding; NaN is equal to nothing."""
     pairs = list(zip(left, right, strict=True))
     scale = max((max(abs(a), abs(b)) for a, b in pairs), default=0.0)
-    return all(abs(a - b) <= CLOSE * scale for a, b in pairs)
+    return all(abs(a - b) <= tolerance * scale for a, b in pairs)
 
 
 def defined(values: Iterable[float]) -> bool:
