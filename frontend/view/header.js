@@ -57,11 +57,13 @@ function pen({ state, session, editor, t }) {
     ?disabled=${!state.scene && scene !== OWN} @click=${press}>${icon("pen")}</button>`;
 }
 
+/** @param {import("../model/types.js").Scene} scene */
+const freedomsOf = (scene) => scene.coordinates.length - (scene.guides ?? []).length;
+
 /** The built-in scenes, and the viewer's own if it is there. @param {View["state"]} state */
 function entriesOf({ scenes, scene, place }) {
   if (place.scene !== OWN || !scene) return scenes;
-  const freedoms = scene.coordinates.length - (scene.guides ?? []).length;
-  return [{ id: OWN, title: scene.title, summary: scene.summary, degrees_of_freedom: freedoms }, ...scenes];
+  return [{ id: OWN, title: scene.title, summary: scene.summary, degrees_of_freedom: freedomsOf(scene) }, ...scenes];
 }
 
 /** @param {View} view */
@@ -75,7 +77,7 @@ function sceneChooser({ state, session, t }) {
     session.move({ edit: "" });
     void session.choose(id);
   };
-  const freedoms = entry?.degrees_of_freedom ?? 0;
+  const freedoms = shown ? freedomsOf(shown) : entry?.degrees_of_freedom ?? 0;
   return html`
     <div class="scene">
       <h1>

@@ -18,11 +18,11 @@ export function values(view) {
   const group = (/** @type {string} */ name) => sliders.filter((slider) => slider.group === name).map((slider) => row(slider, view));
   return html`
     <section class="values" aria-label=${t("values")}>
+      ${family ? size({ ...family, value: state.place.n || family.value }, view) : nothing}
       <div class="heading"><h2>${t("values.initial")}</h2>
         <button class="quiet small" ?disabled=${!isChanged(state.changes)} @click=${session.reset}>${t("values.reset")}</button></div>
       ${group("initial")}
       <div class="heading"><h2>${t("values.parameters")}</h2></div>
-      ${family ? size({ ...family, value: state.place.n || family.value }, view) : nothing}
       ${group("parameter")}
     </section>
   `;
