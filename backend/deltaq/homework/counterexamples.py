@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+import sympy as sp
+
 from ..derivation.compiled import compiled
 from .equality import Parts
 from .road import Road
@@ -66,14 +68,14 @@ def _solved(row: tuple[float, ...], slots: list[str], state: dict[str, float]) -
     return -row[-1] - sum(row[k] * state[slot] for k, slot in enumerate(slots) if k > pivot)
 
 
-def _row(part: object, slots: list[str], state: dict[str, float]) -> list[float]:
+def _row(part: sp.Expr, slots: list[str], state: dict[str, float]) -> list[float]:
     still = state | dict.fromkeys(slots, 0.0)
     rest = _at(part, still)
     return [*(_at(part, still | {slot: 1.0}) - rest for slot in slots), rest]
 
 
-def _at(part: object, state: dict[str, float]) -> float:
-    symbols = {s: k for k, s in enumerate(part.free_symbols)}  # type: ignore[attr-defined]
+def _at(part: sp.Expr, state: dict[str, float]) -> float:
+    symbols = {s: k for k, s in enumerate(part.free_symbols)}
     values = [state.get(s.name, math.nan) for s in symbols]
     try:
         return compiled(part, symbols)(values)

@@ -102,15 +102,16 @@ def _conserved_value(road: Road, number: str) -> Parts:
     return (road.conserved(true.conserved_of[int(number) - 1]),)
 
 
-def _module(module: object) -> Equality:
-    return cast("Equality", module)
-
+EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE = (
+    cast("Equality", module)
+    for module in (expression, up_to_constant, lagrangian, equation, equations, frequencies, conserved)
+)
 
 QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "position",
         "vector",
-        _module(expression),
+        EXACT,
         lambda road, body: _vector(road.position(body)),
         _bodies,
         "configuration",
@@ -119,7 +120,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "virtual-displacement",
         "vector",
-        _module(expression),
+        EXACT,
         lambda road, body: _vector(road.virtual_displacement(body)),
         _bodies,
         "variation",
@@ -129,7 +130,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "virtual-work",
         "expression",
-        _module(expression),
+        EXACT,
         _virtual_work,
         _loaded,
         "virtual-work",
@@ -140,7 +141,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "generalized-force",
         "expression",
-        _module(expression),
+        EXACT,
         lambda road, q: (road.generalized_force(q),),
         lambda road: road.free if road.load_names else (),
         "virtual-work",
@@ -150,7 +151,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "kinetic-energy",
         "expression",
-        _module(expression),
+        EXACT,
         lambda road, _: (road.kinetic_energy,),
         _one,
         "kinetic-energy",
@@ -161,7 +162,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "potential-energy",
         "expression",
-        _module(up_to_constant),
+        CONSTANT,
         lambda road, _: (road.potential_energy,),
         _with_potential,
         "decomposition",
@@ -171,7 +172,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "lagrangian",
         "expression",
-        _module(lagrangian),
+        GAUGE,
         lambda road, _: (road.lagrangian,),
         _one,
         "lagrange",
@@ -181,7 +182,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "momentum",
         "expression",
-        _module(expression),
+        EXACT,
         lambda road, q: (road.momentum(q),),
         _coordinates,
         "lagrange",
@@ -191,7 +192,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "equation",
         "equation",
-        _module(equation),
+        ONE,
         lambda road, q: (road.equation(q),),
         _coordinates,
         "lagrange",
@@ -202,7 +203,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "equations",
         "equations",
-        _module(equations),
+        SET,
         lambda road, _: tuple(map(road.equation, road.free)),
         _coupled,
         "lagrange",
@@ -213,7 +214,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "linearized",
         "equation",
-        _module(equation),
+        ONE,
         lambda road, q: (road.linear_equation(q),),
         _resting,
         "model",
@@ -224,7 +225,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "eigenfrequencies",
         "set",
-        _module(frequencies),
+        NUMBERS,
         lambda road, _: road.frequencies,
         _oscillating,
         "model",
@@ -235,7 +236,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "conserved",
         "expression",
-        _module(conserved),
+        MULTIPLE,
         _conserved_value,
         _conserved,
         "model",

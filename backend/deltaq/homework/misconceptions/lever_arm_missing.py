@@ -31,9 +31,9 @@ class LeverArmMissing(Detour):
         if not isinstance(load, PointForce) or self.about not in ("", load.source):
             return right
         angles = {c.name for c in self.scene.free if c.unit in ("rad", "deg")}
-        return sp.Add(*(self._share(right, load, q, q in angles) for q in self.free))
+        return sp.Add(*(self._share(right, load, q, turning=q in angles) for q in self.free))
 
-    def _share(self, work: sp.Expr, load: PointForce, coordinate: str, turning: bool) -> sp.Expr:  # noqa: FBT001
+    def _share(self, work: sp.Expr, load: PointForce, coordinate: str, *, turning: bool) -> sp.Expr:
         change = self.variation(coordinate)
         share = work.coeff(change) * change
         tangent = self.position(load.place).diff(self.q(coordinate))
