@@ -158,11 +158,15 @@ def test_the_plot_and_the_drawing_share_a_clock(lecture: Lecture) -> None:
 def test_one_quantity_has_one_colour(lecture: Lecture) -> None:
     lecture.open()
     lecture.page.locator(".plots.ready").wait_for()
-    # Found and asked in one go: the drawing may replace a path between two calls.
-    colour = "place => getComputedStyle(document.querySelector(place)).color"
+    # Found and asked in one go, in the first frame that has it: the drawing may replace a path at any time.
+    colour = """place => new Promise(done => {
+        const look = () => {
+            const found = document.querySelector(place);
+            if (found) done(getComputedStyle(found).color); else requestAnimationFrame(look);
+        };
+        look();
+    })"""
     places = (".formula .q-1", ".labels .q-1", ".drawing path.q-1", ".legend .q-1", ".row.q-1", ".readouts .q-1")
-    for place in places:
-        lecture.page.locator(place).first.wait_for(state="attached")
     colours = {place: lecture.page.evaluate(colour, place) for place in places}
     assert len(set(colours.values())) == 1, colours
 
