@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from scipy.special import ellipj
+from tests.simulation.scenes import get_scene
 
 from deltaq.mechanics.scene import Scene
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method
 from deltaq.simulation.problem import Problem
+from deltaq.simulation.reference import Reference, reference
 from deltaq.simulation.service import problem_of
 from deltaq.simulation.trajectory import Trajectory
 
@@ -16,6 +20,12 @@ from deltaq.simulation.trajectory import Trajectory
 def trusted(scene: Scene, t_end: float, samples: int = 501) -> Trajectory:
     """The best that order 8 can do."""
     return simulate(problem_of(scene, t_end, samples), get_method("dop853"), tolerance=1e-13)
+
+
+@cache
+def reference_of(name: str) -> Reference:
+    """The reference of a scene for ten seconds at 501 samples."""
+    return reference(problem_of(get_scene(name), 10.0, 501))
 
 
 def simulated(scene: Scene, method: str, t_end: float, samples: int = 501, **accuracy: float) -> Trajectory:

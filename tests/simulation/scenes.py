@@ -101,10 +101,10 @@ def standstill() -> Scene:
 
 
 OWN = {
-    "double-pendulum": double_pendulum,
+    "wild-double-pendulum": double_pendulum,
     "driven-by-everything": driven_by_everything,
     "damped-oscillator": lambda: oscillator("-k*x - c*dot(x) + F0*cos(omega*t)"),
-    "spherical-pendulum": spherical_pendulum,
+    "fast-spherical-pendulum": spherical_pendulum,
 }
 
 

@@ -2,7 +2,7 @@
 
 The difference of two runs, taken as it is, says too little where a motion turns back: there even a wrong phase gives
 the right value. So coordinates and rates are compared together, |Δq|² + τ²|Δq̇|², with the coordinate's own time scale
-τ (rate over acceleration, root mean squares). Neighbouring samples share their largest difference.
+τ (from root mean squares). Neighbouring samples share their largest difference.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from .problem import Floats, Problem
 from .run import Run
 from .stiffness import accelerations
 
-NEIGHBOURS = 2
+# Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
+NEAR, FAR, SHARE = 160, 20, 0.25
 ROUNDING = 4e-16
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 
@@ -56,20 +57,44 @@ def _grain(problem: Problem, times: Floats, fine: Run) -> Floats:
 
 
 def _time_scales(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """τ of each coordinate: root mean square of the rate (without its mean) over that of the acceleration."""
+    """τ of each coordinate, from root mean squares without drift: rate over acceleration, or value over rate.
+
+    Where a fast motion rides on a slow one, the former is the scale of the fast and the latter that of the slow.
+    """
     n = problem.degrees
-    rates = states[:, n : 2 * n] - states[:, n : 2 * n].mean(axis=0)
-    fast = np.sqrt(np.nanmean(accelerations(problem, times, states) ** 2, axis=0))
-    slow = np.sqrt(np.mean(rates**2, axis=0))
-    return np.asarray(np.divide(slow, fast, out=np.zeros(n), where=fast > 0))
+    drift = states[:, n : 2 * n].mean(axis=0)
+    swing = states[:, :n] - drift * times[:, None]
+    value, rate = _size(swing - swing.mean(axis=0)), _size(states[:, n : 2 * n] - drift)
+    acceleration = _size(accelerations(problem, times, states))
+    fast = np.divide(rate, acceleration, out=np.zeros(n), where=acceleration > 0)
+    slow = np.divide(value, rate, out=np.zeros(n), where=rate > 0)
+    return np.asarray(np.maximum(fast, slow))
+
+
+def _size(values: Floats) -> Floats:
+    """Root mean square of each column."""
+    return np.asarray(np.sqrt(np.nanmean(values**2, axis=0)))
 
 
 def _spread(errors: Floats) -> Floats:
-    """Each sample takes the largest value of its neighbourhood; the first keeps its own, which is exact."""
-    padded = np.pad(errors, ((NEIGHBOURS, NEIGHBOURS), (0, 0)))
-    spread = np.max([padded[k : k + len(errors)] for k in range(2 * NEIGHBOURS + 1)], axis=0)
+    """Each sample takes the largest error nearby, and a share of the largest in a wider neighbourhood.
+
+    The first keeps its own, which is exact.
+    """
+    near, far = (_largest_within(errors, max(2, len(errors) // part)) for part in (NEAR, FAR))
+    spread = np.maximum(near, SHARE * far)
     spread[0] = errors[0]
-    return np.asarray(spread)
+    return spread
+
+
+def _largest_within(errors: Floats, reach: int) -> Floats:
+    """The largest value up to `reach` samples away, by windows that double."""
+    window, size, width = np.pad(errors, ((reach, reach), (0, 0))), 1, 2 * reach + 1
+    while 2 * size <= width:
+        window = np.maximum(window[:-size], window[size:])
+        size *= 2
+    rest = width - size
+    return np.asarray(np.maximum(window[: len(window) - rest], window[rest:]))
 
 
 def _horizon(problem: Problem, times: Floats, errors: Floats, sizes: Floats) -> float | None:

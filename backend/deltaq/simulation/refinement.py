@@ -39,8 +39,8 @@ class ByTolerance:
     """
 
     t_end: float
-    factor_of_coarse: float = 1.2
-    factor_of_fine: float = 1.2
+    factor_of_coarse: float = 1.15
+    factor_of_fine: float = 1.15
 
     def first(self, tolerance: float) -> float:
         return max(0.1 * tolerance, FINEST_TOLERANCE)

@@ -1,0 +1,44 @@
+"""A trusted motion: two unlike methods of high order that agree, one explicit and one implicit and symplectic.
+
+Their formulas, error controls and kernels have nothing in common but the model, so that they do not err alike; the
+larger of their difference and of what rounding leaves is the reference's own error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .driver import simulate
+from .library import get_method
+from .problem import Floats, Problem
+from .trajectory import Trajectory
+
+METHODS = ("dop853", "gauss-6")
+TOLERANCE = 1e-13
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Coordinates at `times`, shape (samples, degrees), as far as both methods came; `errors` bounds each sample."""
+
+    times: Floats
+    values: Floats
+    errors: Floats
+    methods: tuple[str, str]
+
+    def errors_of(self, trajectory: Trajectory) -> Floats:
+        """The largest error of any coordinate at each sample that both have."""
+        count = min(len(self.times), len(trajectory.times))
+        return np.asarray(np.abs(trajectory.values[:count] - self.values[:count]).max(axis=1))
+
+
+def reference(problem: Problem) -> Reference:
+    """The reference of a problem at its samples."""
+    first, second = (simulate(problem, get_method(name), tolerance=TOLERANCE) for name in METHODS)
+    count = min(len(first.times), len(second.times))
+    apart = np.abs(first.values[:count] - second.values[:count]).max(axis=1)
+    size = np.maximum(1.0, np.abs(first.values[:count]).max(axis=1))
+    grain = np.finfo(np.float64).eps * size
+    return Reference(first.times[:count], first.values[:count], np.maximum.accumulate(apart) + grain, METHODS)
