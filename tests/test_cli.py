@@ -9,11 +9,13 @@ import socket
 import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import httpx
 import pytest
 
 from deltaq import __version__
+from deltaq.bench import benchmark_names, run_benchmarks
 from deltaq.cli import main
 
 COMMAND = [sys.executable, "-m", "deltaq.cli"]
@@ -104,3 +106,19 @@ def test_no_command_shows_the_help(capsys: pytest.CaptureFixture[str]) -> None:
 def test_command_line_itself_loads_nothing_heavy(module: str) -> None:
     code = f"import deltaq.cli, sys; sys.exit({module!r} in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_bench_runs_programs_of_the_checkout_by_name(tmp_path: Path) -> None:
+    folder = tmp_path / "tests" / "benchmarks"
+    folder.mkdir(parents=True)
+    (folder / "bench_good.py").write_text("print('12 ns, ratio 3')")
+    (folder / "bench_bad.py").write_text("raise SystemExit(3)")
+    assert benchmark_names(tmp_path) == ("bad", "good")
+    assert run_benchmarks(("good",), tmp_path) == 0
+    assert run_benchmarks(("bad", "good"), tmp_path) == 3
+
+
+def test_unknown_benchmark() -> None:
+    found = command("bench", "speed")
+    assert found.returncode == 2
+    assert found.stderr == f"deltaq: no benchmark speed; there are {', '.join(benchmark_names())}\n"

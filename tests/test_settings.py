@@ -1,13 +1,26 @@
 from __future__ import annotations
 
+import re
+from dataclasses import fields
+from pathlib import Path
+
 import pytest
 
+import deltaq
 from deltaq.settings import Settings, SettingsError
 
 
 def test_defaults_need_no_environment() -> None:
     assert Settings.from_environment({}) == Settings()
     assert Settings().workers >= 2
+
+
+def test_every_variable_that_the_code_names_is_a_setting() -> None:
+    """Else the service would refuse to start with a variable that some part of it reads."""
+    package = Path(deltaq.__file__).parent
+    named = {v for file in package.rglob("*.py") for v in re.findall(r"DELTAQ_[A-Z_]+", file.read_text("utf-8"))}
+    known = {f"DELTAQ_{field.name.upper()}" for field in fields(Settings)}
+    assert named - {"DELTAQ_"} <= known
 
 
 def test_environment_changes_what_it_names() -> None:

@@ -29,6 +29,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return check(options)
     if options.command == "export-stack":
         return export_stack(options)
+    if options.command == "bench":
+        return bench(tuple(options.names))
     parser.print_help()
     return 0
 
@@ -42,7 +44,8 @@ def _parser() -> argparse.ArgumentParser:
         help="serve the page and the API",
         description="Serves the page and the API.",
         epilog="Further settings are environment variables: DELTAQ_WORKERS, DELTAQ_CACHE_SIZE, "
-        "DELTAQ_DERIVATION_DEADLINE, DELTAQ_SIMULATION_DEADLINE and others of deltaq/settings.py.",
+        "DELTAQ_DERIVATION_DEADLINE, DELTAQ_SIMULATION_DEADLINE, DELTAQ_MODEL_CACHE (a folder for compiled "
+        "models) and others of deltaq/settings.py. NUMBA_CACHE_DIR is where compiled kernels go.",
     )
     serve_parser.add_argument("--host", default="127.0.0.1", help="address to bind (default: %(default)s)")
     serve_parser.add_argument(
@@ -68,7 +71,28 @@ def _parser() -> argparse.ArgumentParser:
     stack_parser.add_argument("tasks", nargs="*", help="ids of tasks such as equation:phi (default: all)")
     stack_parser.add_argument("--output", type=Path, required=True, help="where the XML goes")
     stack_parser.add_argument("--lang", choices=("en", "de"), default="en", help="language (default: %(default)s)")
+    bench_parser = commands.add_parser(
+        "bench",
+        help="measure speed and accuracy against peers (in a checkout)",
+        description="Runs the benchmarks of the checkout: tables with ratios to C, SciPy, SymPy and, where installed, "
+        "heyoka. Without names all of them, which takes about half an hour.",
+    )
+    bench_parser.add_argument("names", nargs="*", help="which: simulation, derivation, chain, rhs …")
     return parser
+
+
+def bench(names: tuple[str, ...]) -> int:
+    """Run benchmarks by name."""
+    from .bench import benchmark_names, run_benchmarks
+
+    known = benchmark_names()
+    if not known:
+        print("deltaq: the benchmarks are part of a checkout, not of the installed package", file=sys.stderr)
+        return BUSY
+    if unknown := [name for name in names if name not in known]:
+        print(f"deltaq: no benchmark {', '.join(unknown)}; there are {', '.join(known)}", file=sys.stderr)
+        return BUSY
+    return run_benchmarks(names or known)
 
 
 def export_stack(options: argparse.Namespace) -> int:

@@ -30,6 +30,7 @@ class Settings:
     cache_size: int = 128 * MEBIBYTE
     largest_body: int = MEBIBYTE
     body_timeout: float = 10.0
+    model_cache: str = ""  # folder of compiled models; read by deltaq.model.store
     static: str = ""
 
     @classmethod
