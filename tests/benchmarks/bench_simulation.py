@@ -1,7 +1,7 @@
 """Everything about speed in one run: right-hand sides, error against time, a new scene from cold, growth with n.
 
-Run it from the checkout: `python -m tests.benchmarks.bench_simulation`. heyoka takes part if it is installed (bench
-extra). Medians, all in the same run; ratios say more than times. Prints; judges nothing.
+Run it from the checkout: `python -m tests.benchmarks.bench_simulation`. heyoka and diffrax take part if they are
+installed (bench extra). Medians, all in the same run; ratios say more than times. Prints; judges nothing.
 """
 
 from __future__ import annotations
@@ -17,14 +17,13 @@ import numpy as np
 import sympy as sp
 from scipy.integrate import solve_ivp
 from tests.benchmarks import bench_rhs
+from tests.derivation.scenes import chain
 from tests.model.lagranges_method import lagranges_method
 from tests.simulation.scenes import double_pendulum
 
-from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
 from deltaq.model.equations import equations
 from deltaq.model.model import _compiled as compiled
-from deltaq.model.model import compile_model
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method
 from deltaq.simulation.problem import Problem
@@ -33,7 +32,7 @@ from deltaq.simulation.service import problem_of
 SPAN, SAMPLES, REPEATS = 100.0, 501, 5
 PEERS = (("DOP853", (1e-6, 1e-9, 1e-12)), ("Radau", (1e-6, 1e-9)), ("LSODA", (1e-6, 1e-9, 1e-12)))
 OWN = (("dop853", (1e-3, 1e-6, 1e-9, 1e-11)), ("gauss-6", (1e-3, 1e-6, 1e-9)), ("radau-5", (1e-3, 1e-6, 1e-9)))
-CHAIN = (1, 2, 4, 6, 8, 10, 12)
+CHAIN = (1, 2, 4, 6, 8, 10, 12, 15, 20)
 
 Motion = Callable[[], np.ndarray]  # coordinates at the samples
 
@@ -50,7 +49,7 @@ def main() -> None:
     problem = problem_of(calm(), SPAN, SAMPLES)
     reference = simulate(problem, get_method("dop853"), tolerance=1e-13).values
     print(f"\n100 s of a double pendulum, {SAMPLES} samples{'error':>14}{'ms':>10}")
-    for name, motion in (*_own(problem), *_solve_ivp(problem), *_heyoka(problem)):
+    for name, motion in (*_own(problem), *_solve_ivp(problem), *_heyoka(problem), *_diffrax(problem)):
         error, seconds = _measured(motion, reference)
         print(f"{name:44}{error:10.1e}{seconds * 1e3:10.2f}")
     _cold()
@@ -125,6 +124,33 @@ def _heyoka(problem: Problem) -> list[tuple[str, Motion]]:
     return [(f"heyoka {tolerance:g}", motion(tolerance)) for tolerance in (1e-9, 1e-15)]
 
 
+def _diffrax(problem: Problem) -> list[tuple[str, Motion]]:
+    """Compiled by XLA for this scene and these numbers; the compilation is not counted."""
+    if find_spec("diffrax") is None:
+        return []
+    import diffrax
+    import jax
+    import jax.numpy as jnp
+
+    jax.config.update("jax_enable_x64", True)
+    accelerations = sp.lambdify(sp.symbols("a b u v", real=True), _rates(problem), "jax")
+    term = diffrax.ODETerm(lambda _t, y, _args: jnp.array([y[2], y[3], *accelerations(*y)]))
+    saved = diffrax.SaveAt(ts=jnp.linspace(0.0, SPAN, SAMPLES))
+
+    def motion(tolerance: float) -> Motion:
+        control = diffrax.PIDController(rtol=tolerance, atol=tolerance)
+
+        @jax.jit
+        def solve(start: Any) -> Any:
+            options: Any = {"saveat": saved, "stepsize_controller": control, "max_steps": 10**6}
+            return diffrax.diffeqsolve(term, diffrax.Dopri8(), 0.0, SPAN, None, start, **options).ys
+
+        solve(problem.state).block_until_ready()
+        return lambda: np.asarray(solve(problem.state))[:, :2]
+
+    return [(f"diffrax Dopri8 {tolerance:g}", motion(tolerance)) for tolerance in (1e-6, 1e-9, 1e-12)]
+
+
 def _rates(problem: Problem) -> list[sp.Expr]:
     """The accelerations in a, b, u, v with the numbers of the problem."""
     symbols, mass, forcing = lagranges_method(double_pendulum())
@@ -169,9 +195,9 @@ def _chain() -> None:
     """Growth with the number of links; the first model of each size is new."""
     print(f"\n{'links':>5}{'model ms':>10}{'phase ms':>10}{'ns per right-hand side':>24}")
     for n in CHAIN:
-        scene = load_scene("chain-pendulum", n)
+        scene = chain(n)
         start = perf_counter()
-        model = compile_model(scene)
+        model = compiled(equations(scene), scene)
         built = perf_counter() - start
         start = perf_counter()
         assert isinstance(model.phase, object)

@@ -147,7 +147,7 @@ def kicked(force: str, x: float = 1.0) -> object:
 
 STATUSES = [
     pytest.param(
-        oscillator(), "explicit-euler", {"step": 1.1}, 200.0, "diverged", "diverged", id="unstable step"
+        oscillator(), "explicit-euler", {"step": 1.1}, 200.0, "diverged", "diverged", id="grows with any step"
     ),
     pytest.param(kicked("m*x^3"), "dop853", {"tolerance": 1e-6}, 10.0, "diverged", "diverged", id="blow-up"),
     pytest.param(
@@ -187,7 +187,10 @@ STATUSES = [
         kicked("m/x", x=0.0), "newmark", {"step": 0.1}, 1.0, "diverged", "not_finite", id="nothing finite, implicitly"
     ),
     pytest.param(
-        oscillator(), "stormer-verlet", {"step": 1.1}, 200.0, "diverged", "diverged", id="unstable, though symplectic"
+        oscillator(), "stormer-verlet", {"step": 1.1}, 200.0, "diverged", "unstable_step", id="step too large"
+    ),
+    pytest.param(
+        oscillator(), "rk4", {"step": 1.5}, 900.0, "diverged", "unstable_step", id="step too large, order 4"
     ),
     pytest.param(
         oscillator(), "explicit-euler", {"tolerance": 1e-9}, 10.0, "tolerance_missed", "tolerance_missed", id="too much"
@@ -207,6 +210,13 @@ def test_failures_are_results(
     assert len(found.times) == len(found.values) == len(found.estimate.errors) >= 1
     for array in (found.times, found.values, found.rates, found.work, found.estimate.errors):
         assert np.isfinite(array).all()
+
+
+def test_an_unstable_step_is_told_with_the_largest_stable_one() -> None:
+    """ω = 2: Störmer–Verlet is stable for h < 2/ω = 1."""
+    found = simulated(oscillator(), "stormer-verlet", 200.0, step=1.1)
+    assert found.outcome.parameters["step"] == 1.1
+    assert found.outcome.parameters["bound"] == pytest.approx(1.0, rel=0.02)
 
 
 STIFF = "-1e6*x - 1e4*dot(x) + F0*cos(omega*t)"

@@ -9,14 +9,14 @@ import pytest
 from scipy.integrate import DOP853, RK23, RK45
 from scipy.integrate._ivp import dop853_coefficients as published
 from tests.simulation.references import simulated, trusted
-from tests.simulation.scenes import get_scene
+from tests.simulation.scenes import get_scene, oscillator
 
 from deltaq.errors import Problem, UnknownNameError
 from deltaq.packages import modules_of
 from deltaq.simulation.integration import explicit_weights
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.method import Method, Newmark, Partitioned, Tableau
-from deltaq.simulation.stability import real_stability, stability_function
+from deltaq.simulation.stability import growth, real_stability
 
 METHODS = [pytest.param(get_method(identifier), id=identifier) for identifier in method_ids()]
 EXPLICIT = [case for case in METHODS if isinstance(case.values[0].tableau, Tableau)]
@@ -186,10 +186,6 @@ def test_stability_intervals_are_those_of_the_docstrings(identifier: str, real: 
     assert 0.97 * real < real_stability(t) < real
 
 
-def growth(t: Tableau | Partitioned, z: complex) -> float:
-    return abs(stability_function(t.a, t.b, z))
-
-
 @pytest.mark.parametrize("identifier", ["implicit-midpoint", "variational-midpoint", "gauss-4", "gauss-6", "radau-5"])
 def test_implicit_methods_are_a_stable(identifier: str) -> None:
     t, z = get_method(identifier).tableau, np.array([-1e-3, -1.0, -1e3, -1 + 5j, -1e-2 + 100j])
@@ -205,3 +201,16 @@ def test_newmark_is_average_acceleration() -> None:
     scheme = get_method("newmark").tableau
     assert isinstance(scheme, Newmark)
     assert (float(scheme.beta), float(scheme.gamma)) == (0.25, 0.5)
+
+
+@pytest.mark.parametrize("identifier", method_ids())
+@pytest.mark.parametrize("z", [0.3 + 0.2j, -0.2 + 0.9j, -0.05 + 1.6j, -1.2 + 0.4j, 0.1 + 2.5j])
+def test_growth_is_what_a_step_does(identifier: str, z: complex) -> None:
+    """The matrix of one step h = 1 of ẍ = 2 Re(z) ẋ − |z|² x, from two runs, has this spectral radius."""
+    force = f"{2 * z.real!r}*dot(x) - {abs(z) ** 2!r}*x"
+    columns = []
+    for x, u in ((1.0, 0.0), (0.0, 1.0)):
+        run = simulated(oscillator(f"m*({force})", x=x, u=u), identifier, 1.0, 2, step=1.0)
+        columns.append([run.values[-1, 0], run.rates[-1, 0]])
+    radius = np.abs(np.linalg.eigvals(np.array(columns).T)).max()
+    assert growth(get_method(identifier).tableau, np.complex128(z)) == pytest.approx(radius, rel=1e-7)

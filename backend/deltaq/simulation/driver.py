@@ -11,12 +11,14 @@ import numpy as np
 
 from .estimate import Estimate, estimate
 from .integration import Flag
-from .kernels.motion import CANCELLED, FINE, STEP_LIMIT, STIFF
+from .kernels.motion import CANCELLED, FINE, STEP_LIMIT, STIFF, TOO_LARGE
 from .method import Method
 from .outcome import OK, Number, Outcome, outcome_of
 from .problem import Floats, Problem
 from .refinement import ByStep, ByTolerance, Refinement
 from .run import Run, Steps, run
+from .stability import largest_stable_step
+from .stiffness import eigenvalues
 from .trajectory import Cost, Trajectory
 
 TRIES = 6
@@ -41,7 +43,7 @@ def simulate(
         attempts = [work.pair(step, returns_fine=False) if with_error else work.coarse(step)]
     else:
         attempts = work.until(tolerance or 0.0) if with_error else [work.fine(tolerance or 0.0)]
-    return _trajectory(problem, method, attempts, tolerance)
+    return _trajectory(problem, method, attempts, tolerance, step)
 
 
 def _refinement(problem: Problem, method: Method, tolerance: float | None) -> Refinement:
@@ -122,7 +124,9 @@ def _can_improve(attempt: _Attempt, tolerance: float, problem: Problem) -> bool:
     return not (is_reached and attempt.is_complete) and not is_cut_short and 2 * steps < problem.step_limit
 
 
-def _trajectory(problem: Problem, method: Method, attempts: list[_Attempt], tolerance: float | None) -> Trajectory:
+def _trajectory(
+    problem: Problem, method: Method, attempts: list[_Attempt], tolerance: float | None, step: float | None
+) -> Trajectory:
     best = max(attempts, key=_merit)
     chosen, n = best.chosen, problem.degrees
     count = len(best.estimate.errors) if best.estimate else len(chosen.times)
@@ -133,7 +137,7 @@ def _trajectory(problem: Problem, method: Method, attempts: list[_Attempt], tole
     states = chosen.states[shown]
     return Trajectory(
         method.id,
-        _outcome(problem, method, best, tolerance),
+        _outcome(problem, method, best, tolerance, step),
         chosen.times[shown],
         states[:, :n],
         states[:, n : 2 * n],
@@ -171,12 +175,14 @@ def _cost(attempts: list[_Attempt], chosen: Run) -> Cost:
     )
 
 
-def _outcome(problem: Problem, method: Method, best: _Attempt, tolerance: float | None) -> Outcome:
+def _outcome(problem: Problem, method: Method, best: _Attempt, tolerance: float | None, step: float | None) -> Outcome:
     """The status: how the run ended, else what the error estimate says."""
     told: dict[str, Number] = {"method": method.id, "t": _short(_reached(best)), "t_end": problem.t_end}
     ended = next((run for run in (best.chosen, *best.runs) if run.result.outcome != FINE), None)
     if ended is not None:
         steps = int(ended.result.steps + ended.result.rejected)
+        if step is not None and ended.result.outcome == TOO_LARGE:
+            return _grown(problem, method, step, told)
         return outcome_of(int(ended.result.outcome), told | {"steps": steps})
     if best.estimate is None:
         return OK
@@ -186,6 +192,14 @@ def _outcome(problem: Problem, method: Method, best: _Attempt, tolerance: float 
         parameters = told | {"tolerance": tolerance, "error": _short(best.estimate.worst)}
         return Outcome("tolerance_missed", "tolerance_missed", parameters)
     return OK
+
+
+def _grown(problem: Problem, method: Method, step: float, told: dict[str, Number]) -> Outcome:
+    """A motion that grew beyond all bounds: because the step is outside of the region of stability, or by itself."""
+    bound = largest_stable_step(method.tableau, eigenvalues(problem, 0.0, problem.state[: 2 * problem.degrees]))
+    if 0.0 < bound < step:
+        return Outcome("diverged", "unstable_step", told | {"step": _short(step), "bound": _short(bound)})
+    return outcome_of(TOO_LARGE, told)
 
 
 def _short(number: float) -> float:

@@ -22,13 +22,14 @@ class Spectrum:
 
 def spectrum(problem: Problem, time: float, state: Floats) -> Spectrum:
     """The spectrum at one state (q, q̇); zero where it cannot be had."""
-    eigenvalues = _eigenvalues(problem, time, state[: 2 * problem.degrees])
-    sizes = np.abs(eigenvalues)
-    lasts = -eigenvalues.real * problem.t_end < DEAD
+    found = eigenvalues(problem, time, state[: 2 * problem.degrees])
+    sizes = np.abs(found)
+    lasts = -found.real * problem.t_end < DEAD
     return Spectrum(float(sizes.max()), float(np.max(sizes, where=lasts, initial=0.0)))
 
 
-def _eigenvalues(problem: Problem, time: float, state: Floats) -> np.ndarray:
+def eigenvalues(problem: Problem, time: float, state: Floats) -> np.ndarray:
+    """Eigenvalues of ẏ = f(y) linearized at a state (q, q̇); a single zero where it has no value."""
     width = state.size
     nudges = NUDGE * np.maximum(1.0, np.abs(state)) * np.eye(width)
     rows = np.vstack([state + nudges, state - nudges])
