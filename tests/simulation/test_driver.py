@@ -219,6 +219,30 @@ def test_an_unstable_step_is_told_with_the_largest_stable_one() -> None:
     assert found.outcome.parameters["bound"] == pytest.approx(1.0, rel=0.02)
 
 
+@pytest.mark.parametrize("spin", [0.0, 1e-8, 1e-4, 1e-2, 0.1])
+@pytest.mark.parametrize(
+    ("identifier", "accuracy"),
+    [
+        ("dop853", {"tolerance": 1e-6}),
+        ("radau-5", {"tolerance": 1e-4}),
+        ("rk4", {"step": 0.01}),
+        ("gauss-4", {"step": 0.01}),
+    ],
+)
+def test_nothing_drifts_unseen_past_the_pole(spin: float, identifier: str, accuracy: dict[str, float]) -> None:
+    """Close past the pole ψ turns by π at once: energy and momentum stay, or the answer says how far it holds."""
+    found = simulated(spherical_pendulum(1.0, spin), identifier, 10.0, **accuracy)
+    known = found.times < found.trusted_until
+    (theta, _), (speed, turn) = found.values[known].T, found.rates[known].T
+    energy = (speed**2 + np.sin(theta) ** 2 * turn**2) / 2 - 9.81 * np.cos(theta)
+    momentum = np.sin(theta) ** 2 * turn
+    assert found.outcome.status in {"ok", "diverged", "singular_mass_matrix", "newton_failed"}
+    assert found.outcome.is_ok == (len(found.times) == 501 and found.estimate.horizon is None)
+    assert known.sum() >= 20
+    assert np.ptp(energy) <= 2e-3
+    assert np.ptp(momentum) <= 2e-3
+
+
 STIFF = "-1e6*x - 1e4*dot(x) + F0*cos(omega*t)"
 
 
