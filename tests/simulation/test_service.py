@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import math
 import subprocess
@@ -16,8 +17,10 @@ from deltaq.mechanics.library import scene_ids
 from deltaq.mechanics.writing import write_scene
 from deltaq.narration.catalog import LANGUAGES, message, text
 from deltaq.simulation.choice import AUTO
+from deltaq.simulation.columns import WRITERS
 from deltaq.simulation.library import method_ids
 from deltaq.simulation.outcome import codes
+from deltaq.simulation.request import COLUMNS
 from deltaq.simulation.service import run, warm
 
 FIELDS = {
@@ -43,9 +46,38 @@ def test_every_scene_answers_in_full(scene: str, accuracy: dict[str, float]) -> 
     assert answer["t"][-1] == 2.0
     for part in ("coordinates", "rates", "positions", "loads"):
         assert all(len(values) == 21 for values in answer[part].values())
-    assert all(len(answer["energy"][key]) == 21 for key in ("kinetic", "potential", "work", "balance"))
+    assert all(len(answer["energy"][key]) == 21 for key in ("kinetic", "potential", "power", "work", "balance"))
     assert len(answer["error"]["estimate"]) == 21
     assert set(answer["cost"]) >= {"steps", "rejected", "rhs_evaluations", "wall_time", "compile_time"}
+
+
+def unpacked(column: object) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(str(column)), "<f8")
+
+
+def test_packed_columns_hold_the_same_numbers() -> None:
+    assert tuple(WRITERS) == COLUMNS
+    wanted = {"scene": "elastic-pendulum", "tolerance": 1e-6}
+    plain, packed = ask(**wanted), ask(**wanted, columns="base64")
+    np.testing.assert_array_equal(unpacked(packed["t"]), plain["t"])
+    for part in ("coordinates", "rates"):
+        for name, column in packed[part].items():
+            np.testing.assert_array_equal(unpacked(column), plain[part][name])
+    for part in ("positions", "loads"):
+        for name, column in packed[part].items():
+            np.testing.assert_array_equal(unpacked(column).reshape(21, 2), plain[part][name])
+    for name in ("kinetic", "potential", "power", "work", "balance"):
+        np.testing.assert_array_equal(unpacked(packed["energy"][name]), plain["energy"][name])
+
+
+def test_power_is_the_rate_of_the_work() -> None:
+    """Driven by a guide: ∫P dt by the trapezoidal rule over fine samples is the work."""
+    energy = ask(scene="guided-pendulum", samples=4001, tolerance=1e-9)["energy"]
+    power, work = np.array(energy["power"]), np.array(energy["work"])
+    steps = (power[1:] + power[:-1]) / 2 * (2.0 / 4000)
+    np.testing.assert_allclose(np.cumsum(steps), work[1:], atol=1e-5)
+    assert np.ptp(work) > 0.1
+    assert set(ask(scene="pendulum")["energy"]["power"]) == {0.0}
 
 
 def test_guided_coordinate_is_shown_like_the_others() -> None:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable
 
 import numpy as np
 
 from ..model.model import Observation
 from .choice import Choice
+from .columns import WRITERS, Column
 from .outcome import Outcome
 from .problem import Floats, Problem
 from .request import Request
 from .rounding import rounded, short
+from .stiffness import power
 from .trajectory import Trajectory
 
 Document = dict[str, object]
@@ -27,12 +29,13 @@ def answer(
     order = [coordinate.name for coordinate in request.scene.coordinates]
     values = dict(zip(free, trajectory.values.T, strict=True)) | dict(seen.values)
     rates = dict(zip(free, trajectory.rates.T, strict=True)) | dict(seen.rates)
+    column = WRITERS[request.columns]
     parts: Document = {
-        "coordinates": {name: rounded(values[name], errors).tolist() for name in order},
-        "rates": {name: rounded(rates[name], errors).tolist() for name in order},
-        "positions": _vectors(seen.positions, errors),
-        "loads": _vectors(seen.arrows, errors),
-        "energy": _energy(trajectory, seen, errors),
+        "coordinates": {name: column(rounded(values[name], errors)) for name in order},
+        "rates": {name: column(rounded(rates[name], errors)) for name in order},
+        "positions": {name: column(rounded(each, errors)) for name, each in seen.positions.items()},
+        "loads": {name: column(rounded(each, errors)) for name, each in seen.arrows.items()},
+        "energy": _energy(problem, trajectory, seen, errors, column),
         "error": _error(trajectory, request.tolerance),
     }
     return {
@@ -41,7 +44,7 @@ def answer(
         "remedy": _told(trajectory.outcome),
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
-        "t": [float(f"{t:.15g}") for t in trajectory.times],
+        "t": column(np.array([float(f"{t:.15g}") for t in trajectory.times])),
         **{part: data for part, data in parts.items() if part in request.include},
         "t_reached": trajectory.reached,
         "trusted_until": trajectory.trusted_until,
@@ -54,21 +57,21 @@ def _told(outcome: Outcome) -> Document:
     return {"code": outcome.code, "parameters": dict(outcome.parameters)}
 
 
-def _vectors(vectors: Mapping[str, Floats], errors: Floats) -> Document:
-    return {name: rounded(values, errors).tolist() for name, values in vectors.items()}
-
-
-def _energy(trajectory: Trajectory, seen: Observation, errors: Floats) -> Document:
-    """Energies, the work of what is not in E + V, and the balance E + V − ∫P dt, constant when all is right."""
+def _energy(
+    problem: Problem, trajectory: Trajectory, seen: Observation, errors: Floats, column: Callable[[Floats], Column]
+) -> Document:
+    """Energies, power and work of what is not in E + V, and the balance E + V − ∫P dt, constant when all is right."""
+    states = np.hstack([trajectory.values, trajectory.rates])
     balance = seen.kinetic + seen.potential - trajectory.work
     scale = float(np.max(np.abs(seen.kinetic) + np.abs(seen.potential), initial=0.0))
     # Second order in the error where the energy is flat, hence more digits than the error itself supports.
     doubt = np.maximum(1e-3 * errors, 1e-14) * max(scale, 1e-300)
     return {
-        "kinetic": rounded(seen.kinetic, doubt).tolist(),
-        "potential": rounded(seen.potential, doubt).tolist(),
-        "work": rounded(trajectory.work, doubt).tolist(),
-        "balance": rounded(balance, doubt).tolist(),
+        "kinetic": column(rounded(seen.kinetic, doubt)),
+        "potential": column(rounded(seen.potential, doubt)),
+        "power": column(rounded(power(problem, trajectory.times, states), doubt)),
+        "work": column(rounded(trajectory.work, doubt)),
+        "balance": column(rounded(balance, doubt)),
         "drift": float(f"{np.max(np.abs(balance - balance[:1]), initial=0.0):.3g}"),  # no sample where it cannot start
     }
 

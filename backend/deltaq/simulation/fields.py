@@ -126,6 +126,13 @@ class Fields:
                 self.complain("request-not-one-of", f"/{key}/{index}", expected=", ".join(parts))
         return frozenset(wanted or parts)
 
+    def one_of(self, key: str, choices: tuple[str, ...]) -> str:
+        """One of the choices; the first if none is named."""
+        wanted = self.text(key, choices[0])
+        if wanted not in choices:
+            self.complain("request-not-one-of", f"/{key}", expected=", ".join(choices))
+        return wanted
+
     def reject_all_but(self, known: tuple[str, ...]) -> None:
         for key in sorted(self.document.keys() - set(known)):
             self.complain("unknown-field", f"/{escaped(key)}", field=key[:40])

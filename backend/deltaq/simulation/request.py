@@ -13,6 +13,7 @@ from ..mechanics.scene import Scene
 from .choice import AUTO
 from .fields import Fields, escaped
 
+COLUMNS = ("numbers", "base64")  # how arrays may be written (`columns`)
 PARTS = ("coordinates", "rates", "positions", "loads", "energy", "error")
 FIELDS = ("scene", "guides", "freeze", "parameters", "initial", "t_end", "samples", "method", "tolerance", "step")
 LARGEST_SPAN, SAMPLES, DEFAULT_SAMPLES = 1e5, (2, 20001), 501
@@ -30,6 +31,7 @@ class Request:
     step: float | None
     tolerance: float | None
     include: frozenset[str]
+    columns: str
 
 
 def read_request(document: Mapping[str, object]) -> Request:
@@ -45,13 +47,14 @@ def read_request(document: Mapping[str, object]) -> Request:
     initial, guides, freeze = fields.initial(), fields.guides(), fields.names("freeze")
     if not isinstance(document.get("scene"), str | Mapping):
         fields.complain("request-scene-type", "/scene")
-    fields.reject_all_but((*FIELDS, "include", "lang"))
+    columns = fields.one_of("columns", COLUMNS)
+    fields.reject_all_but((*FIELDS, "include", "columns", "lang"))
     if fields.problems:
         raise RequestError(*fields.problems)
     scene, parameters = requested_scene(document["scene"], values)
     changed = change(_with_initial(scene, initial, freeze), guides, freeze, parameters)
     wanted = DEFAULT_TOLERANCE if step is None and tolerance is None else tolerance
-    return Request(changed, t_end or 0.0, samples, method, step, wanted, include)
+    return Request(changed, t_end or 0.0, samples, method, step, wanted, include, columns)
 
 
 def _with_initial(scene: Scene, initial: Mapping[str, Mapping[str, float]], freeze: tuple[str, ...]) -> Scene:

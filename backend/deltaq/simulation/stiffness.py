@@ -1,4 +1,4 @@
-"""How fast the fastest part of a motion is, and what dies out: from the eigenvalues of the linearized scene."""
+"""What a state says of the motion: accelerations, power, and how fast its fastest part is by linearization."""
 
 from __future__ import annotations
 
@@ -42,6 +42,15 @@ def eigenvalues(problem: Problem, time: float, state: Floats) -> np.ndarray:
 
 def _slopes(problem: Problem, times: Floats, states: Floats) -> Floats:
     return np.hstack([states[:, problem.degrees :], accelerations(problem, times, states)])
+
+
+def power(problem: Problem, times: Floats, states: Floats) -> Floats:
+    """P = P₀ + p₁·q̈ of all that is not in E + V: other forces, guides and explicit time dependence."""
+    n = problem.degrees
+    if not problem.model.layout.is_powered or not len(times):
+        return np.zeros(len(times))
+    table = problem.model.motion.table(problem.inputs(times, states))[:, n * (n + 1) // 2 + n :]
+    return np.asarray(table[:, 0] + (table[:, 1:] * accelerations(problem, times, states)).sum(axis=1))
 
 
 def accelerations(problem: Problem, times: Floats, states: Floats) -> Floats:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -44,6 +44,9 @@ class SimulationRequest(Request):
     )
     step: float | None = Field(None, gt=0, description="fixed step in seconds, instead of a tolerance")
     include: Names = Field((), description=f"the parts wanted, of {', '.join(PARTS)}; all if empty", examples=[[]])
+    columns: Literal["numbers", "base64"] = Field(
+        "numbers", description="how arrays are written; base64: little-endian doubles, components of a vector together"
+    )
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
     model_config = ConfigDict(
@@ -62,13 +65,17 @@ class SimulationRequest(Request):
         return self
 
 
+Column = tuple[float, ...] | str  # numbers, or base64 where it was asked for
+
+
 class Energy(Answer):
     """Energies at the samples in joule, the work of the other forces, and the balance kinetic + potential − work."""
 
-    kinetic: tuple[float, ...]
-    potential: tuple[float, ...]
-    work: tuple[float, ...]
-    balance: tuple[float, ...] = Field(description="constant when all is right")
+    kinetic: Column
+    potential: Column
+    power: Column = Field(description="of all that is not in kinetic + potential, in watt")
+    work: Column = Field(description="the power's integral over the time")
+    balance: Column = Field(description="constant when all is right")
     drift: float = Field(description="largest departure of the balance from its start")
 
 
@@ -97,11 +104,11 @@ class SimulationAnswer(Answer):
     remedy: str = Field(description="what to do about it")
     method: str = Field(examples=["dop853"])
     choice: str | None = Field(description="why this method, if it was left to be chosen")
-    t: tuple[float, ...]
-    coordinates: dict[str, tuple[float, ...]] | None = None
-    rates: dict[str, tuple[float, ...]] | None = None
-    positions: dict[str, tuple[tuple[float, ...], ...]] | None = None
-    loads: dict[str, tuple[tuple[float, ...], ...]] | None = Field(None, description="force vectors")
+    t: Column
+    coordinates: dict[str, Column] | None = None
+    rates: dict[str, Column] | None = None
+    positions: dict[str, tuple[tuple[float, ...], ...] | str] | None = None
+    loads: dict[str, tuple[tuple[float, ...], ...] | str] | None = Field(None, description="force vectors")
     energy: Energy | None = None
     error: ErrorEstimate | None = None
     cost: Cost
