@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import isqrt
 
 Row = tuple[Fraction, ...]
@@ -29,6 +30,14 @@ class Tableau:
     family = "explicit-runge-kutta"
     is_symplectic = False  # no explicit Runge–Kutta method is
     is_symmetric = False
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        """Once, for the many fractions take long."""
+        return hash((self.a, self.b, self.c, self.error, self.dense))
 
     @property
     def stages(self) -> int:
