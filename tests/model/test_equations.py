@@ -101,4 +101,4 @@ def test_guided_weight_has_its_own_arrow_and_guide_its_motion() -> None:
 
 
 def test_weights_of_several_bodies_are_told_apart_by_place() -> None:
-    assert compile_model(get_scene("double-pendulum")).layout.arrows == ("gravity:upper", "gravity:lower")
+    assert compile_model(get_scene("wild-double-pendulum")).layout.arrows == ("gravity:upper", "gravity:lower")
