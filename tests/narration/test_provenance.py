@@ -16,16 +16,22 @@ from deltaq.narration.derive import derive_request
 def sums(part: object, path: str = "") -> Iterator[tuple[str, dict]]:
     """Every expression of a result that has terms, by its place in the answer."""
     if isinstance(part, dict):
-        if "terms" in part and isinstance(part["plain"], list):
-            for index, (text, terms) in enumerate(zip(part["plain"], part["terms"], strict=True)):
-                yield f"{path}/{index}", {"plain": text, "terms": terms}
-        elif "terms" in part:
-            yield path, part
+        if "terms" in part:
+            yield from entries(part["plain"], part["terms"], path)
         for key, value in part.items():
             yield from sums(value, f"{path}/{key}")
     elif isinstance(part, list):
         for index, value in enumerate(part):
             yield from sums(value, f"{path}/{index}")
+
+
+def entries(plain: object, terms: list, path: str) -> Iterator[tuple[str, dict]]:
+    """An expression, or those of a vector or matrix."""
+    if isinstance(plain, str):
+        yield path, {"plain": plain, "terms": terms}
+        return
+    for index, (one, its) in enumerate(zip(plain, terms, strict=True)):
+        yield from entries(one, its, f"{path}/{index}")
 
 
 def value(system: System, text: str) -> sp.Expr:
@@ -43,6 +49,7 @@ def test_terms_sum_to_the_expression(scene: str) -> None:
         "/lagrangian",
         "/equations/0",
         "/forcing/0",
+        "/mass_matrix/0/0",
         "/jacobi_energy",
     } <= found.keys()
     for place, expression in found.items():

@@ -11,7 +11,7 @@ import sympy as sp
 from ..mechanics.scene import Scene
 from . import provenance
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
-from .formula import Term
+from .formula import Explicit, Term
 from .linearization import Linearization, linearizations
 from .matrix_form import forcing, left_side, mass_matrix
 from .rules.curl_test import outcome
@@ -120,7 +120,18 @@ def _terms(system: System) -> Terms:
         **{key: {q: terms_of(system, of(system, q)) for q in system.free} for key, of in by_coordinate.items()},
         "equations": {q: terms_by_source(system, q) for q in system.free},
         "forcing": {q: _forcing_terms(system, q) for q in system.free},
+        "mass_matrix": {f"{q} {other}": _mass_terms(system, q, other) for q in system.free for other in system.free},
     }
+
+
+def _mass_terms(system: System, coordinate: str, other: str) -> tuple[Term, ...]:
+    """What stands before the acceleration of `other` in the equation of the coordinate."""
+    acceleration = system.acceleration(other)
+    return tuple(
+        replace(term, formula=Explicit(term.formula.value.coeff(acceleration)))  # type: ignore[union-attr]
+        for term in terms_by_source(system, coordinate)
+        if acceleration in term.formula.value.free_symbols  # type: ignore[union-attr]
+    )
 
 
 def _forcing_terms(system: System, coordinate: str) -> tuple[Term, ...]:

@@ -35,6 +35,7 @@ def written(result: Result, typography: Typography) -> Document:
         "mass_matrix": {
             "plain": [[plain(entry) for entry in row] for row in result.mass_matrix.tolist()],
             "latex": latex(result.mass_matrix, typography),
+            "terms": write.entries("mass_matrix"),
         },
         "forcing": {**write.vector(result.forcing), "terms": write.rows("forcing")},
         "conserved": [write.conserved(each) for each in result.conserved],
@@ -68,6 +69,13 @@ class _Writer:
     def rows(self, key: str) -> list[list[Document]]:
         """The terms of a vector, component by component."""
         return [[self._term(term) for term in terms] for terms in self.result.terms[key].values()]
+
+    def entries(self, key: str) -> list[list[list[Document]]]:
+        """The terms of a matrix, row by row."""
+        rows: dict[str, list[list[Document]]] = {name.split()[0]: [] for name in self.result.terms[key]}
+        for name, terms in self.result.terms[key].items():
+            rows[name.split()[0]].append([self._term(term) for term in terms])
+        return list(rows.values())
 
     def conserved(self, quantity: Conserved) -> Document:
         key = "momentum" if quantity.coordinate else "jacobi_energy"
