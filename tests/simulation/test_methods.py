@@ -214,13 +214,3 @@ def test_growth_is_what_a_step_does(identifier: str, z: complex) -> None:
         columns.append([run.values[-1, 0], run.rates[-1, 0]])
     radius = np.abs(np.linalg.eigvals(np.array(columns).T)).max()
     assert growth(get_method(identifier).tableau, np.complex128(z)) == pytest.approx(radius, rel=1e-7)
-
-
-def test_the_variational_midpoint_integrator_is_the_implicit_midpoint_rule() -> None:
-    """Derived from the discrete action, forces and guides included; in momenta it is the same map, as theory says."""
-    for name in ("wild-double-pendulum", "driven-by-everything"):
-        first, second = (
-            simulated(get_scene(name), method, 2.0, 41, step=0.01)
-            for method in ("variational-midpoint", "implicit-midpoint")
-        )
-        np.testing.assert_allclose(first.values, second.values, rtol=0, atol=1e-10)
