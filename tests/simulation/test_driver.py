@@ -68,6 +68,11 @@ CASES = [
     for name in SCENES
     for identifier in ADAPTIVE
     for tolerance in TOLERANCES[identifier]
+] + [
+    pytest.param("wild-double-pendulum", identifier, tolerance, id=f"wild-double-pendulum {identifier} {tolerance:g}")
+    for identifier in ADAPTIVE
+    for tolerance in TOLERANCES[identifier]
+    if tolerance > 1e-9  # which double precision cannot give here
 ]
 
 
