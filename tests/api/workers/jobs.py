@@ -17,6 +17,15 @@ def echo(document: Any) -> Any:
     return document
 
 
+def count(document: Any) -> Any:
+    """One part after the other; a step may fail."""
+    for number in range(document["parts"]):
+        if number == document.get("fails_at"):
+            raise ValueError("no further")
+        time.sleep(document.get("pause", 0.0))
+        yield {"number": number}
+
+
 def pid(document: Any) -> Any:
     return {"pid": os.getpid()}
 

@@ -248,6 +248,35 @@ async def test_job_that_nobody_waits_for_any_more_is_not_run(make_pool: MakePool
     assert not marker.exists()
 
 
+async def test_parts_are_heard_in_order_before_the_answer(make_pool: MakePool) -> None:
+    heard: list[bytes] = []
+    answer = await make_pool().run(job("count"), {"parts": 300}, heard.append)
+    assert [json.loads(part)["number"] for part in (*heard, answer)] == list(range(300))
+
+
+async def test_failure_after_some_parts_is_a_failure(make_pool: MakePool) -> None:
+    heard: list[bytes] = []
+    pool = make_pool()
+    with pytest.raises(JobFailed, match="ValueError: no further"):
+        await pool.run(job("count"), {"parts": 5, "fails_at": 3}, heard.append)
+    assert [json.loads(part)["number"] for part in heard] == [0, 1]  # the next may still be the answer
+    assert await run(pool, "echo", 1) == 1
+
+
+async def test_job_given_up_frees_its_worker_within_a_second(make_pool: MakePool) -> None:
+    pool, heard = make_pool(), []
+    running = asyncio.create_task(pool.run(job("count"), {"parts": 1000, "pause": 0.1}, heard.append))
+    while len(heard) < 2:
+        await asyncio.sleep(0.01)
+    running.cancel()
+    before = time.monotonic()
+    with suppress(asyncio.CancelledError):
+        await running
+    assert await run(pool, "echo", 1) == 1
+    assert time.monotonic() - before < 1.0
+    assert pool.state.kills == 0
+
+
 async def test_worker_is_replaced_after_its_share_of_jobs(make_pool: MakePool) -> None:
     pool = make_pool(1, jobs=2)
     pids = [(await run(pool, "pid"))["pid"] for _ in range(4)]

@@ -12,12 +12,14 @@ class Job:
     """A function named `package.module:function` that turns a JSON document into a JSON document.
 
     `deadline` is the wall time in seconds after which the process that runs it is killed. A `pure` job has no effect
-    but its answer, so it may be run again when its worker was killed from outside.
+    but its answer, so it may be run again when its worker was killed from outside. A function that returns an iterator
+    gives parts, the last of which is the answer. `threads` is how many of them the job may keep busy.
     """
 
     target: str
     deadline: float
     pure: bool = True
+    threads: int = 1
 
 
 class JobError(DeltaqError):
@@ -26,6 +28,10 @@ class JobError(DeltaqError):
 
 class DeadlineExceeded(JobError):
     """The job took longer than its deadline; its process was killed."""
+
+
+class GivenUp(JobError):
+    """Nobody waits for the answer any more; its process was killed."""
 
 
 class MemoryExceeded(JobError):

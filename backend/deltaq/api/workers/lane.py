@@ -11,9 +11,9 @@ from queue import Queue
 from threading import Event, Thread
 
 from ...errors import DeltaqError, InputError
-from .job import Job, JobError, JobFailed, Overloaded, WorkerDied
+from .job import GivenUp, Job, JobError, JobFailed, Overloaded, WorkerDied
 from .message import decode_reply
-from .worker import Worker, start_worker
+from .worker import NOBODY, Listener, Worker, start_worker
 
 LOGGER = logging.getLogger("deltaq.workers")
 FIRST_PAUSE, LONGEST_PAUSE = 0.05, 5.0
@@ -21,10 +21,11 @@ FIRST_PAUSE, LONGEST_PAUSE = 0.05, 5.0
 
 @dataclass(frozen=True)
 class Task:
-    """A job, its request as bytes, and the future that waits for the answer's JSON."""
+    """A job, its request as bytes, the future that waits for the answer's JSON, and who hears its parts."""
 
     job: Job
     request: bytes
+    listener: Listener = NOBODY
     answer: Future[bytes] = field(default_factory=Future)
     asked_at: float = field(default_factory=time.monotonic)
 
@@ -90,6 +91,7 @@ class Lane(Thread):
             outcome = self.outcome(task)
         except Exception as error:
             LOGGER.exception("the lane failed")
+            self.drop_worker()  # it may be in the middle of a reply
             outcome = JobFailed(f"{type(error).__name__}: {error}")
         self.busy = False
         with suppress(Exception):  # the future may have been given up meanwhile
@@ -113,11 +115,11 @@ class Lane(Thread):
         if worker is None:
             return Overloaded("the service is stopping")
         try:
-            outcome = decode_reply(worker.ask(task.request, task.job.deadline))
+            outcome = decode_reply(worker.ask(task.request, task.job.deadline, task.listener))
         except JobError as error:
             outcome = error
         self.served += 1
         if isinstance(outcome, JobError) and not isinstance(outcome, InputError):
-            self.kills += 1
+            self.kills += not isinstance(outcome, GivenUp)
             self.drop_worker()
         return outcome

@@ -1,7 +1,8 @@
 """What goes through the pipe between supervisor and worker: bytes that are JSON, never pickles.
 
-An answer begins with the tag ANSWER, an error with the tag ERROR; so an answer travels from the worker to the
-client without being read in between, and an error can always be read, whatever was raised.
+An answer begins with the tag ANSWER, what comes before it with the tag PART, an error with the tag ERROR; so an
+answer travels from the worker to the client without being read in between, and an error can always be read, whatever
+was raised.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from .job import JobFailed, MemoryExceeded
 
 READY = b"ready"
 ANSWER = b"+"
+PART = b"*"
 ERROR = b"-"
 
 _INPUT_ERRORS = {
@@ -38,9 +40,9 @@ def encode_request(target: str, seconds: float, document: Any) -> bytes:
     return json.dumps([target, seconds, document], allow_nan=False).encode()
 
 
-def encode_answer(document: Any) -> bytes:
+def encode_answer(document: Any, tag: bytes = ANSWER) -> bytes:
     """The answer as bytes; numbers that are not finite have no JSON and raise ValueError."""
-    return ANSWER + json.dumps(document, allow_nan=False, ensure_ascii=False, separators=(",", ":")).encode()
+    return tag + json.dumps(document, allow_nan=False, ensure_ascii=False, separators=(",", ":")).encode()
 
 
 def encode_error(failure: Failure) -> bytes:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from queue import Full, Queue
+from threading import Event
 from typing import Any
 
 from .job import Job, Overloaded
 from .lane import Lane, Limits, Task
 from .message import encode_request
-from .worker import preload
+from .worker import Listener, preload
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,10 @@ class PoolState:
     busy: int
     waiting: int
     kills: int
+
+
+def _ignore(_part: bytes) -> None:
+    """Nobody wants the parts."""
 
 
 class Pool:
@@ -56,18 +61,27 @@ class Pool:
             lane.join(timeout)
             lane.drop_worker()
 
-    async def run(self, job: Job, document: Any) -> bytes:
-        """The JSON of the job's answer.
+    async def run(self, job: Job, document: Any, hear: Callable[[bytes], object] = _ignore) -> bytes:
+        """The JSON of the job's answer; `hear` gets its parts before, in the event loop.
 
         InputError as the job raised it; Overloaded, DeadlineExceeded, MemoryExceeded, WorkerDied or JobFailed
-        otherwise. Always ends: with a full queue at once, else after patience and deadlines.
+        otherwise. Always ends: with a full queue at once, else after patience and deadlines. When it is cancelled,
+        the worker is freed.
         """
-        task = Task(job, encode_request(job.target, job.deadline, document))
+        loop, gone = asyncio.get_running_loop(), Event()
+        listener = Listener(lambda part: loop.call_soon_threadsafe(hear, part), gone.is_set)
+        task = Task(job, encode_request(job.target, job.threads * job.deadline, document), listener)
+        try:
+            return await self._answer(task)
+        finally:
+            gone.set()
+
+    async def _answer(self, task: Task) -> bytes:
         try:
             self._tasks.put_nowait(task)
         except Full:
             raise Overloaded("the queue is full") from None
-        longest = self._limits.patience + 2 * job.deadline + 5.0
+        longest = self._limits.patience + 2 * task.job.deadline + 5.0
         try:
             return await asyncio.wait_for(asyncio.wrap_future(task.answer), longest)
         except TimeoutError:

@@ -6,13 +6,14 @@ import json
 import os
 import signal
 import traceback
+from collections.abc import Iterator
 from importlib import import_module
 from multiprocessing.connection import Connection
 from typing import Any
 
 from ...errors import InputError
 from .limits import bound_memory, bound_processor_time, die_with_parent, keep_only
-from .message import READY, Failure, encode_answer, encode_error, problem_data
+from .message import PART, READY, Failure, encode_answer, encode_error, problem_data
 
 
 def run(connection: Connection, memory: int) -> None:
@@ -27,20 +28,31 @@ def run(connection: Connection, memory: int) -> None:
             request = connection.recv_bytes()
         except (EOFError, OSError):
             os._exit(0)
-        connection.send_bytes(reply_to(request))
+        for message in replies_to(request):
+            connection.send_bytes(message)
 
 
-def reply_to(request: bytes) -> bytes:
-    """The answer to one request; every exception becomes data."""
+def replies_to(request: bytes) -> Iterator[bytes]:
+    """The parts of the answer to one request, and the answer; every exception becomes data."""
     try:
         target, seconds, document = json.loads(request)
         bound_processor_time(seconds)
-        return encode_answer(function_of(target)(document))
+        found = function_of(target)(document)
+        yield from _streamed(found) if isinstance(found, Iterator) else (encode_answer(found),)
     except InputError as error:
         problems = tuple(problem_data(problem) for problem in error.problems)
-        return encode_error(Failure(type(error).__name__, problems=problems))
+        yield encode_error(Failure(type(error).__name__, problems=problems))
     except BaseException as error:  # noqa: BLE001  a worker answers whatever happens
-        return encode_error(failure_of(error))
+        yield encode_error(failure_of(error))
+
+
+def _streamed(parts: Iterator[Any]) -> Iterator[bytes]:
+    """Each part when it is there; the last is the answer."""
+    before = next(parts)
+    for part in parts:
+        yield encode_answer(before, PART)
+        before = part
+    yield encode_answer(before)
 
 
 def failure_of(error: BaseException) -> Failure:

@@ -4,21 +4,34 @@ from __future__ import annotations
 
 import contextlib
 import signal
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from threading import Lock
 
-from .job import DeadlineExceeded, WorkerDied
-from .message import READY
+from .job import DeadlineExceeded, GivenUp, WorkerDied
+from .message import PART, READY
 from .runner import run
 
 _CONTEXT = get_context("forkserver")  # forks from a process of one thread; the web process has many
 _PROCESSES = Lock()  # multiprocessing keeps a list of children that is not made for several threads
 _FORK_SERVER_GONE = 255  # who would have told the exit code; it takes its workers along
 _KILLED_FROM_OUTSIDE = frozenset({-signal.SIGKILL, -signal.SIGTERM, _FORK_SERVER_GONE})
+LOOK_UP = 0.2  # seconds between two looks at whether anybody still waits
+
+
+@dataclass(frozen=True)
+class Listener:
+    """Who waits for an answer: takes its parts, and may go away. Called from the thread that asks the worker."""
+
+    hear: Callable[[bytes], object]
+    has_gone: Callable[[], bool]
+
+
+NOBODY = Listener(lambda _part: None, lambda: False)
 
 
 @dataclass(frozen=True)
@@ -32,12 +45,23 @@ class Worker:
     def pid(self) -> int:
         return self.process.pid or 0
 
-    def ask(self, request: bytes, deadline: float) -> bytes:
-        """The reply, within `deadline` seconds, or DeadlineExceeded or WorkerDied; after an error only kill it."""
+    def ask(self, request: bytes, deadline: float, listener: Listener = NOBODY) -> bytes:
+        """The reply, within `deadline` seconds; its parts go to the listener.
+
+        DeadlineExceeded, WorkerDied, or GivenUp when the listener has gone; after an error only kill the worker.
+        """
+        end = time.monotonic() + deadline
         try:
             self.connection.send_bytes(request)
-            if self.connection.poll(deadline):
-                return self.connection.recv_bytes()
+            while (left := end - time.monotonic()) > 0.0:
+                if listener.has_gone():
+                    raise GivenUp("nobody waits for the answer")
+                if not self.connection.poll(min(left, LOOK_UP)):
+                    continue
+                reply = self.connection.recv_bytes()
+                if reply[:1] != PART:
+                    return reply
+                listener.hear(reply[1:])
         except (EOFError, OSError):
             raise self.cause_of_death() from None
         raise DeadlineExceeded(f"no answer within {deadline} s")
