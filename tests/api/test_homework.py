@@ -133,3 +133,43 @@ async def test_a_wrong_assignment_points_at_its_field(client: httpx.AsyncClient)
     response = await client.post(f"{API}/assignments", json={"assignment": sheet})
     found = [(one["pointer"], one["code"]) for one in response.json()["problems"]]
     assert (response.status_code, found) == (404, [("/assignment/tasks/0/task", "unknown-task")])
+
+
+async def test_an_answer_is_read_without_a_verdict(client: httpx.AsyncClient) -> None:
+    answers = ["T = m*l^2*phi'^2", "m*l^2*foo"]
+    read = [
+        (
+            await client.post(
+                f"{API}/checks/reading", json={"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": one}}
+            )
+        ).json()
+        for one in answers
+    ]
+    assert (read[0]["plain"], read[0]["problems"]) == ("m*l^2*dot(phi)^2", [])
+    assert (read[1]["latex"], read[1]["problems"][0]["offset"]) == ("", 6)
+
+
+async def test_solution_and_the_step_that_shows_it(client: httpx.AsyncClient) -> None:
+    question = {"scene": "guided-pendulum", "lang": "en"}
+    listed = (await client.post(f"{API}/tasks", json=question)).json()["tasks"]
+    chapters = (await client.post(f"{API}/derivations", json=question)).json()["chapters"]
+    steps = {chapter["id"]: [step["id"] for step in chapter["steps"]] for chapter in chapters}
+    shown = {task["id"]: set(task["solution"]["steps"]) & set(steps[task["solution"]["chapter"]]) for task in listed}
+    assert shown["position:bob"] == {"guided-position:bob", "position:bob"}
+    assert [task for task, found in shown.items() if not found] == ["kinetic-energy"]  # of one body: its own step
+    solution = await client.post(f"{API}/tasks/solution", json=question | {"task": "generalized-force:phi"})
+    assert solution.json()["plain"] == ["-m*g*l*sin(phi)"]
+
+
+async def test_the_motion_of_an_answer_can_be_simulated(client: httpx.AsyncClient) -> None:
+    question = BASE | {"answer": {"value": "l*ddot(phi) = g*sin(phi)"}}
+    moved = (await client.post(f"{API}/checks/motion", json=question)).json()["scene"]
+    run = (await client.post(f"{API}/simulations", json={"scene": moved, "t_end": 1.0, "samples": 3})).json()
+    assert run["status"] == "ok"
+    assert run["coordinates"]["phi"][1] > run["coordinates"]["phi"][0]
+
+
+async def test_an_answer_without_a_motion(client: httpx.AsyncClient) -> None:
+    response = await client.post(f"{API}/checks/motion", json=BASE | {"answer": {"value": "phi = 0"}, "lang": "de"})
+    found = [(one["pointer"], one["code"]) for one in response.json()["problems"]]
+    assert (response.status_code, found) == (422, [("/answer/value", "motion-not-solvable")])

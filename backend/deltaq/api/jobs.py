@@ -89,6 +89,24 @@ def check(document: Document) -> Document:
     return answer
 
 
+def read_answer(document: Document) -> Document:
+    """What an answer is understood as."""
+    answer: Document = import_module("deltaq.homework.service").reading_request(document)
+    return answer
+
+
+def solve(document: Document) -> Document:
+    """The right answer to a task."""
+    answer: Document = import_module("deltaq.homework.service").solution_request(document)
+    return answer
+
+
+def answered_motion(document: Document) -> Document:
+    """The scene that moves as an answer says."""
+    answer: Document = import_module("deltaq.homework.service").motion_request(document)
+    return answer
+
+
 def open_assignment(document: Document) -> Document:
     """The tasks of an assignment."""
     answer: Document = import_module("deltaq.homework.service").assignment_request(document)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..errors import ExpressionError
 from ..language.latex_printer import Typography, latex
 from ..language.parser import Syntax
@@ -9,6 +11,7 @@ from .counterexamples import counterexample
 from .diagnosis import Diagnosis, diagnose, own_term
 from .dimensions import dimension_problem
 from .equality import Match, Parts, equation
+from .partwise import part_outcomes
 from .reading import Reading, read
 from .sampling import DISTINCT, close
 from .task import Task
@@ -27,9 +30,10 @@ def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
     match = compare(workbook, task, reading.parts)
     if match.equal:
         return Verdict("correct", shown, match.remark)
+    parts = part_outcomes(workbook, task, reading.parts)
     if match.equal is None:
-        return Verdict("undecided", shown)
-    return _wrong(workbook, task, reading, match, shown)
+        return Verdict("undecided", shown, parts=parts)
+    return replace(_wrong(workbook, task, reading, match, shown), parts=parts)
 
 
 def compare(workbook: Workbook, task: Task, given: Parts) -> Match:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from ..errors import Problem
 from ..language.latex_printer import Typography, latex
 from ..language.plain_printer import plain
 from ..mechanics.scene import Scene
@@ -16,10 +19,7 @@ Document = dict[str, object]
 
 def verdict_document(verdict: Verdict, scene: Scene, language: str) -> Document:
     """{outcome, understood_as, feedback, misconception?, misconceptions?, offset?, counterexample? …}"""
-    problems = [
-        {"code": p.code, "offset": p.offset, "length": p.length, "message": message(language, p)}
-        for p in verdict.problems
-    ]
+    problems = problem_documents(verdict.problems, language)
     document: Document = {
         "outcome": verdict.outcome,
         "understood_as": verdict.understood_as,
@@ -28,11 +28,17 @@ def verdict_document(verdict: Verdict, scene: Scene, language: str) -> Document:
         "misconception": verdict.misconceptions[0] if verdict.misconceptions else None,
         "misconceptions": [_named(each, verdict, scene, language) for each in verdict.misconceptions],
         "slip": verdict.slip.kind if verdict.slip else None,
+        "parts": list(verdict.parts),
         "problems": problems,
         "offset": problems[0]["offset"] if problems else None,
         "counterexample": _example(verdict.counterexample),
     }
     return document
+
+
+def problem_documents(problems: Iterable[Problem], language: str) -> list[Document]:
+    """Why an answer cannot be read, and where in its text."""
+    return [{"code": p.code, "offset": p.offset, "length": p.length, "message": message(language, p)} for p in problems]
 
 
 def _named(identifier: str, verdict: Verdict, scene: Scene, language: str) -> Document:
@@ -103,8 +109,14 @@ def task_document(task: Task, workbook: Workbook, language: str) -> Document:
         "points": task.quantity.points,
         "needs": _needs(task, workbook),
         "hints": [text(language, f"{key}.hints.{level}", **values) for level in (1, 2, 3)],
-        "solution": {"chapter": task.quantity.chapter},
+        "solution": {"chapter": task.quantity.chapter, "steps": _steps(task, workbook)},
     }
+
+
+def _steps(task: Task, workbook: Workbook) -> list[str]:
+    """Ids of the steps that may show the answer, the likeliest first."""
+    conserved = task.quantity.kind == "conserved" and workbook.road.conserved_of[int(task.subject) - 1]
+    return [step.format(subject=task.subject, cyclic=conserved or "") for step in task.quantity.steps]
 
 
 def _needs(task: Task, workbook: Workbook) -> list[str]:

@@ -29,8 +29,9 @@ Subjects = Callable[[Road], Iterable[str]]
 class Quantity:
     """One kind of task: `subjects` lists what it can be asked of, `value` are the parts of its answer.
 
-    `needs` are the quantities it is derived from, `chapter` is where the derivation shows it, `labels` are the symbols
-    that may stand on the left of the answer, and `points` is what it counts if nobody says otherwise.
+    `needs` are the quantities it is derived from, `chapter` is where the derivation shows it and `steps` the steps that
+    do, the likeliest first. `labels` are the symbols that may stand on the left of the answer, and `points` is what it
+    counts if nobody says otherwise.
     """
 
     kind: str
@@ -42,6 +43,7 @@ class Quantity:
     labels: tuple[str, ...] = ()
     needs: tuple[str, ...] = ()
     points: float = 1.0
+    steps: tuple[str, ...] = ()
 
     @property
     def up_to_constant(self) -> bool:
@@ -116,6 +118,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         _bodies,
         "configuration",
         ("r", "x"),
+        steps=("guided-position:{subject}", "position:{subject}"),
     ),
     Quantity(
         "virtual-displacement",
@@ -126,6 +129,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "variation",
         ("deltar", "δr"),
         ("position",),
+        steps=("virtual-displacement:{subject}",),
     ),
     Quantity(
         "virtual-work",
@@ -137,6 +141,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         ("deltaW", "δW", "deltaA"),
         ("virtual-displacement",),
         2.0,
+        steps=("virtual-work",),
     ),
     Quantity(
         "generalized-force",
@@ -147,6 +152,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "virtual-work",
         ("Q",),
         ("virtual-work",),
+        steps=("generalized-forces",),
     ),
     Quantity(
         "kinetic-energy",
@@ -158,6 +164,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         ("E", "T", "K", "Ekin", "E_kin"),
         ("position",),
         2.0,
+        steps=("kinetic-energy",),
     ),
     Quantity(
         "potential-energy",
@@ -168,6 +175,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "decomposition",
         ("V", "U", "E_pot", "Epot"),
         ("position",),
+        steps=("decomposition",),
     ),
     Quantity(
         "lagrangian",
@@ -178,6 +186,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "lagrange",
         ("L",),
         ("kinetic-energy", "potential-energy"),
+        steps=("lagrangian",),
     ),
     Quantity(
         "momentum",
@@ -188,6 +197,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "lagrange",
         ("p",),
         ("lagrangian", "kinetic-energy"),
+        steps=("equation:{subject}",),
     ),
     Quantity(
         "equation",
@@ -199,6 +209,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         (),
         ("lagrangian", "kinetic-energy", "potential-energy", "generalized-force", "momentum"),
         3.0,
+        steps=("equation:{subject}",),
     ),
     Quantity(
         "equations",
@@ -210,6 +221,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         (),
         ("lagrangian", "kinetic-energy", "potential-energy", "equation"),
         4.0,
+        steps=("matrix-form",),
     ),
     Quantity(
         "linearized",
@@ -221,6 +233,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         (),
         ("equation",),
         2.0,
+        steps=("linearization:1",),
     ),
     Quantity(
         "eigenfrequencies",
@@ -232,6 +245,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         (),
         ("linearized",),
         2.0,
+        steps=("eigenfrequencies:1",),
     ),
     Quantity(
         "conserved",
@@ -242,6 +256,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "model",
         ("p", "h", "H", "E"),
         ("lagrangian", "momentum"),
+        steps=("cyclic-coordinate:{cyclic}", "jacobi-energy"),
     ),
 )
 

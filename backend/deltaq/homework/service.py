@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import cast
 
+from ..errors import ExpressionError
+from ..language.latex_printer import Typography, latex
 from ..language.parser import Syntax
+from ..language.plain_printer import plain
 from ..mechanics.requests import inside
 from ..mechanics.writing import write_scene
 from ..narration.catalog import language_of
 from .assignment import AssignedTask, read_assignment
-from .feedback import Document, task_document, verdict_document
+from .feedback import Document, model_answer, problem_documents, task_document, verdict_document
+from .motion import moved_scene
+from .reading import read
 from .stack.question import quiz
 from .workbook import Workbook, workbook_of
 from .working import Line, Scheme, check_following, mark, wrong_among
@@ -55,6 +60,31 @@ def _line(document: Mapping[str, object]) -> Line:
 
 def _language(document: Mapping[str, object]) -> str:
     return language_of(cast("str | None", document.get("lang")))
+
+
+def reading_request(document: Mapping[str, object]) -> Document:
+    """{scene, task, answer, …} → what the answer is understood as, LaTeX and plain; no verdict."""
+    workbook = workbook_of(document)
+    line = _line(document)
+    try:
+        shown = read(workbook.task(line.task), workbook.road, line.text, line.syntax).shown
+    except ExpressionError as error:
+        problems = problem_documents(error.problems, _language(document))
+        return {"latex": "", "plain": "", "problems": problems}
+    return {"latex": latex(shown, Typography(workbook.scene.names)), "plain": plain(shown), "problems": []}
+
+
+def solution_request(document: Mapping[str, object]) -> Document:
+    """{scene, task, …} → the right answer, one text for each part, plain and LaTeX."""
+    workbook = workbook_of(document)
+    return model_answer(workbook.task(str(document["task"])), workbook)
+
+
+def motion_request(document: Mapping[str, object]) -> Document:
+    """{scene, task, answer, …} → the scene that moves as the answer says. Raises InputError where there is none."""
+    workbook = workbook_of(document)
+    line = _line(document)
+    return {"scene": moved_scene(workbook, workbook.task(line.task), line.text, line.syntax)}
 
 
 def lines_request(document: Mapping[str, object]) -> Document:

@@ -9,6 +9,7 @@ from typing import Literal
 from ..errors import Problem
 
 Outcome = Literal["correct", "wrong", "undecided", "invalid", "follow_through"]
+PartOutcome = Literal["correct", "wrong", "undecided"]
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,8 @@ class Verdict:
     """The outcome, what was understood, and what can be said about it.
 
     `remark` tells in which sense a correct answer is equal, or why a wrong one is; `misconceptions` are all that lead
-    to exactly this answer, the likeliest first; `about` fills the texts.
+    to exactly this answer, the likeliest first; `about` fills the texts; `parts` are the outcomes of components, of the
+    equations of a set, or of several frequencies.
     """
 
     outcome: Outcome
@@ -45,4 +47,5 @@ class Verdict:
     slip: Slip | None = None
     counterexample: Counterexample | None = None
     problems: tuple[Problem, ...] = ()
+    parts: tuple[PartOutcome, ...] = ()
     parameters: Mapping[str, str] = field(default_factory=dict)

@@ -19,6 +19,11 @@ from ..wire.homework import (
     CheckRequest,
     LinesAnswer,
     LinesRequest,
+    MotionAnswer,
+    ReadingAnswer,
+    ReadingRequest,
+    SolutionAnswer,
+    SolutionRequest,
     StackRequest,
     TaskList,
     TasksRequest,
@@ -30,6 +35,9 @@ from .common import failures, question_of
 router = APIRouter(tags=["homework"], route_class=StrictRoute)
 TASKS = Job("deltaq.api.jobs:tasks", deadline=8.0)
 CHECK = Job("deltaq.api.jobs:check", deadline=15.0)
+READING = Job("deltaq.api.jobs:read_answer", deadline=4.0)
+SOLUTION = Job("deltaq.api.jobs:solve", deadline=8.0)
+MOTION = Job("deltaq.api.jobs:answered_motion", deadline=8.0)
 ASSIGNMENT = Job("deltaq.api.jobs:open_assignment", deadline=30.0)
 STACK = Job("deltaq.api.jobs:export_stack", deadline=60.0)
 LINES = Job("deltaq.api.jobs:check_lines", deadline=30.0)
@@ -70,6 +78,24 @@ async def open_assignment(request: Request, body: AssignmentRequest) -> Response
 async def check(request: Request, body: CheckRequest) -> Response:
     """Check one answer: any equivalent form is right, and a mistake is looked for where it is not."""
     return await _answered(request, CHECK, question_of(request, body))
+
+
+@router.post("/checks/reading", response_model=ReadingAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+async def read_answer(request: Request, body: ReadingRequest) -> Response:
+    """What an answer is understood as, while it is written; without a verdict."""
+    return await _answered(request, READING, question_of(request, body))
+
+
+@router.post("/checks/motion", response_model=MotionAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+async def motion(request: Request, body: ReadingRequest) -> Response:
+    """The scene that moves as an answer says: simulated beside the right one, it shows what a mistake does."""
+    return await _answered(request, MOTION, question_of(request, body))
+
+
+@router.post("/tasks/solution", response_model=SolutionAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+async def solution(request: Request, body: SolutionRequest) -> Response:
+    """The right answer to a task."""
+    return await _answered(request, SOLUTION, question_of(request, body))
 
 
 @router.post("/checks/lines", response_model=LinesAnswer, responses=failures(400, 404, 413, 422, 503, 504))

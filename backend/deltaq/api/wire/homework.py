@@ -123,6 +123,27 @@ class SingleCheck(SceneWithChanges):
     previous: Lines = Field((), description="the student's own earlier lines: what follows from a wrong one is told")
 
 
+class ReadingRequest(SceneWithChanges):
+    """An answer to be read, not checked."""
+
+    task: TaskId
+    answer: AnswerText
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [{"scene": "pendulum", "task": "equation:phi", "answer": {"value": "l*ddot(phi) = -g*phi"}}]
+        }
+    )
+
+
+class SolutionRequest(SceneWithChanges):
+    """Which task to solve."""
+
+    task: TaskId
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+
 class PointScheme(Request):
     """How points are given."""
 
@@ -218,9 +239,33 @@ class VerdictAnswer(Answer):
     misconception: str | None
     misconceptions: tuple[NamedMisconception, ...]
     slip: str | None = Field(description="sign, missing, half or double: one term")
+    parts: tuple[Literal["correct", "wrong", "undecided"], ...] = Field(
+        description="of a wrong answer of several parts: components, equations of a set, frequencies"
+    )
     problems: tuple[VerdictProblem, ...]
     offset: int | None
     counterexample: CounterexampleAnswer | None
+
+
+class ReadingAnswer(Answer):
+    """What was read, or why it could not be."""
+
+    latex: str = Field(examples=[r"\ell\,\ddot{\varphi} = -g\varphi"])
+    plain: str = Field(examples=["l*ddot(phi) = -g*phi"])
+    problems: tuple[VerdictProblem, ...]
+
+
+class SolutionAnswer(Answer):
+    """The right answer, one text for each part."""
+
+    plain: tuple[str, ...]
+    latex: tuple[str, ...]
+
+
+class MotionAnswer(Answer):
+    """A scene for POST /simulations: the one asked about with the generalized forces that the mistake amounts to."""
+
+    scene: dict[str, Any]
 
 
 class MarkedLine(VerdictAnswer):

@@ -1,0 +1,92 @@
+"""The motion that a student's answer describes, as a scene of its own.
+
+Their equations A q̈ + c = 0 hold exactly in the given scene with the additional generalized forces
+Q = b − M A⁻¹ c, where M q̈ + b = 0 is right: a wrong term is a force that is not there. The scene with these forces
+can be simulated like any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import cast
+
+import sympy as sp
+
+from ..errors import ExpressionError, InputError, Problem
+from ..language.canonical import display, is_zero
+from ..language.parser import Syntax
+from ..language.plain_printer import plain
+from ..mechanics.document import read_scene
+from ..mechanics.writing import write_scene
+from .equality import Parts
+from .equality.equations import system_of
+from .own import OwnRoad
+from .reading import read
+from .task import Task
+from .workbook import Workbook
+
+MOVING = frozenset(
+    {"kinetic-energy", "potential-energy", "lagrangian", "momentum", "generalized-force", "equation", "equations"}
+)
+MOST_OPERATIONS = 3000
+MOST_FREEDOMS = 4
+
+
+def moved_scene(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> dict[str, object]:
+    """The document of the scene that moves as the answer says. Raises ExpressionError where none can be given."""
+    if task.quantity.kind not in MOVING or len(workbook.road.free) > MOST_FREEDOMS:
+        raise ExpressionError(Problem("motion-not-asked", "/task", parameters={"task": task.id}))
+    given = read(task, workbook.road, text, syntax).parts
+    forces = _forces(workbook, _equations(workbook, task, given))
+    document = _with_forces(write_scene(workbook.scene), dict(zip(workbook.road.free, forces, strict=True)))
+    try:
+        read_scene(document)
+    except InputError:
+        raise _unsolvable() from None
+    return document
+
+
+def _unsolvable() -> ExpressionError:
+    return ExpressionError(Problem("motion-not-solvable", "/answer/value"))
+
+
+def _equations(workbook: Workbook, task: Task, given: Parts) -> Parts:
+    """All equations of motion that the answer leads to; what it does not say is taken as it is."""
+    if task.quantity.form == "equations":
+        return given
+    own = OwnRoad(workbook.scene, workbook.road, {task.id: given})
+    return tuple(own.equation(q) for q in own.free)
+
+
+def _forces(workbook: Workbook, own: Parts) -> Parts:
+    """Q = b − M A⁻¹ c, by Cramer's rule, in display form."""
+    road = workbook.road
+    if len(own) != len(road.free) or sum(part.count_ops() for part in own) > MOST_OPERATIONS:
+        raise _unsolvable()
+    mass, rest = system_of(tuple(road.equation(q) for q in road.free), road)
+    matrix, own_rest = system_of(own, road)
+    if matrix.free_symbols & {road.acceleration(q) for q in road.free}:
+        raise _unsolvable()
+    determinant = display(matrix.det(method="berkowitz").expand(), road.symbols)
+    if is_zero(determinant, road.symbols) is not False:
+        raise _unsolvable()
+    above = rest * determinant - mass * matrix.adjugate() * own_rest
+    return tuple(display(entry.expand(), road.symbols) / determinant for entry in above)
+
+
+def _with_forces(document: dict[str, object], forces: Mapping[str, sp.Expr]) -> dict[str, object]:
+    """The document with a moment for every force; without units, for the answer's may be wrong as well."""
+    added = [
+        {"kind": "moment", "name": f"answer_{q}", "angle": q, "moment": plain(force)}
+        for q, force in forces.items()
+        if force != 0
+    ]
+    loads = cast("list[object]", document["loads"])
+    bare = {
+        key: [_unitless(one) for one in cast("list[object]", document[key])] for key in ("coordinates", "parameters")
+    }
+    return {**document, **bare, "loads": [*loads, *added]}
+
+
+def _unitless(thing: object) -> dict[str, object]:
+    return {**cast("dict[str, object]", thing), "unit": ""}

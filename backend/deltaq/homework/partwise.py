@@ -1,0 +1,62 @@
+"""Which parts of an answer are right by themselves: components of a vector, equations of a set, frequencies.
+
+The verdict on the whole is exact; what is told of the parts is decided by numbers at the sampling points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
+import sympy as sp
+
+from .equality import Parts
+from .equality.frequencies import ROUNDED, number_of
+from .sampling import close, defined, echelon
+from .task import Task
+from .verdict import PartOutcome
+from .workbook import Workbook
+
+
+def part_outcomes(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOutcome, ...]:
+    """One outcome for each part; nothing where an answer has a single part."""
+    decide = DECIDED.get(task.quantity.form)
+    return () if decide is None or len(given) < 2 else decide(workbook, task, given)
+
+
+def _components(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOutcome, ...]:
+    pairs = zip(given, workbook.right(task), strict=True)
+    return tuple(_equal(*map(workbook.sampler.values, pair)) for pair in pairs)
+
+
+def _equal(own: tuple[float, ...], right: tuple[float, ...]) -> PartOutcome:
+    if not defined(own) or not defined(right):
+        return "undecided"
+    return "correct" if close(own, right) else "wrong"
+
+
+def _equations(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOutcome, ...]:
+    """An equation belongs to the set if it adds no rank to it."""
+    right = [workbook.sampler.rows(part) for part in workbook.right(task)]
+    return tuple(_implied(workbook, part, right) for part in given)
+
+
+def _implied(workbook: Workbook, part: sp.Expr, right: list[tuple[tuple[float, ...], ...]]) -> PartOutcome:
+    rows = workbook.sampler.rows(part)
+    if not all(map(defined, rows)):
+        return "wrong"  # not linear in the accelerations
+    if not any(any(row[:-1]) for row in rows):
+        return "wrong"  # no acceleration in it
+    ranks = (len(echelon([*(each[n] for each in right), row])) for n, row in enumerate(rows))
+    return "correct" if all(rank == len(right) for rank in ranks) else "wrong"
+
+
+def _frequencies(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOutcome, ...]:
+    right = [number_of(part, workbook.road) for part in workbook.right(task)]
+    own = (number_of(part, workbook.road) for part in given)
+    return tuple("correct" if any(abs(a - b) <= ROUNDED * abs(b) for b in right) else "wrong" for a in own)
+
+
+DECIDED: Mapping[str, Callable[[Workbook, Task, Parts], tuple[PartOutcome, ...]]] = MappingProxyType(
+    {"vector": _components, "equations": _equations, "set": _frequencies}
+)

@@ -1,0 +1,38 @@
+"""What is said of the parts of an answer."""
+
+from __future__ import annotations
+
+import pytest
+
+from deltaq.homework.checking import check
+from deltaq.homework.workbook import workbook_of
+
+CASES = [
+    pytest.param("pendulum", "position:bob", "[l*sin(phi), l*sin(phi)]", ("correct", "wrong"), id="component"),
+    pytest.param("pendulum", "position:bob", "[l*sin(phi), l*cos(phi)]", (), id="all right"),
+    pytest.param(
+        "pendulum", "position:bob", "[l*sin(phi), sqrt(sin(phi) - 2)]", ("correct", "undecided"), id="never real"
+    ),
+    pytest.param("pendulum", "kinetic-energy", "m*l^2", (), id="a single part"),
+    pytest.param(
+        "cart-pendulum",
+        "equations",
+        "(M + m)*ddot(x) + m*l*cos(phi)*ddot(phi) - m*l*sin(phi)*dot(phi)^2 = 0; ddot(phi) = 0",
+        ("correct", "wrong"),
+        id="equation of a set",
+    ),
+    pytest.param("cart-pendulum", "equations", "x = 0; ddot(x)^2 = 0", ("wrong", "wrong"), id="no accelerations"),
+]
+
+
+@pytest.mark.parametrize(("scene", "task", "answer", "expected"), CASES)
+def test_parts(scene: str, task: str, answer: str, expected: tuple[str, ...]) -> None:
+    workbook = workbook_of({"scene": scene})
+    assert check(workbook, workbook.task(task), answer, "plain").parts == expected
+
+
+def test_one_of_two_frequencies() -> None:
+    workbook = workbook_of({"scene": "two-mass-oscillator"})
+    task = workbook.task("eigenfrequencies")
+    right = workbook.right(task)[0]
+    assert check(workbook, task, f"{right}; 1".replace("**", "^"), "plain").parts == ("correct", "wrong")
