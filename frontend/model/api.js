@@ -50,8 +50,8 @@ export function createApi(send, base = "/api/v1") {
     call(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body), signal });
 
   return {
-    /** @returns {Promise<{scenes: import("./types.js").SceneEntry[]}>} */
-    scenes: () => call("/scenes?summaries=false"),
+    /** @param {{summaries?: boolean}} [options] @returns {Promise<{scenes: import("./types.js").SceneEntry[]}>} */
+    scenes: ({ summaries = false } = {}) => call(`/scenes?summaries=${summaries}`),
     /** @param {string} id @param {string} lang of what may go wrong @param {number} [n] members of a chain, 0 for the usual @returns {Promise<import("./types.js").Scene>} */
     scene: (id, lang, n = 0) => call(`/scenes/${encodeURIComponent(id)}?lang=${lang}${n ? `&n=${n}` : ""}`),
     /** @returns {Promise<{methods: import("./types.js").Method[]}>} */

@@ -45,6 +45,12 @@ export function writePlace(place) {
   return query.length ? `?${query.join("&")}` : "";
 }
 
+/** What there is besides the start page, in the order of the navigation. */
+export const PAGES = ["scene", "variations", "proof", "docs"];
+
+/** A page in the same language and appearance. @param {string} name @param {Pick<Place, "lang" | "theme">} reader */
+export const pageAddress = (name, { lang, theme }) => `/${name}${name === "docs" ? "" : writePlace({ ...HOME, lang, theme })}`;
+
 /** @param {string[]} allowed @param {string | null} value @param {string} otherwise */
 function oneOf(allowed, value, otherwise) {
   return value !== null && allowed.includes(value) ? value : otherwise;

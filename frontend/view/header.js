@@ -5,12 +5,11 @@ import { live } from "lit-html/directives/live.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
 import { OWN } from "../model/own.js";
-import { HOME, writePlace } from "../model/url.js";
+import { PAGES, pageAddress } from "../model/url.js";
 
 /** @typedef {import("./page.js").View} View */
 /** @typedef {{state: Pick<View["state"], "place">, session: Pick<View["session"], "language" | "move">, t: View["t"]}} Appearance */
 
-const PAGES = ["variations", "proof"];
 const THEMES = ["auto", "light", "dark", "projector"];
 
 /** @param {Event} event */
@@ -21,9 +20,9 @@ export function header(view) {
   const { session, t } = view;
   return html`
     <header class="top">
-      <a class="brand" href="/" title=${t("tagline")}><span class="delta">δ</span><span class="q">q</span></a>
+      ${brand(view)}
       ${sceneChooser(view)}
-      ${places(view, "")}
+      ${places(view, "scene")}
       <div class="tools">
         ${pen(view)}
         ${language(view)}
@@ -36,14 +35,18 @@ export function header(view) {
   `;
 }
 
-/** The other pages, in the same language and appearance. @param {Pick<Appearance, "state" | "t">} view @param {string} here */
-export function places({ state, t }, here) {
-  return html`<nav class="places" aria-label=${t("places")}>${PAGES.map((name) => html`
-    <a href=${addressOf(name, state.place)} aria-current=${name === here ? "page" : nothing}>${t(`place.${name}`)}</a>`)}</nav>`;
+/** The way to the start page. @param {Pick<Appearance, "state" | "t">} view */
+export function brand({ state, t }) {
+  return html`<a class="brand" href=${pageAddress("", state.place)} title=${t("tagline")} aria-label=${t("place.start")}><span class="delta">δ</span><span class="q">q</span></a>`;
 }
 
-/** @param {string} name @param {import("../model/types.js").Place} place */
-const addressOf = (name, { lang, theme }) => `/${name}${writePlace({ ...HOME, lang, theme })}`;
+/** The way to every page, behind a button where there is no room for it. @param {Pick<Appearance, "state" | "t">} view @param {string} here */
+export function places({ state, t }, here) {
+  return html`
+    <button class="tool menu" popovertarget="places" title=${t("places")} aria-label=${t("places")}>${icon("menu")}</button>
+    <nav class="places" id="places" popover aria-label=${t("places")}>${PAGES.map((name) => html`
+      <a href=${pageAddress(name, state.place)} aria-current=${name === here ? "page" : nothing}>${t(`place.${name}`)}</a>`)}</nav>`;
+}
 
 /** Into the editor with a copy of the scene, or with one's own; and out of it. @param {View} view */
 function pen({ state, session, editor, t }) {
@@ -73,7 +76,6 @@ function sceneChooser({ state, session, t }) {
   const entries = entriesOf(state);
   const entry = entries.find((candidate) => candidate.id === scene);
   const leaveFor = (/** @type {string} */ id) => {
-    if (id.startsWith("/")) return location.assign(id);
     session.move({ edit: "" });
     void session.choose(id);
   };
@@ -86,7 +88,6 @@ function sceneChooser({ state, session, t }) {
           <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => leaveFor(chosen(e))}>
             ${entry ? nothing : html`<option value=${scene} selected>${t("scene.choose")}</option>`}
             ${entries.map((s) => html`<option value=${s.id} ?selected=${s.id === scene}>${inLanguage((s.id === scene && shown?.title) || s.title, lang)}</option>`)}
-            <optgroup label=${t("places.general")}>${PAGES.map((name) => html`<option value=${addressOf(name, state.place)}>${t(`place.${name}`)}</option>`)}</optgroup>
           </select>${icon("chevron")}
         </label>
       </h1>

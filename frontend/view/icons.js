@@ -7,6 +7,7 @@ const PATHS = {
   pause: "M6 4h3v12H6zM11 4h3v12h-3z",
   next: "M7 4l6 6-6 6",
   previous: "M13 4l-6 6 6 6",
+  menu: "M3 5h14M3 10h14M3 15h14",
   overview: "M3 3h5v5H3zM12 3h5v5h-5zM3 12h5v5H3zM12 12h5v5h-5z",
   fullscreen: "M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4",
   help: "M7 7.5a3 3 0 1 1 4.4 2.6c-.9.5-1.4 1-1.4 2.1M10 15.2v.3",

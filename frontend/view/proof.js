@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { failure } from "./failure.js";
-import { appearance, language, places } from "./header.js";
+import { appearance, brand, language, places } from "./header.js";
 import { icon } from "./icons.js";
 import { overlays } from "./overlays.js";
 import { chapters, pager, steps } from "./steps.js";
@@ -19,7 +19,7 @@ export function page(view) {
   return html`
     <a class="skip" href="#derivation">${t("skip")}</a>
     <header class="top">
-      <a class="brand" href=${`/?lang=${state.place.lang}`} title=${t("tagline")}><span class="delta">δ</span><span class="q">q</span></a>
+      ${brand(view)}
       <div class="scene"><h1>${t("place.proof")}</h1><p class="summary">${t("proof.subtitle")}</p></div>
       ${places(view, "proof")}
       <div class="tools">

@@ -78,6 +78,23 @@ async def test_a_page_has_its_name_as_address(browser: httpx.AsyncClient) -> Non
     assert (await browser.get("/Proof")).status_code == 404
 
 
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        pytest.param("/?scene=pendulum", "/scene?scene=pendulum", id="a scene"),
+        pytest.param("/?lang=de&scene=own&step=a:b,c", "/scene?lang=de&scene=own&step=a:b,c", id="all of the query"),
+        pytest.param("/?scene=%3Cb%3E%0d%0aX:1", "/scene?scene=%3Cb%3E%0d%0aX:1", id="as it was written"),
+    ],
+)
+async def test_an_old_address_of_a_scene_leads_to_it(browser: httpx.AsyncClient, old: str, new: str) -> None:
+    answer = await browser.get(old)
+    assert (answer.status_code, answer.headers["location"]) == (308, new)
+
+
+async def test_the_start_page_keeps_its_language(browser: httpx.AsyncClient) -> None:
+    assert (await browser.get("/?lang=de")).status_code == 200
+
+
 async def test_policy_allows_the_import_map_and_no_other_inline_script(browser: httpx.AsyncClient) -> None:
     page = await browser.get("/")
     inline = re.findall(r"<script type=\"importmap\">(.*?)</script>", page.text)

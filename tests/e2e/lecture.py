@@ -30,7 +30,7 @@ class Lecture:
 
     def open(self, query: str = "?scene=elastic-pendulum&lang=de") -> None:
         """Load a place and wait for its first step and its drawing."""
-        self.page.goto(self.address + query)
+        self.page.goto(f"{self.address}scene{query}")
         self.steps.first.wait_for(state="attached")
         self.bob.wait_for(state="attached")
 

@@ -109,7 +109,7 @@ def test_a_link_opens_the_same_scene_elsewhere(editor: Lecture) -> None:
 
 def test_a_scene_from_nothing(lecture: Lecture) -> None:
     page = lecture.page
-    page.goto(f"{lecture.address}?lang=en#edit")
+    page.goto(f"{lecture.address}scene?lang=en#edit")
     page.locator("[data-section=coordinates] .add").click()
     type_into(page, "/coordinates/0/name", "x")
     page.locator("[data-section=bodies] .add").click()

@@ -185,7 +185,7 @@ def test_a_phone_does_not_scroll_sideways(lecture: Lecture) -> None:
 
 
 def test_an_unknown_scene_is_said_in_sentences(page: Page, server: str) -> None:
-    page.goto(f"{server}?scene=no-such-scene&lang=de")
+    page.goto(f"{server}scene?scene=no-such-scene&lang=de")
     failure = page.locator(".derivation .failure")
     expect(failure.locator("h2")).to_contain_text("Diese Szene gibt es nicht")
     failure.get_by_text("Mathematisches Pendel").click()

@@ -92,8 +92,9 @@ def test_the_proof_is_read_step_by_step_in_both_languages(lecture: Lecture) -> N
     assert lecture.current_step == step
 
 
-def test_the_pages_are_one_click_from_the_scenes(lecture: Lecture) -> None:
+def test_the_language_goes_along_to_the_other_pages(lecture: Lecture) -> None:
     lecture.open("?scene=pendulum&lang=de&theme=dark")
+    lecture.page.get_by_role("button", name="Alle Seiten").click()
     lecture.page.get_by_role("link", name="Variationen").click()
     expect(lecture.page).to_have_url(re.compile(r"/variations\?lang=de&theme=dark"))
     lecture.page.get_by_role("link", name="Allgemeiner Beweis").click()

@@ -3,6 +3,8 @@ import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { inLanguage, translator } from "../../frontend/model/catalog.js";
 import { SECTIONS } from "../../frontend/model/editor/schema.js";
+import { COURSE } from "../../frontend/model/start/course.js";
+import { PAGES } from "../../frontend/model/url.js";
 import { EXAMPLES } from "../../frontend/model/variations/examples.js";
 import { KINDS } from "../../frontend/model/variations/question.js";
 
@@ -24,9 +26,9 @@ test("a text in the asked language, else in English, else in any", () => {
   assert.equal(inLanguage(undefined, "en"), "");
 });
 
-const source = ["app.js", "proof.js", "variations.js", ...["view", "model"].flatMap((folder) => readdirSync(new URL(folder, FRONTEND), { recursive: true }).map(String).filter((f) => f.endsWith(".js")).map((f) => `${folder}/${f}`))]
+const source = [...readdirSync(FRONTEND).filter((f) => f.endsWith(".js")), ...["view", "model"].flatMap((folder) => readdirSync(new URL(folder, FRONTEND), { recursive: true }).map(String).filter((f) => f.endsWith(".js")).map((f) => `${folder}/${f}`))]
   .map((file) => readFileSync(new URL(file, FRONTEND), "utf8")).join("\n");
-const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations"].map((section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"))))]));
+const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start"].map((section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"))))]));
 
 test("both languages have the same texts with the same parameters", () => {
   const holes = (/** @type {string} */ text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort().join();
@@ -54,15 +56,21 @@ const VARIATIONS = [
   ...EXAMPLES.map((id) => `variations.example.${id}`),
   ...KINDS.map((kind) => `variations.kind-${kind}`),
   ...["from", "to", "end-from", "end-to", "end-fixed", "end-free", "syntax-plain", "syntax-latex", "declare-functions", "declare-parameters", "one_sided", "central"].map((key) => `variations.${key}`),
-  "place.variations", "place.proof",
 ];
 
-for (const [name, asked] of Object.entries({ editor: EDITOR, variations: VARIATIONS })) {
+/** What the start page asks for by page and by entry of the course. */
+const START = [
+  ...PAGES.map((name) => `place.${name}`),
+  ...PAGES.filter((name) => name !== "scene").map((name) => `start.${name}`),
+  ...COURSE.flatMap((part) => [`course.${part.id}`, ...part.entries.map((entry) => `course.${part.id}.${entry.id}`)]),
+];
+
+for (const [name, asked] of Object.entries({ editor: EDITOR, variations: VARIATIONS, start: START })) {
   test(`every text of the part "${name}" is there`, () => assert.deepEqual(asked.filter((key) => !(key in catalogs.en)), []));
 }
 
 test("every text that is there is used", () => {
   const composed = ["theme.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical."];
-  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
+  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });

@@ -25,7 +25,7 @@ test("no file is longer than 200 lines", () => {
   assert.deepEqual(long, []);
 });
 
-const driverOf = (/** @type {string} */ page) => (page === "index" ? "app.js" : `${page}.js`);
+const driverOf = (/** @type {string} */ page) => `${page}.js`;
 
 /** What a module imports, and what that imports; types and what is fetched later do not count. @param {string} file @param {Set<string>} seen */
 function imported(file, seen = new Set()) {

@@ -1,7 +1,7 @@
 /** The page "Variations": the question to the left, the answer and the h-slider to the right. */
 
 import { html } from "lit-html";
-import { appearance, language, places } from "../header.js";
+import { appearance, brand, language, places } from "../header.js";
 import { form } from "./form.js";
 import { contents, derivation, summary, understood } from "./result.js";
 import { slider } from "./slider.js";
@@ -19,7 +19,7 @@ export function page(view) {
   return html`
     <a class="skip" href="#answer">${t("skip")}</a>
     <header class="top">
-      <a class="brand" href=${`/?lang=${view.state.place.lang}`} title=${t("tagline")}><span class="delta">δ</span><span class="q">q</span></a>
+      ${brand(view)}
       <div class="scene"><h1>${t("place.variations")}</h1><p class="summary">${t("variations.subtitle")}</p></div>
       ${places(view, "variations")}
       <div class="tools">${language(view)}${appearance(view)}</div>

@@ -8,6 +8,7 @@ from importlib.resources import files
 
 from fastapi import APIRouter, Request, Response
 from starlette.exceptions import HTTPException
+from starlette.responses import RedirectResponse
 
 from ..assets import ASK_AGAIN, Asset, import_map_hash
 from ..headers import content_security_policy
@@ -24,7 +25,9 @@ def _documentation(name: str) -> str:
 
 @router.api_route("/", methods=["GET", "HEAD"])
 def start(request: Request) -> Response:
-    """The page of the scenes."""
+    """The start page. Scenes were here once: an address that names one leads to where they are now."""
+    if "scene" in request.query_params:
+        return RedirectResponse(f"/scene?{request.url.query}", 308, {"Cache-Control": ASK_AGAIN})
     html = service_of(request).assets.page("index")
     if html is None:
         raise HTTPException(404)

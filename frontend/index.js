@@ -1,0 +1,66 @@
+/** The driver of the start page. */
+
+import { render } from "lit-html";
+import { createApi } from "./model/api.js";
+import { translator } from "./model/catalog.js";
+import { createSamples } from "./model/start/sample.js";
+import { createStore } from "./model/store.js";
+import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { createMotions } from "./view/start/motions.js";
+import { HERO, page } from "./view/start/page.js";
+
+const root = /** @type {HTMLElement} */ (document.getElementById("page"));
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const asked = readPlace(location.search);
+const api = createApi(fetch.bind(globalThis));
+const store = createStore({
+  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
+  scenes: /** @type {import("./model/types.js").SceneEntry[]} */ ([]),
+});
+const { get, set } = store;
+const samples = createSamples(api, () => get().place.lang);
+const motions = createMotions(samples.ask, { still: () => still.matches, always: HERO });
+
+/** @param {Partial<import("./model/types.js").Place>} patch */
+const move = (patch) => set({ place: { ...get().place, ...patch } });
+
+/** @param {string} lang */
+async function language(lang) {
+  move({ lang });
+  const catalog = await api.catalog(lang, "start").catch(() => null);
+  if (catalog && get().place.lang === lang) set({ catalog });
+}
+
+function update() {
+  const { place, catalog, scenes } = get();
+  if (!catalog.page) return;
+  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.start) });
+  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
+  document.documentElement.lang = place.lang;
+  document.title = t("title");
+  render(page({ state: { place }, session: { language, move }, scenes, t }), root);
+  motions.watch(root);
+  history.replaceState(null, "", location.pathname + writePlace(place) + location.hash);
+}
+
+let before = 0;
+/** @param {number} now */
+function tick(now) {
+  motions.advance((now - before) / 1000);
+  before = now;
+  requestAnimationFrame(tick);
+}
+
+// Scenes stood at this address once: one that was shared in the fragment is shown where scenes are now.
+if (/^#(s=|edit$)/.test(location.hash)) location.replace(`/scene${location.search}${location.hash}`);
+else {
+  store.subscribe(update);
+  dark.addEventListener("change", update);
+  root.addEventListener("pointerover", ({ target }) => motions.point(target));
+  root.addEventListener("focusin", ({ target }) => motions.point(target));
+  requestAnimationFrame(tick);
+  void language(get().place.lang);
+  void api.scenes({ summaries: true }).then(({ scenes }) => set({ scenes }), () => {});
+}
