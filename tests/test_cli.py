@@ -102,6 +102,13 @@ def test_no_command_shows_the_help(capsys: pytest.CaptureFixture[str]) -> None:
     assert "serve the page and the API" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("arguments", [["--help"], ["serve", "--help"]], ids=["deltaq", "serve"])
+def test_help_lists_the_settings(arguments: list[str]) -> None:
+    ended = command(*arguments)
+    assert ended.returncode == 0
+    assert re.search(r"\n  DELTAQ_QUEUE_LENGTH +jobs that may wait before others are refused \[1024\]\n", ended.stdout)
+
+
 @pytest.mark.parametrize("module", ["fastapi", "uvicorn", "sympy", "numpy", "asyncio"])
 def test_command_line_itself_loads_nothing_heavy(module: str) -> None:
     code = f"import deltaq.cli, sys; sys.exit({module!r} in sys.modules)"

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import deltaq
-from deltaq.settings import Settings, SettingsError
+from deltaq.settings import Settings, SettingsError, described
 
 
 def test_defaults_need_no_environment() -> None:
@@ -42,6 +42,12 @@ def test_environment_changes_what_it_names() -> None:
             "DELTAQ_WORKER_MEMORY must be at least 1073741824: the libraries need it",
             id="too little memory",
         ),
+        pytest.param(
+            "DELTAQ_LOG_LEVEL",
+            "loud",
+            "DELTAQ_LOG_LEVEL must be one of debug, info, warning, error, not 'loud'",
+            id="no such level",
+        ),
     ],
 )
 def test_wrong_value(variable: str, value: str, message: str) -> None:
@@ -53,3 +59,9 @@ def test_wrong_value(variable: str, value: str, message: str) -> None:
 def test_misspelt_setting_is_not_ignored() -> None:
     with pytest.raises(SettingsError, match=r"^unknown settings: DELTAQ_WORKER; known are DELTAQ_WORKERS, "):
         Settings.from_environment({"DELTAQ_WORKER": "3"})
+
+
+def test_each_setting_is_described() -> None:
+    lines = list(described())
+    assert [line.split()[0] for line in lines] == [f"DELTAQ_{field.name.upper()}" for field in fields(Settings)]
+    assert all(len(line) > 35 for line in lines)

@@ -36,16 +36,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="deltaq", description="Derives and simulates analytical mechanics.")
+    parser = argparse.ArgumentParser(
+        prog="deltaq",
+        description="Derives and simulates analytical mechanics.",
+        epilog=_settings_help(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("--version", action="version", version=f"deltaq {__version__}")
     commands = parser.add_subparsers(dest="command", metavar="command")
     serve_parser = commands.add_parser(
         "serve",
         help="serve the page and the API",
         description="Serves the page and the API.",
-        epilog="Further settings are environment variables: DELTAQ_WORKERS, DELTAQ_CACHE_SIZE, "
-        "DELTAQ_DERIVATION_DEADLINE, DELTAQ_SIMULATION_DEADLINE, DELTAQ_MODEL_CACHE (a folder for compiled "
-        "models) and others of deltaq/settings.py. NUMBA_CACHE_DIR is where compiled kernels go.",
+        epilog=_settings_help(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     serve_parser.add_argument("--host", default="127.0.0.1", help="address to bind (default: %(default)s)")
     serve_parser.add_argument(
@@ -79,6 +83,14 @@ def _parser() -> argparse.ArgumentParser:
     )
     bench_parser.add_argument("names", nargs="*", help="which: simulation, derivation, chain, rhs …")
     return parser
+
+
+def _settings_help() -> str:
+    """The environment variables of the service."""
+    from .settings import described
+
+    own = "\n".join(f"  {line}" for line in described())
+    return f"environment variables of the service:\n{own}\n  NUMBA_CACHE_DIR is where compiled kernels go."
 
 
 def bench(names: tuple[str, ...]) -> int:
@@ -166,12 +178,14 @@ def _run(listener: socket.socket, settings: Settings) -> None:
     import uvicorn
 
     from .api.app import create_app
+    from .api.logs import configure
 
+    configure(settings.log_level)
     config = uvicorn.Config(
         create_app(settings),
         http="h11",
         ws="none",
-        log_level="warning",
+        log_config=None,
         access_log=False,
         server_header=False,
         timeout_keep_alive=15,

@@ -3,41 +3,51 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import Field, dataclass, field, fields
 from typing import Any
 
 MEBIBYTE = 2**20
 PREFIX = "DELTAQ_"
+LOG_LEVELS = ("debug", "info", "warning", "error")
 
 
 class SettingsError(Exception):
     """An environment variable does not hold what its setting needs."""
 
 
+def setting(default: float | str, meaning: str) -> Any:
+    """A field with its meaning, which the help shows."""
+    return field(default=default, metadata={"meaning": meaning})
+
+
 @dataclass(frozen=True)
 class Settings:
-    """How the service is run. Times are in seconds, sizes in bytes."""
+    """How the service is run. Times are in seconds, sizes in bytes, lists are separated by commas."""
 
-    workers: int = field(default_factory=lambda: max(2, os.cpu_count() or 2))
-    queue_length: int = 1024
-    queue_patience: float = 15.0
-    start_timeout: float = 60.0
-    derivation_deadline: float = 10.0
-    simulation_deadline: float = 20.0
-    worker_memory: int = 2048 * MEBIBYTE
-    jobs_per_worker: int = 1000
-    cache_size: int = 128 * MEBIBYTE
-    largest_body: int = MEBIBYTE
-    body_timeout: float = 10.0
-    model_cache: str = ""  # folder of compiled models; read by deltaq.model.store
-    static: str = ""
+    workers: int = field(
+        default_factory=lambda: max(2, os.cpu_count() or 2),
+        metadata={"meaning": "worker processes; else one for each processor"},
+    )
+    queue_length: int = setting(1024, "jobs that may wait before others are refused")
+    queue_patience: float = setting(15.0, "seconds after which a job that waits is refused")
+    start_timeout: float = setting(60.0, "seconds within which a worker must be up")
+    derivation_deadline: float = setting(10.0, "seconds for a derivation")
+    simulation_deadline: float = setting(20.0, "seconds for a simulation")
+    worker_memory: int = setting(2048 * MEBIBYTE, "bytes of address space of a worker")
+    jobs_per_worker: int = setting(1000, "jobs after which a worker is replaced")
+    cache_size: int = setting(128 * MEBIBYTE, "bytes of answers kept in memory")
+    largest_body: int = setting(MEBIBYTE, "bytes of a request's body")
+    body_timeout: float = setting(10.0, "seconds within which a body must be complete")
+    log_level: str = setting("warning", f"what is logged: {', '.join(LOG_LEVELS)} (info: each request)")
+    model_cache: str = setting("", "folder of compiled models")  # read by deltaq.model.store
+    static: str = setting("", "folder of the page's files")
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
         """The defaults, changed by the variables that are set."""
         given = os.environ if environment is None else environment
-        variables = {PREFIX + f.name.upper(): f for f in fields(cls)}
+        variables = {variable_of(f): f for f in fields(cls)}
         if unknown := [name for name in given if name.startswith(PREFIX) and name not in variables]:
             raise SettingsError(f"unknown settings: {', '.join(sorted(unknown))}; known are {', '.join(variables)}")
         return cls(**{f.name: _read(name, str(f.type), given[name]) for name, f in variables.items() if name in given})
@@ -48,6 +58,21 @@ class Settings:
                 raise SettingsError(f"{PREFIX}{name.upper()} must be at least 1")
         if self.worker_memory < 1024 * MEBIBYTE:
             raise SettingsError(f"{PREFIX}WORKER_MEMORY must be at least {1024 * MEBIBYTE}: the libraries need it")
+        if self.log_level not in LOG_LEVELS:
+            raise SettingsError(f"{PREFIX}LOG_LEVEL must be one of {', '.join(LOG_LEVELS)}, not {self.log_level!r}")
+
+
+def described() -> Iterator[str]:
+    """One line for each variable: its name, what it means, its default."""
+    width = max(len(variable_of(f)) for f in fields(Settings))
+    for f in fields(Settings):
+        default = f" [{f.default}]" if isinstance(f.default, (int, float, str)) and f.default != "" else ""
+        yield f"{variable_of(f):{width}}  {f.metadata['meaning']}{default}"
+
+
+def variable_of(setting: Field[Any]) -> str:
+    """The environment variable of a setting."""
+    return PREFIX + setting.name.upper()
 
 
 def _read(variable: str, kind: str, text: str) -> Any:

@@ -12,6 +12,7 @@ from fastapi import FastAPI
 
 from deltaq import __version__
 from deltaq.api.app import create_app
+from deltaq.api.service import source_digest
 from deltaq.settings import Settings
 from deltaq.simulation.library import method_ids
 
@@ -32,6 +33,24 @@ async def test_health_says_when_no_worker_is_up_yet() -> None:
     transport = httpx.ASGITransport(app=create_app(Settings(workers=1)))
     async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test") as client:
         assert (await client.get(f"{API}/health")).json()["status"] == "starting"
+
+
+async def test_ready_once_a_worker_is_up(client: httpx.AsyncClient) -> None:
+    await client.post(f"{API}/scenes/validate", json={})
+    response = await client.get(f"{API}/ready")
+    assert (response.status_code, response.json()) == (200, {"ready": True})
+
+
+async def test_not_ready_without_a_worker() -> None:
+    transport = httpx.ASGITransport(app=create_app(Settings(workers=1)))
+    async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test") as client:
+        response = await client.get(f"{API}/ready")
+    assert (response.status_code, response.headers["retry-after"]) == (503, "2")
+    assert response.json()["type"] == "/problems/overloaded"
+
+
+async def test_version(client: httpx.AsyncClient) -> None:
+    assert (await client.get(f"{API}/version")).json() == {"version": __version__, "source": source_digest()}
 
 
 @pytest.mark.parametrize("language", ["de", "en"])
@@ -95,6 +114,9 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
         "POST /expressions/batch",
         "GET /derivations/{identifier}",
         "GET /health",
+        "GET /ready",
+        "GET /version",
+        "GET /metrics",
         "GET /methods",
         "GET /scenes",
         "GET /scenes/{identifier}",

@@ -14,6 +14,7 @@ from .. import __version__
 from ..packages import modules_of
 from ..settings import Settings
 from . import problems
+from .access import Access
 from .headers import SecurityHeaders
 from .routes import pages
 from .routes.common import PREFIX
@@ -47,6 +48,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     problems.install(app)
     app.add_middleware(GZipMiddleware, minimum_size=1000, compresslevel=5)
     app.add_middleware(SecurityHeaders)
+    app.add_middleware(Access, metrics=service.metrics)  # last: it is outside of all others
     return app
 
 

@@ -19,7 +19,7 @@ from ..narration.catalog import message, text
 from .languages import Language, language_of
 from .strict_json import JsonError
 from .validation import problems_of
-from .workers.job import DeadlineExceeded, JobError, MemoryExceeded, Overloaded
+from .workers.job import DeadlineExceeded, JobError, JobFailed, MemoryExceeded, Overloaded
 
 LOGGER = logging.getLogger("deltaq.api")
 MEDIA_TYPE = "application/problem+json"
@@ -147,8 +147,11 @@ def _http_report(error: HTTPException) -> Report:
 
 def _incident(error: Exception) -> Report:
     incident = uuid4().hex[:12]
-    if isinstance(error, JobError):
-        LOGGER.error("incident %s in a worker: %s\n%s", incident, error, getattr(error, "trace", ""))
+    if isinstance(error, JobFailed):
+        LOGGER.error("incident %s in a worker: %s", incident, error.trace)
+        LOGGER.debug("incident %s: %s", incident, error)  # it may quote the user
+    elif isinstance(error, JobError):
+        LOGGER.error("incident %s: %s", incident, error)
     else:
         LOGGER.error("incident %s", incident, exc_info=error)
     return Report(INTERNAL_ERROR, parameters={"incident": incident})

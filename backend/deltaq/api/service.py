@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import gzip
 import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from fastapi import Request
 from ..settings import Settings
 from .assets import Assets
 from .cache import Cache, content_hash
+from .metrics import Metrics, make_metrics
 from .workers.job import Job
 from .workers.lane import Limits
 from .workers.pool import Pool
@@ -32,6 +33,7 @@ class Service:
     pool: Pool
     cache: Cache
     assets: Assets
+    metrics: Metrics
 
     async def answer(self, key: str, job: Job, document: Any) -> bytes:
         """The gzipped JSON of a pure job, from the cache if it is there."""
@@ -51,7 +53,8 @@ def make_service(settings: Settings) -> Service:
     """A service; its workers are not started yet."""
     limits = Limits(settings.worker_memory, settings.jobs_per_worker, settings.start_timeout, settings.queue_patience)
     pool = Pool(settings.workers, settings.queue_length, limits, (PRELOAD,))
-    return Service(settings, pool, Cache(settings.cache_size), Assets(static_root(settings.static)))
+    cache = Cache(settings.cache_size)
+    return Service(settings, pool, cache, Assets(static_root(settings.static)), make_metrics(pool, cache))
 
 
 def pack(answer: bytes) -> bytes:
@@ -73,7 +76,7 @@ def static_root(configured: str) -> Path:
     return checkout if (checkout / "index.html").is_file() else PACKAGE / "static"
 
 
-@cache
+@functools.cache
 def source_digest() -> str:
     """A digest of the package's code, scenes and catalogs."""
     digest = hashlib.sha256()

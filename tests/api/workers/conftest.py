@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 
@@ -13,7 +14,7 @@ MakePool = Callable[..., Pool]
 
 @pytest.fixture
 def make_pool() -> Iterator[MakePool]:
-    """Pools that are started here and stopped at the end of the test."""
+    """Pools whose workers are all up, and which are stopped at the end of the test."""
     with ExitStack() as stack:
 
         def make(size: int = 1, queue_length: int = 100, **limits: float) -> Pool:
@@ -21,6 +22,8 @@ def make_pool() -> Iterator[MakePool]:
             pool = Pool(size, queue_length, Limits(**chosen))
             pool.start()
             stack.callback(pool.stop, 0.1)
+            while pool.state.ready < size:
+                time.sleep(0.005)
             return pool
 
         yield make

@@ -9,8 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from deltaq.api.workers.preload import kernels_are_compiled
-
 PROBE = """
 import asyncio, json
 from deltaq.api.workers.job import Job
@@ -35,19 +33,3 @@ def test_workers_are_born_with_the_libraries_from_a_process_of_one_thread(root: 
         "threads": 1,
         "loaded": ["numba", "numpy", "symengine", "sympy"],
     }
-
-
-@pytest.mark.parametrize(
-    ("file", "expected"),
-    [
-        pytest.param("kernels_1/integrate.nbi", True, id="an index"),
-        pytest.param("kernels_1/readme.txt", False, id="something else"),
-    ],
-)
-def test_compiled_kernels_are_looked_for_in_the_cache(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: str, expected: bool
-) -> None:
-    (tmp_path / file).parent.mkdir()
-    (tmp_path / file).touch()
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    assert kernels_are_compiled() is expected

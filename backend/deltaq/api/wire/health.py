@@ -33,3 +33,16 @@ class Health(Answer):
     version: str
     workers: WorkerHealth
     cache: CacheHealth
+
+
+class Readiness(Answer):
+    """Always true: a service that is not ready answers with a problem document."""
+
+    ready: Literal[True]
+
+
+class Version(Answer):
+    """The released version, and a digest of what the answers depend on."""
+
+    version: str
+    source: str

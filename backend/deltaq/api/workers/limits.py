@@ -16,8 +16,8 @@ _PR_SET_PDEATHSIG = 1
 def die_with_parent() -> None:
     """Linux kills this process when its parent ends, even in the middle of a C call.
 
-    The parent is the fork server, which ends with the web process (see keep_only). Elsewhere an idle worker sees its
-    pipe close, and a busy one has its bound on processor time.
+    The parent of a worker is the fork server, whose parent is the web process (see also keep_only). Elsewhere an idle
+    worker sees its pipe close, and a busy one has its bound on processor time.
     """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

@@ -13,7 +13,7 @@ from typing import Any
 from .job import Job, Overloaded
 from .lane import Lane, Limits, Task
 from .message import encode_request
-from .worker import Listener, preload
+from .worker import Listener, start_fork_server
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Pool:
 
     def start(self) -> None:
         """Start the lanes; returns at once, the workers come up in the background."""
-        preload(self._modules)
+        start_fork_server(self._modules)
         for lane in self._lanes:
             lane.start()
 

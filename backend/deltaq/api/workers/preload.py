@@ -9,13 +9,16 @@ import gc
 import os
 from contextlib import suppress
 from importlib import import_module
-from pathlib import Path
+
+from .kernels import compiled_kernels
+from .limits import die_with_parent
 
 SCENE = "pendulum"
 
 
 def load() -> None:
     """Import what the jobs need and run it once; what fails here is reported by the job that needs it."""
+    die_with_parent()  # else it would go on loading when the web process has ended meanwhile
     # A worker is one thread; and thread pools do not survive a fork.
     for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
         os.environ[variable] = "1"
@@ -25,16 +28,10 @@ def load() -> None:
         import_module("deltaq.narration.derive").derive_request({"scene": SCENE})
     with suppress(Exception):
         service = import_module("deltaq.simulation.service")
-        if kernels_are_compiled():
+        if compiled_kernels():  # compiling them here would keep all workers waiting
             service.warm()
     gc.collect()
     gc.freeze()  # what is there now is shared by all workers; the collector must not touch its pages
-
-
-def kernels_are_compiled() -> bool:
-    """Whether Numba's cache has something to load; compiling it here would keep all workers waiting."""
-    beside = Path(str(import_module("deltaq.simulation.kernels").__file__)).with_name("__pycache__")
-    return any(Path(os.environ.get("NUMBA_CACHE_DIR", beside)).rglob("*.nbi"))
 
 
 load()

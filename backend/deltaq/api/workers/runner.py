@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-import traceback
 from collections.abc import Iterator
 from importlib import import_module
 from multiprocessing.connection import Connection
@@ -14,6 +13,7 @@ from typing import Any
 from ...errors import InputError
 from .limits import bound_memory, bound_processor_time, die_with_parent, keep_only
 from .message import PART, READY, Failure, encode_answer, encode_error, problem_data
+from .traces import trace_of
 
 
 def run(connection: Connection, memory: int) -> None:
@@ -59,7 +59,7 @@ def failure_of(error: BaseException) -> Failure:
     """Our bug as data; even an exception whose text cannot be made gives one."""
     kind = type(error).__name__
     try:
-        return Failure(kind, f"{kind}: {error}"[:1000], "".join(traceback.format_exception(error))[-10_000:])
+        return Failure(kind, f"{kind}: {error}"[:1000], trace_of(error))
     except BaseException:  # noqa: BLE001  its __str__ raises
         return Failure(kind, kind)
 

@@ -7,7 +7,7 @@ import signal
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from multiprocessing import get_context
+from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from threading import Lock
@@ -103,6 +103,10 @@ def start_worker(memory: int, timeout: float) -> Worker:
     return worker
 
 
-def preload(modules: Sequence[str]) -> None:
-    """Modules that the fork server imports once, so that each worker has them at birth. To be called before a start."""
+def start_fork_server(modules: Sequence[str]) -> None:
+    """The process that workers are forked from; it imports these modules once, so that each worker has them at birth.
+
+    It ends with the thread that started it (see die_with_parent), so that should be the main one.
+    """
     _CONTEXT.set_forkserver_preload(list(modules))
+    forkserver.ensure_running()

@@ -1,0 +1,31 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from deltaq.api.workers.kernels import compiled_kernels
+
+
+@pytest.mark.parametrize(
+    ("files", "count"),
+    [
+        pytest.param([], 0, id="none"),
+        pytest.param(["kernels_1/integrate.nbi", "readme.txt"], 0, id="an index without code"),
+        pytest.param(["kernels_1/integrate.1.nbc", "kernels_1/integrate.2.nbc", "other/step.1.nbc"], 3, id="three"),
+    ],
+)
+def test_compiled_kernels_are_counted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, files: list[str], count: int
+) -> None:
+    for file in files:
+        (tmp_path / file).parent.mkdir(exist_ok=True)
+        (tmp_path / file).touch()
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert compiled_kernels() == count
+
+
+def test_kernels_are_looked_for_beside_the_code(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    here = len(list(Path(__file__).parents[3].glob("backend/deltaq/simulation/kernels/__pycache__/*.nbc")))
+    assert compiled_kernels() == here
