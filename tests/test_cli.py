@@ -51,6 +51,8 @@ def test_serve_prints_the_address_serves_and_ends_on_interrupt() -> None:
             answer = httpx.get(f"{found[1]}api/v1/health", timeout=30)
             assert answer.json()["version"] == __version__
             assert "server" not in answer.headers
+            rebound = httpx.get(f"{found[1]}api/v1/health", headers={"Host": "attacker.example"}, timeout=30)
+            assert rebound.status_code == 421  # on loopback it has no other names
         finally:
             server.send_signal(signal.SIGINT)
             _, errors = server.communicate(timeout=30)

@@ -30,6 +30,13 @@ def test_environment_changes_what_it_names() -> None:
     assert settings == Settings(workers=7, queue_patience=0.5, static="/srv/page")
 
 
+def test_lists_are_separated_by_commas() -> None:
+    settings = Settings.from_environment(
+        {"DELTAQ_CORS_ORIGINS": "https://a.example,http://b.example:81 ,", "DELTAQ_ALLOWED_HOSTS": ""}
+    )
+    assert settings == Settings(cors_origins=("https://a.example", "http://b.example:81"))
+
+
 @pytest.mark.parametrize(
     ("variable", "value", "message"),
     [
@@ -47,6 +54,12 @@ def test_environment_changes_what_it_names() -> None:
             "loud",
             "DELTAQ_LOG_LEVEL must be one of debug, info, warning, error, not 'loud'",
             id="no such level",
+        ),
+        pytest.param(
+            "DELTAQ_FRAME_ANCESTORS",
+            "https://moodle.example.org, 'none'; script-src *",
+            "DELTAQ_FRAME_ANCESTORS needs origins such as https://example.org, not \"'none'; script-src *\"",
+            id="a policy where an origin belongs",
         ),
     ],
 )

@@ -8,6 +8,7 @@ import socket
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -163,6 +164,8 @@ def serve(host: str, port: int, *, open_page: bool) -> int:
     except SettingsError as error:
         print(f"deltaq: {error}", file=sys.stderr)
         return BUSY
+    if not settings.allowed_hosts and listener.getsockname()[0] in {"127.0.0.1", "::1"}:
+        settings = replace(settings, allowed_hosts=("localhost",))
     address = _address(host, listener.getsockname()[1])
     print(f"δq is at {address}  (Ctrl-C ends it)", flush=True)
     if open_page:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import Field, dataclass, field, fields
 from typing import Any
 
 MEBIBYTE = 2**20
 PREFIX = "DELTAQ_"
+_ORIGIN = re.compile(r"\*|https?://[A-Za-z0-9.*-]+(:\d+)?")
 LOG_LEVELS = ("debug", "info", "warning", "error")
 
 
@@ -16,7 +18,7 @@ class SettingsError(Exception):
     """An environment variable does not hold what its setting needs."""
 
 
-def setting(default: float | str, meaning: str) -> Any:
+def setting(default: float | str | tuple[str, ...], meaning: str) -> Any:
     """A field with its meaning, which the help shows."""
     return field(default=default, metadata={"meaning": meaning})
 
@@ -39,6 +41,9 @@ class Settings:
     cache_size: int = setting(128 * MEBIBYTE, "bytes of answers kept in memory")
     largest_body: int = setting(MEBIBYTE, "bytes of a request's body")
     body_timeout: float = setting(10.0, "seconds within which a body must be complete")
+    allowed_hosts: tuple[str, ...] = setting((), "names under which it answers; else all, on loopback its own")
+    frame_ancestors: tuple[str, ...] = setting((), "origins whose pages may show it in a frame, such as a course's")
+    cors_origins: tuple[str, ...] = setting((), "origins whose pages may call the API; * for all")
     log_level: str = setting("warning", f"what is logged: {', '.join(LOG_LEVELS)} (info: each request)")
     model_cache: str = setting("", "folder of compiled models")  # read by deltaq.model.store
     static: str = setting("", "folder of the page's files")
@@ -53,13 +58,21 @@ class Settings:
         return cls(**{f.name: _read(name, str(f.type), given[name]) for name, f in variables.items() if name in given})
 
     def __post_init__(self) -> None:
-        for name in ("workers", "queue_length", "jobs_per_worker"):
-            if getattr(self, name) < 1:
-                raise SettingsError(f"{PREFIX}{name.upper()} must be at least 1")
-        if self.worker_memory < 1024 * MEBIBYTE:
-            raise SettingsError(f"{PREFIX}WORKER_MEMORY must be at least {1024 * MEBIBYTE}: the libraries need it")
-        if self.log_level not in LOG_LEVELS:
-            raise SettingsError(f"{PREFIX}LOG_LEVEL must be one of {', '.join(LOG_LEVELS)}, not {self.log_level!r}")
+        if wrong := next(_mistakes(self), None):
+            raise SettingsError(PREFIX + wrong)
+
+
+def _mistakes(given: Settings) -> Iterator[str]:
+    for name in ("workers", "queue_length", "jobs_per_worker"):
+        if getattr(given, name) < 1:
+            yield f"{name.upper()} must be at least 1"
+    if given.worker_memory < 1024 * MEBIBYTE:
+        yield f"WORKER_MEMORY must be at least {1024 * MEBIBYTE}: the libraries need it"
+    if given.log_level not in LOG_LEVELS:
+        yield f"LOG_LEVEL must be one of {', '.join(LOG_LEVELS)}, not {given.log_level!r}"
+    for name in ("frame_ancestors", "cors_origins"):
+        wrong = [one for one in getattr(given, name) if not _ORIGIN.fullmatch(one)]
+        yield from (f"{name.upper()} needs origins such as https://example.org, not {one!r}" for one in wrong)
 
 
 def described() -> Iterator[str]:
@@ -75,8 +88,12 @@ def variable_of(setting: Field[Any]) -> str:
     return PREFIX + setting.name.upper()
 
 
+def _parts(text: str) -> tuple[str, ...]:
+    return tuple(part.strip() for part in text.split(",") if part.strip())
+
+
 def _read(variable: str, kind: str, text: str) -> Any:
-    readers: dict[str, Callable[[str], Any]] = {"int": int, "float": float, "str": str}
+    readers: dict[str, Callable[[str], Any]] = {"int": int, "float": float, "str": str, "tuple[str, ...]": _parts}
     try:
         return readers[kind](text)
     except ValueError as error:

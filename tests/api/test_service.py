@@ -67,7 +67,17 @@ async def test_methods(client: httpx.AsyncClient, language: str) -> None:
 async def test_catalog(client: httpx.AsyncClient, language: str) -> None:
     response = await client.get(f"{API}/catalogs/{language}")
     answer = response.json()
-    assert answer.keys() == {"rules", "errors", "statuses", "page", "methods", "editor", "homework", "variations"}
+    assert answer.keys() == {
+        "rules",
+        "errors",
+        "statuses",
+        "page",
+        "methods",
+        "editor",
+        "homework",
+        "start",
+        "variations",
+    }
     assert {"type", "request-scene-type", "missing-field"} <= answer["errors"].keys()  # of three files
     again = await client.get(f"{API}/catalogs/{language}", headers={"If-None-Match": response.headers["etag"]})
     assert again.status_code == 304
@@ -131,6 +141,9 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
         "POST /checks",
         "POST /checks/batch",
         "POST /checks/lines",
+        "POST /checks/motion",
+        "POST /checks/reading",
+        "POST /tasks/solution",
         "POST /tasks/stack",
         "POST /assignments",
     }

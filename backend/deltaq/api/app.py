@@ -6,8 +6,10 @@ import asyncio
 import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
+from typing import Any
 
 from fastapi import APIRouter, FastAPI
+from starlette.middleware.cors import CORSMiddleware
 from starlette.middleware.gzip import GZipMiddleware
 
 from .. import __version__
@@ -16,6 +18,7 @@ from ..settings import Settings
 from . import problems
 from .access import Access
 from .headers import SecurityHeaders
+from .hosts import TrustedHosts
 from .routes import pages
 from .routes.common import PREFIX
 from .service import Service, make_service
@@ -23,6 +26,13 @@ from .workers.job import Job, JobError
 
 LOGGER = logging.getLogger("deltaq.api")
 WARM = Job("deltaq.api.jobs:warm", deadline=300.0)
+# What pages of other origins may do, where the settings let them in; they never bring cookies, for there are none.
+CROSS_ORIGIN: Any = {
+    "allow_methods": ["GET", "POST"],
+    "allow_headers": ["Content-Type", "If-None-Match", "X-Request-ID"],
+    "expose_headers": ["Content-Location", "ETag", "Retry-After", "X-Request-ID"],
+    "max_age": 86400,
+}
 DESCRIPTION = """Derives Lagrange's equations of the second kind step by step, simulates the motion, and says how
 accurate the answer is. Every error is a problem document (RFC 9457)."""
 
@@ -46,10 +56,19 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(_api(), prefix=PREFIX)
     app.include_router(pages.router)  # last: it takes every address that is left
     problems.install(app)
-    app.add_middleware(GZipMiddleware, minimum_size=1000, compresslevel=5)
-    app.add_middleware(SecurityHeaders)
-    app.add_middleware(Access, metrics=service.metrics)  # last: it is outside of all others
+    _add_layers(app, service)
     return app
+
+
+def _add_layers(app: FastAPI, service: Service) -> None:
+    """What every request passes, from the inside to the outside."""
+    settings = service.settings
+    app.add_middleware(GZipMiddleware, minimum_size=1000, compresslevel=5)
+    app.add_middleware(TrustedHosts, names=settings.allowed_hosts)
+    if settings.cors_origins:
+        app.add_middleware(CORSMiddleware, allow_origins=settings.cors_origins, **CROSS_ORIGIN)
+    app.add_middleware(SecurityHeaders, frame_ancestors=settings.frame_ancestors)
+    app.add_middleware(Access, metrics=service.metrics)
 
 
 def _api() -> APIRouter:

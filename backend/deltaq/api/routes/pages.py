@@ -63,7 +63,8 @@ def file(request: Request, path: str) -> Response:
 def _page(request: Request, html: str) -> Response:
     """A page; its policy names the hash of its import map."""
     inline = import_map_hash(html)
-    policy = content_security_policy(*([inline] if inline else []))
+    ancestors = service_of(request).settings.frame_ancestors
+    policy = content_security_policy(*([inline] if inline else []), frame_ancestors=ancestors)
     return _text(request, html, "text/html", {"Content-Security-Policy": policy})
 
 
