@@ -107,6 +107,22 @@ def mass_matrix(scene: Scene, point: Point) -> Matrix | None:
     return total if all(math.isfinite(entry) for row in total for entry in row) else None
 
 
+def total_mass(scene: Scene) -> float:
+    """The mass of all bodies at the scene's own values of the parameters."""
+    values = {parameter.name: parameter.value for parameter in scene.parameters}
+    return sum(_mass(part, values) for body in scene.bodies for part in body.kinetics)
+
+
+def _mass(part: Kinetics, values: Point) -> float:
+    match part:
+        case Translation(mass=mass):
+            return evaluate(mass, values)
+        case Distribution(density=density, material=material):
+            return sum(weight * evaluate(density, inside) for weight, inside in _nodes(material, values))
+        case Rotation():
+            return 0.0
+
+
 def _shares(part: Kinetics, scene: Scene, point: Point) -> Iterator[Share]:
     """The part as inertias, each with its velocity for unit rates of the free coordinates."""
     match part:

@@ -42,15 +42,15 @@ def phase_space(eqs: Equations) -> PhaseSpace:
     bends = tuple(eqs.kinetic.diff(value) for value in values)
     at_rest = tuple(momentum.subs(dict.fromkeys(rates, 0)) for momentum in momenta)
     is_separable = (
-        all(_vanishes(entry.diff(x)) for entry in (*triangle, *at_rest) for x in (*values, symbols.time))
-        and all(_vanishes(bend) for bend in bends)
+        all(vanishes(entry.diff(x)) for entry in (*triangle, *at_rest) for x in (*values, symbols.time))
+        and all(vanishes(bend) for bend in bends)
         and not any(force.free_symbols & set(rates) for force in eqs.forces)
     )
     forces = eqs.forces if is_separable else tuple(a + b for a, b in zip(bends, eqs.forces, strict=True))
     return PhaseSpace(compile_expressions(symbols.inputs, [*triangle, *momenta, *forces]), is_separable)
 
 
-def _vanishes(expression: Expr) -> bool:
+def vanishes(expression: Expr) -> bool:
     """Whether an analytic expression is zero, also where only sin² + cos² = 1 makes it so: by values at random."""
     return expression == 0 or all(_size_at(expression, Random(seed)) < NEGLIGIBLE for seed in range(POINTS))
 

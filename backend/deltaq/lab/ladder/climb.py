@@ -1,0 +1,148 @@
+"""Climbing: every rung measured against the full model, at the scene's own initial values and at other amplitudes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import InputError, Problem, RequestError
+from ...mechanics.scene import Scene
+from ...simulation.integration import Flag
+from ...simulation.outcome import Outcome
+from .building import Chain, chains, rung_of, simplified
+from .centre import Centre, centre_of
+from .distance import Yardstick
+from .findings import FULL, Deviation, Finding, Growth, Ladder, Least, Measured, Rung
+from .footing import Footing
+from .measurement import cost, deviation, ride, yardstick
+
+AMPLITUDES = (0.1, 0.2, 0.5, 1.0)
+MOST_AMPLITUDES, MOST_REPEATS, LARGEST_SPAN = 8, 25, 1000.0
+CERTAIN = 10.0  # times the error of the integration, for an error to count in a slope
+
+
+def climb(
+    scene: Scene,
+    span: float,
+    amplitudes: Sequence[float] = AMPLITUDES,
+    tolerance: float = 0.01,
+    repeats: int = 5,
+    cancelled: Flag | None = None,
+) -> Iterator[Finding]:
+    """The ladder of a scene over [0, span], found step by step: the rungs, each one measured, how errors grow.
+
+    `tolerance` is the relative error allowed: the largest distance from the full motion (`distance.py`) as a part of
+    the extent of that motion. `amplitudes` are factors of the scene's initial deviation from rest or steady motion.
+    A rung that cannot be built or run is kept, with its reason. Raises RequestError for numbers out of bounds.
+    """
+    _check(span, amplitudes, tolerance, repeats)
+    flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
+    centre = centre_of(scene, span)
+    footing = Footing(scene, None if centre is None or not centre.is_at_rest else centre.values)
+    found = [rung_of(footing, chain) for chain in ((), *chains(footing))]
+    factors = tuple(sorted({1.0, *amplitudes})) if centre else (1.0,)
+    sound = [rung for rung in found if rung.scene is not None]
+    count = len(sound) + (len(sound) - 1) * (len(factors) > 1) + 1
+    yield Ladder(tuple(found), dict(centre.values) if centre else {}, span, factors, count)
+    yield from _Climb(footing, centre, span, factors, repeats, flag).findings(sound, tolerance)
+
+
+def _check(span: float, amplitudes: Sequence[float], tolerance: float, repeats: int) -> None:
+    """Raises RequestError with every number that is out of bounds."""
+    bounds = [
+        ("/t_end", span, 0.0, LARGEST_SPAN),
+        ("/tolerance", tolerance, 0.0, 10.0),
+        ("/repeats", repeats, 0, MOST_REPEATS),
+        ("/amplitudes", len(amplitudes), -1, MOST_AMPLITUDES),
+        *((f"/amplitudes/{index}", each, 0.0, 10.0) for index, each in enumerate(amplitudes)),
+    ]
+    problems = [
+        Problem("request-outside", pointer, parameters={"value": value, "min": low, "max": high})
+        for pointer, value, low, high in bounds
+        if not low < value <= high
+    ]
+    if problems:
+        raise RequestError(*problems)
+
+
+@dataclass(frozen=True)
+class _Climb:
+    footing: Footing
+    centre: Centre | None
+    span: float
+    amplitudes: tuple[float, ...]
+    repeats: int
+    cancelled: Flag
+
+    def findings(self, rungs: list[Rung], tolerance: float) -> Iterator[Finding]:
+        full = {1.0: self._full(1.0)}
+        measured = []
+        for rung in rungs:
+            measured.append(self._measured(rung, full[1.0]))
+            yield measured[-1]
+        if len(self.amplitudes) > 1:
+            full = {factor: full.get(factor) or self._full(factor) for factor in self.amplitudes}
+            for rung in rungs:
+                if rung.parts:
+                    yield self._growth(rung, full)
+        yield Least(tolerance, _least(rungs, measured, tolerance))
+
+    def _full(self, amplitude: float) -> Yardstick:
+        return yardstick(ride(self._footing(amplitude).scene, self.span, self.cancelled))
+
+    def _footing(self, amplitude: float) -> Footing:
+        return self.footing if self.centre is None else self.footing.with_scene(self.centre.at(amplitude))
+
+    def _measured(self, rung: Rung, full: Yardstick) -> Measured:
+        try:
+            below = simplified(self.footing, rung.parts)
+            found = ride(below.scene, self.span, self.cancelled)
+        except InputError as error:
+            return Measured(rung.id, _refusal(error), None, None)
+        price = cost(found, self.repeats, self.cancelled) if found.is_complete else None
+        return Measured(rung.id, found.outcome, price, deviation(full, found, below.back))
+
+    def _growth(self, rung: Rung, full: dict[float, Yardstick]) -> Growth:
+        found = [self._deviation(rung.parts, factor, full[factor]) for factor in self.amplitudes]
+        relative = tuple(each.relative if each else math.nan for each in found)
+        largest = tuple(each.largest if each else math.nan for each in found)
+        return Growth(rung.id, relative, largest, _slope(self.amplitudes, found))
+
+    def _deviation(self, chain: Chain, amplitude: float, full: Yardstick) -> Deviation | None:
+        try:
+            below = simplified(self._footing(amplitude), chain)
+            found = ride(below.scene, self.span, self.cancelled)
+        except InputError:
+            return None
+        return deviation(full, found, below.back) if found.outcome.is_ok else None
+
+
+def _refusal(error: InputError) -> Outcome:
+    problem = error.problems[0]
+    return Outcome("refused", problem.code, dict(problem.parameters))
+
+
+def _slope(amplitudes: tuple[float, ...], found: list[Deviation | None]) -> float | None:
+    """The slope of log(relative error) over log(amplitude), by least squares."""
+    points = [
+        (math.log(amplitude), math.log(each.relative))
+        for amplitude, each in zip(amplitudes, found, strict=True)
+        if each is not None and math.isfinite(each.relative) and each.relative > CERTAIN * each.floor
+    ]
+    if len(points) < 2:
+        return None
+    across, up = np.array(points).T
+    return float(np.polyfit(across, up, 1)[0])
+
+
+def _least(rungs: list[Rung], measured: list[Measured], tolerance: float) -> str:
+    """Of the rungs within the tolerance, the one of fewest degrees of freedom, then of fewest operations."""
+    good = [
+        (rung.degrees, each.cost.operations.total, rung.id)
+        for rung, each in zip(rungs, measured, strict=True)
+        if each.cost is not None and each.deviation is not None and each.deviation.relative <= tolerance
+    ]
+    return min(good)[-1] if good else FULL

@@ -1,0 +1,59 @@
+"""What simplifications are made of and from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from ...mechanics.scene import Scene
+from ...simulation.problem import Floats
+from .findings import Part
+
+
+@dataclass(frozen=True)
+class Footing:
+    """A scene with its initial values, and the values of its coordinates at rest or in steady motion nearby, if any."""
+
+    scene: Scene
+    centre: Mapping[str, float] | None
+
+    def with_scene(self, scene: Scene) -> Footing:
+        return replace(self, scene=scene)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Values and rates of all coordinates of a scene at `times`, the guided ones among them."""
+
+    times: Floats
+    values: Mapping[str, Floats]
+    rates: Mapping[str, Floats]
+
+
+Back = Callable[[Motion], Motion]
+
+
+def as_it_is(motion: Motion) -> Motion:
+    """The way back where the coordinates are the same."""
+    return motion
+
+
+@dataclass(frozen=True)
+class Simplified:
+    """The simpler scene, and the way back from its motion to that of the scene it was made from."""
+
+    scene: Scene
+    back: Back = as_it_is
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of simplification: where it can be `offered` for a scene, how it is done, and the kinds that may follow.
+
+    `simplify` raises InputError where the result is no scene.
+    """
+
+    id: str
+    offered: Callable[[Footing], Iterator[Part]]
+    simplify: Callable[[Footing, Part], Simplified]
+    followers: tuple[str, ...] = ()

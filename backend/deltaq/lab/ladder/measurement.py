@@ -1,0 +1,113 @@
+"""One rung computed: its motion in the full scene's coordinates, and what it costs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...mechanics.inertia import total_mass
+from ...mechanics.scene import Scene
+from ...model.operations import operations
+from ...simulation.auto import choose
+from ...simulation.choice import AUTO, Choice
+from ...simulation.driver import simulate
+from ...simulation.integration import Flag
+from ...simulation.outcome import OK, Outcome
+from ...simulation.problem import Floats, Problem
+from ...simulation.service import problem_of
+from ...simulation.trajectory import Trajectory
+from .distance import Yardstick
+from .findings import Cost, Deviation, Timing
+from .footing import Back, Motion
+
+TOLERANCE = 1e-8  # of the integration: what is left is the error of the rung
+SAMPLES = 401
+STEP_LIMIT = 200_000  # of one run
+
+
+@dataclass(frozen=True)
+class Ride:
+    """A scene's motion as computed: the problem, the method chosen for it, and the trajectory."""
+
+    scene: Scene
+    problem: Problem
+    choice: Choice
+    trajectory: Trajectory
+
+    @property
+    def outcome(self) -> Outcome:
+        """How it ended; a motion within the tolerance is sound even if it is too small to have a digit of its own."""
+        return OK if self.trajectory.tolerance_reached else self.trajectory.outcome
+
+    @property
+    def is_complete(self) -> bool:
+        return self.trajectory.reached >= self.problem.t_end
+
+    @property
+    def floor(self) -> float:
+        """The error of the integration, relative to coordinates above 1."""
+        return self.trajectory.estimate.worst if self.trajectory.estimate else TOLERANCE
+
+
+def ride(scene: Scene, span: float, cancelled: Flag) -> Ride:
+    """The motion of a scene by the method that suits it, to `TOLERANCE`."""
+    problem = replace(problem_of(scene, span, SAMPLES), step_limit=STEP_LIMIT)
+    choice = choose(AUTO, scene, problem, None, TOLERANCE)
+    return Ride(scene, problem, choice, simulate(problem, choice.method, tolerance=TOLERANCE, cancelled=cancelled))
+
+
+def yardstick(full: Ride) -> Yardstick:
+    """The full motion, as long as its digits can be trusted."""
+    found = full.trajectory
+    count = int(np.count_nonzero(found.times <= found.trusted_until))
+    states = np.hstack([found.values, found.rates])[:count]
+    return Yardstick(full.problem, total_mass(full.scene), found.times[:count], states)
+
+
+def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
+    """How far the rung is from the full motion; None if not even one sample can be compared."""
+    values = back(seen(rung)).values
+    errors = full.errors(values)
+    good = int(np.isfinite(errors).cumprod().sum())
+    if good == 0:
+        return None
+    errors, largest = errors[:good], float(errors[:good].max())
+    relative = largest / full.extent if full.extent > 0.0 else (0.0 if largest == 0.0 else np.inf)
+    return Deviation(tuple(full.times[:good].tolist()), tuple(errors.tolist()), largest, relative, rung.floor)
+
+
+def seen(rung: Ride) -> Motion:
+    """Values and rates of all coordinates of the rung's own scene."""
+    found, free = rung.trajectory, rung.problem.model.layout.free
+    states = np.hstack([found.values, found.rates])
+    observed = rung.problem.model.observe(rung.problem.inputs(found.times, states))
+    values = _named(free, found.values) | dict(observed.values)
+    rates = _named(free, found.rates) | dict(observed.rates)
+    return Motion(found.times, values, rates)
+
+
+def _named(names: tuple[str, ...], columns: Floats) -> dict[str, Floats]:
+    return dict(zip(names, columns.T, strict=True))
+
+
+def cost(rung: Ride, repeats: int, cancelled: Flag) -> Cost:
+    """What the rung takes: the run that meets `TOLERANCE`, repeated; medians and quartiles."""
+    method = rung.choice.method
+    runs = [
+        simulate(rung.problem, method, tolerance=TOLERANCE, with_error=False, cancelled=cancelled).cost
+        for _ in range(repeats)
+    ]
+    return Cost(
+        operations(rung.scene),
+        method.id,
+        runs[0].run_evaluations,
+        runs[0].steps,
+        _timing([each.run_time / max(1, each.run_evaluations) for each in runs]),
+        _timing([each.run_time for each in runs]),
+    )
+
+
+def _timing(seconds: list[float]) -> Timing:
+    low, median, high = np.quantile(seconds, (0.25, 0.5, 0.75)).tolist()
+    return Timing(median, low, high, len(seconds))

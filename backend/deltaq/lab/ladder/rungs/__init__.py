@@ -1,0 +1,1 @@
+"""The kinds of simplification. One kind, one file, with its `KIND`."""
