@@ -29,7 +29,7 @@ from ..simulation.problem import Problem as InitialValueProblem
 from ..simulation.stability import real_stability
 
 METHOD = "dop853"
-TOLERANCE = 1e-13
+TOLERANCE = 1e-12
 STEP_LIMIT = 20_000  # in one period
 ROUNDING = 1e-6  # of |μ|: central differences leave that much
 CHUNK = 256  # points that a thread takes at once

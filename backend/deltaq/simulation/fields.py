@@ -75,6 +75,14 @@ class Fields:
         self.complain("request-not-text", pointer)
         return ""
 
+    def flag(self, key: str) -> bool:
+        """Whether something is wanted; not, if nothing is said."""
+        given = self.document.get(key)
+        if given is None or isinstance(given, bool):
+            return bool(given)
+        self.complain("request-not-flag", f"/{key}")
+        return False
+
     def names(self, key: str) -> tuple[str, ...]:
         return tuple(self._text(name, f"/{key}/{i}") for i, name in enumerate(self._list(key)))
 

@@ -67,7 +67,11 @@ def make_desk(width: int) -> Desk:
 
 @kernel
 def survey(flow: Flow, start: Floats, table: Survey, span: tuple[int, int], found: Found, desk: Desk) -> int:
-    """Fills the points span[0] … span[1] − 1 of `found`, each from the state `start`; FINE or CANCELLED."""
+    """Fills the points span[0] … span[1] − 1 of `found`; FINE or CANCELLED.
+
+    Each begins at the periodic state of the point before, if there is one, else at the state `start`.
+    """
+    near = False
     for point in range(span[0], span[1]):
         if flow.cancelled[0] != 0:
             return CANCELLED
@@ -76,8 +80,9 @@ def survey(flow: Flow, start: Floats, table: Survey, span: tuple[int, int], foun
         flow.times[1] = table.periods[point]
         state = found.states[point]
         for d in range(start.size):
-            state[d] = start[d]
+            state[d] = found.states[point - 1, d] if near else start[d]
         found.outcomes[point] = periodic(flow, state, found.matrices[point], desk)
+        near = found.outcomes[point] == FINE
     return FINE
 
 

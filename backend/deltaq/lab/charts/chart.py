@@ -1,0 +1,112 @@
+"""A chart as plain data for Plotly: traces and layout, with a title and a caption that says what was measured.
+
+Charts are drawn dark on light; the page puts its own colours over them. Colours are those of Okabe and Ito, which
+people with any colour vision can tell apart; symbols and dashes say the same once more.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+
+from ...simulation.library import get_method, method_ids
+
+Chart = dict[str, Any]
+Trace = dict[str, Any]
+Result = Mapping[str, Any]
+
+INK, GRID = "#222222", "#dddddd"
+PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b5b95", "#7f7f00")
+SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "star", "hexagon")
+FAILED = "x-thin-open"
+
+
+class Say(Protocol):
+    """The text under a key of the catalogs, its placeholders filled."""
+
+    def __call__(self, key: str, **parameters: object) -> str: ...
+
+
+def chart(identifier: str, title: str, caption: str, traces: Iterable[Trace], **layout: Any) -> Chart:
+    """A chart with the common look; `layout` is put over it."""
+    return {"id": identifier, "title": title, "caption": caption, "data": list(traces), "layout": _base() | layout}
+
+
+def _base() -> dict[str, Any]:
+    return {
+        "font": {"family": "system-ui, sans-serif", "size": 13, "color": INK},
+        "paper_bgcolor": "#ffffff",
+        "plot_bgcolor": "#ffffff",
+        "margin": {"l": 72, "r": 16, "t": 16, "b": 56},
+        "hovermode": "closest",
+        "legend": {"x": 1.02, "y": 1, "xanchor": "left", "yanchor": "top", "font": {"size": 12}},
+    }
+
+
+def axis(title: str, *, log: bool = False, **more: Any) -> dict[str, Any]:
+    """An axis with its quantity and unit."""
+    base = {
+        "title": {"text": title, "standoff": 8},
+        "gridcolor": GRID,
+        "linecolor": INK,
+        "mirror": True,
+        "showline": True,
+        "ticks": "outside",
+        "zeroline": False,
+        "exponentformat": "power",
+        "automargin": True,
+    }
+    return base | ({"type": "log", "dtick": 1} if log else {}) | more
+
+
+def look(name: str) -> dict[str, Any]:
+    """Colour, symbol and dash of a method, the same in every chart; others (peers) are grey."""
+    known = method_ids()
+    if name not in known:
+        place = sum(map(ord, name)) % len(SYMBOLS)
+        return {"color": "#888888", "symbol": f"{SYMBOLS[place]}-open", "dash": "dash"}
+    place, method = known.index(name), get_method(name)
+    dash = "dot" if method.tableau.is_symplectic else "solid" if method.is_explicit else "dashdot"
+    return {"color": PALETTE[place % len(PALETTE)], "symbol": SYMBOLS[(place * 3) % len(SYMBOLS)], "dash": dash}
+
+
+def name_of(method: str, say: Say) -> str:
+    """The method's title; a peer's own name."""
+    return say(f"methods.{method}.title") if method in method_ids() else f"SciPy {method.removeprefix('scipy-')}"
+
+
+def curve(name: str, x: Sequence[Any], y: Sequence[Any], method: str, **more: Any) -> Trace:
+    """A line with marks in the look of a method."""
+    style = look(method)
+    return {
+        "type": "scatter",
+        "mode": "lines+markers",
+        "name": name,
+        "x": list(x),
+        "y": list(y),
+        "line": {"color": style["color"], "dash": style["dash"], "width": 1.6},
+        "marker": {"color": style["color"], "symbol": style["symbol"], "size": 7},
+        "legendgroup": method,
+    } | more
+
+
+def numbers(values: Iterable[float]) -> dict[str, str]:
+    """Many numbers as Plotly reads them without parsing: base64 of single precision, which charts do not outdo."""
+    array = np.asarray(list(values), dtype="<f4")
+    return {"dtype": "f4", "bdata": base64.b64encode(array.tobytes()).decode()}
+
+
+def short(number: float | None) -> str:
+    """A number for a hover text."""
+    return "–" if number is None else f"{number:.3g}"
+
+
+def grouped(points: Iterable[Mapping[str, Any]]) -> dict[str, list[Mapping[str, Any]]]:
+    """Points by method, in their order."""
+    groups: dict[str, list[Mapping[str, Any]]] = {}
+    for point in points:
+        groups.setdefault(point["method"], []).append(point)
+    return groups

@@ -1,0 +1,115 @@
+"""Error against time and against right-hand sides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
+from typing import Any
+
+from .chart import FAILED, Chart, Result, Say, Trace, axis, chart, curve, grouped, look, name_of, short
+
+CEILING = 30.0  # where runs without an error are marked
+RANGE = [-15.5, 2.0]  # decades of the error
+
+
+def charts(result: Result, say: Say) -> list[Chart]:
+    """Two charts: by time, and by right-hand sides."""
+    reference, machine = result["reference"], result["machine"]
+    told = {
+        "title": say("labs.scene-title", title=_title(result, say)),
+        "t_end": short(result["t_end"]),
+        "methods": ", ".join(reference["methods"]),
+        "error": short(reference["error"]),
+        "repeats": result["repeats"],
+        **machine,
+    }
+    return [
+        _one(result, say, "time", axis(say("labs.axis.seconds"), log=True), say("labs.work-precision.by-time", **told)),
+        _one(
+            result,
+            say,
+            "evaluations",
+            axis(say("labs.axis.evaluations"), log=True),
+            say("labs.work-precision.by-evaluations", **told),
+        ),
+    ]
+
+
+def _title(result: Result, say: Say) -> str:
+    return str(result["title"].get(say("labs.language")) or next(iter(result["title"].values()), result["scene"]))
+
+
+def _one(result: Result, say: Say, x: str, x_axis: dict[str, Any], caption: str) -> Chart:
+    traces = list(_traces(result, say, x))
+    y_axis = axis(say("labs.axis.error"), log=True, range=RANGE, dtick=2)
+    title = say(f"labs.work-precision.title-{x}")
+    return chart(f"work-precision-{x}", title, caption, traces, xaxis=x_axis, yaxis=y_axis)
+
+
+def _traces(result: Result, say: Say, x: str) -> Iterator[Trace]:
+    for method, points in grouped(result["points"]).items():
+        good = [point for point in points if point["error"] is not None and point[x] > 0]
+        name, order = name_of(method, say), result["orders"].get(method)
+        label = name if order is None else say("labs.work-precision.with-slope", name=name, slope=short(order))
+        texts = [_hover(point, name, say) for point in good]
+        floor = [max(point["error"], 10 ** RANGE[0]) for point in good]
+        more = _spread(good) if x == "time" else {}
+        yield curve(label, [p[x] for p in good], floor, method, text=texts, hoverinfo="text", **more)
+        yield from _failures(points, method, x, say)
+
+
+def _spread(points: list[Mapping[str, Any]]) -> Trace:
+    """The fastest and slowest of the repeated runs, as bars."""
+    up = [p["times"][-1] - p["time"] if p["times"] else 0.0 for p in points]
+    down = [p["time"] - p["times"][0] if p["times"] else 0.0 for p in points]
+    return {
+        "error_x": {
+            "type": "data",
+            "symmetric": False,
+            "array": up,
+            "arrayminus": down,
+            "thickness": 1,
+            "width": 0,
+        }
+    }
+
+
+def _failures(points: list[Mapping[str, Any]], method: str, x: str, say: Say) -> Iterator[Trace]:
+    """Runs that have no error: crosses at the top; what is too slow: an arrow at the last run before."""
+    name, style = name_of(method, say), look(method)
+    bad = [point for point in points if point["error"] is None and point["status"] != "too_slow"]
+    slow = [(a, b) for a, b in pairwise(points) if b["status"] == "too_slow"]
+    places = [(max(point[x], 1e-6), CEILING, point) for point in bad]
+    places += [(1.6 * max(a[x], 1e-6), a["error"] or CEILING, b) for a, b in slow]
+    if not places:
+        return
+    yield {
+        "type": "scatter",
+        "mode": "markers",
+        "x": [place[0] for place in places],
+        "y": [place[1] for place in places],
+        "text": [_hover(place[2], name, say) for place in places],
+        "hoverinfo": "text",
+        "marker": {
+            "color": style["color"],
+            "size": 9,
+            "line": {"width": 1.6, "color": style["color"]},
+            "symbol": ["triangle-right" if p["status"] == "too_slow" else FAILED for _, _, p in places],
+        },
+        "legendgroup": method,
+        "showlegend": False,
+    }
+
+
+def _hover(point: Mapping[str, Any], name: str, say: Say) -> str:
+    kind = "tolerance" if "tolerance" in point else "step"
+    lines = [
+        f"<b>{name}</b>",
+        say(f"labs.hover.{kind}", value=short(point[kind])),
+        say("labs.hover.error", value=short(point["error"])),
+    ]
+    if point["status"] != "ok":
+        lines.append(say(f"labs.status.{point['status']}"))
+    if point["evaluations"]:
+        lines.append(say("labs.hover.cost", evaluations=point["evaluations"], milliseconds=short(1e3 * point["time"])))
+    return "<br>".join(lines)

@@ -1,0 +1,134 @@
+"""Chaos: twin runs that part, the Lyapunov exponent, what an extra digit buys, and a map of when angles turn over.
+
+Each further digit of accuracy lengthens the time that can be predicted by the same ln(10)/λ.
+Source: see `lab.divergence` and `lab.flips`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from ...errors import SceneError
+from ...mechanics.requests import inside
+from ...simulation.problem import Floats, Problem
+from ...simulation.reference import Reference, reference
+from ..charts.chaos import charts
+from ..divergence import APART, Exponent, exponents, solved, twins
+from ..experiment import Experiment
+from ..flips import Plane
+from ..period import period
+from ..report import Document, Report, rounded, significant
+from ..subject import Subject, subject_of
+
+SAMPLES, LONGEST, USUAL_SPAN = 801, 200.0, 30.0
+DIGITS = range(2, 13)
+WRONG = 0.1  # an error this large ends a prediction
+LEAST, MOST, USUAL = 16, 160, 96
+MAP_SPAN = 15.0  # seconds; at most that of the motion
+STRETCH = 0.4  # seconds, of scenes that nothing drives
+PARTS = {"twins": 1, "exponent": 25, "horizon": 11, "map": 3}
+
+
+def run(document: Mapping[str, object]) -> Iterator[Report]:
+    """Further fields: apart (first distance of the twins), map (whether), count (points on a side of the map)."""
+    subject = subject_of(document, SAMPLES, USUAL_SPAN)
+    apart = subject.request.number("apart", 0.0, 1.0) or APART
+    with_map, count = subject.request.flag("map"), subject.request.whole("count", LEAST, MOST, USUAL)
+    subject.request.number("t_end", 0.0, LONGEST)
+    subject.finish("apart", "map", "count")
+    problem, total = subject.problem, 40 + 10 * with_map
+    result = subject.described | {"apart": apart, "twins": _twins(problem, apart)}
+    yield Report(1, total, result)
+    done = 1
+    for done, found in enumerate(exponents(problem, stretch_of(subject)), start=2):
+        result = result | {"exponent": _exponent(found)}
+        yield Report(min(done, 27), total, result)
+    result = result | {"horizon": horizon(problem)}
+    yield Report(40, total, result)
+    if with_map:
+        for part in _map(subject, count):
+            result = result | {"map": part}
+            yield Report(total, total, result)
+
+
+def _twins(problem: Problem, apart: float) -> Document:
+    times, distances = twins(problem, apart, SAMPLES)
+    return {"t": rounded(times), "distance": rounded(distances, 4)}
+
+
+def stretch_of(subject: Subject) -> float:
+    """Seconds between two renewals of the deviation: whole periods where something drives the scene."""
+    try:
+        with inside("/scene"):
+            own = period(subject.scene)
+    except SceneError as error:
+        if error.problems[0].code == "no-period":
+            return STRETCH
+        raise
+    return own * max(1, round(STRETCH / own))
+
+
+def _exponent(found: Exponent) -> Document:
+    return {
+        "t": rounded(found.times[::4], 5),
+        "values": rounded(found.values[::4], 4),
+        "last": significant(found.last, 4),
+        "spread": significant(found.spread, 2),
+    }
+
+
+def horizon(problem: Problem) -> Document:
+    """The time that each tolerance predicts, and how much one more digit buys (least squares)."""
+    trusted = reference(problem)
+    known = int((trusted.errors < 0.1 * WRONG).cumprod().sum())
+    found = {10.0**-k: _lost(problem, 10.0**-k, trusted, known) for k in DIGITS}
+    told = [{"tolerance": tolerance, "t": significant(t)} for tolerance, t in found.items() if t is not None]
+    digits = np.array([-math.log10(tolerance) for tolerance, t in found.items() if t is not None])
+    times = np.array([t for t in found.values() if t is not None])
+    slope = significant(float(np.polyfit(digits, times, 1)[0]), 3) if len(times) >= 3 else None
+    return {"points": told, "per_digit": slope, "known_until": significant(float(trusted.times[known - 1]))}
+
+
+def _lost(problem: Problem, tolerance: float, trusted: Reference, known: int) -> float | None:
+    """The first time at which a run of this local tolerance is wrong; None if it is right while anything is known."""
+    found = solved(problem, trusted.times, tolerance)
+    count = min(known, len(found.times))
+    wrong = _differences(found.states[:count, : problem.degrees], trusted.values[:count]) > WRONG
+    return float(trusted.times[int(np.argmax(wrong))]) if wrong.any() else None
+
+
+def _differences(first: Floats, second: Floats) -> Floats:
+    return np.asarray(np.abs(first - second).max(axis=1))
+
+
+def _map(subject: Subject, count: int) -> Iterator[Document]:
+    """Turning over, from rest at the values of the first two angles."""
+    problem = replace(subject.problem, t_end=min(MAP_SPAN, subject.problem.t_end))
+    angles = [place for place, is_angle in enumerate(problem.angular) if is_angle]
+    if len(angles) < 2:
+        yield {"missing": "angles"}
+        return
+    at_rest = replace(problem, rates=(0.0,) * problem.degrees)
+    side = (np.arange(count) + 0.5) / count * math.tau - math.pi
+    names = [coordinate.name for coordinate in subject.scene.free]
+    for times in Plane(at_rest, angles[0], angles[1], side, side).refined():
+        yield {
+            "x": {"coordinate": names[angles[0]], "values": rounded(side, 5)},
+            "y": {"coordinate": names[angles[1]], "values": rounded(side, 5)},
+            "t_end": problem.t_end,
+            "times": [[_told(float(t)) for t in row] for row in times],
+        }
+
+
+def _told(time: float) -> float | None:
+    """−1 where nothing turns over in time, None where it is not known."""
+    if math.isnan(time):
+        return None
+    return significant(time, 3) if math.isfinite(time) else -1.0
+
+
+EXPERIMENT = Experiment("chaos", run, charts)

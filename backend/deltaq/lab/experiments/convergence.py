@@ -1,0 +1,50 @@
+"""Convergence: the error of every method with a fixed step h, which falls like h^p where p is the method's order.
+
+Methods with step control are held to the step, too. Below, rounding takes over; above, stability ends.
+Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import partial
+
+from ...simulation.library import get_method
+from ...simulation.reference import reference
+from ..charts.convergence import charts
+from ..experiment import Experiment
+from ..measurement import floor_of, measure, order_of
+from ..report import Document, Report
+from ..subject import bounded, methods_of, subject_of
+from ..sweep import SAMPLES, Track, fixed_steps, sweep
+from .work_precision import described
+
+STEP_LIMIT = 400_000
+
+
+def run(document: Mapping[str, object]) -> Iterator[Report]:
+    """Further fields: methods (ids, all if empty)."""
+    subject = subject_of(document, SAMPLES)
+    methods = methods_of(subject.request)
+    subject.finish("methods")
+    problem = bounded(subject, STEP_LIMIT)
+    trusted, settings = reference(problem), fixed_steps(problem)
+    tracks = [Track(method.id, settings, partial(measure, problem, method, trusted, repeats=1)) for method in methods]
+    head = subject.described | {"reference": described(trusted, problem)}
+    for done, total in sweep(tracks, trusted):
+        yield Report(done, total, head | _found(tracks, floor_of(trusted)))
+
+
+def _found(tracks: list[Track], floor: float) -> Document:
+    orders = {track.name: order_of(track.points, lambda point: 1.0 / point.setting.value, floor) for track in tracks}
+    return {
+        "points": [point.described for track in tracks for point in track.points],
+        "orders": {
+            name: {"measured": order, "theory": get_method(name).order}
+            for name, order in orders.items()
+            if order is not None
+        },
+    }
+
+
+EXPERIMENT = Experiment("convergence", run, charts)

@@ -1,0 +1,122 @@
+"""Stability of methods: regions |R(z)| ≤ 1 with the scene's own hλ in them, and the step at which each method fails.
+
+The scene is linearized at its present state. The step of failure is predicted from the method's stability function
+and measured by running it; a series over a stiffness shows what explicit and implicit methods pay as it grows.
+Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2–IV.3.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+from contourpy import contour_generator
+
+from ...mechanics.scene import Scene
+from ...simulation.driver import simulate
+from ...simulation.library import get_method
+from ...simulation.method import Method
+from ...simulation.problem import Problem
+from ...simulation.stability import Complexes, growth
+from ...simulation.stiffness import eigenvalues
+from ..charts.stability import charts
+from ..experiment import Experiment
+from ..failure import failure
+from ..report import Document, Report, rounded, significant
+from ..subject import Subject, bounded, methods_of, parameter_of, subject_of
+
+STIFFENED = ("rk4", "dop853", "stormer-verlet", "newmark", "radau-5")
+FACTORS = tuple(10.0 ** (k / 2) for k in range(13))  # of the stiffness: 1 to 10⁶
+TOLERANCE, STEP_LIMIT = 1e-4, 300_000
+REAL, IMAGINARY, FINE = (-8.0, 4.0), 6.5, 240  # the window of the regions
+ASIDE = 1e-7 * (1 + 1j)  # a grid that misses the poles
+
+
+def run(document: Mapping[str, object]) -> Iterator[Report]:
+    """Further fields: methods (ids), stiffness (a parameter that is made larger; the first of a spring if empty)."""
+    subject = subject_of(document)
+    methods = methods_of(subject.request)
+    wanted = subject.request.text("stiffness", "")
+    subject.finish("methods", "stiffness")
+    stiffness = wanted or stiffness_of(subject.scene)
+    place = parameter_of(subject, stiffness, "/stiffness") if stiffness else -1
+    problem = bounded(subject, STEP_LIMIT)
+    found = eigenvalues(problem, 0.0, problem.state[: 2 * problem.degrees])
+    series = [(factor, name) for factor in FACTORS for name in STIFFENED] if stiffness else []
+    total, done = 2 * len(methods) + len(series), 0
+    result = subject.described | _spectrum(found) | {"methods": [], "stiffness": stiffness, "series": []}
+    for method in methods:
+        done, result = done + 2, result | {"methods": [*_listed(result, "methods"), _row(problem, method, found)]}
+        yield Report(done, total, result)
+    for factor, name in series:
+        one = _stiffened(subject, place, factor, name)
+        done, result = done + 1, result | {"series": [*_listed(result, "series"), one]}
+        yield Report(done, total, result)
+
+
+def _listed(result: Document, key: str) -> list[object]:
+    found = result[key]
+    return found if isinstance(found, list) else []
+
+
+def _spectrum(found: Complexes) -> Document:
+    return {"eigenvalues": [[significant(z.real, 6), significant(z.imag, 6)] for z in found]}
+
+
+def stiffness_of(scene: Scene) -> str:
+    """The parameter that is the stiffness of the first spring, "" if there is none."""
+    names = {parameter.name for parameter in scene.parameters}
+    for load in scene.loads:
+        text = str(getattr(load, "stiffness", ""))
+        if text in names:
+            return text
+    return "k" if "k" in names else ""
+
+
+def _row(problem: Problem, method: Method, found: Complexes) -> Document:
+    fails = failure(problem, method, found)
+    return {
+        "method": method.id,
+        "implicit": not method.is_explicit,
+        "region": region(method),
+        "bound": _finite(fails.bound),
+        "predicted": _finite(fails.predicted),
+        "measured": _finite(fails.measured),
+        "deviation": None if fails.deviation is None else significant(fails.deviation, 2),
+        "cause": fails.cause,
+    }
+
+
+def _finite(step: float) -> float | None:
+    """None for: every step."""
+    return significant(step) if math.isfinite(step) else None
+
+
+def region(method: Method) -> list[list[list[float]]]:
+    """The boundary |R(z)| = 1 as closed or open lines [[x, y], …], in the upper and lower half plane."""
+    x, y = np.linspace(*REAL, FINE + 1), np.linspace(-IMAGINARY, IMAGINARY, FINE + 1)
+    sizes = growth(method.tableau, x + 1j * y[:, None] + ASIDE)
+    lines = contour_generator(x, y, np.minimum(np.nan_to_num(sizes, nan=2.0, posinf=2.0), 2.0)).lines(1.0)
+    return [[rounded(point, 4) for point in np.asarray(line)] for line in lines if len(line) > 8]
+
+
+def _stiffened(subject: Subject, place: int, factor: float, name: str) -> Document:
+    """What a tolerance costs with so many times the stiffness."""
+
+    values = list(subject.problem.parameters)
+    values[place] *= factor
+    problem = replace(subject.problem, parameters=tuple(values), step_limit=STEP_LIMIT, samples=101)
+    found = simulate(problem, get_method(name), tolerance=TOLERANCE)
+    return {
+        "method": name,
+        "factor": significant(factor),
+        "status": found.outcome.status,
+        "evaluations": found.cost.run_evaluations,
+        "time": significant(found.cost.run_time),
+        "error": None if found.estimate is None else significant(found.estimate.worst),
+    }
+
+
+EXPERIMENT = Experiment("stability", run, charts)

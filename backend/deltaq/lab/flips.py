@@ -1,0 +1,76 @@
+"""The time until an angle turns over, for a plane of initial values.
+
+Source: J. S. Heyl, The Double Pendulum Fractal (2008).
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ..simulation.integration import Flag
+from ..simulation.library import get_method
+from ..simulation.problem import Floats, Problem
+from ..simulation.run import Steps, run
+
+METHOD, TOLERANCE, PER_SECOND = "dormand-prince-54", 1e-6, 25
+COARSEST = 4
+
+
+@dataclass(frozen=True)
+class Plane:
+    """Initial values of two coordinates (by their places); all else is the problem's."""
+
+    problem: Problem
+    first: int
+    second: int
+    x: Floats
+    y: Floats
+    cancelled: Flag = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
+
+    def refined(self) -> Iterator[Floats]:
+        """Times (second, first), infinite where nothing turns over, NaN where not known yet: rough, then finer."""
+        found, stride = np.full((self.y.size, self.x.size), np.nan), COARSEST
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            while stride >= 1:
+                missing = [
+                    (i, j)
+                    for i in range(0, self.y.size, stride)
+                    for j in range(0, self.x.size, stride)
+                    if np.isnan(found[i, j])
+                ]
+                for (i, j), time in zip(missing, pool.map(self._time, missing, chunksize=64), strict=True):
+                    found[i, j] = time
+                yield found.copy()
+                stride //= 2
+
+    def _time(self, place: tuple[int, int]) -> float:
+        values = list(self.problem.values)
+        values[self.first], values[self.second] = float(self.x[place[1]]), float(self.y[place[0]])
+        return first_flip(replace(self.problem, values=tuple(values)), self.cancelled)
+
+
+def first_flip(problem: Problem, cancelled: Flag) -> float:
+    """The first time at which an angle that began between −π and π lies outside; infinite if none does in time."""
+    samples = max(2, round(PER_SECOND * problem.t_end) + 1)
+    times = np.linspace(0.0, problem.t_end, samples)
+    found = run(problem, get_method(METHOD), times, cancelled, Steps(problem.t_end / 10, TOLERANCE))
+    angles = [place for place, is_angle in enumerate(problem.angular) if is_angle]
+    over = np.abs(found.states[:, angles]) > math.pi
+    if not over.any():
+        return math.inf if found.is_complete else math.nan
+    return _crossing(found.times, found.states[:, angles], int(np.argmax(over.any(axis=1))))
+
+
+def _crossing(times: Floats, angles: Floats, index: int) -> float:
+    """Between two samples, by the secant of whichever angle crosses first."""
+    if index == 0:
+        return 0.0
+    before, after = np.abs(angles[index - 1]), np.abs(angles[index])
+    parts = [(math.pi - a) / (b - a) for a, b in zip(before, after, strict=True) if b > math.pi]
+    return float(times[index - 1] + min(parts) * (times[index] - times[index - 1]))

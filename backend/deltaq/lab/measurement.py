@@ -1,0 +1,123 @@
+"""One run of one method, measured: its error against a reference, its right-hand sides, its seconds.
+
+Errors are in the measure of a tolerance: the largest of any coordinate at any sample, absolute below 1 and relative
+above. Times are medians of repeated runs of the stepping loop alone; compiling and reading results do not count.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from statistics import median
+
+import numpy as np
+
+from ..simulation.kernels.motion import FINE
+from ..simulation.method import Method
+from ..simulation.outcome import outcome_of
+from ..simulation.problem import Floats, Problem
+from ..simulation.reference import Reference
+from ..simulation.run import Run, Steps, run
+from .report import Document, rounded, significant
+
+SLOW = 0.15  # seconds of a run, beyond which a finer one is not tried
+REPEATS, BRIEF = 7, 0.01  # short runs are repeated so often, long ones less
+
+
+@dataclass(frozen=True)
+class Setting:
+    """How fine: by the local tolerance of a method with step control, or by the step."""
+
+    kind: str
+    value: float
+
+    def steps(self, longest: float) -> Steps:
+        return Steps(longest, self.value) if self.kind == "tolerance" else Steps(self.value)
+
+
+@dataclass(frozen=True)
+class Point:
+    """What one run took and gave; without an error if it did not come to the end, and `status` says why."""
+
+    method: str
+    setting: Setting
+    status: str
+    error: float | None
+    evaluations: int = 0
+    steps: int = 0
+    seconds: tuple[float, ...] = ()
+
+    @property
+    def time(self) -> float:
+        return median(self.seconds) if self.seconds else 0.0
+
+    @property
+    def is_slow(self) -> bool:
+        return self.time > SLOW
+
+    @property
+    def described(self) -> Document:
+        return {
+            "method": self.method,
+            self.setting.kind: significant(self.setting.value),
+            "status": self.status,
+            "error": None if self.error is None else significant(self.error),
+            "evaluations": self.evaluations,
+            "steps": self.steps,
+            "time": significant(self.time),
+            "times": rounded(sorted(self.seconds), 4),
+        }
+
+
+def too_slow(method: str, setting: Setting) -> Point:
+    """A run that is not tried, since the one before took so long."""
+    return Point(method, setting, "too_slow", None)
+
+
+def measure(problem: Problem, method: Method, reference: Reference, setting: Setting, *, repeats: int) -> Point:
+    """The run, and how long it takes. `repeats` 1 measures the time but once."""
+    flag = np.zeros(1, dtype=np.int64)
+
+    def once() -> Run:
+        return run(problem, method, reference.times, flag, setting.steps(0.05 * problem.t_end))
+
+    first = once()
+    status = outcome_of(int(first.result.outcome), {}).status
+    seconds = repeated(lambda: once().wall_time, first.wall_time, repeats)
+    evaluations, steps = int(first.result.evaluations), int(first.result.steps + first.result.rejected)
+    error = error_of(first.states[:, : problem.degrees], reference) if first.result.outcome == FINE else None
+    return Point(method.id, setting, status, error, evaluations, steps, seconds)
+
+
+def repeated(again: Callable[[], float], first: float, repeats: int) -> tuple[float, ...]:
+    """The seconds of runs; the first one alone where it was long, and left out (it warms up) where it was short."""
+    if first > BRIEF or repeats == 1:
+        return (first, *(again() for _ in range(min(2, repeats - 1))))
+    return tuple(again() for _ in range(repeats))
+
+
+def error_of(values: Floats, reference: Reference) -> float | None:
+    """The largest error at any sample, or None where the run or the reference is not complete."""
+    if values.shape != reference.values.shape:
+        return None
+    return float(np.max(np.abs(values - reference.values) / np.maximum(1.0, np.abs(reference.values))))
+
+
+def floor_of(reference: Reference) -> float:
+    """Below this the reference itself is not known."""
+    return float(np.max(reference.errors / np.maximum(1.0, np.abs(reference.values).max(axis=1))))
+
+
+def order_of(points: list[Point], x: Callable[[Point], float], floor: float) -> float | None:
+    """The slope −d log(error)/d log(x) where errors are small but not yet rounding (least squares), if it shows."""
+    chosen = [
+        (x(point), point.error)
+        for point in points
+        if point.error is not None and 30.0 * floor < point.error < 1e-2 and x(point) > 0.0
+    ]
+    if len(chosen) < 3:
+        return None
+    logs = np.log(np.array(chosen))
+    if np.ptp(logs[:, 0]) < np.log(3.0):
+        return None
+    return significant(-float(np.polyfit(logs[:, 0], logs[:, 1], 1)[0]), 3)

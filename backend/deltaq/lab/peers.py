@@ -1,0 +1,70 @@
+"""SciPy's integrators in the same harness, over the same compiled right-hand side, if SciPy is installed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from importlib import import_module
+from importlib.util import find_spec
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from ..simulation.problem import Floats, Problem
+from ..simulation.reference import Reference
+from .measurement import Point, Setting, error_of, repeated
+from .sweep import TOLERANCES, Track
+
+PEERS = ("RK45", "DOP853", "Radau", "BDF", "LSODA")
+FINEST = 1e-12  # solve_ivp raises smaller relative tolerances by itself
+
+
+def peer_tracks(problem: Problem, reference: Reference) -> list[Track]:
+    """One track for each of SciPy's integrators; none where SciPy is missing."""
+    if find_spec("scipy") is None:
+        return []
+    settings = [Setting("tolerance", tolerance) for tolerance in TOLERANCES if tolerance >= FINEST]
+    return [Track(f"scipy-{name}", settings, partial(_measured, problem, reference, name)) for name in PEERS]
+
+
+def _measured(problem: Problem, reference: Reference, name: str, setting: Setting) -> Point:
+    def once() -> tuple[float, Any]:
+        start = perf_counter()
+        found = _solved(problem, reference.times, name, setting.value)
+        return perf_counter() - start, found
+
+    identifier = f"scipy-{name}"
+    try:
+        first, found = once()
+    except (ArithmeticError, ValueError):  # where M has no inverse, or numbers are no longer finite
+        return Point(identifier, setting, "diverged", None)
+    if not found.success:
+        return Point(identifier, setting, "diverged", None, int(found.nfev), 0, (first,))
+    seconds = repeated(lambda: once()[0], first, 3)
+    error = error_of(found.y.T[:, : problem.degrees], reference)
+    return Point(identifier, setting, "ok", error, int(found.nfev), 0, seconds)
+
+
+def _solved(problem: Problem, times: Floats, name: str, tolerance: float) -> Any:
+    solve_ivp = import_module("scipy.integrate").solve_ivp
+    start = problem.state[: 2 * problem.degrees]
+    options = {"t_eval": times, "rtol": max(tolerance, 1e-13), "atol": tolerance}
+    with np.errstate(all="ignore"):
+        return solve_ivp(_slope(problem), (0.0, float(times[-1])), start, method=name, **options)
+
+
+def _slope(problem: Problem) -> Callable[[float, Floats], Floats]:
+    """ẏ = (q̇, M⁻¹ f) with as little around the compiled functions as Python allows."""
+    n, motion = problem.degrees, problem.model.motion
+    lower, half = np.tril_indices(n), n * (n + 1) // 2
+    row, mass = np.zeros((1, motion.inputs)), np.zeros((n, n))
+    row[0, 2 * n + 1 :] = problem.parameters
+
+    def slope(t: float, state: Floats) -> Floats:
+        row[0, : 2 * n], row[0, 2 * n] = state, t
+        out = motion.table(row)[0]
+        mass[lower] = mass.T[lower] = out[:half]
+        return np.concatenate([state[n:], np.linalg.solve(mass, out[half : half + n])])
+
+    return slope

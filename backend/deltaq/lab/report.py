@@ -1,0 +1,44 @@
+"""What an experiment says while it runs."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+Document = dict[str, object]
+
+
+@dataclass(frozen=True)
+class Report:
+    """How far an experiment is, and what it has found so far, as plain data; the last report has everything."""
+
+    done: int
+    total: int
+    result: Document
+
+
+def significant(number: float, digits: int = 4) -> float:
+    """A number for people: a few significant digits."""
+    return float(f"{number:.{digits - 1}e}")
+
+
+def rounded(numbers: Iterable[float], digits: int = 6) -> list[float]:
+    return [significant(float(number), digits) for number in numbers]
+
+
+def machine() -> Document:
+    """What the times were measured on."""
+    return {"processor": _processor(), "cores": os.cpu_count() or 1}
+
+
+def _processor() -> str:
+    """The name that Linux gives it, else that of its architecture."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(names, "") or platform.machine()

@@ -1,0 +1,92 @@
+"""What an experiment is made on: a scene with its values, and the problem that they pose."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from ..errors import Problem as Mistake
+from ..errors import RequestError, UnknownNameError
+from ..mechanics.requests import inside
+from ..mechanics.scene import Scene
+from ..simulation.fields import Fields
+from ..simulation.library import get_method, method_ids
+from ..simulation.method import Method
+from ..simulation.problem import Problem
+from ..simulation.request import read_request
+from ..simulation.service import problem_of
+from .report import Document
+
+COMMON = ("scene", "guides", "freeze", "parameters", "initial", "t_end", "lang")
+LONGEST = 1000.0  # seconds of motion
+SPAN = 10.0
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A scene with the values wanted, on [0, t_end]; `request` is what else was asked for."""
+
+    scene: Scene
+    problem: Problem
+    request: Fields
+
+    def finish(self, *known: str) -> None:
+        """Raises RequestError with all that is wrong with the other fields, unknown ones included."""
+        self.request.reject_all_but((*COMMON, *known))
+        if self.request.problems:
+            raise RequestError(*self.request.problems)
+
+    @property
+    def described(self) -> Document:
+        """What of the subject belongs into every result."""
+        values = zip((p.name for p in self.scene.parameters), self.problem.parameters, strict=True)
+        starts = zip(self.scene.free, self.problem.values, self.problem.rates, strict=True)
+        return {
+            "scene": self.scene.id,
+            "title": dict(self.scene.title),
+            "t_end": self.problem.t_end,
+            "parameters": dict(values),
+            "initial": {c.name: {"value": value, "rate": rate} for c, value, rate in starts},
+        }
+
+
+def subject_of(document: Mapping[str, object], samples: int = 501, span: float = SPAN) -> Subject:
+    """The subject that a request names. Raises InputError for what cannot be read.
+
+    `document`: {scene: id or document, guides?, freeze?, parameters?, initial?, t_end?, lang?} and fields of its own.
+    """
+    fields = Fields(document)
+    t_end = fields.number("t_end", 0.0, LONGEST)
+    if fields.problems:
+        raise RequestError(*fields.problems)
+    common = {key: document[key] for key in COMMON if key in document}
+    request = read_request(common | {"t_end": t_end or span, "samples": samples})
+    with inside("/scene"):
+        problem = problem_of(request.scene, request.t_end, samples)
+    return Subject(request.scene, problem, fields)
+
+
+def bounded(subject: Subject, step_limit: int) -> Problem:
+    """The problem, with fewer steps allowed in one run."""
+    return replace(subject.problem, step_limit=step_limit)
+
+
+def methods_of(fields: Fields, default: tuple[str, ...] = ()) -> tuple[Method, ...]:
+    """The methods asked for, all if none is named. Raises UnknownNameError with the place in the list."""
+    found = []
+    for index, name in enumerate(fields.names("methods") or default or method_ids()):
+        try:
+            found.append(get_method(name))
+        except UnknownNameError as error:
+            problems = (replace(one, pointer=f"/methods/{index}") for one in error.problems)
+            raise UnknownNameError(*problems) from None
+    return tuple(dict.fromkeys(found))
+
+
+def parameter_of(subject: Subject, name: str, pointer: str) -> int:
+    """The place of a parameter among those of the model. Raises UnknownNameError if the scene has none of this name."""
+    known = subject.problem.model.layout.parameters
+    if name not in known:
+        told = {"name": name[:40], "known": ", ".join(known)}
+        raise UnknownNameError(Mistake("unknown-parameter", pointer, parameters=told))
+    return known.index(name)
