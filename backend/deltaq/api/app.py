@@ -26,6 +26,7 @@ from .workers.job import Job, JobError
 
 LOGGER = logging.getLogger("deltaq.api")
 WARM = Job("deltaq.api.jobs:warm", deadline=300.0)
+WARM_LABORATORY = Job("deltaq.api.jobs:warm_laboratory", deadline=300.0, threads=8)
 # What pages of other origins may do, where the settings let them in; they never bring cookies, for there are none.
 CROSS_ORIGIN: Any = {
     "allow_methods": ["GET", "POST"],
@@ -83,7 +84,8 @@ def _api() -> APIRouter:
 @asynccontextmanager
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     service: Service = app.state.service
-    service.pool.start()
+    for pool in (service.pool, service.laboratory):
+        pool.start()
     warming = asyncio.create_task(_warm(service))
     try:
         yield
@@ -91,12 +93,14 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         warming.cancel()
         with suppress(asyncio.CancelledError):
             await warming
-        await asyncio.to_thread(service.pool.stop)
+        for pool in (service.laboratory, service.pool):
+            await asyncio.to_thread(pool.stop)
 
 
 async def _warm(service: Service) -> None:
     """One worker compiles what is not compiled yet; the others answer meanwhile."""
     try:
         await service.pool.run(WARM, {})
+        await service.laboratory.run(WARM_LABORATORY, {})
     except JobError as error:
         LOGGER.warning("could not warm up: %s", error)

@@ -55,7 +55,7 @@ class Cache:
 
     async def _compute(self, key: str, compute: Callable[[], Awaitable[bytes]]) -> bytes:
         answer = await compute()
-        self._keep(key, answer)
+        self.keep(key, answer)
         return answer
 
     def _end(self, key: str, task: asyncio.Task[bytes]) -> None:
@@ -63,7 +63,8 @@ class Cache:
         if not task.cancelled():
             task.exception()  # mark as seen: those who waited may all be gone
 
-    def _keep(self, key: str, answer: bytes) -> None:
+    def keep(self, key: str, answer: bytes) -> None:
+        """Keep an answer; the least used ones make room."""
         cost = len(answer) + OVERHEAD
         if cost > self.size:
             return

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import partial
 from importlib import import_module
+from time import monotonic
 from typing import Any
 
 from ..mechanics.document import examine
@@ -11,6 +14,7 @@ from ..narration.catalog import text
 from .problems import describe
 
 Document = dict[str, Any]
+PART_PAUSE = 0.4  # seconds between two parts of a stream
 
 
 def derive(document: Document) -> Document:
@@ -128,3 +132,30 @@ def check_lines(document: Document) -> Document:
 def check_batch(document: Document) -> Document:
     """The verdicts on several answers."""
     return {"verdicts": import_module("deltaq.homework.service").batch_request(document)}
+
+
+def experiment(document: Document) -> Iterator[Document]:
+    """Parts with the charts so far, not more often than they can be looked at; then the result with its charts."""
+    given = {key: value for key, value in document.items() if key != "experiment" and value is not None}
+    found = import_module("deltaq.lab.experiment").get_experiment(document["experiment"])
+    say, shown, result = partial(text, document["lang"]), 0.0, {}
+    for report in found.run(given):
+        result = report.result
+        if monotonic() - shown > PART_PAUSE:
+            yield {"done": report.done, "total": report.total, "charts": found.charts(result, say)}
+            shown = monotonic()
+    yield {"experiment": found.id, **result, "charts": found.charts(result, say)}
+
+
+def export_charts(document: Document) -> Document:
+    """Charts as a file."""
+    export = import_module("deltaq.lab.export")
+    if document["form"] == "csv":
+        return {"text": export.table(document["charts"])}
+    return {"text": export.page(document["charts"], document["lang"])}
+
+
+def warm_laboratory(document: Document) -> Document:
+    """Bring the kernels that only experiments need to disk."""
+    import_module("deltaq.lab.monodromy").warm()
+    return document

@@ -31,6 +31,7 @@ class Service:
 
     settings: Settings
     pool: Pool
+    laboratory: Pool  # experiments: few at a time, for they measure times
     cache: Cache
     assets: Assets
     metrics: Metrics
@@ -53,13 +54,19 @@ def make_service(settings: Settings) -> Service:
     """A service; its workers are not started yet."""
     limits = Limits(settings.worker_memory, settings.jobs_per_worker, settings.start_timeout, settings.queue_patience)
     pool = Pool(settings.workers, settings.queue_length, limits, (PRELOAD,))
+    laboratory = Pool(settings.experiment_workers, settings.experiment_queue, limits, (PRELOAD,))
     cache = Cache(settings.cache_size)
-    return Service(settings, pool, cache, Assets(static_root(settings.static)), make_metrics(pool, cache))
+    return Service(settings, pool, laboratory, cache, Assets(static_root(settings.static)), make_metrics(pool, cache))
 
 
 def pack(answer: bytes) -> bytes:
     """Compressed once, for every time it is sent."""
     return gzip.compress(answer, 5, mtime=0)
+
+
+def unpack(answer: bytes) -> bytes:
+    """The JSON of a kept answer."""
+    return gzip.decompress(answer)
 
 
 def service_of(request: Request) -> Service:

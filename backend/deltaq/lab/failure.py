@@ -23,7 +23,9 @@ from ..simulation.stability import Complexes, growth, largest_stable_step
 FAILING = 0.01  # growth in one step, above 1
 FINEST, COARSEST, PER_DECADE = 1e-3, 1e2, 24  # steps looked at, times the largest |λ|
 STEPS = 800  # in one run
-KICK = 1e-7
+KICK, LINEAR = 1e-7, 1e-3  # deviations: at first, and as long as they follow the linearized motion
+ROUNDING = 1e-12  # below, deviations grow and shrink by chance
+FEWEST = 80  # steps that a deviation stays small, else it grows by ten percent in each
 PRECISION = 2e-3  # of the step found
 
 
@@ -96,7 +98,11 @@ class _Trial:
         first, second = self._pair(h)
         if first.result.outcome not in (FINE, STEP_LIMIT) or second.result.outcome not in (FINE, STEP_LIMIT):
             return True
-        grown = growth_in_a_step(np.linalg.norm(first.states - second.states, axis=1))
+        distances = np.linalg.norm(first.states - second.states, axis=1)
+        small = int((distances < LINEAR).cumprod().sum())
+        if small < FEWEST:
+            return True
+        grown = growth_in_a_step(distances[:small])
         return grown / math.exp(min(h * self.drive, 700.0)) - 1.0 > FAILING
 
     def cause(self, h: float) -> str:
@@ -119,9 +125,8 @@ class _Trial:
 def growth_in_a_step(distances: Floats) -> float:
     """The factor by which distances grow per step, from the largest of the second and of the last quarter."""
     quarter = len(distances) // 4
-    early, late = distances[quarter : 2 * quarter].max(initial=0.0), distances[3 * quarter :].max(initial=0.0)
-    if not (early > 0.0 and np.isfinite(late)):
-        return math.inf if not np.isfinite(late) else 1.0
+    early = distances[quarter : 2 * quarter].max(initial=ROUNDING)
+    late = distances[3 * quarter :].max(initial=ROUNDING)
     return float((late / early) ** (1.0 / (2 * quarter)))
 
 

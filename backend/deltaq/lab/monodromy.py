@@ -17,6 +17,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mechanics.library import load_scene
 from ..simulation.integration import Flag, explicit_weights, motion_of
 from ..simulation.kernels.monodromy import Flow, Found, Survey, make_desk, survey
 from ..simulation.kernels.motion import CANCELLED, FINE
@@ -26,6 +27,7 @@ from ..simulation.library import get_method
 from ..simulation.method import Tableau
 from ..simulation.problem import Floats
 from ..simulation.problem import Problem as InitialValueProblem
+from ..simulation.service import problem_of
 from ..simulation.stability import real_stability
 
 METHOD = "dop853"
@@ -124,3 +126,9 @@ class Plane:
         shape, width = self.periods.shape, 2 * self.problem.degrees
         states, roots = found.states.reshape(*shape, width), multipliers.reshape(*shape, width)
         return StabilityMap(self.first, self.second, growth.reshape(shape), states, roots)
+
+
+def warm() -> None:
+    """Compiles the survey's kernel, or loads it from the cache on disk."""
+    problem = problem_of(load_scene("kapitza"), 1.0)
+    Plane(problem, Axis("omega", (60.0,)), Axis("y0", (0.07,)), np.full((1, 1), 0.1)).map()

@@ -15,11 +15,10 @@ from ..simulation.method import Method
 from ..simulation.problem import Problem
 from ..simulation.request import read_request
 from ..simulation.service import problem_of
+from .bounds import LONGEST, SPAN
 from .report import Document
 
 COMMON = ("scene", "guides", "freeze", "parameters", "initial", "t_end", "lang")
-LONGEST = 1000.0  # seconds of motion
-SPAN = 10.0
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,6 @@ def charts(result: Result, say: Say) -> list[Chart]:
     """Two charts: by time, and by right-hand sides."""
     reference, machine = result["reference"], result["machine"]
     told = {
-        "title": say("labs.scene-title", title=_title(result, say)),
         "t_end": short(result["t_end"]),
         "methods": ", ".join(reference["methods"]),
         "error": short(reference["error"]),
@@ -33,10 +32,6 @@ def charts(result: Result, say: Say) -> list[Chart]:
             say("labs.work-precision.by-evaluations", **told),
         ),
     ]
-
-
-def _title(result: Result, say: Say) -> str:
-    return str(result["title"].get(say("labs.language")) or next(iter(result["title"].values()), result["scene"]))
 
 
 def _one(result: Result, say: Say, x: str, x_axis: dict[str, Any], caption: str) -> Chart:

@@ -16,6 +16,7 @@ from ...errors import SceneError
 from ...mechanics.requests import inside
 from ...simulation.problem import Floats, Problem
 from ...simulation.reference import Reference, reference
+from ..bounds import CHAOS_LONGEST, CHAOS_SPAN, FLIP_POINTS, USUAL_FLIPS
 from ..charts.chaos import charts
 from ..divergence import APART, Exponent, exponents, solved, twins
 from ..experiment import Experiment
@@ -24,21 +25,19 @@ from ..period import period
 from ..report import Document, Report, rounded, significant
 from ..subject import Subject, subject_of
 
-SAMPLES, LONGEST, USUAL_SPAN = 801, 200.0, 30.0
+SAMPLES = 801
 DIGITS = range(2, 13)
 WRONG = 0.1  # an error this large ends a prediction
-LEAST, MOST, USUAL = 16, 160, 96
 MAP_SPAN = 15.0  # seconds; at most that of the motion
 STRETCH = 0.4  # seconds, of scenes that nothing drives
-PARTS = {"twins": 1, "exponent": 25, "horizon": 11, "map": 3}
 
 
 def run(document: Mapping[str, object]) -> Iterator[Report]:
     """Further fields: apart (first distance of the twins), map (whether), count (points on a side of the map)."""
-    subject = subject_of(document, SAMPLES, USUAL_SPAN)
+    subject = subject_of(document, SAMPLES, CHAOS_SPAN)
     apart = subject.request.number("apart", 0.0, 1.0) or APART
-    with_map, count = subject.request.flag("map"), subject.request.whole("count", LEAST, MOST, USUAL)
-    subject.request.number("t_end", 0.0, LONGEST)
+    with_map, count = subject.request.flag("map"), subject.request.whole("count", *FLIP_POINTS, USUAL_FLIPS)
+    subject.request.number("t_end", 0.0, CHAOS_LONGEST)
     subject.finish("apart", "map", "count")
     problem, total = subject.problem, 40 + 10 * with_map
     result = subject.described | {"apart": apart, "twins": _twins(problem, apart)}

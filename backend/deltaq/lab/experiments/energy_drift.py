@@ -20,6 +20,7 @@ from ...simulation.problem import Floats, Problem
 from ...simulation.run import Run, Steps
 from ...simulation.run import run as run_once
 from ...simulation.stiffness import spectrum
+from ..bounds import DRIFT_STEPS, LOCAL_TOLERANCES, USUAL_DRIFT
 from ..charts.energy_drift import charts
 from ..experiment import Experiment
 from ..report import Document, Report, rounded, significant
@@ -27,7 +28,6 @@ from ..subject import methods_of, subject_of
 
 METHODS = ("symplectic-euler", "stormer-verlet", "implicit-midpoint", "gauss-4", "explicit-euler", "heun", "rk4")
 VARIABLE = ("dormand-prince-54", "dop853", "radau-5")
-FEWEST, MOST, USUAL = 1_000, 1_000_000, 100_000
 PER_PERIOD = 40  # steps in a period of the fastest motion, if no step is given
 WINDOWS, IN_WINDOW = 240, 40
 LOCAL_TOLERANCE = 1e-6
@@ -39,12 +39,12 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     """Further fields: methods (ids), steps (1e3 to 1e6), step (seconds), tolerance (local, of variable steps)."""
     subject = subject_of(document)
     methods = methods_of(subject.request, (*METHODS, *VARIABLE))
-    count = subject.request.whole("steps", FEWEST, MOST, USUAL)
+    count = subject.request.whole("steps", *DRIFT_STEPS, USUAL_DRIFT)
     step = subject.request.number("step", 0.0, 1e3)
-    tolerance = subject.request.number("tolerance", 1e-13, 1e-1, closed=True) or LOCAL_TOLERANCE
+    tolerance = subject.request.number("tolerance", *LOCAL_TOLERANCES, closed=True) or LOCAL_TOLERANCE
     subject.finish("methods", "steps", "step", "tolerance")
     size = step or _usual_step(subject.problem)
-    problem = replace(subject.problem, t_end=count * size, step_limit=4 * MOST)
+    problem = replace(subject.problem, t_end=count * size, step_limit=4 * DRIFT_STEPS[1])
     head = subject.described | {"t_end": count * size, "steps": count, "step": size, "tolerance": tolerance}
     lines: list[Document] = []
     for method in methods:

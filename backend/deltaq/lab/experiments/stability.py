@@ -14,6 +14,8 @@ from dataclasses import replace
 import numpy as np
 from contourpy import contour_generator
 
+from ...language.tree import Name
+from ...mechanics.loads.spring import Spring
 from ...mechanics.scene import Scene
 from ...simulation.driver import simulate
 from ...simulation.library import get_method
@@ -21,38 +23,46 @@ from ...simulation.method import Method
 from ...simulation.problem import Problem
 from ...simulation.stability import Complexes, growth
 from ...simulation.stiffness import eigenvalues
+from ..bounds import AT
 from ..charts.stability import charts
 from ..experiment import Experiment
 from ..failure import failure
 from ..report import Document, Report, rounded, significant
+from ..rest import at_rest
 from ..subject import Subject, bounded, methods_of, parameter_of, subject_of
 
 STIFFENED = ("rk4", "dop853", "stormer-verlet", "newmark", "radau-5")
-FACTORS = tuple(10.0 ** (k / 2) for k in range(13))  # of the stiffness: 1 to 10⁶
+FACTORS = tuple(10.0 ** (k / 2) for k in range(11))  # of the stiffness: 1 to 10⁵
 TOLERANCE, STEP_LIMIT = 1e-4, 300_000
 REAL, IMAGINARY, FINE = (-8.0, 4.0), 6.5, 240  # the window of the regions
 ASIDE = 1e-7 * (1 + 1j)  # a grid that misses the poles
 
 
 def run(document: Mapping[str, object]) -> Iterator[Report]:
-    """Further fields: methods (ids), stiffness (a parameter that is made larger; the first of a spring if empty)."""
+    """Further fields: methods (ids), at (state or rest), stiffness (a parameter; that of the first spring if empty)."""
     subject = subject_of(document)
     methods = methods_of(subject.request)
     wanted = subject.request.text("stiffness", "")
-    subject.finish("methods", "stiffness")
+    at = subject.request.one_of("at", AT)
+    subject.finish("methods", "stiffness", "at")
     stiffness = wanted or stiffness_of(subject.scene)
     place = parameter_of(subject, stiffness, "/stiffness") if stiffness else -1
     problem = bounded(subject, STEP_LIMIT)
+    problem = at_rest(problem, "/at") if at == "rest" else problem
     found = eigenvalues(problem, 0.0, problem.state[: 2 * problem.degrees])
     series = [(factor, name) for factor in FACTORS for name in STIFFENED] if stiffness else []
     total, done = 2 * len(methods) + len(series), 0
-    result = subject.described | _spectrum(found) | {"methods": [], "stiffness": stiffness, "series": []}
+    result = subject.described | _spectrum(found) | {"at": at, "methods": [], "stiffness": stiffness, "series": []}
     for method in methods:
         done, result = done + 2, result | {"methods": [*_listed(result, "methods"), _row(problem, method, found)]}
         yield Report(done, total, result)
+    failed: set[str] = set()  # what fails at one stiffness is not tried at a larger one
     for factor, name in series:
-        one = _stiffened(subject, place, factor, name)
-        done, result = done + 1, result | {"series": [*_listed(result, "series"), one]}
+        done += 1
+        if name not in failed:
+            one = _stiffened(subject, place, factor, name)
+            failed |= {name} if one["status"] != "ok" else set()
+            result = result | {"series": [*_listed(result, "series"), one]}
         yield Report(done, total, result)
 
 
@@ -66,13 +76,11 @@ def _spectrum(found: Complexes) -> Document:
 
 
 def stiffness_of(scene: Scene) -> str:
-    """The parameter that is the stiffness of the first spring, "" if there is none."""
-    names = {parameter.name for parameter in scene.parameters}
-    for load in scene.loads:
-        text = str(getattr(load, "stiffness", ""))
-        if text in names:
-            return text
-    return "k" if "k" in names else ""
+    """The parameter that is the stiffness of the first spring, else the first in N/m, "" if there is none."""
+    for spring in (load for load in scene.loads if isinstance(load, Spring)):
+        if isinstance(spring.stiffness.tree, Name):
+            return spring.stiffness.tree.name
+    return next((parameter.name for parameter in scene.parameters if parameter.unit == "N/m"), "")
 
 
 def _row(problem: Problem, method: Method, found: Complexes) -> Document:

@@ -15,6 +15,7 @@ import numpy as np
 from ...language.tree import Name, walk
 from ...mechanics.requests import inside
 from ...simulation.fields import Fields
+from ..bounds import MAP_POINTS, USUAL_MAP
 from ..charts.stability_map import charts
 from ..experiment import Experiment
 from ..monodromy import Axis, Plane, StabilityMap
@@ -22,7 +23,6 @@ from ..period import clocks, period
 from ..report import Document, Report, rounded, significant
 from ..subject import Subject, parameter_of, subject_of
 
-LEAST, MOST, USUAL = 8, 400, 200
 COARSEST = 8
 
 
@@ -55,7 +55,7 @@ def _axis(subject: Subject, key: str) -> Axis:
     if not isinstance(given, Mapping):
         subject.request.complain("missing-field", f"/{key}", field=key)
         return Axis("", (0.0, 1.0))
-    name, count = fields.text("parameter", ""), fields.whole("count", LEAST, MOST, USUAL)
+    name, count = fields.text("parameter", ""), fields.whole("count", *MAP_POINTS, USUAL_MAP)
     low = fields.number("from", -1e9, 1e9, closed=True, required=True)
     high = fields.number("to", -1e9, 1e9, closed=True, required=True)
     if low is not None and high is not None and not low < high:

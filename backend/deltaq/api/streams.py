@@ -1,0 +1,50 @@
+"""Server-sent events (WHATWG HTML §9.2): what a long computation says while it runs."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Awaitable, Callable
+from typing import Any
+
+from fastapi import Request
+
+MEDIA_TYPE = "text/event-stream"
+LOOK_UP = 0.25  # seconds between two looks at whether the client is still there
+
+
+def event(kind: str, data: bytes) -> bytes:
+    """One event; JSON has no line breaks of its own."""
+    return b"event: %b\ndata: %b\n\n" % (kind.encode(), data)
+
+
+async def events(
+    work: Callable[[Callable[[bytes], object]], Awaitable[bytes]], failure: Callable[[Exception], dict[str, Any]]
+) -> AsyncIterator[bytes]:
+    """`part` for each part that the work lets hear, then `result`, or `problem` with a problem document.
+
+    When the client goes away, the work is cancelled.
+    """
+    parts: asyncio.Queue[bytes | None] = asyncio.Queue()
+    task = asyncio.ensure_future(work(parts.put_nowait))
+    task.add_done_callback(lambda _: parts.put_nowait(None))
+    try:
+        while (part := await parts.get()) is not None:
+            yield event("part", part)
+        yield event("result", task.result())
+    except Exception as error:  # noqa: BLE001  the head has been sent, so a failure is an event
+        yield event("problem", json.dumps(failure(error), ensure_ascii=False).encode())
+    finally:
+        task.cancel()
+
+
+async def while_connected(request: Request, work: Awaitable[bytes]) -> bytes:
+    """The work's answer; the work is cancelled when the client goes away."""
+    task = asyncio.ensure_future(work)
+    try:
+        while not (await asyncio.wait({task}, timeout=LOOK_UP))[0]:
+            if await request.is_disconnected():
+                task.cancel()
+        return await task
+    finally:
+        task.cancel()

@@ -1,0 +1,128 @@
+"""Experiments: what may be asked of each, and what a result is."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import ConfigDict, Field
+
+from ...lab.bounds import (
+    AT,
+    CHAOS_LONGEST,
+    CHAOS_SPAN,
+    DRIFT_STEPS,
+    FLIP_POINTS,
+    LOCAL_TOLERANCES,
+    LONGEST,
+    MAP_POINTS,
+    SPAN,
+    USUAL_DRIFT,
+    USUAL_FLIPS,
+    USUAL_MAP,
+)
+from ..languages import Language
+from .base import Answer, Guides, Name, Names, Request, SceneReference, Values
+from .simulation import InitialValue
+
+
+class ExperimentRequest(Request):
+    """The scene to experiment on, with its changes and values."""
+
+    scene: SceneReference
+    guides: Guides = Field((), description="coordinates to be made functions of time")
+    freeze: Names = Field((), description="coordinates to be held constant", examples=[[]])
+    parameters: Values = Field({}, description="values of parameters", examples=[{"l": 0.8}])
+    initial: Annotated[dict[Name, InitialValue], Field(max_length=64)] = Field({}, examples=[{"phi": {"value": 0.5}}])
+    t_end: float = Field(SPAN, gt=0, le=LONGEST, description="seconds of motion", examples=[10.0])
+    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+
+MethodIds = Annotated[Names, Field(description="methods of GET /methods; all if empty", examples=[["rk4", "dop853"]])]
+
+
+class WorkPrecisionRequest(ExperimentRequest):
+    """Error against time and right-hand sides."""
+
+    methods: MethodIds = ()
+    peers: bool = Field(default=False, description="whether SciPy's integrators take part, where SciPy is installed")
+
+
+class ConvergenceRequest(ExperimentRequest):
+    """Error against a fixed step."""
+
+    methods: MethodIds = ()
+
+
+class EnergyDriftRequest(ExperimentRequest):
+    """Departure of the energy balance over many steps; the span is their number times the step."""
+
+    methods: MethodIds = ()
+    steps: int = Field(USUAL_DRIFT, ge=DRIFT_STEPS[0], le=DRIFT_STEPS[1])
+    step: float | None = Field(None, gt=0, le=1e3, description="seconds; else a fortieth of the fastest period")
+    tolerance: float | None = Field(
+        None, ge=LOCAL_TOLERANCES[0], le=LOCAL_TOLERANCES[1], description="local tolerance of variable steps"
+    )
+
+
+class StabilityRequest(ExperimentRequest):
+    """Regions of stability, steps of failure, and a series over a stiffness."""
+
+    methods: MethodIds = ()
+    at: Literal["state", "rest"] = Field("state", description=f"where the scene is linearized: {' or '.join(AT)}")
+    stiffness: str | None = Field(None, max_length=64, description="parameter that is made larger; a spring's if empty")
+
+
+class MapAxis(Request):
+    """A parameter and its range."""
+
+    parameter: Name = Field(examples=["omega"])
+    start: float = Field(alias="from", examples=[20.0])
+    to: float = Field(examples=[120.0])
+    count: int = Field(USUAL_MAP, ge=MAP_POINTS[0], le=MAP_POINTS[1], description="points on this side")
+
+    model_config = ConfigDict(serialize_by_alias=True)
+
+
+class StabilityMapRequest(ExperimentRequest):
+    """Floquet multipliers over two parameters of a scene that something drives periodically."""
+
+    x: MapAxis
+    y: MapAxis
+
+
+class ChaosRequest(ExperimentRequest):
+    """Twin runs, Lyapunov exponent, horizon against tolerance, and a map of flips."""
+
+    t_end: float = Field(CHAOS_SPAN, gt=0, le=CHAOS_LONGEST, description="seconds of motion")
+    apart: float | None = Field(None, gt=0, le=1.0, description="how far the twins are apart at first")
+    map: bool = Field(default=False, description="whether to map the times at which angles turn over")
+    count: int = Field(USUAL_FLIPS, ge=FLIP_POINTS[0], le=FLIP_POINTS[1], description="points on a side of the map")
+
+
+class Chart(Answer):
+    """A figure for Plotly, with what it shows and how that was measured."""
+
+    id: str
+    title: str
+    caption: str
+    data: tuple[dict[str, Any], ...]
+    layout: dict[str, Any]
+
+
+class ExperimentAnswer(Answer):
+    """What was found, as numbers and as charts. Members besides these depend on the experiment."""
+
+    experiment: str = Field(examples=["work-precision"])
+    scene: str
+    t_end: float
+    charts: tuple[Chart, ...]
+
+
+REQUESTS: dict[str, type[ExperimentRequest]] = {
+    "work-precision": WorkPrecisionRequest,
+    "convergence": ConvergenceRequest,
+    "energy-drift": EnergyDriftRequest,
+    "stability": StabilityRequest,
+    "stability-map": StabilityMapRequest,
+    "chaos": ChaosRequest,
+}
