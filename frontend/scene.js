@@ -12,6 +12,7 @@ import { readPlace, startLanguage, writePlace } from "./model/url.js";
 import { fixed } from "./model/numbers.js";
 import { createDrawing } from "./view/drawing.js";
 import { createPlots } from "./view/plots.js";
+import { createTransport } from "./view/player.js";
 import { createReadouts } from "./view/readouts.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
 import { listen } from "./view/keys.js";
@@ -27,7 +28,7 @@ const reach = createReach(root);
 const api = createApi(fetch.bind(globalThis));
 const session = createSession(store, api, clock);
 
-/** @type {{drawing: ReturnType<typeof createDrawing>, plots: ReturnType<typeof createPlots>, readouts: ReturnType<typeof createReadouts>, scrub: HTMLInputElement, time: HTMLElement} | null} */
+/** @type {{drawing: ReturnType<typeof createDrawing>, plots: ReturnType<typeof createPlots>, readouts: ReturnType<typeof createReadouts>, transport: ReturnType<typeof createTransport>} | null} */
 let parts = null;
 
 /** The editor, once it has been opened: most readers never need it, so it is fetched then. @type {import("./view/page.js").View["editor"]} */
@@ -102,10 +103,8 @@ function show(t) {
   parts.drawing.draw(t);
   parts.plots.move(t);
   parts.readouts.move(t);
-  parts.scrub.value = String(t);
-  parts.scrub.style.setProperty("--filled", String(clock.end ? t / clock.end : 0));
-  parts.time.textContent = `${fixed(t, 2, lang)} s`;
-  if (!clock.playing) parts.scrub.setAttribute("aria-valuetext", moment(t, parts.readouts.text(t)));
+  parts.transport.move(t, clock, lang);
+  if (!clock.playing) parts.transport.scrub.setAttribute("aria-valuetext", moment(t, parts.readouts.text(t)));
 }
 
 function assemble() {
@@ -115,8 +114,7 @@ function assemble() {
     drawing: createDrawing(frame),
     plots: createPlots(find(".plots"), { seek: scrub }),
     readouts: createReadouts(find(".readouts")),
-    scrub: /** @type {HTMLInputElement} */ (find(".scrub")),
-    time: find(".time"),
+    transport: createTransport(find(".player")),
   };
   new ResizeObserver(() => made.drawing.resize(clock.time)).observe(frame);
   return made;

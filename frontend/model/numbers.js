@@ -7,19 +7,17 @@ function raised(exponent) {
   return [...String(exponent)].map((c) => RAISED[/** @type {keyof typeof RAISED} */ (c)]).join("");
 }
 
+/** What stands before the decimals, where it is not a point. @type {Record<string, string>} */
+const MARK = { de: "," };
+
 /**
  * Fixed number of decimals; a true minus sign, and never a negative zero.
  * @param {number} value @param {number} decimals @param {string} lang
  */
 export function fixed(value, decimals, lang) {
   if (!Number.isFinite(value)) return "–";
-  const rounded = Number(value.toFixed(decimals)) || 0;
-  const text = Math.abs(rounded).toLocaleString(lang, {
-    minimumFractionDigits: decimals,
-    maximumFractionDigits: decimals,
-    useGrouping: false,
-  });
-  return rounded < 0 ? `−${text}` : text;
+  const text = value.toFixed(decimals).replace(".", MARK[lang] ?? ".");
+  return text.replace(/^-/, /[1-9]/.test(text) ? "−" : "");
 }
 
 /**

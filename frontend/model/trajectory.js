@@ -74,14 +74,13 @@ export function snapshotAt(trajectory, t) {
 }
 
 /**
- * The path of a place over the last `span` seconds, oldest first.
- * @param {Trajectory} trajectory @param {string} place @param {number} t @param {number} span @param {number} count
+ * The path of a place from one time to a later one, oldest first.
+ * @param {Trajectory} trajectory @param {string} place @param {number} from @param {number} to @param {number} count of intervals
  */
-export function trailOf(trajectory, place, t, span, count) {
+export function trailOf(trajectory, place, from, to, count) {
   const path = trajectory.positions[place];
-  const start = Math.max(trajectory.t[0], t - span);
-  if (!path || t <= start) return [];
-  const times = Array.from({ length: count + 1 }, (_, i) => start + ((t - start) * i) / count);
+  if (!path || to <= from) return [];
+  const times = Array.from({ length: count + 1 }, (_, i) => from + ((to - from) * i) / count);
   return times.map((time) => vectorAt(path, blendAt(trajectory.t, time)));
 }
 

@@ -6,63 +6,77 @@ import { snapshotAt } from "../model/trajectory.js";
 
 /** @typedef {import("../model/types.js").Shape} Shape */
 /** @typedef {import("../model/types.js").Label} Label */
+/** @typedef {import("../model/types.js").Pixel} Pixel */
 /** @typedef {import("../model/types.js").Scene} Scene */
 /** @typedef {import("../model/types.js").Trajectory} Trajectory */
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** @param {Element} element @param {string} name @param {string} value */
-function put(element, name, value) {
-  if (element.getAttribute(name) !== value) element.setAttribute(name, value);
-}
-
 /**
- * Elements by key: made when first wanted, kept in order, removed when no longer wanted.
+ * Elements by key: made when first wanted, kept in order, removed when no longer wanted. Each remembers what was
+ * last written to it, because asking the page costs as much as writing.
  * @template {{key: string, className: string}} T
  * @template {Element} E
- * @param {Element} parent @param {(item: T) => E} make @param {(element: E, item: T) => void} update
+ * @param {Element} parent @param {() => E} make @param {(element: E, item: T, last: Partial<T>) => void} update
  */
 function pool(parent, make, update) {
-  /** @type {Map<string, {element: E, className: string}>} */
-  const elements = new Map();
-  return (/** @type {readonly T[]} */ items) => {
+  /** @type {Map<string, {element: E, last: Partial<T>}>} */
+  const kept = new Map();
+  let keys = "";
+
+  /** @param {readonly T[]} items */
+  function arrange(items) {
     const wanted = new Set(items.map((item) => item.key));
-    for (const [key, { element }] of elements) {
+    for (const [key, { element }] of kept) {
       if (wanted.has(key)) continue;
       element.remove();
-      elements.delete(key);
+      kept.delete(key);
     }
-    items.forEach((item, place) => {
-      const kept = elements.get(item.key) ?? { element: make(item), className: "" };
-      const { element } = kept;
-      elements.set(item.key, kept);
+    items.forEach(({ key }, place) => {
+      const { element } = kept.get(key) ?? { element: make() };
+      if (!kept.has(key)) kept.set(key, { element, last: {} });
       if (parent.children[place] !== element) parent.insertBefore(element, parent.children[place] ?? null);
-      // Written only when it changes, so that a class added from outside (a highlight) stays.
-      if (kept.className !== item.className) put(element, "class", (kept.className = item.className));
-      update(element, item);
     });
+  }
+
+  return (/** @type {readonly T[]} */ items) => {
+    const order = items.map((item) => item.key).join(" ");
+    if (order !== keys) arrange(items);
+    keys = order;
+    for (const item of items) {
+      const found = /** @type {{element: E, last: Partial<T>}} */ (kept.get(item.key));
+      // Written only when it changes, so that a class added from outside (a highlight) stays.
+      if (found.last.className !== item.className) found.element.setAttribute("class", item.className);
+      update(found.element, item, found.last);
+      found.last = item;
+    }
   };
 }
 
-/** @param {SVGPathElement} path @param {Shape} shape */
-function updateShape(path, { d, at, opacity }) {
-  put(path, "d", d);
-  if (at) put(path, "transform", `translate(${at[0].toFixed(2)} ${at[1].toFixed(2)})`);
-  if (opacity !== undefined) put(path, "opacity", String(opacity));
+/** @param {Pixel | undefined} a @param {Pixel | undefined} b */
+const same = (a, b) => a === b || (a && b && Math.abs(a[0] - b[0]) + Math.abs(a[1] - b[1]) < 0.01);
+
+/** Opacity of the stroke alone: a translucent path would be a layer of its own. @param {SVGPathElement} path @param {Shape} shape @param {Partial<Shape>} last */
+function updateShape(path, { d, at, opacity }, last) {
+  if (d !== last.d) path.setAttribute("d", d);
+  if (at && !same(at, last.at)) path.setAttribute("transform", `translate(${at[0].toFixed(2)} ${at[1].toFixed(2)})`);
+  if (opacity !== last.opacity) path.setAttribute("stroke-opacity", String(opacity));
 }
 
-/** @param {HTMLElement} element @param {Label} label */
-function updateLabel(element, { latex, at, start, opacity }) {
-  if (element.dataset.latex !== latex) {
-    element.dataset.latex = latex;
-    try {
-      globalThis.katex.render(latex, element, { strict: "ignore", output: "html", maxExpand: 1000, maxSize: 10 });
-    } catch {
-      element.textContent = latex;
-    }
+/** @param {HTMLElement} element @param {Label} label @param {Partial<Label>} last */
+function updateLabel(element, { latex, at, start, opacity }, last) {
+  if (latex !== last.latex) typeset(element, latex);
+  if (!same(at, last.at)) element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) translate(${start ? "0" : "-50%"}, -50%)`;
+  if (opacity !== last.opacity) element.style.opacity = String(opacity ?? 1);
+}
+
+/** @param {HTMLElement} element @param {string} latex */
+function typeset(element, latex) {
+  try {
+    globalThis.katex.render(latex, element, { strict: "ignore", output: "html", maxExpand: 1000, maxSize: 10 });
+  } catch {
+    element.textContent = latex;
   }
-  element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) translate(${start ? "0" : "-50%"}, -50%)`;
-  element.style.opacity = String(opacity ?? 1);
 }
 
 /**
@@ -84,7 +98,7 @@ export function createDrawing(frame) {
     const { clientWidth: width, clientHeight: height } = frame;
     stage = shown && width > 0 ? stageOf(shown.scene, shown.trajectory, { width, height }) : null;
     if (!stage) return;
-    put(svg, "viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     frame.style.setProperty("--u", `${stage.unit}px`);
   }
 

@@ -2,6 +2,8 @@
 
 import { html } from "lit-html";
 import { icon } from "./icons.js";
+import { atMost, digitsIn } from "./digits.js";
+import { fixed } from "../model/numbers.js";
 
 /** @typedef {import("./page.js").View} View */
 
@@ -16,8 +18,9 @@ export function player(view) {
     <div class="player" role="group" aria-label=${t("player")}>
       <button class="round" title=${label} aria-label=${label} ?disabled=${!state.trajectory} @click=${view.togglePlay}>
         ${icon(clock.playing ? "pause" : "play")}</button>
-      <input class="scrub" type="range" min="0" max=${clock.end || 1} step="any" aria-label=${t("player.time")}
-        ?disabled=${!state.trajectory} @input=${(/** @type {Event} */ e) => view.scrub(valueOf(e))}>
+      <span class="timeline"><span class="past"></span><span class="present"></span>
+        <input class="scrub" type="range" min="0" max=${clock.end || 1} step="any" aria-label=${t("player.time")}
+          ?disabled=${!state.trajectory} @input=${(/** @type {Event} */ e) => view.scrub(valueOf(e))}></span>
       <output class="time" aria-live="off"></output>
       <label class="choice speed" title=${t("player.speed")}><span class="unseen">${t("player.speed")}</span>
         <select @change=${(/** @type {Event} */ e) => clock.setSpeed(valueOf(e))}>
@@ -25,4 +28,32 @@ export function player(view) {
         </select>${icon("chevron")}</label>
     </div>
   `;
+}
+
+/** Milliseconds between two changes of the digits, and of the slider's value, while the motion runs. */
+const DIGITS = 60;
+const VALUE = 500;
+
+/**
+ * What follows the clock. The slider is drawn by parts that are only moved: its own thumb would cost a layout of the
+ * whole page in every frame. Its value, for those who hear it, follows at leisure.
+ * @param {HTMLElement} player
+ */
+export function createTransport(player) {
+  const find = (/** @type {string} */ name) => /** @type {HTMLElement} */ (player.querySelector(`.${name}`));
+  const [past, present, digits] = [find("past"), find("present"), digitsIn(find("time"))];
+  const scrub = /** @type {HTMLInputElement} */ (find("scrub"));
+  const [sayNow, setNow] = [atMost(DIGITS), atMost(VALUE)];
+
+  return {
+    scrub,
+    /** @param {number} t @param {import("../model/clock.js").Clock} clock @param {string} lang */
+    move(t, { end, playing }, lang) {
+      const part = end ? t / end : 0;
+      past.style.transform = `scaleX(${part})`;
+      present.style.transform = `translateX(${part * 100}%)`;
+      if (!playing || sayNow()) digits.textContent = `${fixed(t, 2, lang)} s`;
+      if (!playing || setNow()) scrub.value = String(t);
+    },
+  };
 }

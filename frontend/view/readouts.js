@@ -1,6 +1,7 @@
 /** The present values of coordinates and energies, in their colours; written directly, twenty times a second at most. */
 
 import { fixed, unitText } from "../model/numbers.js";
+import { atMost, digitsIn } from "./digits.js";
 import { snapshotAt } from "../model/trajectory.js";
 
 /** @typedef {import("../model/types.js").Scene} Scene */
@@ -13,7 +14,7 @@ const PAUSE = 50;
 export function createReadouts(root) {
   /** @type {{trajectory: Trajectory, lang: string, write: ((t: number) => void)} | null} */
   let shown = null;
-  let written = -Infinity;
+  let due = atMost(PAUSE);
 
   return {
     /** @param {Scene | null} scene @param {Trajectory | null} trajectory @param {string} lang */
@@ -23,7 +24,7 @@ export function createReadouts(root) {
         shown = null;
       } else if (shown?.trajectory !== trajectory || shown.lang !== lang) {
         shown = { trajectory, lang, write: fields(root, scene, trajectory, lang) };
-        written = -Infinity;
+        due = atMost(PAUSE);
       }
     },
     /** The same as a sentence's part. @param {number} t */
@@ -33,10 +34,7 @@ export function createReadouts(root) {
     },
     /** @param {number} t */
     move(t) {
-      const now = performance.now();
-      if (!shown || now - written < PAUSE) return;
-      written = now;
-      shown.write(t);
+      if (shown && due()) shown.write(t);
     },
   };
 }
@@ -51,7 +49,7 @@ function fields(root, scene, trajectory, lang) {
     value.className = "number";
     globalThis.katex.render(`${coordinate.latex || coordinate.name} =`, symbol, { throwOnError: false, strict: "ignore", output: "html" });
     line.append(symbol, value);
-    return { line, value, coordinate };
+    return { line, value: digitsIn(value), coordinate };
   });
   root.replaceChildren(...cells.map((cell) => cell.line));
   return (/** @type {number} */ t) => {

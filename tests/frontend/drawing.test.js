@@ -65,6 +65,18 @@ test("every kind of element draws something, with finite numbers", () => {
   }
 });
 
+test("the pieces of a trail join, fade with age, and stay as they are while they do", () => {
+  const trailed = { ...scene, drawing: { ...scene.drawing, elements: [{ kind: "trail", at: "bob" }] } };
+  const same = stageOf(trailed, trajectory, square(400));
+  const at = (/** @type {number} */ t) => figureOf(same, snapshotAt(trajectory, t)).shapes.filter((s) => s.d && s.opacity);
+  const [early, late] = [at(1.95), at(2.05)];
+  const kept = early.filter((piece) => late.some((other) => other.key === piece.key && other.d === piece.d));
+  assert.ok(kept.length >= early.length - 2, `${kept.length} of ${early.length}`);
+  for (const piece of kept) assert.ok((late.find((s) => s.key === piece.key)?.opacity ?? 1) <= (piece.opacity ?? 0));
+  const ends = new Set(late.map(({ d }) => d.split("L").at(-1)));
+  assert.equal(late.filter(({ d }) => !ends.has(d.slice(1).split("L")[0])).length, 1, "only the oldest piece joins none before it");
+});
+
 test("an unknown kind is passed over", () => {
   assert.deepEqual(figureAt(0, { ...scene, drawing: { elements: [{ kind: "unicorn", at: "bob" }] } }), { shapes: [], labels: [] });
 });

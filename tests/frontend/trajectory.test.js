@@ -33,12 +33,12 @@ test("energies come along, and may be absent", () => {
   assert.equal(snapshotAt({ ...trajectory, energy: undefined }, 2).energy, null);
 });
 
-test("a trail begins with the motion and ends at the moment", () => {
-  const trail = trailOf(trajectory, "bob", 1, 5, 4);
+test("a trail begins and ends at its times", () => {
+  const trail = trailOf(trajectory, "bob", 0, 1, 4);
   assert.equal(trail.length, 5);
   assert.deepEqual(trail[0], [0, 1]);
   assert.ok(Math.abs(trail[4][0] - Math.sin(0.25)) < 1e-12);
-  assert.deepEqual(trailOf(trajectory, "bob", 0, 5, 4), []);
+  assert.deepEqual(trailOf(trajectory, "bob", 1, 1, 4), []);
   assert.deepEqual(trailOf(trajectory, "nobody", 2, 5, 4), []);
 });
 

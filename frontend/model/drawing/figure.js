@@ -20,12 +20,16 @@ const ORDER = Object.keys(KINDS);
  * @returns {Figure}
  */
 export function figureOf(stage, now) {
-  const elements = (stage.scene.drawing?.elements ?? []).map((element, index) => ({ element, key: `${element.kind}${index}` }));
-  const figures = elements
-    .filter(({ element }) => element.kind in KINDS)
-    .sort((a, b) => ORDER.indexOf(a.element.kind) - ORDER.indexOf(b.element.kind))
-    .map(({ element, key }) => KINDS[/** @type {keyof typeof KINDS} */ (element.kind)](element, stage, now, key));
+  const figures = stage.once("elements", () => inOrder(stage)).map(({ draw, element, key }) => draw(element, stage, now, key));
   return { shapes: figures.flatMap((f) => f.shapes), labels: figures.flatMap((f) => f.labels) };
+}
+
+/** @param {Stage} stage */
+function inOrder({ scene }) {
+  return (scene.drawing?.elements ?? [])
+    .map((element, index) => ({ element, key: `${element.kind}${index}`, draw: KINDS[/** @type {keyof typeof KINDS} */ (element.kind)] }))
+    .filter(({ draw }) => draw)
+    .sort((a, b) => ORDER.indexOf(a.element.kind) - ORDER.indexOf(b.element.kind));
 }
 
 /**

@@ -26,7 +26,7 @@ export const at = (p) => `${digits(p[0])} ${digits(p[1])}`;
 /** @param {Pixel} a @param {Pixel} b */
 export const line = (a, b) => `M${at(a)}L${at(b)}`;
 /** @param {readonly Pixel[]} points */
-export const polyline = (points) => `M${points.map(at).join("L")}`;
+export const polyline = (points) => (points.length ? `M${points.map(at).join("L")}` : "");
 /** @param {readonly Pixel[]} points */
 export const polygon = (points) => `${polyline(points)}Z`;
 

@@ -94,17 +94,28 @@ export function cart(element, stage, now, key) {
   return { shapes, labels: [] };
 }
 
-/** Seconds that a trail lasts, and its pieces, each fainter than the next. */
-const TRAIL = 1.6;
-const PIECES = 20;
+/** A trail is made of this many pieces of so many seconds, each with this many points and fainter with age. */
+const PIECES = 16;
+const PIECE = 0.1;
+const POINTS = 4;
+const STRONGEST = 0.55;
+/** Opacity changes by whole steps of this, so that few pieces are touched in one frame. */
+const SHADE = 0.05;
 
-/** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+/**
+ * Pieces are cut at fixed times: all but the newest stay as they are while they fade.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
 export function trail(element, stage, now, key) {
-  const path = trailOf(stage.trajectory, element.at ?? "", now.t, TRAIL, PIECES * 3).map(stage.project);
+  const place = element.at ?? "";
+  const newest = Math.floor(now.t / PIECE);
   const shapes = Array.from({ length: PIECES }, (_, i) => {
-    const piece = path.slice(i * 3, i * 3 + 4);
-    const opacity = Math.round(((i + 1) / PIECES) ** 1.6 * 55) / 100;
-    return { key: `${key}-${i}`, d: piece.length > 1 ? polyline(piece) : "", className: "trail", opacity };
+    const n = newest - ((newest - i) % PIECES + PIECES) % PIECES;
+    const path = (/** @type {number} */ end) => polyline(trailOf(stage.trajectory, place, n * PIECE, end, POINTS).map(stage.project));
+    const d = n < 0 ? "" : n < newest ? stage.once(`${key} ${n}`, () => path((n + 1) * PIECE)) : path(now.t);
+    const fresh = Math.max(0, 1 - (now.t - n * PIECE) / (PIECES * PIECE));
+    return { key: `${key}-${i}`, d, className: "trail", opacity: Math.round((fresh ** 1.6 * STRONGEST) / SHADE) * SHADE };
   });
   return { shapes, labels: [] };
 }

@@ -17,6 +17,7 @@
  * @property {Pixel} down  unit vector of gravity's usual direction on the screen
  * @property {(position: readonly number[]) => Pixel} project
  * @property {(vector: readonly number[]) => Pixel} direct
+ * @property {<T>(key: string, make: () => T) => T} once  what stays the same as long as this stage does
  */
 
 /** Growth of the shown part when the motion leaves it, in steps so that it does not creep while a slider moves. */
@@ -99,7 +100,17 @@ export function stageOf(scene, trajectory, size) {
     return [size.width / 2 + (x - (x0 + x1) / 2) * scale, size.height / 2 + sign * (y - (y0 + y1) / 2) * scale];
   };
   const unit = Math.max(8, Math.min(24, Math.min(size.width, size.height) / 30));
-  return { scene, trajectory, size, unit, scale, down: [0, 1], project, direct };
+  return { scene, trajectory, size, unit, scale, down: [0, 1], project, direct, once: keeper() };
+}
+
+/** Makes each thing when it is first asked for, and keeps it. @returns {Stage["once"]} */
+function keeper() {
+  /** @type {Map<string, any>} */
+  const kept = new Map();
+  return (key, make) => {
+    if (!kept.has(key)) kept.set(key, make());
+    return kept.get(key);
+  };
 }
 
 /** Where a point or body stands at a moment. @param {Stage} stage @param {Snapshot} now @param {string} place */

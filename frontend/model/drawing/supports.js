@@ -78,13 +78,13 @@ export function guide(element, stage, now, key) {
   const place = placeOf(stage, now, element.at ?? "");
   const along = /** @type {Pixel} */ (element.direction === "horizontal" ? [1, 0] : [0, 1]);
   const across = normal(along);
-  const path = stage.trajectory.positions[element.at ?? ""] ?? [[0, 0]];
-  const reach = inner(path.map((position) => dot(subtract(stage.project(position), place), along)));
   const u = stage.unit;
+  const [first, last] = stage.once(`reach ${key}`, () => reachOf(stage, element.at ?? "", along));
+  const middle = scaled(across, dot(place, across));
   const rails = [1, -1].flatMap((side) => {
-    const offset = scaled(across, side * u * 0.95);
-    const from = add(add(place, offset), scaled(along, reach[0] - 1.5 * u));
-    const to = add(add(place, offset), scaled(along, reach[1] + 1.5 * u));
+    const offset = add(middle, scaled(across, side * u * 0.95));
+    const from = add(offset, scaled(along, first - 1.5 * u));
+    const to = add(offset, scaled(along, last + 1.5 * u));
     return [
       { key: `${key}-hatch${side}`, d: hatching(from, to, scaled(across, side), u * 0.5), className: "hatch" },
       { key: `${key}-rail${side}`, d: line(from, to), className: "ink" },
@@ -94,9 +94,13 @@ export function guide(element, stage, now, key) {
   return { shapes: [...rails, block], labels: [] };
 }
 
-/** The range of nearly all values: a motion that runs away in the end takes no rails along. @param {number[]} values */
-function inner(values) {
-  const sorted = values.filter(Number.isFinite).sort((a, b) => a - b);
+/**
+ * How far nearly all of the path of a place reaches in a direction: a motion that runs away in the end takes no rails along.
+ * @param {Stage} stage @param {string} at @param {Pixel} along
+ */
+function reachOf(stage, at, along) {
+  const path = stage.trajectory.positions[at] ?? [[0, 0]];
+  const sorted = path.map((position) => dot(stage.project(position), along)).filter(Number.isFinite).sort((a, b) => a - b);
   return [0.02, 0.98].map((part) => sorted[Math.round((sorted.length - 1) * part)] ?? 0);
 }
 

@@ -1,0 +1,28 @@
+/** Digits that change many times a second. */
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/**
+ * A text whose changes concern nothing around it: within an SVG they do not make the browser lay out the page anew.
+ * @param {HTMLElement} element
+ */
+export function digitsIn(element) {
+  const svg = document.createElementNS(SVG, "svg");
+  const text = document.createElementNS(SVG, "text");
+  svg.setAttribute("class", "digits");
+  text.setAttribute("y", "1em");
+  svg.append(text);
+  element.replaceChildren(svg);
+  return text;
+}
+
+/** Whether it is time again: true at most once in so many milliseconds. @param {number} pause */
+export function atMost(pause) {
+  let last = -Infinity;
+  return () => {
+    const now = performance.now();
+    if (now - last < pause) return false;
+    last = now;
+    return true;
+  };
+}
