@@ -23,8 +23,8 @@ from ..simulation.stability import Complexes, growth, largest_stable_step
 FAILING = 0.01  # growth in one step, above 1
 FINEST, COARSEST, PER_DECADE = 1e-3, 1e2, 24  # steps looked at, times the largest |λ|
 STEPS = 800  # in one run
-KICK, LINEAR = 1e-7, 1e-3  # deviations: at first, and as long as they follow the linearized motion
-ROUNDING = 1e-12  # below, deviations grow and shrink by chance
+KICK, LINEAR = 1e-6, 1e-2  # deviations: at first, and as long as they follow the linearized motion
+NOISE = 1e-9  # of the state; below, deviations are those of rounding and of Newton iterations
 FEWEST = 80  # steps that a deviation stays small, else it grows by ten percent in each
 PRECISION = 2e-3  # of the step found
 
@@ -57,7 +57,7 @@ def failure(problem: Problem, method: Method, eigenvalues: Complexes) -> Failure
         return Failure(bound, math.inf, math.inf, "")
     drive = max(0.0, float(eigenvalues.real.max()))
     predicted = _first(lambda h: _excess(method, eigenvalues, h) > FAILING, fastest)
-    trial = _Trial(problem, method, drive)
+    trial = _Trial(problem, method, drive, fastest)
     measured = _first(trial.fails, fastest)
     return Failure(bound, predicted, measured, trial.cause(measured))
 
@@ -93,17 +93,26 @@ class _Trial:
     problem: Problem
     method: Method
     drive: float
+    fastest: float
 
     def fails(self, h: float) -> bool:
         first, second = self._pair(h)
         if first.result.outcome not in (FINE, STEP_LIMIT) or second.result.outcome not in (FINE, STEP_LIMIT):
             return True
-        distances = np.linalg.norm(first.states - second.states, axis=1)
+        distances = np.linalg.norm((first.states - second.states)[:, : self._scales.size] / self._scales, axis=1)
+        distances = np.maximum(distances, NOISE * np.abs(first.states[:, : self.problem.degrees]).max(axis=1))
         small = int((distances < LINEAR).cumprod().sum())
         if small < FEWEST:
             return True
-        grown = growth_in_a_step(distances[:small])
+        grown = growth_in_a_step(
+            distances[:small], NOISE * float(np.abs(first.states[:, : self.problem.degrees]).max())
+        )
         return grown / math.exp(min(h * self.drive, 700.0)) - 1.0 > FAILING
+
+    @property
+    def _scales(self) -> Floats:
+        """Of coordinates and rates: so a vibration of the fastest part does not change its size while it turns."""
+        return np.repeat([1.0, self.fastest], self.problem.degrees)
 
     def cause(self, h: float) -> str:
         """How the run at a step that fails ended."""
@@ -114,7 +123,7 @@ class _Trial:
 
     def _pair(self, h: float) -> tuple[Run, Run]:
         n, t_end = self.problem.degrees, STEPS * h
-        apart = KICK * np.random.default_rng(0).normal(size=2 * n)
+        apart = KICK * self._scales * np.random.default_rng(0).normal(size=2 * n)
         start = self.problem.state[: 2 * n] + apart
         problem = replace(self.problem, t_end=t_end, step_limit=2 * STEPS)
         other = replace(problem, values=tuple(map(float, start[:n])), rates=tuple(map(float, start[n:])))
@@ -125,8 +134,8 @@ class _Trial:
 def growth_in_a_step(distances: Floats) -> float:
     """The factor by which distances grow per step, from the largest of the second and of the last quarter."""
     quarter = len(distances) // 4
-    early = distances[quarter : 2 * quarter].max(initial=ROUNDING)
-    late = distances[3 * quarter :].max(initial=ROUNDING)
+    early = distances[quarter : 2 * quarter].max(initial=1e-300)
+    late = distances[3 * quarter :].max(initial=1e-300)
     return float((late / early) ** (1.0 / (2 * quarter)))
 
 
