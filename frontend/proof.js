@@ -42,7 +42,7 @@ function update() {
   const state = store.get();
   const { place, catalog } = state;
   if (!catalog.page && !state.failure) return;
-  const t = translator(/** @type {Record<string, unknown>} */ (catalog.page ?? {}));
+  const t = translator({ .../** @type {object} */ (catalog.page ?? {}), .../** @type {object} */ (catalog.lecture ?? {}) });
   document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
   document.documentElement.lang = place.lang;
   document.title = `δq · ${t("place.proof")}`;

@@ -3,6 +3,7 @@
 import { render } from "lit-html";
 import { createApi } from "./model/api.js";
 import { createClock } from "./model/clock.js";
+import { createLater } from "./model/later.js";
 import { createSession } from "./model/session.js";
 import { START } from "./model/state.js";
 import { documentIn, keepDraft, OWN, readDraft } from "./model/own.js";
@@ -31,27 +32,20 @@ const session = createSession(store, api, clock);
 /** @type {{drawing: ReturnType<typeof createDrawing>, plots: ReturnType<typeof createPlots>, readouts: ReturnType<typeof createReadouts>, transport: ReturnType<typeof createTransport>} | null} */
 let parts = null;
 
-/** The editor, once it has been opened: most readers never need it, so it is fetched then. @type {import("./view/page.js").View["editor"]} */
-let editor = null;
-let opening = false;
-
-/** What lies above the page, fetched when it is first asked for. @type {typeof import("./view/overlays.js") | null} */
-let above = null;
-
-async function fetchOverlays() {
-  above = await import("./view/overlays.js");
-  update();
-}
-
-async function openEditor() {
-  if (opening) return;
-  opening = true;
+// Most readers never need these: they are fetched when they are first wanted.
+const above = createLater(() => import("./view/overlays.js"), update);
+const editor = createLater(async () => {
   const { open } = await import("./view/editor/open.js");
-  const { get } = store;
   const keep = (/** @type {import("./model/own.js").Draft} */ draft) => keepDraft(localStorage, draft);
-  editor = open({ api, session, state: get, draft: readDraft(localStorage), keep, changed: update });
-  update();
-}
+  return open({ api, session, state: store.get, draft: readDraft(localStorage), keep, changed: update });
+}, update);
+const lecture = createLater(async () => {
+  const { bringStyle, open } = await import("./view/lecture/open.js");
+  await bringStyle();
+  return open({ root, session, state: store.get, changed: update, play: togglePlay });
+}, update);
+/** Lecture mode while it is on. */
+const lecturing = () => (store.get().place.view && store.get().catalog.lecture ? lecture.part : null);
 
 function togglePlay() {
   clock.play(!clock.playing);
@@ -69,14 +63,27 @@ function fullscreen() {
   void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.());
 }
 
+/** Into lecture mode, over the whole screen. */
+function enterLecture() {
+  session.move({ view: "lecture", edit: "" });
+  void document.documentElement.requestFullscreen?.().catch(() => {});
+}
+
+/** The presenter's window belongs to a lecture. */
+async function present() {
+  session.move({ view: "lecture", edit: "" });
+  (await lecture.want()).present();
+}
+
 /** @returns {import("./view/page.js").View} */
 function view() {
   const state = store.get();
   const section = (/** @type {string} */ name) => /** @type {Record<string, unknown>} */ (state.catalog[name] ?? {});
   const methods = translator(section("methods"));
   return {
-    state, session, clock, togglePlay, scrub, fullscreen, editor, overlays: above?.overlays,
-    t: translator({ ...section("page"), ...section("editor") }),
+    state, session, clock, togglePlay, scrub, fullscreen, enterLecture,
+    editor: editor.part, lecture: lecturing(), overlays: state.catalog.lecture ? above.part?.overlays : undefined,
+    t: translator({ ...section("page"), ...section("editor"), ...section("lecture") }),
     methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,
     link: (patch) => location.pathname + writePlace({ ...state.place, ...patch }) + ((patch.scene ?? state.place.scene) === OWN ? state.fragment : ""),
     follow(event, go) {
@@ -130,8 +137,8 @@ function update() {
   document.documentElement.lang = place.lang;
   document.title = current.t("title");
   render(page(current), root);
-  if (state.overlay && !above) void fetchOverlays();
-  above?.openDialog(root);
+  if (state.overlay) void above.want();
+  above.part?.openDialog(root);
   parts ??= assemble();
   parts.drawing.show(scene, trajectory, clock.time);
   parts.readouts.show(scene, trajectory, place.lang);
@@ -140,7 +147,9 @@ function update() {
   parts.plots.show(readable && scene && trajectory ? { scene, trajectory, duration: place.duration, lang: place.lang, theme } : null);
   show(clock.time);
   history.replaceState(null, "", current.link({}));
-  if (place.edit) void openEditor();
+  if (place.edit) void editor.want();
+  if (place.view) void lecture.want();
+  lecture.part?.update();
   if (reach(place.step, still.matches)) announce(state.lines, place.step, current.t);
 }
 
@@ -158,7 +167,8 @@ clock.subscribe(show);
 dark.addEventListener("change", update);
 linkHighlights(root);
 listen(document, {
-  go: session.go, fullscreen, overlay: session.overlay, play: togglePlay,
+  go: (by) => (lecturing() ?? session).go(by), more: () => lecturing()?.keys ?? {},
+  fullscreen, overlay: session.overlay, play: togglePlay, lecture: enterLecture, presenter: () => void present(),
   covered: () => store.get().overlay !== "",
   uncover: () => session.overlay(""),
   substeps: () => toggleSubsteps(root, store.get().place.step),

@@ -10,7 +10,7 @@ import { indexOf, linesOf, moved } from "./reveal.js";
  * @property {import("./types.js").Catalog} catalog
  * @property {import("./types.js").Derivation | null} derivation
  * @property {import("./reveal.js").Line[]} lines
- * @property {"" | "overview" | "help" | "black"} overlay
+ * @property {import("./types.js").Overlay} overlay
  * @property {Failure | null} failure
  */
 
@@ -26,7 +26,7 @@ export function createProof({ get, set }, api) {
   async function load() {
     const { lang } = get().place;
     try {
-      const [catalog, derivation] = await Promise.all([api.catalog(lang), api.proof(PROOF, lang)]);
+      const [catalog, derivation] = await Promise.all([api.catalog(lang, "lecture"), api.proof(PROOF, lang)]);
       if (get().place.lang !== lang) return;
       const lines = linesOf(derivation.chapters);
       set({ catalog, derivation, lines, failure: null });

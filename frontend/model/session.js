@@ -5,6 +5,7 @@ import { latestOnly } from "./latest.js";
 import { linesOf, moved } from "./reveal.js";
 import { endOf, samplesNeeded } from "./trajectory.js";
 import { changed, UNCHANGED } from "./values.js";
+import { createSpeech } from "./speech.js";
 import { NO_FAILURES } from "./state.js";
 import { completed, fragmentOf, OWN } from "./own.js";
 
@@ -107,7 +108,7 @@ export function createSession(store, api, clock) {
     simulations.cancel();
     clock.seek(0);
     set({ scene: null, derivation: null, lines: [], trajectory: null, changes: UNCHANGED, failures: NO_FAILURES });
-    move({ scene: id, step, n });
+    move({ scene: id, step, n, part: id === get().place.scene ? get().place.part : 0 });
     askSimulation();
     await attempt("scene", async () => {
       const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang, n);
@@ -116,11 +117,7 @@ export function createSession(store, api, clock) {
     });
   }
 
-  /** @param {string} lang */
-  async function speak(lang) {
-    move({ lang });
-    await attempt("page", async () => set({ catalog: await api.catalog(lang, "methods", ...(get().place.edit ? ["editor"] : [])) }));
-  }
+  const { speak, need, needFor } = createSpeech(store, api, (task) => attempt("page", task), ["methods"]);
 
   return {
     /** @param {import("./types.js").Place} place */
@@ -130,6 +127,7 @@ export function createSession(store, api, clock) {
         const [{ scenes }, { methods }] = await Promise.all([api.scenes(), api.methods()]);
         set({ scenes, methods });
       });
+      needFor(place);
       const spoken = speak(place.lang);
       if (!place.scene || place.method) await listed;
       const scene = place.scene || preferred(get().scenes);
@@ -146,10 +144,10 @@ export function createSession(store, api, clock) {
     /** The address of a scene while it is written. @param {import("./own.js").SceneDocument} own */
     address: async (own) => set({ fragment: await fragmentOf(own) }),
     /** @param {number} by */
-    go: (by) => move({ step: moved(get().lines, get().place.step, by) }),
-    /** @param {string} step */
-    goTo(step) {
-      move({ step });
+    go: (by) => move({ step: moved(get().lines, get().place.step, by), part: 0 }),
+    /** @param {string} step @param {number} [part] */
+    goTo(step, part = 0) {
+      move({ step, part });
       set({ overlay: "" });
     },
     /** @param {string} lang */
@@ -163,10 +161,10 @@ export function createSession(store, api, clock) {
       move({ formulation });
       await derive();
     },
-    /** The editor's texts are fetched when it opens. @param {Partial<import("./types.js").Place>} patch */
+    /** @param {Partial<import("./types.js").Place>} patch */
     move(patch) {
+      needFor(patch);
       move(patch);
-      if (patch.edit && !get().catalog.editor) void speak(get().place.lang);
     },
     /** @param {Partial<import("./types.js").Place>} patch how to simulate */
     resimulate(patch) {
@@ -185,7 +183,10 @@ export function createSession(store, api, clock) {
       askSimulation();
     },
     /** @param {State["overlay"]} overlay */
-    overlay: (overlay) => set({ overlay: get().overlay === overlay ? "" : overlay }),
+    overlay(overlay) {
+      need("lecture");
+      set({ overlay: get().overlay === overlay ? "" : overlay });
+    },
   };
 }
 

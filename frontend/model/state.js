@@ -19,7 +19,7 @@ import { UNCHANGED } from "./values.js";
  * @property {import("./types.js").Changes} changes
  * @property {{page: Failure | null, scene: Failure | null, derivation: Failure | null, simulation: Failure | null}} failures
  * @property {boolean} simulating
- * @property {"" | "overview" | "help" | "black"} overlay
+ * @property {import("./types.js").Overlay} overlay
  */
 
 /** @type {State["failures"]} */

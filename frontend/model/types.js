@@ -47,7 +47,11 @@
  * @typedef {Record<string, string | Record<string, unknown>>} Catalog
  * @typedef {"derivation" | "plots" | "values"} Panel
  * @typedef {"" | "form" | "json" | "toml"} Editing  which side of the editor is open
+ * @typedef {"" | "overview" | "help" | "black" | "jump" | "share"} Overlay  what lies above the page
+ * @typedef {"" | "lecture"} Showing  all steps so far beside the figure, or one step at a time in a lecture
+ * @typedef {"" | "substeps"} Pace  whether a lecture goes on by steps or by substeps
+ * @typedef {"" | "plots" | "nothing"} Beside  what stands beside a step in a lecture, besides the drawing or without it
  * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, n: number, formulation: string,
- *   duration: number, panel: Panel, edit: Editing}} Place  what the address says
+ *   duration: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside}} Place  what the address says
  */
 export {};

@@ -3,13 +3,16 @@
 /** @typedef {import("./types.js").Place} Place */
 
 /** @type {Place} */
-export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "" };
+export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "" };
 
 const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
 export const FORMULATIONS = ["dalembert-lagrange", "hamilton"];
 const PANELS = ["derivation", "plots", "values"];
 const EDITING = ["form", "json", "toml"];
+const VIEWS = ["lecture"];
+const PACES = ["substeps"];
+const BESIDES = ["plots", "nothing"];
 const LONGEST = 100;
 const MOST = 99;
 
@@ -26,11 +29,15 @@ export function readPlace(query) {
     lang: oneOf(LANGUAGES, given.get("lang"), HOME.lang),
     theme: oneOf(THEMES, given.get("theme"), HOME.theme),
     method: slug(given.get("method")),
-    n: Math.max(0, Math.min(MOST, Math.trunc(Number(given.get("n"))) || 0)),
+    n: whole(given.get("n")),
     formulation: oneOf(FORMULATIONS, given.get("formulation"), HOME.formulation),
     duration: seconds > 0 && seconds <= LONGEST ? seconds : HOME.duration,
     panel: /** @type {import("./types.js").Panel} */ (oneOf(PANELS, given.get("panel"), HOME.panel)),
     edit: /** @type {import("./types.js").Editing} */ (given.get("edit") === "" ? "form" : oneOf(EDITING, given.get("edit"), HOME.edit)),
+    view: /** @type {import("./types.js").Showing} */ (oneOf(VIEWS, given.get("view"), HOME.view)),
+    part: whole(given.get("part")),
+    pace: /** @type {import("./types.js").Pace} */ (oneOf(PACES, given.get("pace"), HOME.pace)),
+    beside: /** @type {import("./types.js").Beside} */ (oneOf(BESIDES, given.get("beside"), HOME.beside)),
   };
 }
 
@@ -50,6 +57,9 @@ export const PAGES = ["scene", "variations", "proof", "docs"];
 
 /** A page in the same language and appearance. @param {string} name @param {Pick<Place, "lang" | "theme">} reader */
 export const pageAddress = (name, { lang, theme }) => `/${name}${name === "docs" ? "" : writePlace({ ...HOME, lang, theme })}`;
+
+/** @param {string | null} value */
+const whole = (value) => Math.max(0, Math.min(MOST, Math.trunc(Number(value)) || 0));
 
 /** @param {string[]} allowed @param {string | null} value @param {string} otherwise */
 function oneOf(allowed, value, otherwise) {

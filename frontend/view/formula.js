@@ -5,6 +5,8 @@ import { Directive, directive } from "lit-html/directive.js";
 
 /** Display formulas shrink to this part of their size before they scroll. */
 const SMALLEST = 0.66;
+/** Broken rows are to fit at this size. */
+const COMFORTABLE = 0.85;
 
 /** @param {{command: string}} context  only classes, which carry the colours, and only in LaTeX from the server */
 const onlyClasses = (context) => context.command === "\\htmlClass";
@@ -27,14 +29,42 @@ const fitter = new ResizeObserver((entries) => entries.forEach(({ target }) => f
 /** @type {WeakMap<HTMLElement, number>} */
 const fittedWidths = new WeakMap();
 
-/** Sets the size at which a formula fits its column. @param {HTMLElement} element */
+/** What each display formula says; those that are broken into lines say it in another form. @type {WeakMap<HTMLElement, {latex: string, broken: boolean}>} */
+const sources = new WeakMap();
+
+/** Sets the size at which a formula fits its column; one that would become too small goes on below. @param {HTMLElement} element */
 function fit(element) {
   const width = element.clientWidth;
   if (width === 0 || fittedWidths.get(element) === width) return;
   fittedWidths.set(element, width);
+  const source = sources.get(element);
+  if (source?.broken) whole(element, source.latex);
+  const part = shrink(element, width);
+  if (part < SMALLEST && source) void goOnBelow(element, source.latex, part / COMFORTABLE);
+}
+
+/** @param {HTMLElement} element @param {number} width @returns {number} the size at which it would fit */
+function shrink(element, width) {
   element.style.setProperty("--fit", "1");
   const needed = element.scrollWidth;
-  if (needed > width) element.style.setProperty("--fit", String(Math.max(SMALLEST, Math.floor((width / needed) * 98) / 100)));
+  const part = needed > width ? Math.floor((width / needed) * 98) / 100 : 1;
+  element.style.setProperty("--fit", String(Math.max(SMALLEST, part)));
+  return part;
+}
+
+/** @param {HTMLElement} element @param {string} latex */
+function whole(element, latex) {
+  typeset(element, latex, true);
+  sources.set(element, { latex, broken: false });
+}
+
+/** How to break lines is fetched when a line has to be. @param {HTMLElement} element @param {string} latex @param {number} part */
+async function goOnBelow(element, latex, part) {
+  const { brokenRows } = await import("../model/linebreak.js");
+  if (sources.get(element)?.latex !== latex) return;
+  typeset(element, brokenRows(latex, part), true);
+  sources.set(element, { latex, broken: true });
+  shrink(element, element.clientWidth);
 }
 
 // What was measured before the fonts of the formulas had come was not their width.
@@ -58,6 +88,7 @@ class Typeset extends Directive {
     const element = /** @type {HTMLElement} */ (part.element);
     typeset(element, latex, display);
     if (display) {
+      sources.set(element, { latex, broken: false });
       fittedWidths.delete(element);
       fitter.observe(element);
     }

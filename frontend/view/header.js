@@ -28,7 +28,7 @@ export function header(view) {
         ${language(view)}
         ${appearance(view)}
         <button class="tool" title=${t("tool.overview")} aria-label=${t("tool.overview")} @click=${() => session.overlay("overview")}>${icon("overview")}</button>
-        <button class="tool wide-only" title=${t("tool.fullscreen")} aria-label=${t("tool.fullscreen")} @click=${view.fullscreen}>${icon("fullscreen")}</button>
+        <button class="tool wide-only" title=${t("tool.lecture")} aria-label=${t("tool.lecture")} @click=${view.enterLecture}>${icon("lecture")}</button>
         <button class="tool wide-only" title=${t("tool.help")} aria-label=${t("tool.help")} @click=${() => session.overlay("help")}>${icon("help")}</button>
       </div>
     </header>

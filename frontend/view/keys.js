@@ -9,15 +9,18 @@ const PRESSED = "button, a, summary";
  * @typedef {object} Keys
  * @property {(by: number) => void} go
  * @property {() => void} fullscreen
- * @property {(name: "overview" | "help" | "black") => void} overlay
+ * @property {(name: import("../model/types.js").Overlay) => void} overlay
  * @property {() => boolean} covered  something lies above the page
  * @property {() => void} uncover
  * @property {() => void} play
  * @property {() => void} substeps
+ * @property {() => void} [lecture]
+ * @property {() => void} [presenter]
+ * @property {() => Record<string, () => void>} [more]  what keys mean at this moment besides
  */
 
 /** @param {Keys} keys @returns {Record<string, () => void>} */
-function table({ go, fullscreen, overlay, play, substeps }) {
+function table({ go, fullscreen, overlay, play, substeps, lecture = () => {}, presenter = () => {} }) {
   const next = () => go(1);
   const previous = () => go(-1);
   return {
@@ -25,7 +28,8 @@ function table({ go, fullscreen, overlay, play, substeps }) {
     ArrowLeft: previous, p: previous, PageUp: previous,
     Home: () => go(-Infinity), End: () => go(Infinity),
     f: fullscreen, b: () => overlay("black"), ".": () => overlay("black"),
-    Escape: () => overlay("overview"), o: () => overlay("overview"), "?": () => overlay("help"), k: play, e: substeps,
+    Escape: () => overlay("overview"), o: () => overlay("overview"), "?": () => overlay("help"), g: () => overlay("jump"),
+    k: play, e: substeps, l: lecture, s: presenter,
   };
 }
 
@@ -37,7 +41,8 @@ export function listen(target, keys) {
     const element = from instanceof Element ? from : null;
     if (ctrlKey || metaKey || altKey || element?.closest(FIELDS)) return;
     if (key === " " && element?.closest(PRESSED)) return;
-    const action = actions[key.length === 1 ? key.toLowerCase() : key];
+    const name = key.length === 1 ? key.toLowerCase() : key;
+    const action = keys.more?.()[name] ?? actions[name];
     if (!action) return;
     // A dialog closes by itself on Escape; any key ends the black screen.
     if (element?.closest("dialog")) return;

@@ -1,8 +1,9 @@
-/** What lies above the page: overview, help, the black screen. */
+/** What lies above the page: overview, jump, help, the black screen. */
 
 import { html, nothing } from "lit-html";
 import { prose } from "./formula.js";
 import { icon } from "./icons.js";
+import { meant } from "../model/lecture/stops.js";
 
 /** @typedef {import("./steps.js").View & {state: Pick<import("./page.js").View["state"], "overlay">,
  *   session: Pick<import("./page.js").View["session"], "overlay">}} View  what overlays need of a page */
@@ -17,11 +18,12 @@ export function overlays(view) {
   const { overlay } = view.state;
   if (overlay === "black") return html`<div class="black" @click=${() => view.session.overlay("")}></div>`;
   if (overlay === "overview") return dialog("overview", overview(view), view);
+  if (overlay === "jump") return dialog("jump", jump(view), view);
   if (overlay === "help") return dialog("help", help(view), view);
   return nothing;
 }
 
-/** @param {"overview" | "help"} name @param {unknown} content @param {View} view */
+/** @param {"overview" | "jump" | "help"} name @param {unknown} content @param {View} view */
 function dialog(name, content, { session, t }) {
   const close = () => session.overlay("");
   return html`
@@ -50,15 +52,46 @@ function overview({ state, session, link, follow }) {
   `;
 }
 
+/** Steps by number or by a word of their title; Enter takes the first. @param {View} view */
+function jump({ state, session, link, follow, t }) {
+  const sought = (/** @type {Event} */ { target }) => {
+    const field = /** @type {HTMLInputElement} */ (target);
+    const found = new Set(meant(state.lines, field.value).map((line) => line.step.id));
+    const list = /** @type {HTMLElement} */ (field.form);
+    for (const entry of list.querySelectorAll("li")) entry.hidden = !found.has(entry.dataset.to ?? "");
+    /** @type {HTMLElement} */ (list.querySelector(".none")).hidden = found.size > 0;
+  };
+  const take = (/** @type {Event} */ event) => {
+    event.preventDefault();
+    const first = /** @type {HTMLElement | null} */ (/** @type {HTMLElement} */ (event.target).querySelector("li:not([hidden])"));
+    if (first) session.goTo(first.dataset.to ?? "");
+  };
+  return html`
+    <form class="jump" @submit=${take}>
+      <label>${t("jump.label")}<input type="search" autocomplete="off" autofocus @input=${sought}></label>
+      <ol>${state.lines.map(({ step, number }) => html`
+        <li data-to=${step.id}><a href=${link({ step: step.id })} @click=${(/** @type {Event} */ e) => follow(e, () => session.goTo(step.id))}>
+          <span class="number">${number}</span><span>${prose(step.title)}</span></a></li>`)}</ol>
+      <p class="none" role="status" hidden>${t("jump.none")}</p>
+    </form>`;
+}
+
 const KEYS = [
   ["→ N Space PageDown", "help.next"],
   ["← P PageUp", "help.previous"],
   ["Home End", "help.ends"],
+  ["G", "help.jump"],
   ["E", "help.substeps"],
   ["K", "help.play"],
   ["F", "help.fullscreen"],
   ["B .", "help.black"],
   ["Esc O", "help.overview"],
+  ["L", "help.lecture"],
+  ["S", "help.presenter"],
+  ["↓ ↑", "help.parts"],
+  ["T", "help.pace"],
+  ["D", "help.beside"],
+  ["H", "help.spot"],
   ["?", "help.help"],
 ];
 

@@ -26,6 +26,8 @@ import { FORMULATIONS } from "../model/url.js";
  * @property {() => void} reload
  * @property {(typeof import("./overlays.js")["overlays"]) | undefined} overlays  once one has been asked for
  * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
+ * @property {() => void} enterLecture
+ * @property {import("./lecture/open.js").Lecture | null} lecture  while lecture mode is on
  */
 
 const PANELS = /** @type {const} */ (["derivation", "plots", "values"]);
@@ -37,8 +39,8 @@ export function page(view) {
   return html`
     <a class="skip" href="#derivation">${t("skip")}</a>
     ${header(view)}
-    <main class="desk" data-panel=${state.place.panel}>
-      ${state.place.edit ? writing(view) : reading(view)}
+    <main class="desk" data-panel=${state.place.panel} data-view=${view.lecture ? "lecture" : nothing} data-beside=${state.place.beside}>
+      ${state.place.edit ? writing(view) : view.lecture ? view.lecture.slide(view) : reading(view)}
       <section class="figure ${failures.simulation ? "failed" : ""}" aria-label=${t("drawing")}>
         ${drawing(view)}
         ${player(view)}

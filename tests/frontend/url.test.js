@@ -5,8 +5,8 @@ import { HOME, readPlace, startLanguage, writePlace } from "../../frontend/model
 const PLACES = [
   ["nothing said", "", HOME],
   ["scene and step", "?scene=pendulum&step=virtual-displacement:bob", { ...HOME, scene: "pendulum", step: "virtual-displacement:bob" }],
-  ["everything", "?scene=a&step=b&lang=de&theme=dark&method=rk4&n=6&formulation=hamilton&duration=20&panel=plots&edit=json",
-    { scene: "a", step: "b", lang: "de", theme: "dark", method: "rk4", n: 6, formulation: "hamilton", duration: 20, panel: "plots", edit: "json" }],
+  ["everything", "?scene=a&step=b&lang=de&theme=dark&method=rk4&n=6&formulation=hamilton&duration=20&panel=plots&edit=json&view=lecture&part=2&pace=substeps&beside=plots",
+    { scene: "a", step: "b", lang: "de", theme: "dark", method: "rk4", n: 6, formulation: "hamilton", duration: 20, panel: "plots", edit: "json", view: "lecture", part: 2, pace: "substeps", beside: "plots" }],
 ];
 
 for (const [name, query, place] of PLACES) {
@@ -24,6 +24,8 @@ const STRANGE = [
   ["an unknown formulation", "?formulation=newton"],
   ["an unknown theme", "?theme=pink"],
   ["markup as a scene", "?scene=%3Cscript%3E"],
+  ["an unknown view", "?view=cinema"],
+  ["less than no substep", "?part=-1"],
   ["a negative duration", "?duration=-3"],
   ["an endless duration", "?duration=1e9"],
   ["a duration without number", "?duration=long"],

@@ -1,0 +1,122 @@
+/** Lecture mode: its keys, gestures and pointer, its style, and the line to the presenter's window. */
+
+import { createSender, isId, nameOf } from "../../model/lecture/link.js";
+import { allOrNone, onwards, within } from "../../model/lecture/stops.js";
+import { slide } from "./slide.js";
+import { createSpot } from "./spot.js";
+
+/** @typedef {import("../page.js").View} View */
+/**
+ * @typedef {object} Lecturing  what the slide may do
+ * @property {(by: number) => void} go
+ * @property {() => void} present
+ * @property {() => void} leave
+ * @property {() => void} spot
+ * @property {boolean} spotted
+ * @property {{start: (event: TouchEvent) => void, end: (event: TouchEvent) => void}} touch
+ */
+
+/** Pixels a finger must have moved sideways to turn the page. */
+const SWIPE = 60;
+const KEY = "deltaq.lecture";
+const BESIDE = /** @type {const} */ (["", "plots", "nothing"]);
+
+/** The name of this lecture's line, the same after a reload. */
+function lineId() {
+  const kept = sessionStorage.getItem(KEY);
+  if (isId(kept)) return /** @type {string} */ (kept);
+  const made = Array.from(crypto.getRandomValues(new Uint8Array(10)), (byte) => (byte % 36).toString(36)).join("");
+  sessionStorage.setItem(KEY, made);
+  return made;
+}
+
+/** @param {(by: number) => void} go */
+function createTouch(go) {
+  let from = { x: 0, y: 0 };
+  return {
+    start(/** @type {TouchEvent} */ { touches }) {
+      from = { x: touches[0].clientX, y: touches[0].clientY };
+    },
+    end(/** @type {TouchEvent} */ { changedTouches, target }) {
+      const [dx, dy] = [changedTouches[0].clientX - from.x, changedTouches[0].clientY - from.y];
+      const formula = /** @type {Element} */ (target).closest(".formula");
+      const scrolls = formula !== null && formula.scrollWidth > formula.clientWidth + 1;
+      if (!scrolls && Math.abs(dx) > SWIPE && Math.abs(dx) > 2 * Math.abs(dy)) go(dx < 0 ? 1 : -1);
+    },
+  };
+}
+
+/** Puts the style sheet of lecture mode into the page; resolves when it applies. */
+export function bringStyle() {
+  return new Promise((done) => {
+    const link = document.createElement("link");
+    link.rel = "stylesheet";
+    link.href = "/styles/lecture.css";
+    link.onload = link.onerror = done;
+    document.head.append(link);
+  });
+}
+
+/**
+ * @param {{root: HTMLElement, session: View["session"], state: () => View["state"], changed: () => void, play: () => void}} page
+ */
+export function open({ root, session, state, changed, play }) {
+  const id = lineId();
+  const spot = createSpot(root);
+
+  /** @param {import("../../model/lecture/stops.js").Stop} stop */
+  function stopAt({ step, part }) {
+    session.goTo(step, part);
+    if (part) requestAnimationFrame(() => root.querySelector(`[data-part="${part}"]`)?.scrollIntoView({ block: "nearest", behavior: "smooth" }));
+  }
+  const go = (/** @type {number} */ by) => stopAt(onwards(state().lines, state().place, by, state().place.pace));
+  const step = (/** @type {number} */ by) => stopAt(within(state().lines, state().place, by));
+  const turn = () => session.move({ beside: BESIDE[(BESIDE.indexOf(state().place.beside) + 1) % BESIDE.length] });
+
+  const sender = createSender(new BroadcastChannel(nameOf(id)), {
+    here() {
+      const { place, overlay, scene, derivation } = state();
+      return { place, overlay, title: scene?.title ?? {}, chapters: derivation?.chapters ?? [] };
+    },
+    wish(wish) {
+      if (wish.kind === "go") go(wish.by);
+      else if (wish.kind === "within") step(wish.by);
+      else if (wish.kind === "goTo") session.goTo(wish.step);
+      else if (wish.kind === "overlay") session.overlay("black");
+      else if (wish.kind === "play") play();
+    },
+  });
+
+  function present() {
+    const { lang, theme } = state().place;
+    window.open(`/presenter?with=${id}&lang=${lang}${theme === "auto" ? "" : `&theme=${theme}`}`, `presenter-${id}`, "popup,width=1200,height=780");
+  }
+
+  function leave() {
+    session.move({ view: "", part: 0 });
+    if (document.fullscreenElement) void document.exitFullscreen();
+  }
+
+  function pointOut() {
+    spot.toggle();
+    changed();
+  }
+
+  const touch = createTouch(go);
+  return {
+    go, present, leave,
+    /** What keys mean here besides what they always mean. @type {Record<string, () => void>} */
+    keys: {
+      ArrowDown: () => step(1), ArrowUp: () => step(-1), e: () => stopAt(allOrNone(state().lines, state().place)),
+      t: () => session.move({ pace: state().place.pace ? "" : "substeps" }), d: turn, h: pointOut, l: leave,
+    },
+    slide: (/** @type {View} */ view) => slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch }),
+    /** Called when anything has changed. */
+    update() {
+      sender.tell();
+      if (!state().place.view) spot.off();
+    },
+  };
+}
+
+/** @typedef {ReturnType<typeof open>} Lecture */

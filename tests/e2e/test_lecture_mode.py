@@ -1,0 +1,195 @@
+"""Lecture mode and the presenter's window, in a real browser."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+from tests.e2e.lecture import Lecture
+
+pytestmark = pytest.mark.e2e
+
+PLACE = "?scene=elastic-pendulum&lang=en&view=lecture&step=virtual-displacement:bob"
+
+
+@pytest.fixture
+def hall(lecture: Lecture) -> Lecture:
+    """The elastic pendulum in lecture mode, at a step with three substeps."""
+    lecture.page.goto(f"{lecture.address}scene{PLACE}")
+    expect(lecture.page.locator(".slide .formula .katex").first).to_be_visible()
+    return lecture
+
+
+def parts(page: Page) -> int:
+    return page.locator(".slide .part").count()
+
+
+def test_a_key_enters_and_leaves(lecture: Lecture) -> None:
+    page = lecture.page
+    lecture.open("?scene=pendulum&lang=en")
+    page.keyboard.press("l")
+    expect(page.locator(".slide .step")).to_have_count(1)
+    expect(page.locator(".top")).to_be_hidden()
+    expect(page).to_have_url(re.compile("view=lecture"))
+    page.keyboard.press("l")
+    expect(page.locator(".top")).to_be_visible()
+    expect(lecture.steps).to_have_count(1)
+
+
+def test_one_step_at_a_time_by_keys_and_remote(hall: Lecture) -> None:
+    page = hall.page
+    first = hall.current_step
+    for key, step in (
+        ("PageDown", "total-differential:bob"),
+        ("Space", "work-of-force:weight"),
+        ("PageUp", "total-differential:bob"),
+        ("ArrowLeft", first),
+        ("End", "jacobi-energy"),
+        ("Home", "position:bob"),
+    ):
+        page.keyboard.press(key)
+        expect(page.locator(".slide .step")).to_have_attribute("data-step", step)
+        expect(page.locator(".slide .step")).to_have_count(1)
+    assert page.locator(".untypeset, .katex-error").count() == 0
+
+
+def test_substeps_come_one_by_one_and_have_an_address(hall: Lecture) -> None:
+    page = hall.page
+    for shown in (1, 2, 3, 3):
+        page.keyboard.press("ArrowDown")
+        expect(page.locator(".slide .part")).to_have_count(shown)
+    expect(page.locator(".slide .part").last).to_be_in_viewport()
+    page.keyboard.press("ArrowUp")
+    expect(page).to_have_url(re.compile("part=2"))
+    page.reload()
+    expect(page.locator(".slide .part")).to_have_count(2)
+    page.keyboard.press("e")
+    expect(page.locator(".slide .part")).to_have_count(3)
+    page.keyboard.press("e")
+    expect(page.locator(".slide .part")).to_have_count(0)
+
+
+def test_a_remote_with_two_buttons_reaches_the_substeps(hall: Lecture) -> None:
+    page = hall.page
+    page.keyboard.press("t")
+    expect(page).to_have_url(re.compile("pace=substeps"))
+    page.keyboard.press("PageDown")
+    expect(page.locator(".slide .part")).to_have_count(1)
+    page.keyboard.press("PageUp")
+    page.keyboard.press("PageUp")
+    expect(page.locator(".slide .step")).to_have_attribute("data-step", "position:bob")
+    page.keyboard.press("PageDown")
+    for _ in range(4):
+        page.keyboard.press("PageDown")
+    expect(page.locator(".slide .step")).to_have_attribute("data-step", "total-differential:bob")
+
+
+def test_jump_to_a_number_and_to_a_word(hall: Lecture) -> None:
+    page = hall.page
+    page.keyboard.press("g")
+    page.locator("dialog.jump input").fill("3.2")
+    page.keyboard.press("Enter")
+    expect(page.locator("dialog")).to_have_count(0)
+    expect(page.locator(".slide .number")).to_have_text("3.2")
+    page.keyboard.press("g")
+    page.locator("dialog.jump input").fill("lagrange function")
+    expect(page.locator("dialog.jump li:visible")).to_have_count(1)
+    page.keyboard.press("Enter")
+    expect(page.locator(".slide .step")).to_have_attribute("data-step", "lagrangian")
+
+
+def test_black_screen_pointer_and_what_stands_beside(hall: Lecture) -> None:
+    page = hall.page
+    page.keyboard.press("b")
+    expect(page.locator(".black")).to_be_visible()
+    page.keyboard.press("PageDown")
+    expect(page.locator(".black")).to_have_count(0)
+    assert hall.current_step == "virtual-displacement:bob"
+    page.keyboard.press("h")
+    expect(page.locator(".spot")).to_be_visible()
+    page.keyboard.press("h")
+    expect(page.locator(".spot")).to_be_hidden()
+    expect(page.locator(".plots")).to_be_hidden()
+    page.keyboard.press("d")
+    expect(page.locator(".plots.ready")).to_be_visible()
+    page.keyboard.press("d")
+    expect(page.locator(".drawing")).to_be_hidden()
+    page.keyboard.press("d")
+    expect(page.locator(".drawing")).to_be_visible()
+
+
+SWIPE = """([element, from, to]) => {
+    const touch = x => new Touch({identifier: 1, target: element, clientX: x, clientY: 400});
+    element.dispatchEvent(new TouchEvent('touchstart', {touches: [touch(from)], bubbles: true}));
+    element.dispatchEvent(new TouchEvent('touchend', {changedTouches: [touch(to)], bubbles: true}));
+}"""
+
+
+def test_a_swipe_turns_the_page(hall: Lecture) -> None:
+    page = hall.page
+    title = page.locator(".slide .title").element_handle()
+    page.evaluate(SWIPE, [title, 300, 100])
+    expect(page.locator(".slide .step")).to_have_attribute("data-step", "total-differential:bob")
+    title = page.locator(".slide .title").element_handle()
+    page.evaluate(SWIPE, [title, 100, 110])
+    assert hall.current_step == "total-differential:bob"
+    page.evaluate(SWIPE, [title, 100, 300])
+    expect(page.locator(".slide .step")).to_have_attribute("data-step", "virtual-displacement:bob")
+
+
+@pytest.mark.parametrize(
+    ("width", "height"),
+    [
+        pytest.param(360, 740, id="phone"),
+        pytest.param(1024, 768, id="old projector"),
+        pytest.param(3840, 2160, id="4K"),
+    ],
+)
+def test_equations_fit_the_width_of_the_screen(hall: Lecture, width: int, height: int) -> None:
+    page = hall.page
+    page.set_viewport_size({"width": width, "height": height})
+    page.goto(f"{hall.address}scene?scene=double-pendulum&lang=de&view=lecture&step=lagrangian")
+    for _ in ("lagrangian", "equation:phi1", "equation:phi2"):
+        expect(page.locator(".slide .formula .katex").first).to_be_visible()
+        page.wait_for_timeout(150)
+        too_wide = (
+            "[...document.querySelectorAll('.slide .formula')].filter(e => e.scrollWidth > e.clientWidth + 1).length"
+        )
+        assert page.evaluate(too_wide) == 0, hall.current_step
+        assert page.evaluate("document.documentElement.scrollWidth") == width
+        page.keyboard.press("PageDown")
+
+
+def test_the_presenter_sees_what_comes_and_leads(hall: Lecture) -> None:
+    page = hall.page
+    with page.context.expect_page() as opened:
+        page.keyboard.press("s")
+    presenter = opened.value
+    presenter.on("pageerror", lambda error: hall.complaints.append(f"exception: {error}"))
+    expect(presenter.locator(".now .number")).to_have_text("2.1")
+    expect(presenter.locator(".next .number")).to_have_text("2.2")
+    presenter.locator("textarea").fill("Ask why time stands still.")
+    presenter.locator(".presenter .main").click()
+    expect(page.locator(".slide .step")).to_have_attribute("data-step", "total-differential:bob")
+    expect(presenter.locator("textarea")).to_have_value("")
+    presenter.keyboard.press("PageUp")
+    expect(page.locator(".slide .step")).to_have_attribute("data-step", "virtual-displacement:bob")
+    expect(presenter.locator("textarea")).to_have_value("Ask why time stands still.")
+    page.keyboard.press("ArrowDown")
+    expect(presenter.locator(".now h4")).to_have_count(1)
+    page.keyboard.press("b")
+    expect(presenter.locator(".now h2 strong")).to_be_visible()
+    presenter.locator(".times .tool").click()
+    expect(presenter.locator(".elapsed")).not_to_have_text("0:00")
+    presenter.reload()
+    expect(presenter.locator(".now .number")).to_have_text("2.1")
+    page.reload()
+    expect(page.locator(".slide .part")).to_have_count(1)
+    page.keyboard.press("PageDown")
+    expect(presenter.locator(".now .number")).to_have_text("2.2")
+
+
+def test_a_presenter_without_a_lecture_says_how_to_get_one(lecture: Lecture) -> None:
+    lecture.page.goto(f"{lecture.address}presenter?lang=en")
+    expect(lecture.page.locator(".presenter")).to_contain_text("No lecture is connected")

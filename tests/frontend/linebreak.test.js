@@ -1,0 +1,40 @@
+import { strict as assert } from "node:assert";
+import { createRequire } from "node:module";
+import { test } from "node:test";
+import { brokenRows, weight } from "../../frontend/model/linebreak.js";
+
+const katex = createRequire(new URL("../../frontend/package.json", import.meta.url))("katex");
+
+const CASES = [
+  ["what is short enough stays", "\\begin{aligned}a &= b\\end{aligned}", 1, "\\begin{aligned}a &= b\\end{aligned}"],
+  ["a sum goes on below before a sign", "\\begin{aligned}a &= bcd + efg - hij\\end{aligned}", 0.5,
+    "\\begin{aligned}a &= bcd  \\\\[0.2em] & \\qquad {}+ efg  \\\\[0.2em] & \\qquad {}- hij\\end{aligned}"],
+  ["brackets stay whole where their term fits", "\\begin{aligned}a &= f(b + c) + g(d + e)\\end{aligned}", 0.7,
+    "\\begin{aligned}a &= f(b + c)  \\\\[0.2em] & \\qquad {}+ g(d + e)\\end{aligned}"],
+  ["and open where it is too long by itself", "\\begin{aligned}a &= f(bbbb + cccc)\\end{aligned}", 0.7,
+    "\\begin{aligned}a &= f(bbbb  \\\\[0.2em] & \\qquad {}+ cccc)\\end{aligned}"],
+  ["a sign before the first term joins nothing", "\\begin{aligned}a &= -bcdefgh\\end{aligned}", 0.3, "\\begin{aligned}a &= -bcdefgh\\end{aligned}"],
+  ["the gap to the next row stays", "\\begin{aligned}a &= bbbb + cccc \\\\[0.4em] d &= e\\end{aligned}", 0.7,
+    "\\begin{aligned}a &= bbbb  \\\\[0.2em] & \\qquad {}+ cccc \\\\[0.4em] d &= e\\end{aligned}"],
+  ["a coloured sum keeps its colour on each line", "\\begin{aligned}E &= \\htmlClass{k}{aaaa + bbbb}\\end{aligned}", 0.7,
+    "\\begin{aligned}E &=\\htmlClass{k}{aaaa } \\\\[0.2em] & \\qquad {}\\htmlClass{k}{{}+ bbbb}\\end{aligned}"],
+  ["a formula without rows", "aaaa + bbbb", 0.6, "\\begin{aligned}& aaaa  \\\\[0.2em] & \\qquad {}+ bbbb\\end{aligned}"],
+];
+
+for (const [name, latex, part, wanted] of /** @type {[string, string, number, string][]} */ (CASES)) {
+  test(`long formulas: ${name}`, () => {
+    const broken = brokenRows(latex, part);
+    assert.equal(broken, wanted);
+    katex.renderToString(broken, { displayMode: true, trust: true, strict: "ignore" });
+  });
+}
+
+test("a matrix is one thing", () => {
+  const matrix = "\\begin{aligned}M &= \\begin{bmatrix} a + b & c \\\\ c & d - e \\end{bmatrix}\\end{aligned}";
+  assert.equal(brokenRows(matrix, 0.2), matrix);
+});
+
+test("weight counts what is seen", () => {
+  assert.equal(weight("\\htmlClass{q-0 x}{\\dot{\\varphi}_1}^{2}"), 3);
+  assert.equal(weight("\\frac{1}{2} m \\ell^2"), 5);
+});
