@@ -1,7 +1,7 @@
 """The state that amplitudes are counted from: rest, or steady motion where coordinates are cyclic.
 
 The other coordinates stay at values q₀ at which their forces vanish, f(q₀, q̇_c, t) = 0 with the cyclic rates q̇_c that
-the conserved momenta p ask for; where the laws depend on time, the mean of f over a period (or the span) vanishes.
+the conserved momenta p ask for; where the laws depend on time, the mean of f (`mean.py`) vanishes.
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.1; Lurie, Analytical Mechanics, ch. 7 (steady motion).
 """
 
@@ -13,17 +13,15 @@ from functools import cached_property
 
 import numpy as np
 
-from ...errors import SceneError
 from ...mechanics.coordinate import Coordinate
 from ...mechanics.scene import Scene
-from ...model.cyclic import cyclic_coordinates
 from ...simulation.problem import Floats, Problem
 from ...simulation.service import problem_of
 from ...simulation.stiffness import eigenvalues
-from ..period import period
 from .distance import mass_matrices
+from .mean import Mean
+from .momenta import Conserved
 
-TIMES = 128
 TRIES, NUDGE, CLOSE = 40, 1e-6, 1e-9
 GROWS = 1e-3  # real part of an eigenvalue, relative to the largest, that differences cannot explain
 REGULAR = 1e10  # condition of M
@@ -31,7 +29,10 @@ REGULAR = 1e10  # condition of M
 
 @dataclass(frozen=True)
 class Centre:
-    """A scene's own initial state, seen from its centre: `values` of the coordinates that are not cyclic."""
+    """A scene's own initial state, seen from its centre.
+
+    `values` are those of all free coordinates at rest; in steady motion, of those that are not cyclic.
+    """
 
     scene: Scene
     span: float
@@ -40,13 +41,6 @@ class Centre:
     @cached_property
     def _steady(self) -> _Steady:
         return _Steady.of(self.scene, self.span)
-
-    @property
-    def is_at_rest(self) -> bool:
-        """Whether the cyclic coordinates rest, too."""
-        steady = self._steady
-        place = np.array([self.values.get(each.name, each.value) for each in self.scene.free])
-        return bool(np.all(np.abs(steady.rates(place, np.zeros(len(place)))) < CLOSE))
 
     def at(self, amplitude: float) -> Scene:
         """The scene with the deviation from the centre that many times larger, and the same momenta."""
@@ -65,8 +59,10 @@ def centre_of(scene: Scene, span: float) -> Centre | None:
         return None
     here = np.array([each.value for each in scene.free])
     nearest = min(found, key=lambda place: (not steady.lasts(place), float(np.abs(place - here).max())))
-    values = {each.name: float(q) for each, q in zip(scene.free, nearest, strict=True)}
-    return Centre(scene, span, {name: q for name, q in values.items() if name not in steady.cyclic})
+    stays = not np.any(np.abs(steady.rates(nearest, np.zeros(len(nearest)))) > CLOSE)
+    kept = [each.name for each in scene.free if stays or each.name not in steady.conserved.names]
+    values = dict(zip((each.name for each in scene.free), nearest.tolist(), strict=True))
+    return Centre(scene, span, {name: values[name] for name in kept})
 
 
 def _scaled(value: float, rest: float, amplitude: float) -> float:
@@ -87,47 +83,32 @@ class _Steady:
 
     scene: Scene
     problem: Problem
-    cyclic: tuple[str, ...]
-    momenta: Floats  # of the cyclic coordinates
-    window: float  # of the time that forces are averaged over: the period, or the whole span
+    conserved: Conserved
+    mean: Mean
 
     @classmethod
     def of(cls, scene: Scene, span: float) -> _Steady:
-        problem, cyclic = problem_of(scene, span), cyclic_coordinates(scene)
-        places = [index for index, each in enumerate(scene.free) if each.name in cyclic]
-        start = problem.state[None, : 2 * problem.degrees]
-        momenta = _momenta(problem, np.zeros(1), start)[0, places]
-        return cls(scene, problem, cyclic, momenta, _window(scene, span))
+        problem = problem_of(scene, span)
+        return cls(scene, problem, Conserved.of(scene, problem), Mean.of(scene, span))
 
     @cached_property
     def _is_cyclic(self) -> np.ndarray:
-        return np.array([each.name in self.cyclic for each in self.scene.free])
+        return np.array([each.name in self.conserved.names for each in self.scene.free])
 
     def rates(self, place: Floats, rates: Floats) -> Floats:
         """The rates given, but those of the cyclic coordinates such that their momenta are as they were."""
-        c = self._is_cyclic
-        if not c.any():
-            return rates
-        still = np.where(c, 0.0, rates)
-        state = np.concatenate([place, still])[None]
-        rest = _momenta(self.problem, np.zeros(1), state)[0, c]
-        mass = mass_matrices(self.problem, np.zeros(1), state)[0][np.ix_(c, c)]
-        found = still.copy()
-        try:
-            found[c] = np.linalg.solve(mass, self.momenta - rest)
-        except np.linalg.LinAlgError:
-            found[c] = np.nan
-        return found
+        found = self.conserved.rates(np.zeros(1), np.concatenate([place, rates])[None])
+        return np.asarray(found[0])
 
     def force(self, place: Floats) -> Floats:
-        """The mean over the span of the forces on the coordinates that are not cyclic."""
+        """The mean over time of the forces on the coordinates that are not cyclic."""
         rates = self.rates(place, np.zeros(len(place)))
-        times = np.linspace(0.0, self.window, TIMES, endpoint=False)
-        states = np.tile(np.concatenate([place, rates]), (TIMES, 1))
+        times = self.mean.times
+        states = np.tile(np.concatenate([place, rates]), (len(times), 1))
         n = self.problem.degrees
         first = n * (n + 1) // 2
         table = self.problem.model.motion.table(self.problem.inputs(times, states))[:, first : first + n]
-        return np.asarray(table.mean(axis=0)[~self._is_cyclic])
+        return np.asarray((self.mean.weights @ table)[~self._is_cyclic])
 
     def settled(self, start: Floats) -> Floats | None:
         """Where the forces vanish, by Newton's method from a start; None if it does not get there."""
@@ -177,8 +158,9 @@ class _Steady:
         return bool(found.real.max() <= GROWS * np.abs(found).max())
 
     def _changes(self, place: Floats) -> bool:
-        states = np.tile(np.concatenate([place + 0.1, np.zeros(len(place))]), (TIMES, 1))
-        times = np.linspace(0.0, self.problem.t_end, TIMES)
+        """Whether the laws depend on time; guides that turn evenly need not make them so."""
+        times = self.mean.times
+        states = np.tile(np.concatenate([place + 0.1, np.zeros(len(place))]), (len(times), 1))
         table = self.problem.model.motion.table(self.problem.inputs(times, states))
         return bool(np.ptp(table, axis=0).max() > CLOSE * np.abs(table).max())
 
@@ -191,22 +173,7 @@ class _Steady:
             yield np.array([_between(each, part) for each in self.scene.free])
 
 
-def _window(scene: Scene, span: float) -> float:
-    try:
-        return period(scene)
-    except SceneError:  # nothing depends on the time, or not periodically
-        return span
-
-
 def _between(coordinate: Coordinate, part: float) -> float:
     low = coordinate.value - 1.0 if coordinate.min is None else coordinate.min
     high = coordinate.value + 1.0 if coordinate.max is None else coordinate.max
     return low + part * (high - low)
-
-
-def _momenta(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """p = ∂E/∂q̇ of all free coordinates."""
-    n = problem.degrees
-    first = n * (n + 1) // 2
-    table = problem.model.phase.function.table(problem.inputs(times, states))
-    return np.asarray(table[:, first : first + n])

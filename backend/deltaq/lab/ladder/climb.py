@@ -17,11 +17,12 @@ from .centre import Centre, centre_of
 from .distance import Yardstick
 from .findings import FULL, Deviation, Finding, Growth, Ladder, Least, Measured, Rung
 from .footing import Footing
+from .mean import Mean
 from .measurement import cost, deviation, ride, yardstick
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0)
 MOST_AMPLITUDES, MOST_REPEATS, LARGEST_SPAN = 8, 25, 1000.0
-CERTAIN = 10.0  # times the error of the integration, for an error to count in a slope
+CERTAIN, ROUNDING = 10.0, 1e-10  # an error counts in a slope if it is so many times that of the integration
 
 
 def climb(
@@ -41,7 +42,7 @@ def climb(
     _check(span, amplitudes, tolerance, repeats)
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
     centre = centre_of(scene, span)
-    footing = Footing(scene, None if centre is None or not centre.is_at_rest else centre.values)
+    footing = Footing(scene, centre.values if centre else {}, Mean.of(scene, span))
     found = [rung_of(footing, chain) for chain in ((), *chains(footing))]
     factors = tuple(sorted({1.0, *amplitudes})) if centre else (1.0,)
     sound = [rung for rung in found if rung.scene is not None]
@@ -130,7 +131,7 @@ def _slope(amplitudes: tuple[float, ...], found: list[Deviation | None]) -> floa
     points = [
         (math.log(amplitude), math.log(each.relative))
         for amplitude, each in zip(amplitudes, found, strict=True)
-        if each is not None and math.isfinite(each.relative) and each.relative > CERTAIN * each.floor
+        if each is not None and math.isfinite(each.relative) and each.relative > CERTAIN * max(each.floor, ROUNDING)
     ]
     if len(points) < 2:
         return None

@@ -1,6 +1,8 @@
 """How far two motions are apart, in one norm for all rungs: metres, in the metric of the kinetic energy,
 
-    d² = Δqᵀ M(q) Δq / m,   Δq = q of the rung − q of the full model,   m the mass of all bodies.
+    d² = Δqᵀ M(q) Δq / m,   Δq = q of the rung − q of the full model,   m the mass of all bodies;
+
+for angles the chord 2 sin(Δφ/2), so that one that is off by a whole turn is right.
 
 E = ½ q̇ᵀ M q̇ makes M the metric of the configuration space, so to first order d is the root mean square distance, over
 all mass, between where a particle is and where the rung puts it. Angles and lengths come in one unit, heavy parts
@@ -31,16 +33,18 @@ class Yardstick:
         """d at each sample that a rung, its values by coordinate, has in common with the full motion, in metres."""
         count = min(len(self.times), *(len(each) for each in values.values()))
         rung = np.column_stack([values[name][:count] for name in self.problem.model.layout.free])
-        return self._lengths(rung - self.states[:count, : self.problem.degrees])
+        return self._lengths(rung, self.states[:count, : self.problem.degrees])
 
     @property
     def extent(self) -> float:
         """How far the motion gets from where it began, in metres."""
         values = self.states[:, : self.problem.degrees]
-        return float(self._lengths(values - values[:1]).max(initial=0.0))
+        return float(self._lengths(values[:1], values).max(initial=0.0))
 
-    def _lengths(self, apart: Floats) -> Floats:
-        count = len(apart)
+    def _lengths(self, values: Floats, full: Floats) -> Floats:
+        """The distances of values from the full motion, sample by sample."""
+        count, angular = len(full), np.array(self.problem.angular)
+        apart = np.where(angular, 2.0 * np.sin((values - full) / 2.0), values - full)
         masses = mass_matrices(self.problem, self.times[:count], self.states[:count])
         squares = np.einsum("ti,tij,tj->t", apart, masses, apart)
         return np.asarray(np.sqrt(np.maximum(squares, 0.0) / self.mass))

@@ -8,14 +8,20 @@ from dataclasses import dataclass, replace
 from ...mechanics.scene import Scene
 from ...simulation.problem import Floats
 from .findings import Part
+from .mean import Mean
 
 
 @dataclass(frozen=True)
 class Footing:
-    """A scene with its initial values, and the values of its coordinates at rest or in steady motion nearby, if any."""
+    """A scene with its initial values, and what is known of rest nearby.
+
+    `centre` holds the values of its coordinates at rest; in steady motion, of those that are not cyclic; it is empty
+    where there is neither. `mean` is how to average over time what guides bring in.
+    """
 
     scene: Scene
-    centre: Mapping[str, float] | None
+    centre: Mapping[str, float]
+    mean: Mean
 
     def with_scene(self, scene: Scene) -> Footing:
         return replace(self, scene=scene)

@@ -22,7 +22,8 @@ from .findings import Cost, Deviation, Timing
 from .footing import Back, Motion
 
 TOLERANCE = 1e-8  # of the integration: what is left is the error of the rung
-SAMPLES = 401
+SAMPLES = 1601  # dense, since the way back may have to integrate
+SHOWN = 4  # every so many of them are told
 STEP_LIMIT = 200_000  # of one run
 
 
@@ -74,7 +75,9 @@ def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
         return None
     errors, largest = errors[:good], float(errors[:good].max())
     relative = largest / full.extent if full.extent > 0.0 else (0.0 if largest == 0.0 else np.inf)
-    return Deviation(tuple(full.times[:good].tolist()), tuple(errors.tolist()), largest, relative, rung.floor)
+    shown = slice(0, good, SHOWN)
+    times, curve = full.times[shown].tolist(), errors[shown].tolist()
+    return Deviation(tuple(times), tuple(curve), largest, relative, rung.floor)
 
 
 def seen(rung: Ride) -> Motion:

@@ -112,4 +112,4 @@ def _moved(scene: Scene, point: Mapping[str, float], time: float) -> dict[str, f
     return {each.name: point[each.name] + time * point[f"dot({each.name})"] for each in scene.coordinates}
 
 
-KIND = Kind("undamped", _offered, _simplify)
+KIND = Kind("undamped", _offered, _simplify, ("rigid", "cyclic", "linearized"))

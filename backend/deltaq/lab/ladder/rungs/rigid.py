@@ -1,0 +1,136 @@
+"""A stiff spring taken to be rigid: it keeps the length that it has at rest.
+
+The fast oscillation, of frequency √(k/m), is gone, and with it one degree of freedom; the error of what is left falls
+like 1/k. Source: Landau, Lifshitz, Mechanics, §11 (rigid constraints); Hairer, Lubich, Wanner, Geometric Numerical
+Integration, 2nd ed., XIV.3 (stiff springs and their rigid limit).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from ....language.expression import Expression
+from ....language.floats import evaluate
+from ....language.tree import Node
+from ....mechanics.changes import change
+from ....mechanics.coordinate import Coordinate
+from ....mechanics.guide import Guide
+from ....mechanics.loads import Load
+from ....mechanics.parameter import Parameter
+from ....mechanics.scene import Scene
+from ....model.dependence import dependencies, solved
+from ....model.elimination import eliminated
+from ....simulation.problem import Floats
+from ..findings import Part
+from ..footing import Back, Footing, Kind, Motion, Simplified
+from ..names import fresh, tidied, with_parameters
+from ..stretch import length
+
+STEP = 1e-5
+
+
+def _offered(footing: Footing) -> Iterator[Part]:
+    if footing.centre and len(footing.scene.free) > 1:
+        names = (load.name for load in footing.scene.loads if next(_ways(load, footing), None))
+        yield from (Part("rigid", {"load": name}) for name in names)
+
+
+def _simplify(footing: Footing, part: Part) -> Simplified:
+    load = next(load for load in footing.scene.loads if load.name == part.parameters["load"])
+    return next(_ways(load, footing)).simplified(footing)
+
+
+class _Way(Protocol):
+    def simplified(self, footing: Footing, /) -> Simplified: ...
+
+
+@dataclass(frozen=True)
+class _Held:
+    """The length depends on one coordinate alone, which keeps its value at rest."""
+
+    coordinate: str
+
+    def simplified(self, footing: Footing) -> Simplified:
+        scene, name = footing.scene, self.coordinate
+        at_rest = tuple(_at(footing, each) if each.name == name else each for each in scene.coordinates)
+        return Simplified(change(replace(scene, coordinates=at_rest), freeze=(name,)))
+
+
+def _at(footing: Footing, coordinate: Coordinate) -> Coordinate:
+    """The coordinate at rest from the start."""
+    return replace(coordinate, value=footing.centre[coordinate.name], rate=0.0, min=None, max=None)
+
+
+@dataclass(frozen=True)
+class _GivenUp:
+    """A coordinate is what the others and the length at rest, the parameter `target`, make it."""
+
+    length: Node
+    coordinate: str
+    target: str
+    value: Expression
+
+    def simplified(self, footing: Footing) -> Simplified:
+        """A guide where the time alone is left, else the coordinate is put in everywhere."""
+        scene, name = footing.scene, self.coordinate
+        unit = next(each.unit for each in scene.coordinates if each.name == name)
+        rest = Parameter(self.target, unit=unit, value=_at_rest(footing, self.length), positive=False)
+        wider = with_parameters(scene, (rest,))
+        if not dependencies(wider, self.value.tree) & {each.name for each in scene.free}:
+            return Simplified(replace(wider, guides=(*wider.guides, Guide(name, self.value))))
+        found = eliminated(wider, name, self.value)
+        return Simplified(tidied(found, wider.labels), _back(wider, name, self.value))
+
+
+def _ways(load: Load, footing: Footing) -> Iterator[_Way]:
+    """How the spring of a load can be made rigid."""
+    scene = footing.scene
+    found = length(load, scene)
+    if found is None:
+        return
+    depends = dependencies(scene, found)
+    free = [each.name for each in scene.free if each.name in depends]
+    if depends == set(free) and len(free) == 1 and free[0] in footing.centre:
+        yield _Held(free[0])
+    target = fresh(scene, "s_rest")
+    wider = with_parameters(scene, (Parameter(target),))
+    for name in free:
+        value = solved(wider, found, name, target)
+        if value is not None:
+            yield _GivenUp(found, name, target, value)
+
+
+def _at_rest(footing: Footing, length: Node) -> float:
+    """The length at rest, the mean where guides move its ends."""
+    scene = footing.scene
+    known = {each.name: footing.centre.get(each.name, each.value) for each in scene.coordinates}
+    values = {each.name: each.value for each in scene.parameters} | known
+    moments = [values | {"t": time} for time in footing.mean.times.tolist()]
+    guided = [now | {each.coordinate: evaluate(each.value.tree, now) for each in scene.guides} for now in moments]
+    lengths = np.array([evaluate(length, now) for now in guided])
+    return float(footing.mean.weights @ lengths)
+
+
+def _back(scene: Scene, name: str, value: Expression) -> Back:
+    """The coordinate that was given up, from the others; its rate by a difference along the motion."""
+    constants = {each.name: each.value for each in scene.parameters}
+
+    def at(motion: Motion, ahead: float) -> Floats:
+        moved = {key: motion.values[key] + ahead * motion.rates[key] for key in motion.values}
+        columns = moved | {"t": motion.times + ahead}
+        rows = (constants | {key: float(each[k]) for key, each in columns.items()} for k in range(len(motion.times)))
+        return np.array([evaluate(value.tree, row) for row in rows])
+
+    def back(motion: Motion) -> Motion:
+        rate = (at(motion, STEP) - at(motion, -STEP)) / (2 * STEP)
+        values, rates = {**motion.values, name: at(motion, 0.0)}, {**motion.rates, name: rate}
+        return Motion(motion.times, values, rates)
+
+    return back
+
+
+KIND = Kind("rigid", _offered, _simplify, ("linearized",))
