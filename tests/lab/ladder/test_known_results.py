@@ -14,7 +14,7 @@ def test_a_steady_motion_is_exact_with_the_angle_held() -> None:
     found = climbed(load_scene("conical-pendulum"), 5.0)
     assert found.relative("frozen:theta") < 1e-9
     assert found.relative("guided:psi") < 1e-9
-    assert found.relative("frozen:psi") == pytest.approx(1.0, rel=0.1)
+    assert found.relative("frozen:psi") > 1.0
     assert found.least.rung == "frozen:theta"
 
 
