@@ -50,6 +50,7 @@ export function createApi(send, base = "/api/v1") {
     call(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body), signal });
 
   return {
+    post,
     /** @param {{summaries?: boolean}} [options] @returns {Promise<{scenes: import("./types.js").SceneEntry[]}>} */
     scenes: ({ summaries = false } = {}) => call(`/scenes?summaries=${summaries}`),
     /** @param {string} id @param {string} lang of what may go wrong @param {number} [n] members of a chain, 0 for the usual @returns {Promise<import("./types.js").Scene>} */

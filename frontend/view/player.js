@@ -9,7 +9,7 @@ import { fixed } from "../model/numbers.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
-/** @param {View} view */
+/** @param {{state: Pick<View["state"], "trajectory" | "place">} & Pick<View, "clock" | "t" | "togglePlay" | "scrub">} view */
 export function player(view) {
   const { state, clock, t } = view;
   const label = clock.playing ? t("player.pause") : t("player.play");

@@ -5,6 +5,7 @@ import { inLanguage, translator } from "../../frontend/model/catalog.js";
 import { SECTIONS } from "../../frontend/model/editor/schema.js";
 import { COURSE } from "../../frontend/model/start/course.js";
 import { PAGES } from "../../frontend/model/url.js";
+import { SIDES } from "../../frontend/model/homework/place.js";
 import { EXAMPLES } from "../../frontend/model/variations/examples.js";
 import { KINDS } from "../../frontend/model/variations/question.js";
 
@@ -28,7 +29,7 @@ test("a text in the asked language, else in English, else in any", () => {
 
 const source = [...readdirSync(FRONTEND).filter((f) => f.endsWith(".js")), ...["view", "model"].flatMap((folder) => readdirSync(new URL(folder, FRONTEND), { recursive: true }).map(String).filter((f) => f.endsWith(".js")).map((f) => `${folder}/${f}`))]
   .map((file) => readFileSync(new URL(file, FRONTEND), "utf8")).join("\n");
-const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture"].map((section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"))))]));
+const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture", "exercises"].map((section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"))))]));
 
 test("both languages have the same texts with the same parameters", () => {
   const holes = (/** @type {string} */ text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort().join();
@@ -65,12 +66,22 @@ const START = [
   ...COURSE.flatMap((part) => [`course.${part.id}`, ...part.entries.map((entry) => `course.${part.id}.${entry.id}`)]),
 ];
 
-for (const [name, asked] of Object.entries({ editor: EDITOR, variations: VARIATIONS, start: START })) {
+/** What the page of homework asks for by outcome, part of the answer, row of the keyboard and side. */
+const EXERCISES = [
+  ...["correct", "wrong", "undecided", "invalid", "follow_through"].flatMap((outcome) => [`homework.outcome.${outcome}`, `homework.status-${outcome}`]),
+  ...["correct", "wrong", "undecided"].map((outcome) => `homework.part-${outcome}`),
+  ...["keys-motion", "keys-parameters", "keys-operations", "status-solved", "status-begun"].map((key) => `homework.${key}`),
+  ...["latex", "plain"].flatMap((syntax) => ["syntax", "to", "kept"].map((key) => `homework.${key}-${syntax}`)),
+  ...SIDES.map((side) => `homework.side-${side}`),
+  ...["checking", "check", "solution", "points", "points-one", "hint", "next-hint", "compare", "moving", "mark"].map((key) => `homework.${key}`),
+];
+
+for (const [name, asked] of Object.entries({ editor: EDITOR, variations: VARIATIONS, start: START, exercises: EXERCISES })) {
   test(`every text of the part "${name}" is there`, () => assert.deepEqual(asked.filter((key) => !(key in catalogs.en)), []));
 }
 
 test("every text that is there is used", () => {
   const composed = ["theme.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical."];
-  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
+  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...EXERCISES].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });

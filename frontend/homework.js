@@ -1,0 +1,161 @@
+/** The driver of the page "Homework": it connects sheet, answers, motions, views and address. */
+
+import { render } from "lit-html";
+import { createApi } from "./model/api.js";
+import { translator } from "./model/catalog.js";
+import { createClock } from "./model/clock.js";
+import { createAnswering } from "./model/homework/answering.js";
+import { assignmentIn, fragmentOfAssignment } from "./model/homework/assignment.js";
+import { createConversion } from "./model/homework/conversion.js";
+import { createExercise } from "./model/homework/exercise.js";
+import { keyboardOf, shortcutsOf } from "./model/homework/keys.js";
+import { readAsked, writeAsked } from "./model/homework/place.js";
+import { createProgress } from "./model/homework/progress.js";
+import { begin } from "./model/homework/state.js";
+import { createWorking } from "./model/homework/working.js";
+import { createStore } from "./model/store.js";
+import { startLanguage } from "./model/url.js";
+import { linkHighlights } from "./view/highlight.js";
+import { offer } from "./view/homework/files.js";
+import { fetchMathLive } from "./view/homework/mathfield.js";
+import { page } from "./view/homework/page.js";
+import { createReach, createStaging } from "./view/homework/staging.js";
+
+const root = /** @type {HTMLElement} */ (document.getElementById("page"));
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const asked = readAsked(location.search);
+const store = createStore(begin({ ...asked, place: { ...asked.place, lang: startLanguage(asked.place.lang, navigator.languages) } }));
+const { get, set } = store;
+const api = createApi(fetch.bind(globalThis));
+const clock = createClock();
+const progress = createProgress(localStorage);
+const answering = createAnswering(store, api, progress);
+const exercise = createExercise(store, api, progress, answering);
+const working = createWorking(store, api, progress, exercise);
+const switchTo = createConversion(store, api, answering);
+
+let formulas = false;
+let fragment = "";
+/** @type {import("./view/homework/page.js").HomeworkView["classroom"]} */
+let classroom = null;
+const staging = createStaging(root, clock);
+const reach = createReach(root);
+
+/** @param {string} lang */
+async function speak(lang) {
+  exercise.move({ lang });
+  const catalog = await api.catalog(lang, "exercises").catch(() => null);
+  if (catalog && get().asked.place.lang === lang) set({ catalog });
+}
+
+const session = {
+  move: exercise.move,
+  /** @param {string} lang */
+  async language(lang) {
+    await Promise.all([speak(lang), exercise.load()]);
+  },
+};
+
+function togglePlay() {
+  clock.play(!clock.playing);
+  update();
+}
+
+/** @param {number} t */
+function scrub(t) {
+  clock.play(false);
+  clock.seek(t);
+  update();
+}
+
+const download = () => offer("deltaq-homework.json", progress.exported(), "application/json");
+
+/** The student's own work, or an assignment. @param {File} file */
+async function upload(file) {
+  const text = await file.text();
+  const assignment = await assignmentIn(text, file.name, api, get().asked.place.lang);
+  if (assignment) {
+    fragment = await fragmentOfAssignment(assignment);
+    await exercise.assign(assignment);
+    return;
+  }
+  const taken = progress.imported(text);
+  set({ notice: taken === null ? "homework.no-file" : "homework.imported" });
+  const { entry } = get();
+  if (taken && entry) set({ draft: progress.draft(entry.key), lines: progress.lines(`${entry.group}/~working`) });
+}
+
+/** What the keyboard of a task offers is made once for it. @type {{entry: unknown, keys: import("./model/homework/keys.js").Row[], shortcuts: Record<string, string>}} */
+let offered = { entry: null, keys: [], shortcuts: {} };
+
+/** @returns {import("./view/homework/page.js").HomeworkView} */
+function view() {
+  const state = get();
+  const { entry, catalog } = state;
+  if (entry && offered.entry !== entry) offered = { entry, keys: keyboardOf(entry), shortcuts: shortcutsOf(entry.symbols) };
+  return {
+    state, answering, exercise, working, session, switchTo, clock, togglePlay, scrub, download, upload, formulas, classroom,
+    keys: offered.keys, shortcuts: offered.shortcuts,
+    t: translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.exercises) }),
+    draftOf: (key) => (key === entry?.key ? state.draft : progress.draft(key)),
+    link: (patch) => location.pathname + writeAsked({ ...state.asked, ...patch }) + (state.assignment ? fragment : ""),
+    follow(event, go) {
+      const { ctrlKey, metaKey, shiftKey } = /** @type {MouseEvent} */ (event);
+      if (ctrlKey || metaKey || shiftKey) return;
+      event.preventDefault();
+      go();
+    },
+  };
+}
+
+async function openClassroom() {
+  if (classroom) return;
+  const { open } = await import("./view/homework/open-classroom.js");
+  classroom = open({ api, state: get, changed: update });
+  update();
+}
+
+async function fetchFormulas() {
+  formulas = await fetchMathLive();
+  update();
+}
+
+let wanted = false;
+function update() {
+  const { asked: { place, side }, catalog, entry } = get();
+  if (!catalog.page) return;
+  const current = view();
+  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
+  document.documentElement.lang = place.lang;
+  document.title = `δq · ${current.t("place.homework")}`;
+  render(page(current), root);
+  staging.show(get(), still.matches);
+  reach(get(), still.matches);
+  history.replaceState(null, "", current.link({}));
+  if (side === "class") void openClassroom();
+  if (!entry || wanted) return;
+  wanted = true;
+  void fetchFormulas();
+}
+
+store.subscribe(update);
+clock.subscribe(staging.move);
+dark.addEventListener("change", update);
+linkHighlights(root);
+
+let before = 0;
+/** @param {number} now */
+function tick(now) {
+  clock.advance((now - before) / 1000);
+  before = now;
+  requestAnimationFrame(tick);
+}
+requestAnimationFrame(tick);
+
+async function start() {
+  fragment = location.hash;
+  const assignment = await assignmentIn(location.hash, "", api, get().asked.place.lang);
+  await Promise.all([speak(get().asked.place.lang), exercise.start(get().asked, assignment)]);
+}
+void start();

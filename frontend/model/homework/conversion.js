@@ -1,0 +1,51 @@
+/** From the formula field to the text field and back: the text of each stays, and is made anew only where it must be. */
+
+import { isEmpty } from "./answer.js";
+import { partsIn } from "./answering.js";
+
+/** @typedef {import("./answer.js").Syntax} Syntax */
+/** @typedef {import("./progress.js").Draft} Draft */
+/** @typedef {import("./sheet.js").Entry} Entry */
+
+/** @param {readonly string[]} a @param {readonly string[]} b */
+const same = (a, b) => a.length === b.length && a.every((text, i) => text === b[i]);
+
+/** Whether the other side still says what this one says: it was made from it, or this from it. @param {Entry} entry @param {Draft} draft @param {Syntax} syntax */
+function stillTrue(entry, draft, syntax) {
+  const { converted } = draft;
+  return converted?.from === syntax && same(converted.texts, partsIn(entry, draft));
+}
+
+/**
+ * @param {import("./state.js").Store} store @param {import("./state.js").Api} api @param {import("./answering.js").Answering} answering
+ */
+export function createConversion({ get, set }, api, answering) {
+  /** Each part in the other syntax; null where one cannot be read. @param {Entry} entry @param {string[]} parts @param {Syntax} from @param {Syntax} to */
+  async function converted(entry, parts, from, to) {
+    const { lang } = get().asked.place;
+    const { form, id } = entry.task;
+    if (parts.length === 1) {
+      const read = await api.post("/checks/reading", { ...entry.reference, task: id, answer: { syntax: from, value: parts[0] }, lang }).catch(() => null);
+      return read && !read.problems.length ? [read[to]] : null;
+    }
+    const asked = parts.map((expression) => ({ expression: expression.trim() || "0", syntax: from }));
+    const answer = await api.post("/expressions/batch", { scene: entry.scene, expressions: asked, lang }).catch(() => null);
+    const texts = answer?.expressions.map((/** @type {any} */ one, /** @type {number} */ i) => (parts[i].trim() ? one[to] : ""));
+    return texts && form && texts.every((/** @type {string} */ text, /** @type {number} */ i) => text || !parts[i].trim()) ? /** @type {string[]} */ (texts) : null;
+  }
+
+  /** @param {Syntax} to */
+  return async function switchTo(to) {
+    const { entry, draft } = get();
+    if (!entry || draft.syntax === to) return;
+    const parts = partsIn(entry, draft);
+    const from = draft.syntax;
+    set({ notice: "" });
+    if (isEmpty(parts) || stillTrue(entry, draft, to)) return answering.keep(entry, () => ({ syntax: to }));
+    const texts = await converted(entry, parts, from, to);
+    if (get().entry?.key !== entry.key || !same(parts, partsIn(entry, get().draft, from))) return;
+    answering.keep(entry, (now) => ({ syntax: to, ...(texts ? { texts: { ...now.texts, [to]: texts }, converted: { from, texts } } : {}) }));
+    if (!texts) set({ notice: `homework.kept-${from}` });
+    answering.arrive();
+  };
+}

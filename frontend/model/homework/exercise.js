@@ -1,0 +1,149 @@
+/** The page's course: scenes and assignments become a sheet of tasks, of which one is worked on; solution and motions when asked for. */
+
+import { attempt } from "./attempt.js";
+import { FIRST_SCENE } from "./place.js";
+import { referenceOf, sheetOfAssignment, sheetOfScene } from "./sheet.js";
+import { FRESH } from "./state.js";
+
+/** @typedef {import("./place.js").Asked} Asked */
+/** @typedef {import("./sheet.js").Entry} Entry */
+/** @typedef {import("./sheet.js").Assignment} Assignment */
+
+const MOTION = { t_end: 10, samples: 401, include: ["coordinates", "rates", "positions", "loads", "error"] };
+
+/** Whether both ask for the same sheet. @param {Asked} a @param {Asked} b */
+const isSame = (a, b) => a.seed === b.seed && a.place.scene === b.place.scene && a.place.lang === b.place.lang;
+
+/**
+ * @param {import("./state.js").Store} store @param {import("./state.js").Api} api @param {import("./progress.js").Progress} progress
+ * @param {import("./answering.js").Answering} answering
+ */
+export function createExercise(store, api, progress, answering) {
+  const { get, set } = store;
+  /** @param {Partial<Asked>} patch */
+  const ask = (patch) => set({ asked: { ...get().asked, ...patch } });
+  const lang = () => get().asked.place.lang;
+  const workingKey = () => `${get().entry?.group}/~working`;
+
+  /** @param {Entry} entry */
+  const sceneOf = ({ reference, scene }) => (Object.keys(reference).length === 1 && typeof reference.scene === "string" ? reference.scene : scene);
+
+  /** The sheet that is asked for, in the language of the page. */
+  async function fetchSheet() {
+    const { asked, assignment } = get();
+    if (assignment) {
+      const { seed } = asked;
+      const answer = await api.post("/assignments", { assignment, ...(seed ? { seed } : {}), lang: lang() });
+      return sheetOfAssignment(assignment, seed, answer);
+    }
+    const reference = referenceOf(asked.place.scene || FIRST_SCENE, asked.seed);
+    return sheetOfScene(reference, await api.post("/tasks", { ...reference, lang: lang() }));
+  }
+
+  async function load() {
+    const wanted = get().asked;
+    await attempt(store, get().sheet ? "trouble" : "failure", "", async () => {
+      const sheet = await fetchSheet();
+      if (!isSame(get().asked, wanted)) return;
+      set({ sheet });
+      const { entries } = sheet;
+      show(entries.find(({ key }) => key === get().entry?.key) ?? entries.find(({ id }) => id === wanted.task) ?? entries[0] ?? null);
+    });
+  }
+
+  /** @param {Entry | null} entry */
+  function show(entry) {
+    const before = get().entry;
+    const elsewhere = entry?.group !== before?.group;
+    const other = entry?.key !== before?.key;
+    ask({ task: entry?.id ?? "" });
+    set({ entry, ...(other ? FRESH : {}), ...(entry && other ? { draft: progress.draft(entry.key) } : {}) });
+    if (elsewhere) set({ right: null, guides: [], lines: progress.lines(workingKey()), marked: null });
+    answering.arrive();
+    if (!entry) return;
+    if (elsewhere) void animate(entry);
+    if (get().solution) void solve();
+  }
+
+  /** @param {Entry} entry */
+  async function animate(entry) {
+    const simulated = api.simulate({ scene: sceneOf(entry), ...MOTION, lang: lang() }).catch(() => null);
+    const guides = (entry.scene.guides ?? []).flatMap(({ coordinate, value }) => [{ expression: coordinate }, { expression: value }]);
+    const typeset = guides.length ? api.typeset({ scene: entry.scene, expressions: guides, lang: lang() }).catch(() => null) : null;
+    const [right, written] = await Promise.all([simulated, typeset]);
+    if (get().entry?.group !== entry.group) return;
+    const latex = (written?.expressions ?? []).map((one) => one.latex);
+    set({ right, guides: latex.flatMap((left, i) => (i % 2 ? [] : [`${left} = ${latex[i + 1]}`])) });
+  }
+
+  async function solve() {
+    const { entry } = get();
+    if (!entry) return;
+    await attempt(store, "trouble", "solving", async () => {
+      const { seed: _, ...reference } = entry.reference;
+      const { chapter, steps } = entry.task.solution;
+      const [answer, derivation] = await Promise.all([
+        api.post("/tasks/solution", { ...entry.reference, task: entry.task.id, lang: lang() }),
+        api.derive({ ...reference, lang: lang() }).catch(() => null),
+      ]);
+      const shown = derivation?.chapters.find(({ id }) => id === chapter)?.steps ?? [];
+      const step = steps.map((id) => shown.find((one) => one.id === id)).find(Boolean) ?? shown.at(-1) ?? null;
+      if (get().entry?.key !== entry.key) return;
+      set({ solution: { latex: answer.latex, step } });
+      answering.keep(entry, (draft) => ({ shown: draft.shown || !draft.solved }));
+    });
+  }
+
+  return {
+    load,
+    solve,
+    show,
+    /** @param {Asked} asked @param {Assignment | null} assignment */
+    async start(asked, assignment) {
+      set({ asked, assignment });
+      const listed = api.scenes().then(({ scenes }) => set({ scenes })).catch(() => {});
+      await Promise.all([listed, load()]);
+    },
+    /** Another scene; what was typed for this one is kept. @param {string} scene */
+    choose(scene) {
+      ask({ task: "", place: { ...get().asked.place, scene } });
+      set({ assignment: null, sheet: null, entry: null });
+      return load();
+    },
+    /** @param {string} seed */
+    individual(seed) {
+      ask({ seed });
+      return load();
+    },
+    /** @param {Assignment} assignment */
+    assign(assignment) {
+      ask({ task: "" });
+      set({ assignment, sheet: null, entry: null });
+      return load();
+    },
+    /** @param {Partial<Asked["place"]>} patch */
+    move: (patch) => ask({ place: { ...get().asked.place, ...patch } }),
+    /** @param {Asked["side"]} side */
+    turn: (side) => ask({ side }),
+    /** The motion that the last checked answer describes. */
+    async compare() {
+      const { entry, draft } = get();
+      const { checked } = draft;
+      if (!entry || !checked) return;
+      await attempt(store, "trouble", "moving", async () => {
+        const answer = { syntax: checked.syntax, value: checked.value };
+        const { scene } = await api.post("/checks/motion", { ...entry.reference, task: entry.task.id, answer, lang: lang() });
+        const own = await api.simulate({ scene, ...MOTION, lang: lang() });
+        if (get().entry?.key === entry.key) set({ own });
+      });
+    },
+    /** The motion of the answer is no longer wanted. */
+    part: () => set({ own: null }),
+    /** @param {import("./progress.js").Line[]} lines */
+    write(lines) {
+      set({ lines, kept: progress.write(workingKey(), lines) });
+    },
+  };
+}
+
+/** @typedef {ReturnType<typeof createExercise>} Exercise */

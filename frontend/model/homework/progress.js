@@ -1,0 +1,114 @@
+/** What a student has written, kept in the browser at every keystroke: one record for each task. */
+
+/** @typedef {import("./answer.js").Syntax} Syntax */
+/** @typedef {{getItem: (key: string) => string | null, setItem: (key: string, value: string) => void, key: (index: number) => string | null, readonly length: number}} Keeper */
+/** @typedef {{code: string, offset: number | null, length: number | null, message: string}} AnswerProblem */
+/**
+ * @typedef {object} Verdict
+ * @property {"correct" | "wrong" | "undecided" | "invalid" | "follow_through"} outcome
+ * @property {string} understood_as
+ * @property {string} feedback
+ * @property {string | null} misconception
+ * @property {{id: string, title: string}[]} misconceptions
+ * @property {string | null} slip
+ * @property {("correct" | "wrong" | "undecided")[]} parts
+ * @property {AnswerProblem[]} problems
+ * @property {{values: Record<string, number>, of: string, yours: number, right: number} | null} counterexample
+ */
+/** @typedef {{verdict: Verdict, syntax: Syntax, value: string, lang: string}} Checked  the last verdict and what it is about */
+/**
+ * @typedef {object} Draft
+ * @property {Syntax} syntax
+ * @property {Record<Syntax, string[]>} texts  a text for each part; both syntaxes are kept
+ * @property {{from: Syntax, texts: string[]} | null} converted  the text that was made from the other syntax
+ * @property {Checked | null} checked
+ * @property {number} tries
+ * @property {number} hints  how many are open
+ * @property {boolean} solved
+ * @property {boolean} shown  whether the solution was looked at before
+ */
+/** @typedef {{task: string, syntax: Syntax, value: string}} Line */
+
+const PREFIX = "deltaq.homework.1/";
+const FORMAT = "deltaq-homework-1";
+const LARGEST = 2_000_000;
+
+/** @type {Draft} */
+export const BLANK = { syntax: "latex", texts: { plain: [], latex: [] }, converted: null, checked: null, tries: 0, hints: 0, solved: false, shown: false };
+
+/** @param {unknown} value @returns {Record<string, any> | null} */
+const table = (value) => (value && typeof value === "object" && !Array.isArray(value) ? value : null);
+/** @param {unknown} value @returns {string[]} */
+const texts = (value) => (Array.isArray(value) ? value.filter((one) => typeof one === "string") : []);
+/** @param {unknown} value @returns {Syntax} */
+const syntaxOf = (value) => (value === "plain" ? "plain" : "latex");
+
+/** A draft out of anything that was kept; what is missing or broken is as in a blank one. @param {unknown} value @returns {Draft} */
+export function draftOf(value) {
+  const kept = table(value) ?? {};
+  const checked = table(kept.checked);
+  const number = (/** @type {unknown} */ n) => (Number.isInteger(n) ? Math.max(0, Number(n)) : 0);
+  return {
+    syntax: syntaxOf(kept.syntax),
+    texts: { plain: texts(kept.texts?.plain), latex: texts(kept.texts?.latex) },
+    converted: table(kept.converted) ? { from: syntaxOf(kept.converted.from), texts: texts(kept.converted.texts) } : null,
+    checked: checked && typeof table(checked.verdict)?.outcome === "string" ? /** @type {Checked} */ (checked) : null,
+    tries: number(kept.tries), hints: Math.min(3, number(kept.hints)), solved: kept.solved === true, shown: kept.shown === true,
+  };
+}
+
+/** @param {unknown} value @returns {Line[]} */
+export const linesOf = (value) => (Array.isArray(value) ? value.filter((line) => typeof table(line)?.value === "string" && typeof line.task === "string").map(({ task, syntax, value }) => ({ task, syntax: syntaxOf(syntax), value })) : []);
+
+/** @param {Keeper} keeper */
+export function createProgress(keeper) {
+  /** @param {string} key @returns {unknown} */
+  function read(key) {
+    try {
+      return JSON.parse(keeper.getItem(PREFIX + key) ?? "null");
+    } catch {
+      return null;
+    }
+  }
+
+  /** False where the browser keeps nothing. @param {string} key @param {unknown} value */
+  function write(key, value) {
+    try {
+      keeper.setItem(PREFIX + key, JSON.stringify(value));
+      return true;
+    } catch {
+      return false;
+    }
+  }
+
+  function keys() {
+    try {
+      return Array.from({ length: keeper.length }, (_, i) => keeper.key(i) ?? "").filter((key) => key.startsWith(PREFIX)).map((key) => key.slice(PREFIX.length)).sort();
+    } catch {
+      return [];
+    }
+  }
+
+  return {
+    /** @param {string} key */
+    draft: (key) => draftOf(read(key)),
+    /** @param {string} key */
+    lines: (key) => linesOf(read(key)),
+    write,
+    /** All records as a file's text. */
+    exported: () => JSON.stringify({ format: FORMAT, records: Object.fromEntries(keys().map((key) => [key, read(key)])) }, null, 1),
+    /** Takes a file's records over those of the same name; how many, or null if the file is none. @param {string} text @returns {number | null} */
+    imported(text) {
+      if (text.length > LARGEST) return null;
+      try {
+        const file = table(JSON.parse(text));
+        const records = file?.format === FORMAT ? table(file.records) : null;
+        return records && Object.entries(records).filter(([key, value]) => write(key, value)).length;
+      } catch {
+        return null;
+      }
+    },
+  };
+}
+
+/** @typedef {ReturnType<typeof createProgress>} Progress */

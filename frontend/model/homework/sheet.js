@@ -1,0 +1,84 @@
+/** The tasks on the page: those of a scene, or those of an assignment that was opened. */
+
+/** @typedef {import("../types.js").Scene} Scene */
+/** @typedef {{name: string, latex: string, kind: string, unit: string, value: number | null}} TaskSymbol */
+/**
+ * @typedef {object} Task
+ * @property {string} id
+ * @property {string} kind
+ * @property {string} subject
+ * @property {string} title
+ * @property {string} statement
+ * @property {string} form
+ * @property {string} form_text
+ * @property {number | null} components
+ * @property {number} points
+ * @property {string[]} needs
+ * @property {string[]} hints
+ * @property {{chapter: string, steps: string[]}} solution
+ */
+/** @typedef {Record<string, unknown>} Reference  what requests say of the scene: scene, guides, freeze, parameters, seed */
+/** @typedef {{id: string, key: string, group: string, reference: Reference, scene: Scene, symbols: TaskSymbol[], task: Task}} Entry  a task with its scene; `id` stands in addresses, `group` names the scene with its changes */
+/** @typedef {{title: Record<string, string> | null, followThrough: number, entries: Entry[]}} Sheet */
+/** @typedef {{format: number, title?: Record<string, string>, individual?: boolean, tasks: Record<string, any>[]}} Assignment */
+
+const CHANGES = ["scene", "guides", "freeze", "parameters"];
+
+/** A short name for what is no name; the same content has the same one. @param {unknown} value */
+function digest(value) {
+  let hash = 5381;
+  for (const letter of JSON.stringify(value)) hash = (Math.imul(hash, 33) ^ letter.charCodeAt(0)) >>> 0;
+  return hash.toString(36);
+}
+
+/** @param {Reference} reference */
+export function groupOf({ scene, seed, ...changes }) {
+  const name = typeof scene === "string" ? scene : `own~${digest(scene)}`;
+  return [name, ...(Object.keys(changes).length ? [digest(changes)] : []), ...(seed ? [String(seed)] : [])].join("@");
+}
+
+/** @param {string} scene @param {string} seed @returns {Reference} */
+export const referenceOf = (scene, seed) => (seed ? { scene, seed } : { scene });
+
+/** @param {Reference} reference @param {{scene: Scene, symbols: TaskSymbol[], tasks: Task[]}} answer @returns {Sheet} */
+export function sheetOfScene(reference, { scene, symbols, tasks }) {
+  const group = groupOf(reference);
+  return { title: null, followThrough: 0.5, entries: tasks.map((task) => ({ id: task.id, key: `${group}/${task.id}`, group, reference, scene, symbols, task })) };
+}
+
+/**
+ * @param {Assignment} assignment @param {string} seed
+ * @param {{title: Record<string, string>, follow_through: number, tasks: {scene: Scene, symbols: TaskSymbol[], task: Task}[]}} answer
+ * @returns {Sheet}
+ */
+export function sheetOfAssignment(assignment, seed, answer) {
+  const entries = answer.tasks.map(({ scene, symbols, task }, index) => {
+    const reference = referenceIn(assignment, index, seed);
+    const group = groupOf(reference);
+    return { id: String(index + 1), key: `${group}/${task.id}`, group, reference, scene, symbols, task };
+  });
+  return { title: answer.title, followThrough: answer.follow_through, entries };
+}
+
+/** What requests say of the scene of an assignment's task. @param {Assignment} assignment @param {number} index @param {string} seed @returns {Reference} */
+export function referenceIn(assignment, index, seed) {
+  const given = assignment.tasks[index];
+  const own = Object.fromEntries(CHANGES.filter((name) => name in given).map((name) => [name, given[name]]));
+  return assignment.individual && seed ? { ...own, seed } : own;
+}
+
+/** Whether it is the library's scene as it is, so that its own page shows the same. @param {Reference} reference */
+export const isPlain = ({ scene, guides, freeze }) => typeof scene === "string" && !guides && !freeze;
+
+/** @param {Scene} scene */
+export const freedomsOf = (scene) => scene.coordinates.length - (scene.guides ?? []).length;
+
+/**
+ * Points earned and to be had; a task whose solution was looked at before earns none.
+ * @param {Sheet} sheet @param {(key: string) => import("./progress.js").Draft} draft
+ */
+export function pointsOf({ entries }, draft) {
+  const earned = entries.filter(({ key }) => draft(key).solved && !draft(key).shown);
+  const sum = (/** @type {Entry[]} */ some) => some.reduce((total, { task }) => total + task.points, 0);
+  return { earned: sum(earned), of: sum(entries), solved: entries.filter(({ key }) => draft(key).solved).length, count: entries.length };
+}

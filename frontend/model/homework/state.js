@@ -1,0 +1,44 @@
+/** What the page "Homework" knows, and with what it begins. */
+
+import { BLANK } from "./progress.js";
+
+/** @typedef {import("../types.js").Failure} Failure */
+/** @typedef {import("../types.js").Trajectory} Trajectory */
+/** @typedef {{of: string, latex: string, plain: string, problems: import("./progress.js").AnswerProblem[]}} Reading  what the text `of` is understood as */
+/** @typedef {{latex: string[], step: import("../types.js").Step | null}} Solution */
+/** @typedef {import("./progress.js").Verdict & {points: number, of: number}} Mark */
+/** @typedef {{of: string, lines: Mark[], first_wrong: number | null, points: number, total: number}} Marked  `of` is the working that was marked */
+/**
+ * @typedef {object} State
+ * @property {import("./place.js").Asked} asked
+ * @property {import("../types.js").Catalog} catalog
+ * @property {import("../types.js").SceneEntry[]} scenes
+ * @property {import("./sheet.js").Assignment | null} assignment
+ * @property {import("./sheet.js").Sheet | null} sheet
+ * @property {Failure | null} failure  why there is no sheet
+ * @property {import("./sheet.js").Entry | null} entry  the task on the page
+ * @property {string[]} guides  what the scene prescribes, as LaTeX
+ * @property {import("./progress.js").Draft} draft
+ * @property {Reading | null} reading
+ * @property {"" | "checking" | "solving" | "moving" | "marking"} busy
+ * @property {Failure | null} trouble  why the last request came to nothing
+ * @property {string} notice  the key of a sentence
+ * @property {Solution | null} solution
+ * @property {Trajectory | null} right
+ * @property {Trajectory | null} own  as the answer says
+ * @property {import("./progress.js").Line[]} lines  the whole working
+ * @property {Marked | null} marked
+ * @property {boolean} kept  whether the browser keeps what is typed
+ */
+
+/** What belongs to one task. @type {Pick<State, "reading" | "busy" | "trouble" | "notice" | "solution" | "own">} */
+export const FRESH = { reading: null, busy: "", trouble: null, notice: "", solution: null, own: null };
+
+/** @param {import("./place.js").Asked} asked @returns {State} */
+export const begin = (asked) => ({
+  asked, catalog: {}, scenes: [], assignment: null, sheet: null, failure: null, entry: null, guides: [], draft: BLANK, ...FRESH,
+  right: null, lines: [], marked: null, kept: true,
+});
+
+/** @typedef {ReturnType<typeof import("../store.js").createStore<State>>} Store */
+/** @typedef {import("../api.js").Api} Api */

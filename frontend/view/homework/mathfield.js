@@ -1,0 +1,64 @@
+/** A field for formulas: MathLive's element, fetched when it is first wanted, kept in step with what is kept. */
+
+import { html, nothing } from "lit-html";
+import { Directive, directive } from "lit-html/directive.js";
+
+/** @typedef {{value: string, change: (latex: string) => void, enter: () => void, shortcuts: Record<string, string>}} Wiring */
+
+/** Named in the import map, so that the addresses carry the version of the libraries. */
+const FONTS = import.meta.resolve("katex-fonts/");
+const coarse = matchMedia("(pointer: coarse)");
+
+/** False if it cannot be had. */
+export async function fetchMathLive() {
+  try {
+    const { MathfieldElement } = await import("mathlive");
+    MathfieldElement.fontsDirectory = FONTS;
+    MathfieldElement.soundsDirectory = null;
+    MathfieldElement.plonkSound = null;
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+class MathField extends Directive {
+  /** @type {Wiring | null} */
+  wiring = null;
+  /** What the field holds: written into it only when something else is wanted, for that would lose the caret. */
+  held = "";
+
+  /** @param {Wiring} _wiring */
+  render(_wiring) {
+    return nothing;
+  }
+
+  /** @param {import("lit-html").ElementPart} part @param {[Wiring]} values */
+  update(part, [wiring]) {
+    const field = /** @type {import("mathlive").MathfieldElement} */ (part.element);
+    const first = this.wiring === null;
+    const shortcuts = this.wiring?.shortcuts;
+    this.wiring = wiring;
+    if (first) this.connect(field);
+    if (shortcuts !== wiring.shortcuts) requestAnimationFrame(() => (field.inlineShortcuts = wiring.shortcuts));
+    if (this.held !== wiring.value) field.setValue((this.held = wiring.value), { silenceNotifications: true });
+    return nothing;
+  }
+
+  /** @param {import("mathlive").MathfieldElement} field */
+  connect(field) {
+    field.addEventListener("input", () => this.wiring?.change((this.held = field.getValue("latex-without-placeholders"))));
+    field.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") this.wiring?.enter();
+    }, { capture: true });
+    field.smartFence = true;
+    field.mathVirtualKeyboardPolicy = coarse.matches ? "auto" : "manual";
+    requestAnimationFrame(() => (field.menuItems = []));
+  }
+}
+
+const wired = directive(MathField);
+
+/** @param {string} label @param {Wiring} wiring @param {boolean} invalid @param {string} why  id of what is wrong with it */
+export const mathField = (label, wiring, invalid, why) => html`
+  <math-field class="entry" aria-label=${label} aria-invalid=${String(invalid)} aria-describedby=${why || nothing} ${wired(wiring)}></math-field>`;

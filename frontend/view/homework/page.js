@@ -1,0 +1,101 @@
+/** The page "Homework": the tasks, the one being answered, and the scene in motion. */
+
+import { html, nothing } from "lit-html";
+import { live } from "lit-html/directives/live.js";
+import { inLanguage } from "../../model/catalog.js";
+import { SIDES } from "../../model/homework/place.js";
+import { failure } from "../failure.js";
+import { prose } from "../formula.js";
+import { appearance, brand, language, places } from "../header.js";
+import { icon } from "../icons.js";
+import { answer } from "./answer.js";
+import { figure } from "./figure.js";
+import { tasks } from "./tasks.js";
+import { hints, solution, verdict } from "./verdict.js";
+import { working } from "./working.js";
+
+/**
+ * @typedef {object} HomeworkView
+ * @property {import("../../model/homework/state.js").State} state
+ * @property {import("../../model/catalog.js").Translate} t
+ * @property {import("../../model/homework/answering.js").Answering} answering
+ * @property {import("../../model/homework/exercise.js").Exercise} exercise
+ * @property {import("../../model/homework/working.js").Working} working
+ * @property {import("../header.js").Appearance["session"]} session
+ * @property {(to: import("../../model/homework/answer.js").Syntax) => Promise<void>} switchTo
+ * @property {(key: string) => import("../../model/homework/progress.js").Draft} draftOf
+ * @property {import("../../model/homework/keys.js").Row[]} keys
+ * @property {Record<string, string>} shortcuts
+ * @property {boolean} formulas  whether the field for formulas is there
+ * @property {import("../../model/clock.js").Clock} clock
+ * @property {() => void} togglePlay
+ * @property {(t: number) => void} scrub
+ * @property {(patch: Partial<import("../../model/homework/place.js").Asked>) => string} link
+ * @property {import("../page.js").View["follow"]} follow
+ * @property {() => void} download  the student's work as a file
+ * @property {(file: File) => Promise<void>} upload  such a file, or an assignment
+ * @property {((view: HomeworkView) => unknown) | null} classroom  once it has been opened
+ */
+
+/** @param {HomeworkView} view */
+export function page(view) {
+  const { state, t } = view;
+  const { place, side } = state.asked;
+  return html`
+    <a class="skip" href="#work">${t("homework.skip")}</a>
+    <header class="top">
+      ${brand({ state: { place }, t })}
+      ${heading(view)}
+      ${places({ state: { place }, t }, "homework")}
+      <div class="tools">${language({ state: { place }, session: view.session, t })}${appearance({ state: { place }, session: view.session, t })}</div>
+    </header>
+    <main class="homework" data-side=${side}>
+      ${tasks(view)}
+      <div class="work" id="work" tabindex="-1">
+        ${sides(view)}
+        ${side === "class" ? (view.classroom?.(view) ?? nothing) : side === "working" ? working(view) : single(view)}
+      </div>
+      ${figure(view)}
+    </main>`;
+}
+
+/** @param {HomeworkView} view */
+function heading({ state, t, exercise }) {
+  const { place } = state.asked;
+  const { lang } = place;
+  const { scenes, sheet, assignment, entry } = state;
+  const chosen = entry?.scene.id ?? place.scene;
+  if (assignment) {
+    const leave = () => void exercise.choose(typeof entry?.reference.scene === "string" ? entry.reference.scene : "");
+    return html`<div class="scene"><h1>${inLanguage(sheet?.title ?? assignment.title, lang) || t("homework.assignment")}</h1>
+      <p class="summary">${entry ? inLanguage(entry.scene.title, lang) : ""}</p><button class="quiet small" @click=${leave}>${t("homework.leave")}</button></div>`;
+  }
+  return html`<div class="scene"><h1><label class="choice"><span class="unseen">${t("scene.choose")}</span>
+      <select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => void exercise.choose(/** @type {HTMLSelectElement} */ (e.target).value)}>
+        ${scenes.some(({ id }) => id === chosen) ? nothing : html`<option value=${chosen} selected>${t("scene.choose")}</option>`}
+        ${scenes.map(({ id, title }) => html`<option value=${id} ?selected=${id === chosen}>${inLanguage(title, lang)}</option>`)}
+      </select>${icon("chevron")}</label></h1>
+    <p class="summary">${entry ? inLanguage(entry.scene.summary, lang) : ""}</p></div>`;
+}
+
+/** @param {HomeworkView} view */
+function sides({ state, t, exercise }) {
+  return html`<div class="work-head"><div class="segments" role="group" aria-label=${t("homework.side")}>${SIDES.map((side) => html`
+    <button aria-pressed=${String(side === state.asked.side)} @click=${() => exercise.turn(side)}>${t(`homework.side-${side}`)}</button>`)}</div></div>`;
+}
+
+/** @param {HomeworkView} view */
+function single(view) {
+  const { state, t, exercise } = view;
+  const { entry } = state;
+  if (state.failure) return failure(state.failure, t("homework.no-tasks"), () => void exercise.load(), t);
+  if (!entry) return html`<p class="patience" role="status">${t("homework.loading")}</p>`;
+  return html`<article class="question" aria-label=${t("homework.task")}>
+    <h2><span>${prose(entry.task.title)}</span><span class="worth">${t(entry.task.points === 1 ? "homework.points-one" : "homework.points", { points: entry.task.points.toLocaleString(state.asked.place.lang) })}</span></h2>
+    <p class="prose">${prose(entry.task.statement)}</p>
+    ${answer(view)}
+    ${verdict(view)}
+    ${hints(view)}
+    ${solution(view)}
+  </article>`;
+}

@@ -1,0 +1,67 @@
+/** The motions on the stage, moved by the clock; and a new verdict, brought before the eyes of who asked for it. */
+
+import { framed } from "../../model/homework/motions.js";
+import { endOf } from "../../model/trajectory.js";
+import { createDrawing } from "../drawing.js";
+import { createTransport } from "../player.js";
+
+/** @typedef {import("../../model/homework/state.js").State} State */
+
+/** @param {HTMLElement} root @param {import("../../model/clock.js").Clock} clock */
+export function createStaging(root, clock) {
+  /** @type {{right: ReturnType<typeof createDrawing>, yours: ReturnType<typeof createDrawing>, transport: ReturnType<typeof createTransport>} | null} */
+  let parts = null;
+  /** @type {{entry: unknown, right: State["right"], own: State["own"], scene: import("../../model/types.js").Scene | null}} */
+  let staged = { entry: null, right: null, own: null, scene: null };
+  let lang = "en";
+
+  function assemble() {
+    const find = (/** @type {string} */ selector) => /** @type {HTMLElement} */ (root.querySelector(selector));
+    const [right, yours] = [createDrawing(find(".drawing.right")), createDrawing(find(".drawing.yours"))];
+    new ResizeObserver(() => [right, yours].forEach((drawing) => drawing.resize(clock.time))).observe(find(".stage"));
+    return { right, yours, transport: createTransport(find(".player")) };
+  }
+
+  /** @param {number} t */
+  function move(t) {
+    parts?.right.draw(t);
+    if (staged.own) parts?.yours.draw(t);
+    parts?.transport.move(t, clock, lang);
+  }
+
+  /** What is on the stage has changed: both motions get one frame, and the answer's own begins by itself. @param {State} state @param {boolean} still */
+  function set({ entry, right, own }, still) {
+    const scene = entry?.scene ?? null;
+    const begins = own !== null && own !== staged.own;
+    const renewed = right !== staged.right;
+    staged = { entry, right, own, scene: scene && right && own ? framed(scene, [right, own]) : scene };
+    if (renewed) clock.setEnd(endOf(right));
+    if (!begins) return;
+    clock.seek(0);
+    if (!still) clock.play(true);
+  }
+
+  return {
+    move,
+    /** @param {State} state @param {boolean} still  whether motion is not wanted */
+    show(state, still) {
+      parts ??= assemble();
+      lang = state.asked.place.lang;
+      if (staged.entry !== state.entry || staged.right !== state.right || staged.own !== state.own) set(state, still);
+      parts.right.show(staged.scene, state.right, clock.time);
+      parts.yours.show(staged.scene, state.own, clock.time);
+      move(clock.time);
+    },
+  };
+}
+
+/** @param {HTMLElement} root */
+export function createReach(root) {
+  /** @type {{key: string | undefined, checked: State["draft"]["checked"]}} */
+  let seen = { key: undefined, checked: null };
+  return (/** @type {State} */ { entry, draft: { checked } }, /** @type {boolean} */ still) => {
+    const judged = checked !== seen.checked && entry?.key === seen.key;
+    seen = { key: entry?.key, checked };
+    if (judged) root.querySelector(".verdict-card")?.scrollIntoView({ block: "nearest", behavior: still ? "instant" : "smooth" });
+  };
+}

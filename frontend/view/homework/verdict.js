@@ -1,0 +1,92 @@
+/** What the checker says: the outcome, what leads on, an example where the answers differ; hints; the solution. */
+
+import { html, nothing } from "lit-html";
+import { displayed, inline, prose } from "../formula.js";
+import { icon } from "../icons.js";
+import { significant } from "../../model/numbers.js";
+import { isCurrent } from "../../model/homework/answering.js";
+import { isPlain } from "../../model/homework/sheet.js";
+import { stepAddress } from "../../model/homework/place.js";
+
+/** @typedef {import("./page.js").HomeworkView} HomeworkView */
+/** @typedef {import("../../model/homework/progress.js").Verdict} Verdict */
+
+const MOVING = ["kinetic-energy", "potential-energy", "lagrangian", "momentum", "generalized-force", "equation", "equations"];
+const ICONS = /** @type {const} */ ({ correct: "verified", follow_through: "verified", wrong: "close", undecided: "help", invalid: "help" });
+
+/** The sentences after the outcome, which stands above them. @param {Verdict} verdict @param {HomeworkView["t"]} t */
+export const furtherOf = ({ feedback, outcome }, t) => {
+  const first = t(`homework.outcome.${outcome}`);
+  return feedback.startsWith(first) ? feedback.slice(first.length).trim() : feedback;
+};
+
+/** @param {HomeworkView} view */
+export function verdict(view) {
+  const { state, t } = view;
+  const { entry, draft } = state;
+  const checked = draft.checked;
+  if (!entry || !checked) return html`<div class="verdict-room" aria-live="polite"></div>`;
+  const { verdict: found } = checked;
+  return html`<div class="verdict-room" aria-live="polite">
+    <section class="verdict-card ${isCurrent(entry, draft) ? "" : "stale"}" data-outcome=${found.outcome} aria-label=${t("homework.verdict")}>
+      <h3>${icon(ICONS[found.outcome])}<span>${t(`homework.outcome.${found.outcome}`)}</span></h3>
+      ${isCurrent(entry, draft) ? nothing : html`<p class="so">${t("homework.changed-since")}</p>`}
+      ${found.outcome === "invalid" ? nothing : said(view, found)}
+    </section></div>`;
+}
+
+/** @param {HomeworkView} view @param {Verdict} found */
+function said(view, found) {
+  const { t } = view;
+  const rest = furtherOf(found, t);
+  const title = found.misconceptions[0]?.title;
+  return html`
+    ${title ? html`<p class="misconception">${prose(title)}</p>` : nothing}
+    ${rest ? html`<p class="prose">${prose(rest)}</p>` : nothing}
+    ${found.misconceptions.length > 1 ? html`<p class="so">${t("homework.or")} ${found.misconceptions.slice(1).map(({ title: other }, i) => html`${i ? ", " : ""}${prose(other)}`)}</p>` : nothing}
+    ${found.counterexample && found.misconceptions.length + Number(Boolean(found.slip)) > 0 ? example(view, found.counterexample) : nothing}
+    ${comparing(view, found)}`;
+}
+
+/** @param {HomeworkView} view @param {NonNullable<Verdict["counterexample"]>} found */
+function example({ state, t }, { values, yours, right }) {
+  const lang = state.asked.place.lang;
+  const number = (/** @type {number} */ value) => significant(value, 4, lang);
+  const latexOf = (/** @type {string} */ name) => state.entry?.symbols.find((symbol) => symbol.name === name)?.latex;
+  return html`<details class="example"><summary>${icon("chevron")}${t("homework.example")}</summary>
+    <p class="state">${Object.entries(values).map(([name, value]) => html`<span>${latexOf(name) ? inline(String(latexOf(name))) : name} = ${number(value)}</span>`)}</p>
+    <dl class="numbers"><div><dt>${t("homework.yours")}</dt><dd>${number(yours)}</dd></div><div><dt>${t("homework.right")}</dt><dd>${number(right)}</dd></div></dl>
+  </details>`;
+}
+
+/** @param {HomeworkView} view @param {Verdict} found */
+function comparing({ state, t, exercise }, { outcome }) {
+  const offered = ["wrong", "follow_through", "undecided"].includes(outcome) && MOVING.includes(state.entry?.task.kind ?? "");
+  if (!offered || state.own) return nothing;
+  return html`<p class="acts"><button type="button" class="quiet framed" ?disabled=${state.busy === "moving"} @click=${exercise.compare}>${icon("play")}${t(state.busy === "moving" ? "homework.moving" : "homework.compare")}</button></p>`;
+}
+
+/** @param {HomeworkView} view */
+export function hints({ state, t }) {
+  const { entry, draft } = state;
+  if (!entry || !draft.hints) return nothing;
+  return html`<section class="hints" aria-label=${t("homework.hints")} aria-live="polite"><ol>
+    ${entry.task.hints.slice(0, draft.hints).map((hint, i) => html`<li><span class="level">${t("homework.hint", { number: i + 1, count: entry.task.hints.length })}</span><p class="prose">${prose(hint)}</p></li>`)}</ol></section>`;
+}
+
+/** @param {HomeworkView} view */
+export function solution(view) {
+  const { state, t, exercise } = view;
+  const { entry, draft } = state;
+  if (!entry || !(draft.solved || draft.tries)) return nothing;
+  if (!state.solution) return html`<p class="acts solving"><button type="button" class="quiet framed" ?disabled=${state.busy === "solving"} @click=${exercise.solve}>${t("homework.solution")}</button>
+    ${draft.solved ? nothing : html`<span class="so">${t("homework.solution-costs")}</span>`}</p>`;
+  const { latex, step } = state.solution;
+  return html`<section class="worked" aria-label=${t("homework.solution")}>
+    <h3>${t("homework.worked")}</h3>
+    <div class="model-answer">${latex.map((one) => displayed(one))}</div>
+    ${step ? html`<div class="shown-step"><h4>${prose(step.title)}</h4>${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
+      ${step.marked || step.latex ? displayed(step.marked || step.latex) : nothing}
+      ${isPlain(entry.reference) ? html`<p><a href=${stepAddress(String(entry.reference.scene), step.id, state.asked.place)}>${t("homework.to-step")}</a></p>` : nothing}</div>` : nothing}
+  </section>`;
+}
