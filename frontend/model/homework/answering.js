@@ -22,8 +22,18 @@ export function partsIn({ task, scene }, draft, syntax = draft.syntax) {
 /** The answer as one text. @param {Entry} entry @param {Draft} draft */
 export const valueOf = (entry, draft) => joined(partsIn(entry, draft), entry.task.form, draft.syntax);
 
+/** @param {readonly string[]} a @param {readonly string[]} b */
+export const sameTexts = (a, b) => a.length === b.length && a.every((text, i) => text === b[i]);
+
+/** Whether what stands there was made from the other syntax, and not touched since. @param {Entry} entry @param {Draft} draft */
+export const isTranslated = (entry, draft) => draft.converted !== null && draft.converted.from !== draft.syntax && sameTexts(draft.converted.texts, partsIn(entry, draft));
+
 /** Whether the last verdict is about what stands there now. @param {Entry} entry @param {Draft} draft */
-export const isCurrent = (entry, draft) => draft.checked?.value === valueOf(entry, draft) && draft.checked.syntax === draft.syntax;
+export function isCurrent(entry, draft) {
+  const { checked } = draft;
+  if (checked?.syntax === draft.syntax) return checked.value === valueOf(entry, draft);
+  return checked !== null && isTranslated(entry, draft) && checked.value === valueOf(entry, { ...draft, syntax: checked.syntax });
+}
 
 /**
  * @param {import("./state.js").Store} store @param {import("./state.js").Api} api @param {import("./progress.js").Progress} progress

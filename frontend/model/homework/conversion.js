@@ -1,20 +1,11 @@
 /** From the formula field to the text field and back: the text of each stays, and is made anew only where it must be. */
 
 import { isEmpty } from "./answer.js";
-import { partsIn } from "./answering.js";
+import { isTranslated, partsIn, sameTexts } from "./answering.js";
 
 /** @typedef {import("./answer.js").Syntax} Syntax */
 /** @typedef {import("./progress.js").Draft} Draft */
 /** @typedef {import("./sheet.js").Entry} Entry */
-
-/** @param {readonly string[]} a @param {readonly string[]} b */
-const same = (a, b) => a.length === b.length && a.every((text, i) => text === b[i]);
-
-/** Whether the other side still says what this one says: it was made from it, or this from it. @param {Entry} entry @param {Draft} draft @param {Syntax} syntax */
-function stillTrue(entry, draft, syntax) {
-  const { converted } = draft;
-  return converted?.from === syntax && same(converted.texts, partsIn(entry, draft));
-}
 
 /**
  * @param {import("./state.js").Store} store @param {import("./state.js").Api} api @param {import("./answering.js").Answering} answering
@@ -41,9 +32,9 @@ export function createConversion({ get, set }, api, answering) {
     const parts = partsIn(entry, draft);
     const from = draft.syntax;
     set({ notice: "" });
-    if (isEmpty(parts) || stillTrue(entry, draft, to)) return answering.keep(entry, () => ({ syntax: to }));
+    if (isEmpty(parts) || isTranslated(entry, draft)) return answering.keep(entry, () => ({ syntax: to }));
     const texts = await converted(entry, parts, from, to);
-    if (get().entry?.key !== entry.key || !same(parts, partsIn(entry, get().draft, from))) return;
+    if (get().entry?.key !== entry.key || !sameTexts(parts, partsIn(entry, get().draft, from))) return;
     answering.keep(entry, (now) => ({ syntax: to, ...(texts ? { texts: { ...now.texts, [to]: texts }, converted: { from, texts } } : {}) }));
     if (!texts) set({ notice: `homework.kept-${from}` });
     answering.arrive();
