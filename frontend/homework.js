@@ -109,6 +109,11 @@ function view() {
   };
 }
 
+/** Written only when it is another one: it would call off a way that has just been taken. @param {string} wanted */
+function address(wanted) {
+  if (wanted !== location.pathname + location.search + location.hash) history.replaceState(null, "", wanted);
+}
+
 async function openClassroom() {
   if (classroom) return;
   const { open } = await import("./view/homework/open-classroom.js");
@@ -132,7 +137,7 @@ function update() {
   render(page(current), root);
   staging.show(get(), still.matches);
   reach(get(), still.matches);
-  history.replaceState(null, "", current.link({}));
+  address(current.link({}));
   if (side === "class") void openClassroom();
   if (!entry || wanted) return;
   wanted = true;
