@@ -181,18 +181,20 @@ def _run(listener: socket.socket, settings: Settings) -> None:
     import uvicorn
 
     from .api.app import create_app
+    from .api.connection import Patience, connections
     from .api.logs import configure
 
     configure(settings.log_level)
     config = uvicorn.Config(
         create_app(settings),
-        http="h11",
+        http=connections(Patience(settings.head_timeout, settings.reading_timeout)),  # type: ignore[arg-type]
         ws="none",
         log_config=None,
         access_log=False,
         server_header=False,
         timeout_keep_alive=15,
-        timeout_graceful_shutdown=5,
+        timeout_graceful_shutdown=settings.drain_timeout,
+        forwarded_allow_ips=list(settings.trusted_proxies),
         h11_max_incomplete_event_size=32768,
     )
     uvicorn.Server(config).run(sockets=[listener])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import Field, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from typing import Any
 
 MEBIBYTE = 2**20
@@ -42,8 +42,17 @@ class Settings:
     worker_memory: int = setting(2048 * MEBIBYTE, "bytes of address space of a worker")
     jobs_per_worker: int = setting(1000, "jobs after which a worker is replaced")
     cache_size: int = setting(128 * MEBIBYTE, "bytes of answers kept in memory")
+    cache_folder: str = setting("", "folder of answers that outlive the service; else they are in memory only")
+    cache_folder_size: int = setting(1024 * MEBIBYTE, "bytes of answers kept in that folder")
+    redis: str = setting("", "address of a Redis that replicas share, such as redis://host:6379/0")
+    client_share: float = setting(0.5, "part of the workers that one client gets for long; 0: all; on loopback too")
+    client_credit: float = setting(120.0, "seconds of workers that one client gets beyond that")
     largest_body: int = setting(MEBIBYTE, "bytes of a request's body")
     body_timeout: float = setting(10.0, "seconds within which a body must be complete")
+    head_timeout: float = setting(10.0, "seconds within which the head of a request must be complete")
+    reading_timeout: float = setting(10.0, "seconds within which a client must have read some of its answer")
+    drain_timeout: int = setting(8, "seconds that requests under way get when the service ends")
+    trusted_proxies: tuple[str, ...] = setting(("127.0.0.1", "::1"), "proxies whose X-Forwarded-For is believed")
     allowed_hosts: tuple[str, ...] = setting((), "names under which it answers; else all, on loopback its own")
     frame_ancestors: tuple[str, ...] = setting((), "origins whose pages may show it in a frame, such as a course's")
     cors_origins: tuple[str, ...] = setting((), "origins whose pages may call the API; * for all")
@@ -82,8 +91,12 @@ def described() -> Iterator[str]:
     """One line for each variable: its name, what it means, its default."""
     width = max(len(variable_of(f)) for f in fields(Settings))
     for f in fields(Settings):
-        default = f" [{f.default}]" if isinstance(f.default, (int, float, str)) and f.default != "" else ""
+        default = "" if f.default in (MISSING, "", ()) else f" [{_written(f.default)}]"
         yield f"{variable_of(f):{width}}  {f.metadata['meaning']}{default}"
+
+
+def _written(default: Any) -> str:
+    return ",".join(default) if isinstance(default, tuple) else str(default)
 
 
 def variable_of(setting: Field[Any]) -> str:

@@ -5,7 +5,9 @@ from typing import Any
 
 import pytest
 
-from deltaq.api.cache import OVERHEAD, Cache, content_hash
+from deltaq.api import flights
+from deltaq.api.cache import Cache, content_hash
+from deltaq.api.stores.memory import Memory
 
 pytestmark = pytest.mark.anyio
 
@@ -29,15 +31,15 @@ class Counter:
 
 
 async def test_second_question_is_answered_from_memory() -> None:
-    cache, compute = Cache(10_000), Counter()
+    cache, compute = Cache(Memory(10_000)), Counter()
     assert [await cache.get("k", compute) for _ in range(3)] == [b"answer"] * 3
-    assert (compute.runs, cache.hits, cache.misses, len(cache)) == (1, 2, 1, 1)
-    assert cache.peek("k") == b"answer"
-    assert cache.peek("other") is None
+    assert (compute.runs, cache.hits, cache.misses, len(cache.memory)) == (1, {"memory": 2}, 1, 1)
+    assert await cache.find("k") == b"answer"
+    assert await cache.find("other") is None
 
 
 async def test_all_who_ask_at_once_share_one_computation() -> None:
-    cache, compute = Cache(10_000), Counter()
+    cache, compute = Cache(Memory(10_000)), Counter()
     compute.may_end.clear()
     asking = [asyncio.create_task(cache.get("k", compute)) for _ in range(300)]
     await asyncio.sleep(0)
@@ -47,20 +49,20 @@ async def test_all_who_ask_at_once_share_one_computation() -> None:
 
 
 async def test_error_reaches_all_who_wait_and_is_not_kept() -> None:
-    cache, compute = Cache(10_000), Counter(error=ValueError("no"))
+    cache, compute = Cache(Memory(10_000)), Counter(error=ValueError("no"))
     compute.may_end.clear()
     asking = [asyncio.create_task(cache.get("k", compute)) for _ in range(3)]
     await asyncio.sleep(0)
     compute.may_end.set()
     outcomes = await asyncio.gather(*asking, return_exceptions=True)
     assert [str(outcome) for outcome in outcomes] == ["no"] * 3
-    assert (compute.runs, len(cache)) == (1, 0)
+    assert (compute.runs, len(cache.memory)) == (1, 0)
     compute.error = None
     assert await cache.get("k", compute) == b"answer"
 
 
 async def test_others_still_get_the_answer_when_the_first_goes_away() -> None:
-    cache, compute = Cache(10_000), Counter()
+    cache, compute = Cache(Memory(10_000)), Counter()
     compute.may_end.clear()
     first, second = (asyncio.create_task(cache.get("k", compute)) for _ in range(2))
     await asyncio.sleep(0)
@@ -71,32 +73,57 @@ async def test_others_still_get_the_answer_when_the_first_goes_away() -> None:
     assert compute.runs == 1
 
 
-async def test_least_recently_used_answers_go_first() -> None:
-    cache = Cache(3 * (100 + OVERHEAD))
-    for key in "abc":
-        await cache.get(key, Counter(b"x" * 100))
-    await cache.get("a", Counter())
-    await cache.get("d", Counter(b"x" * 100))
-    assert {key for key in "abcd" if cache.peek(key)} == {"a", "c", "d"}
-    assert cache.used == 3 * (100 + OVERHEAD)
+async def test_computation_ends_when_nobody_waits_any_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flights, "GRACE", 0.01)
+    cache, compute = Cache(Memory(10_000)), Counter()
+    compute.may_end.clear()
+    asking = [asyncio.create_task(cache.get("k", compute)) for _ in range(2)]
+    await asyncio.sleep(0)
+    for one in asking:
+        one.cancel()
+    await asyncio.sleep(0.05)
+    compute.may_end.set()
+    again = Counter(b"again")
+    assert await cache.get("k", again) == b"again"
+    assert (compute.runs, again.runs) == (1, 1)
 
 
-async def test_size_is_never_exceeded() -> None:
-    cache = Cache(5_000)
-    for number in range(200):
-        await cache.get(str(number), Counter(b"x" * (number * 37 % 1000)))
-        assert cache.used <= cache.size
-    assert cache.used == sum(
-        len(cache.peek(str(n)) or b"") + OVERHEAD for n in range(200) if cache.peek(str(n)) is not None
-    )
+async def test_who_asks_again_at_once_gets_the_computation_under_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flights, "GRACE", 0.05)
+    cache, compute = Cache(Memory(10_000)), Counter()
+    compute.may_end.clear()
+    reloaded = asyncio.create_task(cache.get("k", compute))
+    await asyncio.sleep(0)
+    reloaded.cancel()
+    await asyncio.sleep(0)
+    again = asyncio.create_task(cache.get("k", compute))
+    await asyncio.sleep(0.1)
+    compute.may_end.set()
+    assert await again == b"answer"
+    assert compute.runs == 1
 
 
-async def test_answer_larger_than_the_cache_is_given_but_not_kept() -> None:
-    cache = Cache(1_000)
-    await cache.get("small", Counter())
-    assert await cache.get("large", Counter(b"x" * 2_000)) == b"x" * 2_000
-    assert cache.peek("large") is None
-    assert cache.peek("small") == b"answer"
+class Slow(Memory):
+    """A store behind the memory."""
+
+    name = "slow"
+
+
+async def test_answer_is_found_in_a_store_behind() -> None:
+    store = Slow(10_000)
+    first, second = Cache(Memory(10_000), store), Cache(Memory(10_000), store)
+    compute = Counter()
+    await first.get("k", compute)
+    assert [await second.get("k", compute) for _ in range(3)] == [b"answer"] * 3
+    assert (compute.runs, second.hits, second.misses) == (1, {"memory": 2, "slow": 1}, 0)
+
+
+async def test_stores_behind_are_asked_for_what_is_found_by_name() -> None:
+    store = Slow(10_000)
+    store.save("k", b"answer")
+    cache = Cache(Memory(10_000), store)
+    assert await cache.find("k") == b"answer"
+    assert cache.memory.load("k") == b"answer"
 
 
 @pytest.mark.parametrize(

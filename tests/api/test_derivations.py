@@ -100,9 +100,9 @@ async def test_same_question_at_the_same_time_is_computed_once(client: httpx.Asy
     pool, ran = app.state.service.pool, []
     run = pool.run
 
-    async def counted(job: Any, document: Any) -> bytes:
+    async def counted(job: Any, *question: Any) -> bytes:
         ran.append(job)
-        answer: bytes = await run(job, document)
+        answer: bytes = await run(job, *question)
         return answer
 
     pool.run = counted

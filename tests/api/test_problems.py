@@ -12,6 +12,7 @@ import pytest
 from fastapi import FastAPI
 
 from deltaq.api.app import create_app
+from deltaq.api.workers.account import QuotaExceeded
 from deltaq.api.workers.job import DeadlineExceeded, JobFailed, MemoryExceeded, Overloaded, WorkerDied
 from deltaq.settings import Settings
 
@@ -250,6 +251,12 @@ async def test_body_too_slow() -> None:
 BUSY = document(
     "overloaded", 503, "The service is busy", detail="Too many computations are waiting. Ask again in 2 seconds."
 )
+SHARE_USED = document(
+    "quota-exceeded",
+    429,
+    "You have used your share of computing time",
+    detail="The service computes for others, too. Ask again in 31 seconds.",
+)
 HEAVY = document(
     "computation-too-large",
     504,
@@ -268,7 +275,7 @@ def idle_app() -> Iterator[FastAPI]:
 async def asked(app: FastAPI, error: Exception, monkeypatch: pytest.MonkeyPatch) -> httpx.Response:
     """What the client gets when the job ends with this error."""
 
-    async def fail(self: object, job: object, question: object) -> bytes:
+    async def fail(self: object, *question: object) -> bytes:
         raise error
 
     monkeypatch.setattr(type(app.state.service.pool), "run", fail)
@@ -281,6 +288,7 @@ async def asked(app: FastAPI, error: Exception, monkeypatch: pytest.MonkeyPatch)
     ("error", "expected"),
     [
         pytest.param(Overloaded("the queue is full"), BUSY, id="queue full"),
+        pytest.param(QuotaExceeded("192.0.2.1", 30.2), SHARE_USED, id="share used up"),
         pytest.param(DeadlineExceeded("no answer within 5 s"), HEAVY, id="deadline"),
         pytest.param(MemoryExceeded("MemoryError"), HEAVY, id="memory"),
     ],
@@ -290,7 +298,7 @@ async def test_job_that_cannot_be_done(
 ) -> None:
     response = await asked(idle_app, error, monkeypatch)
     assert response.json() == expected
-    assert response.headers.get("retry-after") == ("2" if expected["status"] == 503 else None)
+    assert response.headers.get("retry-after") == {503: "2", 429: "31", 504: None}[expected["status"]]
 
 
 @pytest.mark.parametrize(

@@ -17,16 +17,17 @@ from ..packages import modules_of
 from ..settings import Settings
 from . import problems
 from .access import Access
+from .clients import Clients
 from .headers import SecurityHeaders
 from .hosts import TrustedHosts
 from .routes import pages
 from .routes.common import PREFIX
-from .service import Service, make_service
+from .service import Service, make_ledger, make_service
 from .workers.job import Job, JobError
 
 LOGGER = logging.getLogger("deltaq.api")
-WARM = Job("deltaq.api.jobs:warm", deadline=300.0)
-WARM_LABORATORY = Job("deltaq.api.jobs:warm_laboratory", deadline=300.0, threads=8)
+WARM = Job("deltaq.api.jobs:warm", deadline=300.0, pace="slow")
+WARM_LABORATORY = Job("deltaq.api.jobs:warm_laboratory", deadline=300.0, threads=8, pace="slow")
 # What pages of other origins may do, where the settings let them in; they never bring cookies, for there are none.
 CROSS_ORIGIN: Any = {
     "allow_methods": ["GET", "POST"],
@@ -69,6 +70,7 @@ def _add_layers(app: FastAPI, service: Service) -> None:
     if settings.cors_origins:
         app.add_middleware(CORSMiddleware, allow_origins=settings.cors_origins, **CROSS_ORIGIN)
     app.add_middleware(SecurityHeaders, frame_ancestors=settings.frame_ancestors)
+    app.add_middleware(Clients, ledger=make_ledger(settings))
     app.add_middleware(Access, metrics=service.metrics)
 
 

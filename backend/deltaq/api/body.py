@@ -11,6 +11,7 @@ from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 
 from ..settings import Settings
+from .presence import while_present
 from .strict_json import loads
 
 
@@ -52,12 +53,14 @@ class StrictRequest(Request):
 
 
 class StrictRoute(APIRoute):
-    """A route that reads its body by StrictRequest."""
+    """A route that reads its body by StrictRequest, and works only while the client is there."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         handler = super().get_route_handler()
 
         async def handle(request: Request) -> Response:
-            return await handler(StrictRequest(request.scope, request.receive))
+            strict = StrictRequest(request.scope, request.receive)
+            await strict.body()
+            return await while_present(strict, handler(strict))
 
         return handle

@@ -1,15 +1,17 @@
-"""Answers by the hash of their question: kept in memory up to a size, and computed once for all who ask at once."""
+"""Answers by the hash of their question: in memory, then in slower stores, then computed once for all who ask."""
 
 from __future__ import annotations
 
 import asyncio
 import hashlib
 import json
-from collections import OrderedDict
+from collections import Counter
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-OVERHEAD = 200  # bytes of bookkeeping for each entry, roughly
+from .flights import Flights
+from .stores.memory import Memory
+from .stores.store import Store
 
 
 def content_hash(*parts: Any) -> str:
@@ -19,57 +21,50 @@ def content_hash(*parts: Any) -> str:
 
 
 class Cache:
-    """Least recently used answers are dropped beyond `size` bytes. Used from one event loop."""
+    """A memory and stores behind it, the fastest first. Used from one event loop."""
 
-    def __init__(self, size: int) -> None:
-        self.size = size
-        self.used = 0
-        self.hits = 0
+    def __init__(self, memory: Memory, *stores: Store) -> None:
+        self.memory = memory
+        self.stores = stores
+        self.hits: Counter[str] = Counter({memory.name: 0} | {store.name: 0 for store in stores})
         self.misses = 0
-        self._entries: OrderedDict[str, bytes] = OrderedDict()
-        self._running: dict[str, asyncio.Task[bytes]] = {}
+        self._flights = Flights()
 
-    def __len__(self) -> int:
-        return len(self._entries)
-
-    def peek(self, key: str) -> bytes | None:
-        """The answer of this key, if it is there."""
-        return self._entries.get(key)
+    async def find(self, key: str) -> bytes | None:
+        """The answer of this key, if it is anywhere."""
+        answer = self.memory.load(key)
+        if answer is not None:
+            self.hits[self.memory.name] += 1
+        return answer or await self._find_in_stores(key)
 
     async def get(self, key: str, compute: Callable[[], Awaitable[bytes]]) -> bytes:
         """The answer of this key, computed if need be. Errors reach all who wait, and are not kept."""
-        if key in self._entries:
-            self.hits += 1
-            self._entries.move_to_end(key)
-            return self._entries[key]
-        self.misses += 1
-        task = self._running.get(key) or self._begin(key, compute)
-        # Whoever asked first may go away; the others still want the answer.
-        return await asyncio.shield(task)
+        answer = self.memory.load(key)
+        if answer is not None:
+            self.hits[self.memory.name] += 1
+            return answer
+        return await self._flights.join(key, lambda: self._found_or_computed(key, compute))
 
-    def _begin(self, key: str, compute: Callable[[], Awaitable[bytes]]) -> asyncio.Task[bytes]:
-        task = asyncio.ensure_future(self._compute(key, compute))
-        self._running[key] = task
-        task.add_done_callback(lambda done: self._end(key, done))
-        return task
-
-    async def _compute(self, key: str, compute: Callable[[], Awaitable[bytes]]) -> bytes:
-        answer = await compute()
-        self.keep(key, answer)
+    async def _found_or_computed(self, key: str, compute: Callable[[], Awaitable[bytes]]) -> bytes:
+        answer = await self._find_in_stores(key)
+        if answer is None:
+            self.misses += 1
+            answer = await compute()
+            await self.keep(key, answer)
         return answer
 
-    def _end(self, key: str, task: asyncio.Task[bytes]) -> None:
-        self._running.pop(key, None)
-        if not task.cancelled():
-            task.exception()  # mark as seen: those who waited may all be gone
+    async def keep(self, key: str, answer: bytes) -> None:
+        """Have an answer everywhere."""
+        self.memory.save(key, answer)
+        for store in self.stores:
+            await asyncio.to_thread(store.save, key, answer)
 
-    def keep(self, key: str, answer: bytes) -> None:
-        """Keep an answer; the least used ones make room."""
-        cost = len(answer) + OVERHEAD
-        if cost > self.size:
-            return
-        self._entries[key] = answer
-        self.used += cost
-        while self.used > self.size:
-            _, dropped = self._entries.popitem(last=False)
-            self.used -= len(dropped) + OVERHEAD
+    async def _find_in_stores(self, key: str) -> bytes | None:
+        """The answer from the first store that has it; the memory has it, too, from then on."""
+        for store in self.stores:
+            answer = await asyncio.to_thread(store.load, key)
+            if answer is not None:
+                self.hits[store.name] += 1
+                self.memory.save(key, answer)
+                return answer
+        return None

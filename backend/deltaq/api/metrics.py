@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from operator import attrgetter
 
 from prometheus_client import CollectorRegistry, Histogram, ProcessCollector
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
@@ -16,6 +17,14 @@ from .workers.pool import Pool
 
 MEDIA_TYPE = CONTENT_TYPE_LATEST
 LATENCIES = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0)  # seconds
+
+_OF_POOLS = (
+    (GaugeMetricFamily, "deltaq_workers", "Worker processes wanted", attrgetter("workers")),
+    (GaugeMetricFamily, "deltaq_workers_ready", "Worker processes that are up", attrgetter("ready")),
+    (GaugeMetricFamily, "deltaq_workers_busy", "Worker processes at work", attrgetter("busy")),
+    (GaugeMetricFamily, "deltaq_queue_length", "Jobs that wait for a worker", attrgetter("waiting")),
+    (CounterMetricFamily, "deltaq_worker_kills", "Workers killed or dead", attrgetter("kills")),
+)
 
 
 @dataclass(frozen=True)
@@ -30,10 +39,10 @@ class Metrics:
         return generate_latest(self.registry)
 
 
-def make_metrics(pool: Pool, cache: Cache) -> Metrics:
-    """Metrics of a pool and a cache, which are asked when Prometheus asks."""
+def make_metrics(pools: Mapping[str, Pool], cache: Cache) -> Metrics:
+    """Metrics of pools and a cache, which are asked when Prometheus asks."""
     registry = CollectorRegistry()
-    registry.register(ServiceCollector(pool, cache))
+    registry.register(ServiceCollector(pools, cache))
     ProcessCollector(registry=registry)
     latencies = Histogram(
         "deltaq_request_seconds",
@@ -45,22 +54,25 @@ def make_metrics(pool: Pool, cache: Cache) -> Metrics:
     return Metrics(registry, latencies)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ServiceCollector(Collector):
     """Workers, queue, cache and kernels, read at the moment of asking."""
 
-    pool: Pool
+    pools: Mapping[str, Pool]
     cache: Cache
 
     def collect(self) -> Iterator[Metric]:
-        state = self.pool.state
-        yield GaugeMetricFamily("deltaq_workers", "Worker processes wanted", state.workers)
-        yield GaugeMetricFamily("deltaq_workers_ready", "Worker processes that are up", state.ready)
-        yield GaugeMetricFamily("deltaq_workers_busy", "Worker processes at work", state.busy)
-        yield GaugeMetricFamily("deltaq_queue_length", "Jobs that wait for a worker", state.waiting)
-        yield CounterMetricFamily("deltaq_worker_kills", "Workers killed or dead", state.kills)
-        yield CounterMetricFamily("deltaq_cache_hits", "Answers from the cache", self.cache.hits)
+        states = {name: pool.state for name, pool in self.pools.items()}
+        for kind, name, meaning, of in _OF_POOLS:
+            family = kind(name, meaning, labels=("pool",))
+            for pool, state in states.items():
+                family.add_metric((pool,), of(state))
+            yield family
+        hits = CounterMetricFamily("deltaq_cache_hits", "Answers from the cache", labels=("store",))
+        for store, count in self.cache.hits.items():
+            hits.add_metric((store,), count)
+        yield hits
         yield CounterMetricFamily("deltaq_cache_misses", "Answers that had to be computed", self.cache.misses)
-        yield GaugeMetricFamily("deltaq_cache_bytes", "Size of the cache in memory", self.cache.used)
-        yield GaugeMetricFamily("deltaq_cache_entries", "Answers in memory", len(self.cache))
+        yield GaugeMetricFamily("deltaq_cache_bytes", "Size of the cache in memory", self.cache.memory.used)
+        yield GaugeMetricFamily("deltaq_cache_entries", "Answers in memory", len(self.cache.memory))
         yield GaugeMetricFamily("deltaq_compiled_kernels", "Numerical kernels compiled and on disk", compiled_kernels())

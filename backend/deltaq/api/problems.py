@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -19,6 +20,7 @@ from ..narration.catalog import message, text
 from .languages import Language, language_of
 from .strict_json import JsonError
 from .validation import problems_of
+from .workers.account import QuotaExceeded
 from .workers.job import DeadlineExceeded, JobError, JobFailed, MemoryExceeded, Overloaded
 
 LOGGER = logging.getLogger("deltaq.api")
@@ -42,6 +44,7 @@ METHOD_NOT_ALLOWED = ProblemType("method-not-allowed", 405)
 BODY_TOO_SLOW = ProblemType("body-too-slow", 408)
 BODY_TOO_LARGE = ProblemType("body-too-large", 413)
 UNKNOWN_HOST = ProblemType("unknown-host", 421)
+QUOTA_EXCEEDED = ProblemType("quota-exceeded", 429)
 INTERNAL_ERROR = ProblemType("internal-error", 500)
 OVERLOADED = ProblemType("overloaded", 503)
 COMPUTATION_TOO_LARGE = ProblemType("computation-too-large", 504)
@@ -52,11 +55,13 @@ _TYPES: tuple[tuple[type[Exception], ProblemType], ...] = (
     (UnknownNameError, UNKNOWN_NAME),
     (InputError, INVALID_REQUEST),
     (RequestValidationError, INVALID_REQUEST),
+    (QuotaExceeded, QUOTA_EXCEEDED),
     (Overloaded, OVERLOADED),
     (DeadlineExceeded, COMPUTATION_TOO_LARGE),
     (MemoryExceeded, COMPUTATION_TOO_LARGE),
     (Exception, INTERNAL_ERROR),
 )
+_TEMPORARY = frozenset({QUOTA_EXCEEDED, OVERLOADED})
 _HTTP_TYPES = {
     404: NOT_FOUND,
     405: METHOD_NOT_ALLOWED,
@@ -133,8 +138,9 @@ def report_of(error: Exception) -> Report:
     kind = next(kind for cause, kind in _TYPES if isinstance(error, cause))
     if kind is INTERNAL_ERROR:
         return _incident(error)
-    if kind is OVERLOADED:
-        return Report(kind, parameters={"seconds": RETRY_AFTER}, headers={"Retry-After": str(RETRY_AFTER)})
+    if kind in _TEMPORARY:
+        seconds = max(RETRY_AFTER, math.ceil(getattr(error, "seconds", 0.0)))
+        return Report(kind, parameters={"seconds": seconds}, headers={"Retry-After": str(seconds)})
     problems = problems_of(error) if isinstance(error, RequestValidationError) else getattr(error, "problems", ())
     return Report(kind, tuple(problems))
 

@@ -6,8 +6,9 @@ import asyncio
 import functools
 import gzip
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -16,12 +17,18 @@ from fastapi import Request
 from ..settings import Settings
 from .assets import Assets
 from .cache import Cache, content_hash
+from .clients import ACCOUNT
 from .metrics import Metrics, make_metrics
+from .stores.disk import Disk
+from .stores.memory import Memory
+from .stores.store import Store
+from .workers.account import Ledger, QuotaExceeded
 from .workers.job import Job
 from .workers.lane import Limits
 from .workers.pool import Pool
 
 PACKAGE = Path(__file__).parents[1]
+RESERVE = 1  # workers that slow jobs never get
 PRELOAD = "deltaq.api.workers.preload"
 
 
@@ -40,9 +47,18 @@ class Service:
         """The gzipped JSON of a pure job, from the cache if it is there."""
 
         async def compute() -> bytes:
-            return await asyncio.to_thread(pack, await self.pool.run(job, document))
+            return await asyncio.to_thread(pack, await self.run(job, document))
 
-        return await self.cache.get(key, compute)
+        try:
+            return await self.cache.get(key, compute)
+        except QuotaExceeded as error:
+            if error.client == ACCOUNT.get().client:
+                raise
+            return await self.cache.get(key, compute)  # who asked first has no share left, but we may have
+
+    async def run(self, job: Job, document: Any, hear: Callable[[bytes], object] = lambda _part: None) -> bytes:
+        """The JSON of a job's answer, at the expense of the client that asks; `hear` gets its parts before."""
+        return await self.pool.run(job, document, hear, ACCOUNT.get())
 
     @staticmethod
     def key(*question: Any) -> str:
@@ -53,10 +69,25 @@ class Service:
 def make_service(settings: Settings) -> Service:
     """A service; its workers are not started yet."""
     limits = Limits(settings.worker_memory, settings.jobs_per_worker, settings.start_timeout, settings.queue_patience)
-    pool = Pool(settings.workers, settings.queue_length, limits, (PRELOAD,))
+    pool = Pool(settings.workers, settings.queue_length, limits, (PRELOAD,), RESERVE)
     laboratory = Pool(settings.experiment_workers, settings.experiment_queue, limits, (PRELOAD,))
-    cache = Cache(settings.cache_size)
-    return Service(settings, pool, laboratory, cache, Assets(static_root(settings.static)), make_metrics(pool, cache))
+    cache = Cache(Memory(settings.cache_size), *stores_of(settings))
+    metrics = make_metrics({"requests": pool, "experiments": laboratory}, cache)
+    return Service(settings, pool, laboratory, cache, Assets(static_root(settings.static)), metrics)
+
+
+def stores_of(settings: Settings) -> Iterator[Store]:
+    """The stores behind the memory that the settings name, the fastest first."""
+    if settings.cache_folder:
+        yield Disk(Path(settings.cache_folder), settings.cache_folder_size)
+    if settings.redis:
+        yield import_module("deltaq.api.stores.shared").Shared(settings.redis)  # an extra; most do without
+
+
+def make_ledger(settings: Settings) -> Ledger | None:
+    """The ledger of the clients' shares; None if they may use what they like."""
+    rate = settings.client_share * settings.workers
+    return Ledger(rate, settings.client_credit) if rate > 0.0 else None
 
 
 def pack(answer: bytes) -> bytes:

@@ -7,10 +7,7 @@ import json
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Any
 
-from fastapi import Request
-
 MEDIA_TYPE = "text/event-stream"
-LOOK_UP = 0.25  # seconds between two looks at whether the client is still there
 
 
 def event(kind: str, data: bytes) -> bytes:
@@ -34,17 +31,5 @@ async def events(
         yield event("result", task.result())
     except Exception as error:  # noqa: BLE001  the head has been sent, so a failure is an event
         yield event("problem", json.dumps(failure(error), ensure_ascii=False).encode())
-    finally:
-        task.cancel()
-
-
-async def while_connected(request: Request, work: Awaitable[bytes]) -> bytes:
-    """The work's answer; the work is cancelled when the client goes away."""
-    task = asyncio.ensure_future(work)
-    try:
-        while not (await asyncio.wait({task}, timeout=LOOK_UP))[0]:
-            if await request.is_disconnected():
-                task.cancel()
-        return await task
     finally:
         task.cancel()

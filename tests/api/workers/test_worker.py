@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import threading
-from queue import Queue
 
 import pytest
 
 from deltaq.api.workers import lane as lane_module
-from deltaq.api.workers.lane import Lane, Limits, Task
+from deltaq.api.workers.lane import Lane, Limits
+from deltaq.api.workers.queue import FairQueue
 from deltaq.api.workers.worker import Worker, start_worker
 
 LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, patience=30.0)
@@ -37,7 +37,7 @@ def test_lane_tries_again_until_a_worker_comes_up(monkeypatch: pytest.MonkeyPatc
         return start_worker(memory, timeout)
 
     monkeypatch.setattr(lane_module, "start_worker", start_third_time)
-    lane = Lane(Queue[Task | None](), LIMITS)
+    lane = Lane(FairQueue(10), LIMITS)
     worker = lane.ready_worker()
     assert worker is not None
     assert worker.ask(b'["tests.api.workers.jobs:echo", 10, 5]', 10.0) == b"+5"
@@ -50,6 +50,6 @@ def test_stopped_lane_gives_up_starting(monkeypatch: pytest.MonkeyPatch) -> None
         raise OSError("no more processes")
 
     monkeypatch.setattr(lane_module, "start_worker", never)
-    lane = Lane(Queue[Task | None](), LIMITS)
+    lane = Lane(FairQueue(10), LIMITS)
     threading.Timer(0.2, lane.stop).start()
     assert lane.ready_worker() is None

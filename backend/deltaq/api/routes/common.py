@@ -19,6 +19,7 @@ _MEANINGS = {
     404: "there is nothing of this name",
     413: "the body is too large",
     422: "the request is not valid",
+    429: "the client has used its share of computing time; Retry-After says when to ask again",
     503: "the service is busy; Retry-After says when to ask again",
     504: "the computation is too large",
 }
@@ -27,7 +28,9 @@ _MEANINGS = {
 def failures(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """OpenAPI of the problem documents that a route may answer; any other status is one, too."""
     content = {"application/problem+json": {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}}
-    meanings = {str(status): _MEANINGS[status] for status in statuses} | {"default": "any other failure"}
+    of_computing = (429,) if 503 in statuses else ()
+    named = sorted((*statuses, *of_computing))
+    meanings = {str(status): _MEANINGS[status] for status in named} | {"default": "any other failure"}
     return {
         status: {"model": ProblemDocument, "description": meaning, "content": content}
         for status, meaning in meanings.items()

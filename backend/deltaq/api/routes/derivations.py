@@ -32,7 +32,7 @@ async def derive(request: Request, body: DerivationRequest) -> Response:
 @router.get("/{identifier}", response_model=DerivationAnswer, responses=failures(404))
 async def get_derivation(request: Request, identifier: str) -> Response:
     """A derivation that was asked for before. It never changes; one that is no longer kept must be asked for again."""
-    answer = service_of(request).cache.peek(identifier)
+    answer = await service_of(request).cache.find(identifier)
     if answer is None:
         raise HTTPException(404)
     return packed(request, identifier, answer, f"{PREFIX}/derivations/{identifier}")

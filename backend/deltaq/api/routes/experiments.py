@@ -11,18 +11,19 @@ from fastapi import APIRouter, Request, Response
 from starlette.responses import StreamingResponse
 
 from ..body import StrictRoute
+from ..clients import ACCOUNT
 from ..languages import language_of
 from ..problems import report_of
 from ..responses import packed
 from ..service import Service, pack, service_of, unpack
-from ..streams import MEDIA_TYPE, events, while_connected
+from ..streams import MEDIA_TYPE, events
 from ..wire.experiment import REQUESTS, ExperimentAnswer
 from ..workers.job import Job
 from .common import failures, question_of
 
 router = APIRouter(prefix="/experiments", tags=["experiments"], route_class=StrictRoute)
-EXPERIMENT = Job("deltaq.api.jobs:experiment", deadline=180.0, threads=8)
-EXPORT = Job("deltaq.api.jobs:export_charts", deadline=30.0)
+EXPERIMENT = Job("deltaq.api.jobs:experiment", deadline=180.0, threads=8, pace="slow")
+EXPORT = Job("deltaq.api.jobs:export_charts", deadline=30.0, pace="slow")
 FILES = {"text/html": "html", "text/csv": "csv"}
 Endpoint = Callable[..., Coroutine[Any, Any, Response]]
 
@@ -36,7 +37,7 @@ def _endpoint(name: str, model: type) -> Endpoint:
         key, accepted = service.key(EXPERIMENT.target, question), request.headers.get("accept", "")
         if MEDIA_TYPE in accepted:
             return _streamed(request, service, key, question)
-        answer = await while_connected(request, _answer(service, key, question, lambda _: None))
+        answer = await _answer(service, key, question, lambda _: None)
         wanted = next((kind for kind in FILES if kind in accepted), None)
         if wanted is None:
             return packed(request, key, answer)
@@ -61,19 +62,19 @@ def _streamed(request: Request, service: Service, key: str, question: dict[str, 
 
 async def _answer(service: Service, key: str, question: dict[str, Any], hear: Callable[[bytes], object]) -> bytes:
     """From the cache, or measured; what nobody waits for any more is not measured to its end."""
-    kept = service.cache.peek(key)
+    kept = await service.cache.find(key)
     if kept is not None:
         return kept
     job = replace(EXPERIMENT, deadline=service.settings.experiment_deadline)
-    answer = pack(await service.laboratory.run(job, question, hear))
-    service.cache.keep(key, answer)
+    answer = pack(await service.laboratory.run(job, question, hear, ACCOUNT.get()))
+    await service.cache.keep(key, answer)
     return answer
 
 
 async def _exported(service: Service, media_type: str, answer: bytes, language: str) -> Response:
     """The charts as a page that needs nothing else, or their numbers as a table."""
     document = {"charts": loads(answer)["charts"], "form": FILES[media_type], "lang": language}
-    found = loads(await service.pool.run(EXPORT, loads(dumps(document))))
+    found = loads(await service.run(EXPORT, loads(dumps(document))))
     name = f"{loads(answer)['experiment']}-{loads(answer)['scene']}.{FILES[media_type]}"
     headers = {"Content-Disposition": f'attachment; filename="{name}"'}
     return Response(found["text"], media_type=media_type, headers=headers)

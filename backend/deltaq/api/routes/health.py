@@ -27,7 +27,9 @@ async def health(request: Request) -> Health:
         status="ok" if state.ready else "starting",
         version=__version__,
         workers=WorkerHealth(**asdict(state)),
-        cache=CacheHealth(entries=len(cache), bytes=cache.used, hits=cache.hits, misses=cache.misses),
+        cache=CacheHealth(
+            entries=len(cache.memory), bytes=cache.memory.used, hits=cache.hits.total(), misses=cache.misses
+        ),
     )
 
 

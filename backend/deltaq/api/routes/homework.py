@@ -38,10 +38,10 @@ CHECK = Job("deltaq.api.jobs:check", deadline=15.0)
 READING = Job("deltaq.api.jobs:read_answer", deadline=4.0)
 SOLUTION = Job("deltaq.api.jobs:solve", deadline=8.0)
 MOTION = Job("deltaq.api.jobs:answered_motion", deadline=8.0)
-ASSIGNMENT = Job("deltaq.api.jobs:open_assignment", deadline=30.0)
-STACK = Job("deltaq.api.jobs:export_stack", deadline=60.0)
-LINES = Job("deltaq.api.jobs:check_lines", deadline=30.0)
-BATCH = Job("deltaq.api.jobs:check_batch", deadline=60.0)
+ASSIGNMENT = Job("deltaq.api.jobs:open_assignment", deadline=30.0, pace="slow")
+STACK = Job("deltaq.api.jobs:export_stack", deadline=60.0, pace="slow")
+LINES = Job("deltaq.api.jobs:check_lines", deadline=30.0, pace="slow")
+BATCH = Job("deltaq.api.jobs:check_batch", deadline=60.0, pace="slow")
 
 
 @router.get("/scenes/{identifier}/tasks", response_model=TaskList, responses=failures(404, 503, 504))
@@ -64,7 +64,7 @@ async def tasks(request: Request, body: TasksRequest) -> Response:
 @router.post("/tasks/stack", responses=failures(400, 404, 413, 422, 503, 504))
 async def export_stack(request: Request, body: StackRequest) -> Response:
     """Tasks as questions of STACK (Moodle XML): input, model answer, feedback tree made of the misconceptions."""
-    answer = await service_of(request).pool.run(STACK, question_of(request, body))
+    answer = await service_of(request).run(STACK, question_of(request, body))
     return Response(loads(answer)["xml"], media_type="application/xml")
 
 

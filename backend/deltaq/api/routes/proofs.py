@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request, Response
 
 from ...narration.catalog import keys, text
+from ..body import StrictRoute
 from ..languages import Language, language_of
 from ..responses import packed, tagged
 from ..service import service_of
@@ -12,8 +13,8 @@ from ..wire.proof import ProofAnswer, ProofList
 from ..workers.job import Job
 from .common import failures
 
-router = APIRouter(prefix="/proofs", tags=["proofs"])
-PROVE = Job("deltaq.api.jobs:prove", deadline=60.0)
+router = APIRouter(prefix="/proofs", tags=["proofs"], route_class=StrictRoute)
+PROVE = Job("deltaq.api.jobs:prove", deadline=60.0, pace="slow")
 
 
 @router.get("", response_model=ProofList, responses=failures())

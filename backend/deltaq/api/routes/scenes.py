@@ -62,13 +62,11 @@ def get_scene(
 async def validate_scene(request: Request, scene: Annotated[SceneDocument, Body(examples=[EXAMPLE])]) -> Response:
     """Whether a scene document describes a mechanical system, and all that is wrong with it."""
     document = {"scene": scene, "lang": language_of(request)}
-    return Response(await service_of(request).pool.run(VALIDATE, document), media_type=JSON)
+    return Response(await service_of(request).run(VALIDATE, document), media_type=JSON)
 
 
 @router.post("/toml", response_model=SceneText, responses=failures(400, 413, 422, 503, 504), openapi_extra=TOML)
 async def read_toml_scene(request: Request) -> Response:
     """A scene document written in TOML, as JSON. Whether it describes a mechanical system, `/scenes/validate` says."""
     text = (await request.body()).decode("utf-8", errors="replace")
-    return Response(
-        await service_of(request).pool.run(READ, {"text": text, "lang": language_of(request)}), media_type=JSON
-    )
+    return Response(await service_of(request).run(READ, {"text": text, "lang": language_of(request)}), media_type=JSON)

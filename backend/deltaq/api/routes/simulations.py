@@ -14,7 +14,7 @@ from ..workers.job import Job
 from .common import failures, question_of
 
 router = APIRouter(prefix="/simulations", tags=["simulations"], route_class=StrictRoute)
-SIMULATE = Job("deltaq.api.jobs:simulate", deadline=20.0)
+SIMULATE = Job("deltaq.api.jobs:simulate", deadline=20.0, pace="slow")
 
 
 @router.post("", response_model=SimulationAnswer, responses=failures(400, 404, 413, 422, 503, 504))

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from ...errors import DeltaqError
+
+Pace = Literal["fast", "slow"]
 
 
 @dataclass(frozen=True)
@@ -13,13 +16,15 @@ class Job:
 
     `deadline` is the wall time in seconds after which the process that runs it is killed. A `pure` job has no effect
     but its answer, so it may be run again when its worker was killed from outside. A function that returns an iterator
-    gives parts, the last of which is the answer. `threads` is how many of them the job may keep busy.
+    gives parts, the last of which is the answer. `threads` is how many of them the job may keep busy. A job whose
+    usual time is more than a moment is `slow`: one worker is never given such a job.
     """
 
     target: str
     deadline: float
     pure: bool = True
     threads: int = 1
+    pace: Pace = "fast"
 
 
 class JobError(DeltaqError):

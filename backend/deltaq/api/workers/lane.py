@@ -4,30 +4,23 @@ from __future__ import annotations
 
 import logging
 import time
-from concurrent.futures import Future
+from collections.abc import Collection
 from contextlib import suppress
-from dataclasses import dataclass, field
-from queue import Queue
+from dataclasses import dataclass
 from threading import Event, Thread
+from typing import get_args
 
 from ...errors import DeltaqError, InputError
-from .job import GivenUp, Job, JobError, JobFailed, Overloaded, WorkerDied
+from .account import QuotaExceeded
+from .job import GivenUp, JobError, JobFailed, Overloaded, Pace, WorkerDied
 from .message import decode_reply
-from .worker import NOBODY, Listener, Worker, start_worker
+from .queue import FairQueue
+from .task import Task
+from .worker import Worker, start_worker
 
 LOGGER = logging.getLogger("deltaq.workers")
+ANY_PACE: tuple[Pace, ...] = get_args(Pace)
 FIRST_PAUSE, LONGEST_PAUSE = 0.05, 5.0
-
-
-@dataclass(frozen=True)
-class Task:
-    """A job, its request as bytes, the future that waits for the answer's JSON, and who hears its parts."""
-
-    job: Job
-    request: bytes
-    listener: Listener = NOBODY
-    answer: Future[bytes] = field(default_factory=Future)
-    asked_at: float = field(default_factory=time.monotonic)
 
 
 @dataclass(frozen=True)
@@ -41,12 +34,13 @@ class Limits:
 
 
 class Lane(Thread):
-    """Takes tasks from the queue one by one; None in the queue ends the lane."""
+    """Takes tasks of its paces from the queue one by one, until the queue is closed."""
 
-    def __init__(self, tasks: Queue[Task | None], limits: Limits) -> None:
+    def __init__(self, tasks: FairQueue, limits: Limits, paces: Collection[Pace] = ANY_PACE) -> None:
         super().__init__(name="deltaq-lane", daemon=True)
         self.tasks = tasks
         self.limits = limits
+        self.paces = paces
         self.worker: Worker | None = None
         self.served = 0
         self.kills = 0
@@ -55,7 +49,7 @@ class Lane(Thread):
 
     def run(self) -> None:
         self.ready_worker()
-        while not self.stopping.is_set() and (task := self.tasks.get()) is not None:
+        while not self.stopping.is_set() and (task := self.tasks.take(self.paces)) is not None:
             self.serve(task)
         self.drop_worker()
 
@@ -101,13 +95,19 @@ class Lane(Thread):
         self.ready_worker()
 
     def outcome(self, task: Task) -> bytes | DeltaqError:
-        """Run it; once more if it is pure and the worker was killed from outside."""
+        """Run it; once more if it is pure and the worker was killed from outside. Its client pays for the time."""
         if time.monotonic() - task.asked_at > self.limits.patience:
             return Overloaded("waited too long")
-        first = self.attempt(task)
-        if isinstance(first, WorkerDied) and first.repeatable and task.job.pure:
-            return self.attempt(task)
-        return first
+        begin = time.monotonic()
+        try:
+            task.account.admit()  # others of its tasks may have used up the share meanwhile
+            first = self.attempt(task)
+            repeated = isinstance(first, WorkerDied) and first.repeatable and task.job.pure
+            return self.attempt(task) if repeated else first
+        except QuotaExceeded as error:
+            return error
+        finally:
+            task.account.pay(time.monotonic() - begin)
 
     def attempt(self, task: Task) -> bytes | DeltaqError:
         """One try. A worker that failed otherwise than by wrong input is not trusted with another task."""

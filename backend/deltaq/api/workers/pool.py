@@ -1,19 +1,22 @@
-"""The pool: a bounded queue in front of a few lanes."""
+"""The pool: a bounded queue in front of a few lanes, some of which are for fast jobs alone."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
-from queue import Full, Queue
 from threading import Event
 from typing import Any
 
-from .job import Job, Overloaded
-from .lane import Lane, Limits, Task
+from .account import FREE, Account
+from .job import Job, Overloaded, Pace
+from .lane import ANY_PACE, Lane, Limits
 from .message import encode_request
+from .queue import FairQueue
+from .task import Task
 from .worker import Listener, start_fork_server
+
+FAST_ALONE: tuple[Pace, ...] = ("fast",)
 
 
 @dataclass(frozen=True)
@@ -32,13 +35,16 @@ def _ignore(_part: bytes) -> None:
 
 
 class Pool:
-    """Runs jobs in `size` worker processes; at most `queue_length` tasks wait."""
+    """Runs jobs in `size` worker processes, and fast ones in `reserve` more; at most `queue_length` tasks wait."""
 
-    def __init__(self, size: int, queue_length: int, limits: Limits, modules: Sequence[str] = ()) -> None:
-        self._tasks: Queue[Task | None] = Queue(queue_length)
+    def __init__(
+        self, size: int, queue_length: int, limits: Limits, modules: Sequence[str] = (), reserve: int = 0
+    ) -> None:
+        self._tasks = FairQueue(queue_length)
         self._limits = limits
         self._modules = tuple(modules)
-        self._lanes = tuple(Lane(self._tasks, limits) for _ in range(size))
+        paces = [ANY_PACE] * size + [FAST_ALONE] * reserve
+        self._lanes = tuple(Lane(self._tasks, limits, own) for own in paces)
 
     def start(self) -> None:
         """Start the lanes; returns at once, the workers come up in the background."""
@@ -50,37 +56,34 @@ class Pool:
         """End the lanes: waiting tasks are refused, running ones may finish within `timeout` seconds."""
         for lane in self._lanes:
             lane.stop()
-        while not self._tasks.empty():
-            task = self._tasks.get_nowait()
-            if task is not None and task.answer.set_running_or_notify_cancel():
+        for task in self._tasks.close():
+            if task.answer.set_running_or_notify_cancel():
                 task.answer.set_exception(Overloaded("the service is stopping"))
-        for _ in self._lanes:  # wake those that wait for a task; with a full queue nobody does
-            with suppress(Full):
-                self._tasks.put_nowait(None)
         for lane in self._lanes:
             lane.join(timeout)
             lane.drop_worker()
 
-    async def run(self, job: Job, document: Any, hear: Callable[[bytes], object] = _ignore) -> bytes:
-        """The JSON of the job's answer; `hear` gets its parts before, in the event loop.
+    async def run(
+        self, job: Job, document: Any, hear: Callable[[bytes], object] = _ignore, account: Account = FREE
+    ) -> bytes:
+        """The JSON of the job's answer; `hear` gets its parts before, in the event loop; `account` pays.
 
-        InputError as the job raised it; Overloaded, DeadlineExceeded, MemoryExceeded, WorkerDied or JobFailed
-        otherwise. Always ends: with a full queue at once, else after patience and deadlines. When it is cancelled,
-        the worker is freed.
+        InputError as the job raised it; Overloaded, QuotaExceeded, DeadlineExceeded, MemoryExceeded, WorkerDied or
+        JobFailed otherwise. Always ends: with a full queue at once, else after patience and deadlines. When it is
+        cancelled, the worker is freed.
         """
+        account.admit()
         loop, gone = asyncio.get_running_loop(), Event()
         listener = Listener(lambda part: loop.call_soon_threadsafe(hear, part), gone.is_set)
-        task = Task(job, encode_request(job.target, job.threads * job.deadline, document), listener)
+        task = Task(job, encode_request(job.target, job.threads * job.deadline, document), listener, account)
         try:
             return await self._answer(task)
         finally:
             gone.set()
+            self._tasks.discard(task)
 
     async def _answer(self, task: Task) -> bytes:
-        try:
-            self._tasks.put_nowait(task)
-        except Full:
-            raise Overloaded("the queue is full") from None
+        self._tasks.put(task)
         longest = self._limits.patience + 2 * task.job.deadline + 5.0
         try:
             return await asyncio.wait_for(asyncio.wrap_future(task.answer), longest)
@@ -93,7 +96,7 @@ class Pool:
             workers=len(self._lanes),
             ready=sum(lane.worker is not None for lane in self._lanes),
             busy=sum(lane.busy for lane in self._lanes),
-            waiting=self._tasks.qsize(),
+            waiting=len(self._tasks),
             kills=sum(lane.kills for lane in self._lanes),
         )
 

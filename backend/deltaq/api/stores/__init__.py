@@ -1,0 +1,1 @@
+"""Where answers are kept: in memory, on disk, and shared by replicas."""

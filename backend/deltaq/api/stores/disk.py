@@ -1,0 +1,90 @@
+"""Answers in a folder, which outlive the service and may be shared by several on one machine."""
+
+from __future__ import annotations
+
+import logging
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from .store import sealed, unsealed
+
+LOGGER = logging.getLogger("deltaq.cache")
+KEPT = 0.9  # part of the room that stays in use when room is made
+_KEY = re.compile("[0-9a-f]{32}")
+
+
+class Disk:
+    """One file for each answer; those used longest ago go when there are more than `size` bytes."""
+
+    name = "disk"
+
+    def __init__(self, folder: Path, size: int) -> None:
+        self.folder = folder
+        self.size = size
+        self._written = size  # so that the first answer looks at what is there already
+
+    def load(self, key: str) -> bytes | None:
+        """The answer of this key; a damaged one is removed."""
+        if not _KEY.fullmatch(key):  # it may come from an address
+            return None
+        file = self._file(key)
+        try:
+            answer = unsealed(key, file.read_bytes())
+            if answer is None:
+                LOGGER.warning("a damaged answer was removed")
+                file.unlink(missing_ok=True)
+            else:
+                os.utime(file)
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            LOGGER.warning("the cache on disk cannot be read: %s", error.strerror)
+            return None
+        return answer
+
+    def save(self, key: str, answer: bytes) -> None:
+        """Keep an answer; it appears whole or not at all."""
+        content = sealed(key, answer)
+        try:
+            self._write(self._file(key), content)
+            self._written += len(content)
+            if self._written > self.size:
+                self._make_room()
+        except OSError as error:
+            LOGGER.warning("the cache on disk cannot be written: %s", error.strerror)
+
+    def _file(self, key: str) -> Path:
+        return self.folder / key[:2] / f"{key}.answer"
+
+    def _write(self, file: Path, content: bytes) -> None:
+        file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        descriptor, name = tempfile.mkstemp(dir=file.parent, suffix=".new")
+        try:
+            with os.fdopen(descriptor, "wb") as new:
+                new.write(content)
+            Path(name).replace(file)
+        except OSError:
+            Path(name).unlink(missing_ok=True)
+            raise
+
+    def _make_room(self) -> None:
+        """Remove what was used longest ago, and what somebody began to write and never ended."""
+        files = sorted(self._stand(), reverse=True)  # the newest first
+        left = KEPT * self.size
+        for _, length, file in files:
+            left -= length
+            if left < 0.0:
+                file.unlink(missing_ok=True)
+        self._written = int(min(KEPT * self.size, sum(length for _, length, _ in files)))
+
+    def _stand(self) -> Iterator[tuple[float, int, Path]]:
+        """When each file was used last, its length, and the file."""
+        for file in self.folder.glob("??/*"):
+            try:
+                state = file.stat()
+            except FileNotFoundError:  # another service has just removed it
+                continue
+            yield state.st_mtime, state.st_size, file

@@ -1,0 +1,38 @@
+"""Answers in memory."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+
+OVERHEAD = 200  # bytes of bookkeeping for each entry, roughly
+
+
+class Memory:
+    """Least recently used answers are dropped beyond `size` bytes."""
+
+    name = "memory"
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+        self.used = 0
+        self._entries: OrderedDict[str, bytes] = OrderedDict()
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def load(self, key: str) -> bytes | None:
+        """The answer of this key, if it is there."""
+        if key in self._entries:
+            self._entries.move_to_end(key)
+        return self._entries.get(key)
+
+    def save(self, key: str, answer: bytes) -> None:
+        """Keep an answer, unless it is larger than all the room there is."""
+        cost = len(answer) + OVERHEAD
+        if cost > self.size or key in self._entries:
+            return
+        self._entries[key] = answer
+        self.used += cost
+        while self.used > self.size:
+            _, dropped = self._entries.popitem(last=False)
+            self.used -= len(dropped) + OVERHEAD

@@ -1,0 +1,74 @@
+"""What the jobs of each client have cost, in seconds of workers; a worker is one processor."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from threading import Lock
+
+from .job import JobError
+
+MOST_CLIENTS = 10_000
+
+
+class QuotaExceeded(JobError):
+    """A client has used more than its share; in `seconds` it may ask again."""
+
+    def __init__(self, client: str, seconds: float) -> None:
+        super().__init__(f"more than its share; again in {seconds:.0f} s")
+        self.client = client
+        self.seconds = seconds
+
+
+class Ledger:
+    """The debts of all clients: each may owe `credit` seconds, and pays `rate` seconds back per second.
+
+    So one client gets `rate` workers in the long run, and `credit` seconds of them at once. Used from many threads.
+    """
+
+    def __init__(self, rate: float, credit: float, clock: Callable[[], float] = time.monotonic) -> None:
+        self.rate = rate
+        self.credit = credit
+        self._clock = clock
+        self._debts: dict[str, tuple[float, float]] = {}  # seconds owed, and when that was so
+        self._lock = Lock()
+
+    def debt(self, client: str) -> float:
+        """What a client owes now."""
+        owed, then = self._debts.get(client, (0.0, 0.0))
+        return max(0.0, owed - self.rate * (self._clock() - then))
+
+    def admit(self, client: str) -> None:
+        """QuotaExceeded if the client owes more than its credit."""
+        excess = self.debt(client) - self.credit
+        if excess > 0.0:
+            raise QuotaExceeded(client, excess / self.rate)
+
+    def charge(self, client: str, seconds: float) -> None:
+        """Add to what a client owes."""
+        with self._lock:
+            self._debts[client] = (self.debt(client) + seconds, self._clock())
+            if len(self._debts) > MOST_CLIENTS:
+                self._debts = {one: self._debts[one] for one in self._debts if self.debt(one) > 0.0}
+
+
+@dataclass(frozen=True)
+class Account:
+    """One client and the ledger that it is written in; without a ledger its jobs cost nothing."""
+
+    client: str
+    ledger: Ledger | None = None
+
+    def admit(self) -> None:
+        """QuotaExceeded if the client has used more than its share."""
+        if self.ledger:
+            self.ledger.admit(self.client)
+
+    def pay(self, seconds: float) -> None:
+        """Charge the time of a worker."""
+        if self.ledger:
+            self.ledger.charge(self.client, seconds)
+
+
+FREE = Account("")

@@ -1,0 +1,146 @@
+"""Slow clients, gone clients, and the end of the service, over real sockets."""
+
+from __future__ import annotations
+
+import json
+import signal
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+
+import httpx
+import pytest
+from tests.serving import Served, served
+
+HEAVY = {"scene": "chain-pendulum", "method": "radau-5", "t_end": 1e4, "tolerance": 1e-12}  # many seconds of work
+
+
+@pytest.fixture(scope="module")
+def service() -> Iterator[Served]:
+    with served(workers=1, head_timeout=0.5, reading_timeout=0.5, body_timeout=0.5) as one:
+        httpx.get(f"{one.address}api/v1/health", timeout=60)
+        yield one
+
+
+def connected(service: Served) -> socket.socket:
+    return socket.create_connection(service.place, timeout=20)
+
+
+def received(connection: socket.socket) -> int:
+    """How many bytes come before the server ends the connection; TimeoutError if it does not."""
+    count = 0
+    with suppress(ConnectionResetError):
+        while part := connection.recv(2**16):
+            count += len(part)
+    return count
+
+
+@pytest.mark.parametrize(
+    "beginning",
+    [
+        pytest.param(b"", id="nothing at all"),
+        pytest.param(b"GET /api/v1/health HT", id="half a line"),
+        pytest.param(b"GET /api/v1/health HTTP/1.1\r\nHost: localhost\r\nX-A: ", id="half a header"),
+        pytest.param(b"GET /api/v1/health HTTP/1.1\r\nHost: localhost\r\n\r\nGET /", id="half of the second request"),
+        pytest.param(
+            b"GET /app.js HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\nx", id="body that is not wanted"
+        ),
+        pytest.param(
+            b"POST /api/v1/tasks HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+            b"Content-Length: 9\r\n\r\n{",
+            id="half a body",
+        ),
+    ],
+)
+def test_slow_sender_is_cut_off(service: Served, beginning: bytes) -> None:
+    with connected(service) as connection:
+        connection.sendall(beginning)
+        received(connection)
+
+
+def test_head_that_drips_is_cut_off(service: Served) -> None:
+    with connected(service) as connection:
+        connection.sendall(b"GET / HTTP/1.1\r\n")
+        with pytest.raises(OSError, match=r"reset|[Bb]roken pipe"):  # noqa: PT012  each of the sends may be the one
+            for number in range(100):
+                connection.sendall(f"X-{number}: 1\r\n".encode())
+                time.sleep(0.1)
+
+
+def test_slow_reader_is_cut_off(service: Served) -> None:
+    """Long answers are asked for, and none is read."""
+    request = b"GET /api/v1/catalogs/de HTTP/1.1\r\nHost: localhost\r\n\r\n"
+    with socket.socket() as connection:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        connection.connect(service.place)
+        connection.settimeout(20)
+        connection.sendall(300 * request)
+        time.sleep(2.0)
+        assert received(connection) < 100 * len(httpx.get(f"{service.address}api/v1/catalogs/de").content)
+
+
+def test_patient_connection_is_kept(service: Served) -> None:
+    with httpx.Client(base_url=service.address, timeout=60) as client:
+        for _ in range(3):
+            assert client.get("/api/v1/health").status_code == 200
+            time.sleep(0.3)
+
+
+def busy(service: Served) -> int:
+    count: int = httpx.get(f"{service.address}api/v1/health", timeout=60).json()["workers"]["busy"]
+    return count
+
+
+def within(seconds: float, service: Served, wanted: int) -> bool:
+    """Whether as many workers as wanted are at work before the time is over."""
+    end = time.monotonic() + seconds
+    while busy(service) != wanted and time.monotonic() < end:
+        time.sleep(0.05)
+    return busy(service) == wanted
+
+
+def ask(service: Served) -> socket.socket:
+    """A connection on which a long computation has been asked for."""
+    body = json.dumps(HEAVY).encode()
+    head = f"POST /api/v1/simulations HTTP/1.1\r\nHost: localhost\r\nContent-Length: {len(body)}\r\n"
+    connection = connected(service)
+    connection.sendall(head.encode() + b"Content-Type: application/json\r\n\r\n" + body)
+    return connection
+
+
+def test_work_stops_when_its_client_has_gone() -> None:
+    with served(workers=1, simulation_deadline=60) as service:
+        assert within(60.0, service, 0)
+        with ask(service):
+            assert within(20.0, service, 1)
+        assert within(4.0, service, 0)
+        kills = httpx.get(f"{service.address}api/v1/health").json()["workers"]["kills"]
+        assert kills == 0
+
+
+def test_work_goes_on_while_anybody_waits_for_it() -> None:
+    with served(workers=1, simulation_deadline=60) as service:
+        assert within(60.0, service, 0)
+        with ask(service):
+            with ask(service):
+                assert within(20.0, service, 1)
+            time.sleep(1.5)
+            assert busy(service) == 1
+
+
+def test_requests_under_way_are_answered_when_the_service_ends() -> None:
+    with served(workers=1, drain_timeout=60) as service:
+        assert within(60.0, service, 0)
+        answers: list[httpx.Response] = []
+        address, question = f"{service.address}api/v1/simulations", HEAVY | {"t_end": 300.0}
+        asking = threading.Thread(target=lambda: answers.append(httpx.post(address, json=question, timeout=60)))
+        asking.start()
+        assert within(20.0, service, 1)
+        service.process.send_signal(signal.SIGTERM)
+        asking.join(60.0)
+        assert [answer.status_code for answer in answers] == [200]
+        service.process.communicate(timeout=30)
+        with pytest.raises(httpx.ConnectError):
+            httpx.get(f"{service.address}api/v1/health")

@@ -1,0 +1,41 @@
+"""The service as a process of its own, at a free port of loopback."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import httpx
+
+
+@dataclass(frozen=True)
+class Served:
+    """A running service, its address, host and port."""
+
+    process: subprocess.Popen[str]
+    address: str
+
+    @property
+    def place(self) -> tuple[str, int]:
+        url = httpx.URL(self.address)
+        return url.host, url.port or 80
+
+
+@contextmanager
+def served(**settings: object) -> Iterator[Served]:
+    """`deltaq serve` with these settings; killed at the end if it has not ended by itself."""
+    given = {f"DELTAQ_{name.upper()}": str(value) for name, value in settings.items()}
+    command = [sys.executable, "-m", "deltaq.cli", "serve", "--port", "0"]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, env=os.environ | given, text=True, **pipes) as process:  # type: ignore[call-overload]
+        try:
+            found = re.search(r"http://\S+/", process.stdout.readline())
+            assert found is not None
+            yield Served(process, found[0])
+        finally:
+            process.kill()
