@@ -18,7 +18,7 @@ async def simulated(client: httpx.AsyncClient, **question: Any) -> SimulationAns
     return SimulationAnswer.model_validate(response.json())
 
 
-@pytest.mark.parametrize("identifier", scene_ids())
+@pytest.mark.parametrize("identifier", [name for name in scene_ids() if not load_scene(name).events])
 async def test_every_scene_is_simulated(client: httpx.AsyncClient, identifier: str) -> None:
     answer = await simulated(client, scene=identifier, t_end=2.0, samples=21)
     scene = load_scene(identifier)
@@ -49,6 +49,35 @@ async def test_run_that_fails_is_an_answer_with_reason_and_remedy(
     assert word in answer.reason
     assert answer.remedy
     assert "{" not in answer.reason + answer.remedy
+
+
+@pytest.mark.parametrize(
+    ("language", "title", "word"),
+    [
+        pytest.param("en", "the string goes slack", "happened", id="English"),
+        pytest.param("de", "Der Faden wird schlaff", "geschah", id="German"),
+    ],
+)
+async def test_an_event_is_told_with_its_time(client: httpx.AsyncClient, language: str, title: str, word: str) -> None:
+    answer = await simulated(client, scene="string-pendulum", t_end=5.0, tolerance=1e-9, lang=language)
+    assert answer.status == "event"
+    assert answer.event is not None
+    assert (answer.event.name, answer.event.title) == ("slack", title)
+    assert answer.event.t == pytest.approx(0.7077229914537, abs=1e-9)
+    assert answer.event.error is not None
+    assert 0 < answer.event.error < 1e-8
+    assert answer.t[-1] == pytest.approx(answer.event.t, abs=1e-9)
+    assert all(part in answer.reason for part in (title, word, str(answer.event.t)))
+    assert "{" not in answer.reason + answer.remedy
+
+
+async def test_an_event_that_has_happened_at_the_start_is_a_problem_with_its_place(client: httpx.AsyncClient) -> None:
+    question = {"scene": "string-pendulum", "t_end": 1.0, "initial": {"phi": {"value": 3.0, "rate": 0.0}}}
+    response = await client.post(SIMULATIONS, json=question)
+    assert response.status_code == 422
+    (problem,) = response.json()["problems"]
+    assert (problem["code"], problem["pointer"]) == ("event-at-start", "/scene/events/0/value")
+    assert "-9.71" in problem["message"]
 
 
 async def test_same_question_is_answered_from_memory(client: httpx.AsyncClient) -> None:

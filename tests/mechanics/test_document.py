@@ -33,6 +33,23 @@ def test_reads_what_it_writes() -> None:
     assert read_scene(json.loads(json.dumps(write_scene(scene)))) == scene
 
 
+def test_events_are_written_where_there_are_any() -> None:
+    event = {"name": "slack", "value": "m*(g*cos(phi) + l*dot(phi)^2)", "title": {"en": "slack"}, "at": "bob"}
+    scene = read_scene({**PENDULUM, "events": [event]})
+    assert write_scene(scene)["events"] == [event]
+    assert read_scene(write_scene(scene)) == scene
+    assert scene.events[0].called("en") == "slack"
+    assert scene.events[0].called("de") == "slack"
+    assert "events" not in write_scene(read_scene(PENDULUM))
+
+
+def test_a_mistake_in_an_event_is_told_at_its_place() -> None:
+    with pytest.raises(SceneError) as caught:
+        read_scene({**PENDULUM, "events": [{"name": "slack", "value": "m*g*cos(phj)"}]})
+    (problem,) = caught.value.problems
+    assert (problem.pointer, problem.offset, problem.length) == ("/events/0/value", 8, 3)
+
+
 def test_defaults() -> None:
     scene = read_scene(PENDULUM)
     assert [load.name for load in scene.loads] == ["gravity"]
@@ -60,6 +77,10 @@ def put(path: str, value: object) -> Callable[[dict], None]:
             place[last] = value  # type: ignore[index]
 
     return change
+
+
+def never_defined(pointer: str, expression: str) -> Problem:
+    return Problem("never-defined", pointer, parameters={"expression": expression})
 
 
 WRONG = [
@@ -157,6 +178,32 @@ WRONG = [
         put("/labels", {"bop": {"en": "bob"}}),
         Problem("label-of-nothing", "/labels/bop", parameters={"name": "bop"}),
         id="label of nothing",
+    ),
+    *(
+        pytest.param(put("/events", [{"name": "slack", **event}]), problem, id=f"event: {problem.code}")
+        for event, problem in (
+            ({"value": ""}, Problem("empty-expression", "/events/0/value", parameters={"field": "value"})),
+            ({}, Problem("missing-field", "/events/0/value", parameters={"field": "value"})),
+            (
+                {"value": "g - ddot(phi)"},
+                Problem("event-with-acceleration", "/events/0/value", parameters={"coordinate": "phi"}),
+            ),
+            ({"value": "sqrt(-1 - phi^2)"}, never_defined("/events/0/value", "sqrt(-1 - phi^2)")),
+            ({"name": "a b", "value": "g"}, Problem("invalid-name", "/events/0/name", parameters={"name": "a b"})),
+            (
+                {"value": "g", "at": "bop"},
+                Problem("unknown-place", "/events/0/at", parameters={"name": "bop", "suggestion": "bob"}),
+            ),
+            (
+                {"value": "g", "when": "0"},
+                Problem("unknown-field", "/events/0/when", parameters={"field": "when", "suggestion": ""}),
+            ),
+        )
+    ),
+    pytest.param(
+        put("/events", [{"name": "slack", "value": "g"}] * 2),
+        Problem("duplicate-name", "/events", parameters={"name": "slack"}),
+        id="two events of one name",
     ),
     pytest.param(put("/dimension", 4), Problem("wrong-space", "/dimension"), id="four dimensions"),
     pytest.param(put("/dimension", True), Problem("not-an-integer", "/dimension"), id="dimension a flag"),

@@ -23,6 +23,7 @@ from ..simulation.kernels.monodromy import Flow, Found, Survey, make_desk, surve
 from ..simulation.kernels.motion import CANCELLED, FINE
 from ..simulation.kernels.step import make_room
 from ..simulation.kernels.step_control import Control
+from ..simulation.kernels.watch import unwatched
 from ..simulation.library import get_method
 from ..simulation.method import Tableau
 from ..simulation.problem import Floats
@@ -116,7 +117,7 @@ class Plane:
         start, longest = self.problem.state[:width].copy(), float(self.periods.max())
         control = Control(TOLERANCE, longest, longest, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme))
         room = make_room(start, weights)
-        flow = Flow(motion, weights, control, room, np.zeros(2), np.zeros((2, width)), cancelled)
+        flow = Flow(motion, weights, control, unwatched(cancelled), room, np.zeros(2), np.zeros((2, width)))
         survey(flow, start, self._table, span, found, make_desk(width))
 
     def _read(self, found: Found) -> StabilityMap:

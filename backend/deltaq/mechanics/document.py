@@ -13,6 +13,7 @@ from ..packages import classes_of
 from .bodies import Body
 from .coordinate import Coordinate
 from .drawing import Drawing, Element, Vertical
+from .event import Event
 from .guide import Guide
 from .loads import Load
 from .parameter import Parameter
@@ -57,8 +58,8 @@ def _scene(root: Reader) -> Iterator[Scene]:
     make = partial(
         Scene,
         _identifier(root),
-        _translated(root, "title"),
-        _translated(root, "summary"),
+        root.translated("title"),
+        root.translated("summary"),
         context.dimension,
         _each(root.tables("coordinates"), read_coordinate),
         _each(root.tables("parameters"), read_parameter),
@@ -68,6 +69,7 @@ def _scene(root: Reader) -> Iterator[Scene]:
         _each(root.tables("guides", context), read_guide),
         _drawing(root, context),
         _labels(root),
+        _each(root.tables("events", context), Event.read),
     )
     yield from root.build(lambda _: make()) if not root.problems else ()
 
@@ -91,15 +93,9 @@ def _identifier(root: Reader) -> str:
     return identifier
 
 
-def _translated(root: Reader, key: str) -> Mapping[str, str]:
-    found = root.get(key, (Mapping, str), {}) or {}
-    texts = {"en": found, "de": found} if isinstance(found, str) else found
-    return {str(lang): str(text)[:1000] for lang, text in cast("Mapping[str, object]", texts).items()}
-
-
 def _labels(root: Reader) -> Mapping[str, Mapping[str, str]]:
     table = Reader(root.get("labels", Mapping, {}) or {}, "/labels", root.problems)
-    return {str(name)[:40]: _translated(table, str(name)) for name in table.table}
+    return {str(name)[:40]: table.translated(str(name)) for name in table.table}
 
 
 def _names(root: Reader) -> Names:

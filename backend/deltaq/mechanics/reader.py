@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from fractions import Fraction
-from typing import TypeVar
+from typing import TypeVar, cast
 
 from ..errors import InputError, Parameter, Problem
 from ..language.expression import Expression
@@ -89,6 +89,12 @@ class Reader:
         except OverflowError:
             self.complain("not-finite", key)
             return default
+
+    def translated(self, key: str) -> Mapping[str, str]:
+        """A text by language; one without a language is for all."""
+        found = self.get(key, (Mapping, str), {}) or {}
+        texts = {"en": found, "de": found} if isinstance(found, str) else found
+        return {str(lang): str(text)[:1000] for lang, text in cast("Mapping[str, object]", texts).items()}
 
     def strings(self, key: str) -> tuple[str, ...]:
         values = self.get(key, (list, tuple), None)

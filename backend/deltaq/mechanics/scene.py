@@ -16,6 +16,7 @@ from .checks import demand
 from .contributions import Contribution, DistributedForce
 from .coordinate import Coordinate
 from .drawing import Drawing
+from .event import Event
 from .guide import Guide
 from .loads import Load
 from .material import Material
@@ -27,7 +28,7 @@ Translated = Mapping[str, str]
 
 @dataclass(frozen=True)
 class Scene:
-    """A mechanical system (scene format 1): coordinates, parameters, points, bodies, loads, guides and a drawing.
+    """A mechanical system (scene format 1): coordinates, parameters, points, bodies, loads, guides, events, a drawing.
 
     `dimension` is the number of components of every vector, 2 (plane) or 3 (space). Points and bodies are both places,
     and share their names; loads have names of their own. `labels` say what they are called in sentences, by language.
@@ -45,6 +46,7 @@ class Scene:
     guides: tuple[Guide, ...] = ()
     drawing: Drawing = Drawing()
     labels: Mapping[str, Translated] = field(default_factory=dict)
+    events: tuple[Event, ...] = ()
 
     def __post_init__(self) -> None:
         demand(*self._problems())
@@ -57,6 +59,7 @@ class Scene:
         yield from _repeated("/points", [*(p.name for p in self.points), *(b.name for b in self.bodies)])
         yield from _repeated("/loads", [load.name for load in self.loads])
         yield from _repeated("/guides", [guide.coordinate for guide in self.guides])
+        yield from _repeated("/events", [event.name for event in self.events])
         for name in sorted(self.labels.keys() - self.places.keys() - self._others):
             yield Problem("label-of-nothing", f"/labels/{name}", parameters={"name": name[:40]})
         for index, guide in enumerate(self.guides):
@@ -119,7 +122,8 @@ class Scene:
         # A mapping proxy cannot be pickled; the cached properties need not be.
         fields = (self.id, dict(self.title), dict(self.summary), self.dimension, self.coordinates, self.parameters)
         things = (self.points, self.bodies, self.loads, self.guides, self.drawing)
-        return Scene, (*fields, *things, {name: dict(label) for name, label in self.labels.items()})
+        labels = {name: dict(label) for name, label in self.labels.items()}
+        return Scene, (*fields, *things, labels, self.events)
 
 
 def names_of(

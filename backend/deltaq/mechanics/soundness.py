@@ -36,7 +36,7 @@ def soundness_problems(scene: Scene) -> Iterator[Problem]:
 
 def expressions(scene: Scene) -> Iterator[Field]:
     """Every expression of a scene with its JSON pointer."""
-    lists = {"points": scene.points, "bodies": scene.bodies, "loads": scene.loads}
+    lists = {"points": scene.points, "bodies": scene.bodies, "loads": scene.loads, "events": scene.events}
     for key, things in lists.items():
         for index, thing in enumerate(things):
             yield from _fields(f"/{key}/{index}", thing)

@@ -8,6 +8,7 @@ from ..language.expression import Expression
 from .bodies import Body
 from .coordinate import Coordinate
 from .document import FORMAT
+from .event import Event
 from .guide import Guide
 from .loads import Load
 from .material import Material
@@ -35,12 +36,13 @@ def write_scene(scene: Scene) -> dict[str, object]:
         "bodies": [_write(thing) for thing in scene.bodies],
         "loads": [_write(thing) for thing in scene.loads],
         "guides": [_write(thing) for thing in scene.guides],
+        **({"events": [_write(thing) for thing in scene.events]} if scene.events else {}),
         "labels": {name: dict(label) for name, label in scene.labels.items()},
         "drawing": {key: value for key, value in drawing.items() if value is not None},
     }
 
 
-def _write(thing: Coordinate | Parameter | Point | Body | Load | Guide) -> dict[str, object]:
+def _write(thing: Coordinate | Parameter | Point | Body | Load | Guide | Event) -> dict[str, object]:
     kind = {"kind": thing.kind} if hasattr(thing, "kind") else {}
     values = {item.metadata.get("key", item.name): getattr(thing, item.name) for item in fields(thing)}  # type: ignore[arg-type]
     return kind | {key: _plain(value) for key, value in values.items() if value is not None}

@@ -43,6 +43,7 @@ class Equations:
     guided: Mapping[str, tuple[Expr, Expr]]  # value and rate
     positions: Mapping[str, Vector]
     arrows: Mapping[str, Vector]  # force vectors by load, or by "load:place" where a load acts in several places
+    events: Vector  # what is positive as long as the scene's events have not happened
 
     @property
     def is_powered(self) -> bool:
@@ -71,6 +72,7 @@ def equations(scene: Scene) -> Equations:
         {name: guides.motion(name) for name in symbols.guided},
         {name: guides.into(_position(place, symbols)) for name, place in scene.places.items()},
         {name: guides.into(force) for name, force in _arrows(scene, loads).items()},
+        guides.into(components(tuple(event.value.tree for event in scene.events), symbols)),
     )
 
 

@@ -50,12 +50,14 @@ class Model:
     """M(q, t) q̈ = f(q, q̇, t) as machine code; parameters are inputs, so new values need no new model.
 
     `motion` gives the lower triangle of M (row by row), f and, where power is fed in, P₀ and p₁ of P = P₀ + p₁·q̈.
-    `observed` gives E, V, values and rates of guided coordinates, positions and force vectors.
+    `observed` gives E, V, values and rates of guided coordinates, positions and force vectors; `events`, of scenes that
+    have any, what is positive as long as none has happened.
     """
 
     layout: Layout
     motion: Compiled
     observed: Compiled
+    events: Compiled | None
     scene: Scene = field(repr=False, compare=False)
 
     @cached_property
@@ -101,7 +103,8 @@ class _Mechanics:
 
 def _mechanics(scene: Scene) -> tuple[object, ...]:
     names = tuple(c.name for c in scene.coordinates), tuple(p.name for p in scene.parameters)
-    return scene.dimension, names, scene.points, scene.bodies, scene.loads, scene.guides
+    events = tuple(event.value for event in scene.events)
+    return scene.dimension, names, scene.points, scene.bodies, scene.loads, scene.guides, events
 
 
 @lru_cache(maxsize=64)
@@ -135,5 +138,6 @@ def _compiled(eqs: Equations, scene: Scene) -> Model:
         layout,
         compile_expressions(symbols.inputs, [*triangle, *eqs.forcing, *power]),
         compile_expressions(symbols.inputs, observed),
+        compile_expressions(symbols.inputs, eqs.events) if eqs.events else None,
         scene,
     )

@@ -42,6 +42,7 @@ def answer(
         "status": trajectory.outcome.status,
         "reason": _told(trajectory.outcome),
         "remedy": _told(trajectory.outcome),
+        "event": _event(request, trajectory),
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
         "t": column(np.array([float(f"{t:.15g}") for t in trajectory.times])),
@@ -55,6 +56,17 @@ def answer(
 
 def _told(outcome: Outcome) -> Document:
     return {"code": outcome.code, "parameters": dict(outcome.parameters)}
+
+
+def _event(request: Request, trajectory: Trajectory) -> Document | None:
+    """The event that ended the motion; its time is rounded to what its error supports."""
+    found = trajectory.event
+    if found is None:
+        return None
+    event = request.scene.events[found.index]
+    time, doubt = np.array([found.time]), np.array([found.error or UNKNOWN_ERROR])
+    error = None if found.error is None else float(f"{found.error:.3g}")
+    return {"name": event.name, "title": dict(event.title), "t": float(rounded(time, doubt)[0]), "error": error}
 
 
 def _energy(

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .event import Approach, Happening, event_values
 from .problem import Floats, Problem
 from .run import Run
-from .stiffness import accelerations
+from .stiffness import NUDGE, accelerations
 
 # Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
 NEAR, FAR, SHARE = 160, 20, 0.25
@@ -25,19 +26,23 @@ LOST = 0.5  # an error this large, relative to the size of the coordinate, leave
 class Estimate:
     """`errors[i]` estimates the largest error of any coordinate at times[i]; after `horizon` no digit is left.
 
-    `worst` is the largest error in the measure of a tolerance: absolute below 1 and relative above.
+    `worst` is the largest error in the measure of a tolerance: absolute below 1 and relative above. `event` is the
+    error of the time of the event that ended both runs; the last of `errors` is that of the state then. `doubtful` is
+    an event that may have happened or not, as far as the errors tell.
     """
 
     errors: Floats
     worst: float
     horizon: float | None
+    event: float | None = None
+    doubtful: Happening | None = None
 
 
 def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimate:
     """The error of one of two runs: `factor` times their difference, over the samples that both have."""
-    n, count = problem.degrees, min(len(coarse.times), len(fine.times))
-    times, states = fine.times[:count], fine.states[:count]
-    difference = np.abs(coarse.states[:count] - states)
+    n = problem.degrees
+    times, states, others = _together(problem, coarse, fine)
+    difference = np.abs(others - states)
     scales = _time_scales(problem, times, states)
     errors = factor * _spread(np.hypot(difference[:, :n], scales * difference[:, n : 2 * n]))
     sizes = np.abs(states[:, :n])
@@ -48,7 +53,66 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
         late = times >= horizon
         errors[late] = 2.0 * np.maximum.accumulate(errors[late], axis=0)
     worst = float(np.max(errors / np.maximum(1.0, sizes)))
-    return Estimate(errors.max(axis=1), worst, horizon)
+    rates = factor * _spread(difference[:, n : 2 * n])
+    doubts = np.hstack([errors, np.maximum(rates, _grain(problem, times, fine)[:, None])])
+    of_event = _of_event(problem, coarse, fine, factor, doubts[-1])
+    return Estimate(errors.max(axis=1), worst, horizon, of_event, _doubtful(problem, coarse, fine, times, doubts))
+
+
+def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats, Floats]:
+    """Times and states (fine, coarse) of the samples that both runs have, and of the event if both ended with one.
+
+    The coarse run's state is carried over to the fine one's time of the event.
+    """
+    count, n = min(len(coarse.times), len(fine.times)), problem.degrees
+    times, states, others = fine.times[:count], fine.states[:count], coarse.states[:count]
+    if fine.event is None or coarse.event is None:
+        return times, states, others
+    at, late = np.array([fine.event.time]), fine.event.time - coarse.event.time
+    rates = np.zeros(fine.event.state.size)
+    rates[:n] = fine.event.state[n : 2 * n]
+    rates[n : 2 * n] = accelerations(problem, at, fine.event.state[None, :])[0]
+    moved = coarse.event.state + late * rates
+    return np.append(times, at), np.vstack([states, fine.event.state]), np.vstack([others, moved])
+
+
+def _of_event(problem: Problem, coarse: Run, fine: Run, factor: float, doubts: Floats) -> float | None:
+    """The error of the time of an event: by the two runs' times, and by how wrong its value may be where it falls.
+
+    `doubts` are the errors of q and q̇ at the event.
+    """
+    if fine.event is None or coarse.event is None:
+        return None
+    event = fine.event
+    doubt = _doubt(problem, event.index, event.time, event.state, doubts)
+    apart = factor * abs(event.time - coarse.event.time)
+    return max(apart, event.late_by(doubt)) + float(np.spacing(event.time))
+
+
+def _doubtful(problem: Problem, coarse: Run, fine: Run, times: Floats, doubts: Floats) -> Happening | None:
+    """The first event that only one run met, or whose value came closer to zero than it is known."""
+    met = [run.event for run in (fine, coarse) if run.event]
+    if met:
+        event = met[0]
+        doubt = _doubt(problem, event.index, event.time, event.state, doubts[-1])
+        is_sure = len(met) == 2 and not event.may_not_be(doubt)
+        return None if is_sure else Happening(event.index, event.time, None)
+
+    def is_close(a: Approach) -> bool:
+        row = min(int(np.searchsorted(times, a.time)), len(times) - 1)
+        return a.value <= _doubt(problem, a.index, a.time, a.state, doubts[row])
+
+    close = [Happening(a.index, a.time, None) for a in fine.approaches if is_close(a)]
+    return min(close, key=lambda happening: happening.time, default=None)
+
+
+def _doubt(problem: Problem, index: int, time: float, state: Floats, doubts: Floats) -> float:
+    """How wrong an event's value may be: Σ |∂g/∂y| times the errors of y = (q, q̇)."""
+    width = doubts.size
+    nudges = NUDGE * np.maximum(1.0, np.abs(state[:width])) * np.eye(width)
+    rows = np.vstack([state[:width] + nudges, state[:width] - nudges])
+    values = event_values(problem, np.full(len(rows), time), rows)[:, index]
+    return float(np.abs((values[:width] - values[width:]) / (2.0 * nudges.diagonal())) @ doubts)
 
 
 def _grain(problem: Problem, times: Floats, fine: Run) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache, singledispatch
 
 import numpy as np
@@ -17,47 +18,58 @@ from .kernels.phase import Phase
 from .kernels.splitting import SplitWeights, integrate_split, make_split_room
 from .kernels.step import Weights, make_room
 from .kernels.step_control import Control
+from .kernels.watch import Watch, make_watch, unwatched
 from .method import Newmark, Partitioned, Row, Tableau
 from .problem import Floats, Problem
 
 Flag = NDArray[np.int64]  # one number; anything but 0 ends the run
 
 
+@dataclass(frozen=True)
+class Setting:
+    """What every kernel is given: the right-hand side, how to step, what to watch for, and where samples belong.
+
+    `out[i]` becomes the state at times[i], as far as the run comes.
+    """
+
+    problem: Problem
+    motion: Motion
+    control: Control
+    watch: Watch
+    times: Floats
+    out: Floats
+
+
 @singledispatch
-def integrated(
-    scheme: object, _problem: Problem, _motion: Motion, _control: Control, _times: Floats, _out: Floats, _flag: Flag
-) -> Result:
-    """Runs a scheme; out[i] becomes the state at times[i], as far as the run comes."""
+def integrated(scheme: object, _setting: Setting) -> Result:
+    """Runs a scheme."""
     raise TypeError(f"no kernel is known for {type(scheme).__name__}")
 
 
 @integrated.register
-def _explicit(
-    scheme: Tableau, problem: Problem, motion: Motion, control: Control, times: Floats, out: Floats, flag: Flag
-) -> Result:
+def _explicit(scheme: Tableau, its: Setting) -> Result:
     weights = explicit_weights(scheme)
-    return integrate(motion, weights, control, make_room(problem.state, weights), times, out, flag)
+    room = make_room(its.problem.state, weights)
+    return integrate(its.motion, weights, its.control, its.watch, room, its.times, its.out)
 
 
 @integrated.register
-def _partitioned(
-    scheme: Partitioned, problem: Problem, motion: Motion, control: Control, times: Floats, out: Floats, flag: Flag
-) -> Result:
-    phase, n = phase_of(problem), problem.degrees
+def _partitioned(scheme: Partitioned, its: Setting) -> Result:
+    problem, phase = its.problem, phase_of(its.problem)
     if scheme.kicks and problem.model.phase.is_separable:
         split = SplitWeights(floats(scheme.kicks), floats(scheme.drifts))
-        return integrate_split(motion, phase, split, control, make_split_room(problem.state, n), times, out, flag)
-    room = make_implicit_room(problem.state, n, scheme.stages)
-    return integrate_implicit(motion, phase, implicit_weights(scheme), control, room, times, out, flag)
+        split_room = make_split_room(problem.state, problem.degrees)
+        return integrate_split(its.motion, phase, split, its.control, its.watch, split_room, its.times, its.out)
+    room = make_implicit_room(problem.state, problem.degrees, scheme.stages)
+    weights = implicit_weights(scheme)
+    return integrate_implicit(its.motion, phase, weights, its.control, its.watch, room, its.times, its.out)
 
 
 @integrated.register
-def _newmark(
-    scheme: Newmark, problem: Problem, motion: Motion, control: Control, times: Floats, out: Floats, flag: Flag
-) -> Result:
+def _newmark(scheme: Newmark, its: Setting) -> Result:
     weights = NewmarkWeights(float(scheme.beta), float(scheme.gamma))
-    room = make_newmark_room(problem.state, problem.degrees)
-    return integrate_newmark(motion, weights, control, room, times, out, flag)
+    room = make_newmark_room(its.problem.state, its.problem.degrees)
+    return integrate_newmark(its.motion, weights, its.control, its.watch, room, its.times, its.out)
 
 
 def motion_of(problem: Problem) -> Motion:
@@ -68,6 +80,16 @@ def motion_of(problem: Problem) -> Motion:
     inputs[2 * problem.degrees + 1 :] = problem.parameters
     powered = problem.model.layout.is_powered
     return Motion(address, data, problem.degrees, powered, inputs, np.zeros(motion.outputs), np.ones(1))
+
+
+def watch_of(problem: Problem, flag: Flag) -> Watch:
+    """What may end a run of a problem, for kernels."""
+    function = problem.model.events
+    if function is None:
+        return unwatched(flag)
+    inputs = np.zeros(function.inputs)
+    inputs[2 * problem.degrees + 1 :] = problem.parameters
+    return make_watch(flag, function.addresses, function.outputs, inputs, problem.state.size)
 
 
 def phase_of(problem: Problem) -> Phase:

@@ -60,4 +60,5 @@ def outcome_of(kernel_outcome: int, parameters: Mapping[str, Number]) -> Outcome
 
 def codes() -> tuple[str, ...]:
     """All codes that a trajectory may carry."""
-    return (*(code for _, code in _WORDS.values()), "horizon_reached", "tolerance_missed", "unstable_step")
+    others = ("horizon_reached", "tolerance_missed", "unstable_step")
+    return (*(code for _, code in _WORDS.values()), "event", "event_timed", "event_doubtful", *others)

@@ -2,33 +2,42 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
 
-from .integration import Flag, integrated, motion_of
+from .event import Approach, Event, approaches, first_event
+from .integration import Flag, Setting, integrated, motion_of, watch_of
 from .kernels.explicit_runge_kutta import Result
-from .kernels.motion import FINE
+from .kernels.motion import EVENT, FINE
 from .kernels.step_control import Control
 from .method import Method
 from .problem import Floats, Problem
 from .stability import real_stability
 
+APART = 1e-6  # of the distance between two samples; the last one before an event is that far from it at least
+
 
 @dataclass(frozen=True)
 class Run:
-    """States (q, q̇ and, where power is fed in, ∫P dt) at `times`, as far as the run came."""
+    """States (q, q̇ and, where power is fed in, ∫P dt) at `times`, as far as the run came.
+
+    `event` is what ended it, if an event did; else `approaches` tell how close it came to each of the scene's events.
+    """
 
     times: Floats
     states: Floats
     result: Result
     conditioning: float  # smallest pivot of M met, relative to its largest diagonal entry
     wall_time: float
+    event: Event | None = None
+    approaches: tuple[Approach, ...] = ()
 
     @property
     def is_complete(self) -> bool:
-        return bool(self.result.outcome == FINE)
+        """Whether it came to the end or to an event."""
+        return bool(self.result.outcome in (FINE, EVENT))
 
 
 @dataclass(frozen=True)
@@ -51,9 +60,31 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
         int(method.tableau.stages),
         real_stability(method.tableau),
     )
-    motion, out = motion_of(problem), np.zeros((times.size, problem.state.size))
+    setting = Setting(
+        problem,
+        motion_of(problem),
+        control,
+        watch_of(problem, cancelled),
+        times,
+        np.zeros((times.size, problem.state.size)),
+    )
     start = perf_counter()
-    result = integrated(method.tableau, problem, motion, control, times, out, cancelled)
+    result = integrated(method.tableau, setting)
     wall_time = perf_counter() - start
+    out, conditioning = setting.out, float(setting.motion.conditioning[0])
     good = int(np.isfinite(out[: result.samples]).all(axis=1).cumprod().sum())
-    return Run(times[:good], out[:good], result, float(motion.conditioning[0]), wall_time)
+    found = Run(times[:good], out[:good], result, conditioning, wall_time)
+    return found if setting.watch.functions == 0 else _ended(found, setting)
+
+
+def _ended(run: Run, setting: Setting) -> Run:
+    """The run up to the event, if there is one; a fixed step may have met one beyond the end."""
+    t_end = float(setting.times[-1])
+    event = first_event(setting.problem, setting.watch, t_end)
+    if event is None:
+        fine = run.result._replace(outcome=FINE) if run.result.outcome == EVENT else run.result
+        return replace(run, result=fine, approaches=approaches(setting.problem, setting.watch, t_end))
+    close = APART * (setting.times[1] - setting.times[0])
+    count = max(int(np.searchsorted(run.times, event.time - close)), 1)
+    result = run.result._replace(outcome=EVENT, reached=event.time, samples=count)
+    return replace(run, times=run.times[:count], states=run.states[:count], result=result, event=event)

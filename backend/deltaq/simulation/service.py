@@ -8,6 +8,8 @@ from time import perf_counter
 
 import numpy as np
 
+from .. import errors
+from ..mechanics.event import Event
 from ..mechanics.library import load_scene
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
@@ -16,6 +18,7 @@ from .answer import Document, answer
 from .auto import choose
 from .choice import Choice, check
 from .driver import simulate
+from .event import event_values
 from .library import get_method, method_ids
 from .outcome import Outcome
 from .problem import Problem
@@ -37,6 +40,8 @@ def run(document: Mapping[str, object]) -> Document:
         compile_model(request.scene)
     compile_time = perf_counter() - start
     problem = problem_of(request.scene, request.t_end, request.samples)
+    with inside("/scene"):
+        demand_no_event(request.scene, problem)
     choice = choose(request.method, request.scene, problem, request.step, request.tolerance)
     return _simulated(request, choice, problem, compile_time)
 
@@ -52,6 +57,22 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
     states = np.hstack([trajectory.values, trajectory.rates])
     seen = problem.model.observe(problem.inputs(trajectory.times, states))
     return answer(request, choice, problem, *_finite(trajectory, seen), compile_time)
+
+
+def demand_no_event(scene: Scene, problem: Problem) -> None:
+    """Raises SceneError if an event has happened before the motion begins."""
+    values = event_values(problem, np.zeros(1), problem.state[None, :])[0]
+    problems = [
+        errors.Problem("event-at-start", f"/events/{i}/value", parameters=_at_start(event, value))
+        for i, (event, value) in enumerate(zip(scene.events, values, strict=True))
+        if not value > 0.0
+    ]
+    if problems:
+        raise errors.SceneError(*problems)
+
+
+def _at_start(event: Event, value: float) -> dict[str, str | int | float]:
+    return {"name": event.name, "value": event.value.text[:80], "found": float(f"{value:.3g}")}
 
 
 def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .estimate import Estimate
+from .event import Happening
 from .outcome import Outcome
 from .problem import Floats
 
@@ -27,7 +28,8 @@ class Trajectory:
     """A motion at `times`, as far as it came: q and q̇ of the free coordinates, shape (samples, degrees), and ∫P dt.
 
     `estimate` is None if it was not asked for; `reached` is the time at which the runs ended. `conditioning` is the
-    smallest pivot of the mass matrix met, relative to its largest diagonal entry.
+    smallest pivot of the mass matrix met, relative to its largest diagonal entry. Where an event ended the motion, its
+    time is the last sample.
     """
 
     method: str
@@ -41,6 +43,7 @@ class Trajectory:
     reached: float
     conditioning: float
     cost: Cost
+    event: Happening | None = None
 
     @property
     def trusted_until(self) -> float:

@@ -86,6 +86,15 @@ class ErrorEstimate(Answer):
     horizon: float | None
 
 
+class EventAnswer(Answer):
+    """What ended the motion: an event of the scene, its time in seconds and the estimated error of that time."""
+
+    name: str = Field(examples=["slack"])
+    title: str = Field(examples=["the string goes slack"])
+    t: float
+    error: float | None = Field(description="null where it was not asked for, or where the event itself is doubtful")
+
+
 class Cost(Answer):
     """What the run took; times in seconds."""
 
@@ -102,6 +111,7 @@ class SimulationAnswer(Answer):
     status: str = Field(description="ok, or why the run ended early", examples=["ok"])
     reason: str = Field(description="the status as a sentence")
     remedy: str = Field(description="what to do about it")
+    event: EventAnswer | None = Field(None, description="the event that ended it; its time is the last of t")
     method: str = Field(examples=["dop853"])
     choice: str | None = Field(description="why this method, if it was left to be chosen")
     t: Column

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .compiler import inner, kernel
-from .extension import sample
+from .extension import sample, watch_extension
 from .motion import CANCELLED, FINE, NOT_FINITE, STEP_LIMIT, STEP_UNDERFLOW, Floats, Motion, slope
 from .step import Room, Weights, accept, attempt
 from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, patience, shrunk
+from .watch import Watch
 
 ROUNDING = 2.3e-16
 
@@ -28,11 +28,20 @@ class Result(NamedTuple):
 
 
 @inner
-def interruption(control: Control, tries: int, cancelled: NDArray[np.int64]) -> int:
+def interruption(control: Control, tries: int, watch: Watch) -> int:
     """Whether to stop before the next step, and why."""
-    if cancelled[0] != 0:
+    if watch.cancelled[0] != 0:
         return CANCELLED
     return STEP_LIMIT if tries >= control.step_limit else FINE
+
+
+@inner
+def tried_again(control: Control, outcome: int, t: float, h: float, error: float) -> tuple[int, float]:
+    """FINE and a smaller size to try the step with, or what ends the run: the size is too small to tell times apart."""
+    smaller = shrunk(control, h, error if outcome == FINE else np.nan)
+    if smaller > 16.0 * ROUNDING * max(abs(t), 1e-3 * control.largest_step):
+        return FINE, smaller
+    return STEP_UNDERFLOW if outcome == FINE else outcome, smaller
 
 
 @kernel
@@ -40,10 +49,10 @@ def integrate(
     motion: Motion,
     weights: Weights,
     control: Control,
+    watch: Watch,
     room: Room,
     times: Floats,
     out: Floats,
-    cancelled: NDArray[np.int64],
 ) -> Result:
     """Steps from times[0] to times[-1] and fills out[i] with the state at times[i], for as long as all goes well.
 
@@ -62,8 +71,8 @@ def integrate(
     h = first_step(motion, control, t, room) if is_adaptive else control.step
     filled, steps, rejected, evaluations, before, growth = 1, 0, 0, 1 + is_adaptive, 1e-4, LARGEST_GROWTH
     held_back = 0
-    while filled < times.size:
-        outcome = interruption(control, steps + rejected, cancelled)
+    while filled < times.size and outcome == FINE:
+        outcome = interruption(control, steps + rejected, watch)
         if outcome != FINE:
             break
         h = h if h * (1.0 + 1e-9) < finish - t else finish - t
@@ -76,6 +85,8 @@ def integrate(
                 break
             filled, extra = sample(motion, weights, t, h, times, out, filled, room)
             evaluations += extra
+            outcome, extra = watch_extension(motion, weights, t, h, watch, room)
+            evaluations += extra
             accept(end, room)
             steps += 1
             tick = h + lost_time
@@ -85,11 +96,6 @@ def integrate(
             before, growth = max(error, 1e-4), LARGEST_GROWTH
         elif is_adaptive:
             rejected += 1
-            h = shrunk(control, h, error if outcome == FINE else np.nan)
             growth = 1.0
-            if h <= 16.0 * ROUNDING * max(abs(t), 1e-3 * control.largest_step):
-                outcome = STEP_UNDERFLOW if outcome == FINE else outcome
-                break
-        else:
-            break
+            outcome, h = tried_again(control, outcome, t, h, error)
     return Result(outcome, filled, steps, rejected, evaluations, t)

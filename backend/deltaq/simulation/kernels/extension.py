@@ -5,6 +5,7 @@ from __future__ import annotations
 from .compiler import inner
 from .motion import FINE, Floats, Motion
 from .step import Room, Weights, stages
+from .watch import Watch, look_at, seen
 
 
 @inner
@@ -56,3 +57,13 @@ def sample(
         interpolate(min((times[first] - t) / h, 1.0), room, out[first])
         first += 1
     return first, extra
+
+
+@inner
+def watch_extension(motion: Motion, weights: Weights, t: float, h: float, watch: Watch, room: Room) -> tuple[int, int]:
+    """Whether an event happens in the step; also returns the evaluations made."""
+    if watch.functions == 0:
+        return FINE, 0
+    look_at(watch, t, h)
+    _, extra = sample(motion, weights, t, h, watch.times, watch.states, 0, room)
+    return seen(watch, motion.degrees), extra

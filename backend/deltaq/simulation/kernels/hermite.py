@@ -8,6 +8,7 @@ import numpy as np
 
 from .compiler import inner
 from .motion import FINE, Floats, Motion, slope
+from .watch import Watch, look_at, seen
 
 
 class Ends(NamedTuple):
@@ -83,3 +84,13 @@ def sample_between(
                 quintic(x, h, ends, d, n, out[first])
         first += 1
     return first, 2
+
+
+@inner
+def watch_between(motion: Motion, t: float, h: float, watch: Watch, ends: Ends) -> tuple[int, int]:
+    """Whether an event happens in the step; also returns the evaluations made."""
+    if watch.functions == 0:
+        return FINE, 0
+    look_at(watch, t, h)
+    _, extra = sample_between(motion, t, h, watch.times, watch.states, 0, ends)
+    return seen(watch, motion.degrees), extra

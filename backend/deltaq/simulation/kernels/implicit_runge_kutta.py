@@ -5,9 +5,6 @@ Fixed steps stay what they are: the last one goes past the end if it must, and s
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from .collocation import sample_stages
 from .compiler import inner, kernel
 from .explicit_runge_kutta import Result, interruption
@@ -18,6 +15,7 @@ from .motion import FINE, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion
 from .newton import ImplicitWeights, predict
 from .phase import Phase, momenta
 from .step_control import Control, grown, shrunk
+from .watch import Watch, look_at, seen
 
 ROUNDING = 2.3e-16
 SLOW = 0.002  # a ratio of corrections above which the derivatives are taken anew
@@ -37,6 +35,18 @@ def sample_implicit(
     if weights.error.size > 0:
         return sample_stages(phase, weights, now, samples, first, room), 0
     return sample_between(motion, now[0], now[1], samples[0], samples[1], first, room.ends)
+
+
+@inner
+def watch_implicit(
+    motion: Motion, phase: Phase, weights: ImplicitWeights, now: tuple[float, float], watch: Watch, room: ImplicitRoom
+) -> tuple[int, int]:
+    """Whether an event happens in the step now = (t, h); also returns the evaluations made."""
+    if watch.functions == 0:
+        return FINE, 0
+    look_at(watch, now[0], now[1])
+    _, extra = sample_implicit(motion, phase, weights, now, (watch.times, watch.states), 0, room)
+    return seen(watch, motion.degrees), extra
 
 
 @inner
@@ -65,10 +75,10 @@ def integrate_implicit(
     phase: Phase,
     weights: ImplicitWeights,
     control: Control,
+    watch: Watch,
     room: ImplicitRoom,
     times: Floats,
     out: Floats,
-    cancelled: NDArray[np.int64],
 ) -> Result:
     """Steps from times[0] to times[-1] and fills out[i] with (q, q̇, ∫P dt) at times[i], for as long as all goes well.
 
@@ -84,7 +94,7 @@ def integrate_implicit(
     filled, steps, rejected, evaluations = 1, 0, 0, 2
     q, v = room.ends.old[:n], room.ends.old[n : 2 * n]
     while filled < times.size and outcome == FINE:
-        outcome = interruption(control, steps + rejected, cancelled)
+        outcome = interruption(control, steps + rejected, watch)
         if outcome != FINE:
             break
         h = last - t if is_adaptive and h * (1.0 + 1e-9) > last - t else h
@@ -100,6 +110,8 @@ def integrate_implicit(
         if outcome == FINE and error <= 1.0:
             now, samples = (t, h), (times, out)
             filled, made = sample_implicit(motion, phase, weights, now, samples, filled, room)
+            evaluations += made
+            outcome, made = watch_implicit(motion, phase, weights, now, watch, room)
             evaluations += made
             take(room)
             steps += 1

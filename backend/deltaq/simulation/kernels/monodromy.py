@@ -18,6 +18,7 @@ from .linear import decompose, substitute
 from .motion import CANCELLED, FINE, Floats, Motion
 from .step import Room, Weights
 from .step_control import Control
+from .watch import Watch
 
 NUDGE = 1e-4
 PASSES, CLOSE = 12, 1e-9
@@ -47,10 +48,10 @@ class Flow(NamedTuple):
     motion: Motion
     weights: Weights
     control: Control
+    watch: Watch  # for being cancelled only
     room: Room
     times: Floats
     out: Floats  # shape (2, 2n)
-    cancelled: NDArray[np.int64]
 
 
 class Desk(NamedTuple):
@@ -73,7 +74,7 @@ def survey(flow: Flow, start: Floats, table: Survey, span: tuple[int, int], foun
     """
     near = False
     for point in range(span[0], span[1]):
-        if flow.cancelled[0] != 0:
+        if flow.watch.cancelled[0] != 0:
             return CANCELLED
         flow.motion.inputs[table.first] = table.values[point, 0]
         flow.motion.inputs[table.second] = table.values[point, 1]
@@ -132,5 +133,5 @@ def follow(flow: Flow, state: Floats, moved: int, by: float) -> int:
         flow.room.old[d] = state[d]
         flow.room.lost[d] = 0.0
     flow.room.old[moved] += by
-    result = integrate(flow.motion, flow.weights, flow.control, flow.room, flow.times, flow.out, flow.cancelled)
+    result = integrate(flow.motion, flow.weights, flow.control, flow.watch, flow.room, flow.times, flow.out)
     return result.outcome

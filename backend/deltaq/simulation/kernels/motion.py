@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 
 # How a computation ended; `outcome.py` gives each its name.
 FINE, STEP_LIMIT, SINGULAR, NOT_FINITE, TOO_LARGE, STEP_UNDERFLOW, CANCELLED = 0, 1, 2, 3, 4, 5, 6
-NEWTON_FAILED, STIFF = 7, 8
+NEWTON_FAILED, STIFF, EVENT = 7, 8, 9
 
 # A pivot smaller than this part of the largest mass is rounding error: M has no inverse there.
 SMALLEST_PIVOT = 1e-14

@@ -5,17 +5,17 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .compiler import inner, kernel
 from .explicit_runge_kutta import Result, interruption
-from .hermite import Ends, make_ends, sample_between
+from .hermite import Ends, make_ends, sample_between, watch_between
 from .linear import Places, decompose, substitute
 from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Floats, Motion, slope
 from .phase import NUDGE
 from .pointer import call
 from .step import LARGEST_VALUE
 from .step_control import Control
+from .watch import Watch
 
 MOST_ITERATIONS = 50
 ROUNDING = 2.3e-16
@@ -171,10 +171,10 @@ def integrate_newmark(
     motion: Motion,
     weights: NewmarkWeights,
     control: Control,
+    watch: Watch,
     room: NewmarkRoom,
     times: Floats,
     out: Floats,
-    cancelled: NDArray[np.int64],
 ) -> Result:
     """Steps of one size from times[0] past times[-1]; out[i] becomes (q, q̇, ∫P dt) at times[i].
 
@@ -190,7 +190,7 @@ def integrate_newmark(
         return Result(outcome, 1, 0, 0, 1, t)
     filled, steps, evaluations, needs_matrix = 1, 0, 1, True
     while filled < times.size and outcome == FINE:
-        outcome = interruption(control, steps, cancelled)
+        outcome = interruption(control, steps, watch)
         if outcome != FINE:
             break
         was_fresh = needs_matrix
@@ -199,6 +199,8 @@ def integrate_newmark(
         needs_matrix = slowness > SLOW
         if outcome == FINE:
             filled, made = sample_between(motion, t, h, times, out, filled, ends)
+            evaluations += made
+            outcome, made = watch_between(motion, t, h, watch, ends)
             evaluations += made
             take(room)
             steps += 1

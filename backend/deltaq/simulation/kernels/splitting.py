@@ -9,15 +9,15 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .compiler import inner, kernel
 from .explicit_runge_kutta import Result, interruption
-from .hermite import Ends, make_ends, sample_between
+from .hermite import Ends, make_ends, sample_between, watch_between
 from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, factor, slope, solve
 from .phase import Phase, momenta
 from .step import LARGEST_VALUE
 from .step_control import Control
+from .watch import Watch
 
 
 class SplitWeights(NamedTuple):
@@ -115,10 +115,10 @@ def integrate_split(
     phase: Phase,
     weights: SplitWeights,
     control: Control,
+    watch: Watch,
     room: SplitRoom,
     times: Floats,
     out: Floats,
-    cancelled: NDArray[np.int64],
 ) -> Result:
     """Steps of one size from times[0] past times[-1]; out[i] becomes (q, q̇, ∫P dt) at times[i].
 
@@ -137,8 +137,8 @@ def integrate_split(
         room.factors[i] = phase.outputs[i]
     factor(room.factors, n)
     filled, steps, evaluations, is_known = 1, 0, 2, False
-    while filled < times.size:
-        outcome = interruption(control, steps, cancelled)
+    while filled < times.size and outcome == FINE:
+        outcome = interruption(control, steps, watch)
         if outcome != FINE:
             break
         is_known, computed = advance(phase, weights, t, h, 1 if is_known else 0, room)
@@ -150,6 +150,8 @@ def integrate_split(
         if outcome != FINE:
             break
         filled, extra = sample_between(motion, t, h, times, out, filled, ends)
+        evaluations += extra
+        outcome, extra = watch_between(motion, t, h, watch, ends)
         evaluations += extra
         for d in range(ends.old.size):
             ends.old[d] = ends.new[d]

@@ -1,0 +1,52 @@
+"""The status of a trajectory: how its runs ended, else what comparing them says."""
+
+from __future__ import annotations
+
+from .attempt import Attempt
+from .kernels.motion import TOO_LARGE
+from .method import Method
+from .outcome import OK, Number, Outcome, outcome_of
+from .problem import Problem
+from .stability import largest_stable_step
+from .stiffness import eigenvalues
+
+
+def outcome(problem: Problem, method: Method, best: Attempt, tolerance: float | None, step: float | None) -> Outcome:
+    """A failure of a run comes first, then a horizon (behind which no event is sure), an event, a tolerance missed."""
+    told: dict[str, Number] = {"method": method.id, "t": _short(best.reached), "t_end": problem.t_end}
+    failed = next((run for run in (best.chosen, *best.runs) if not run.is_complete), None)
+    if failed is not None:
+        steps = int(failed.result.steps + failed.result.rejected)
+        if step is not None and failed.result.outcome == TOO_LARGE:
+            return _grown(problem, method, step, told)
+        return outcome_of(int(failed.result.outcome), told | {"steps": steps})
+    found = best.estimate
+    if found is not None and found.horizon is not None:
+        return Outcome("horizon_reached", "horizon_reached", told | {"t": _short(found.horizon)})
+    if best.doubtful is not None or best.chosen.event is not None:
+        return _ended(best, told)
+    if found is not None and tolerance is not None and found.worst > tolerance:
+        parameters = told | {"tolerance": tolerance, "error": _short(found.worst)}
+        return Outcome("tolerance_missed", "tolerance_missed", parameters)
+    return OK
+
+
+def _ended(best: Attempt, told: dict[str, Number]) -> Outcome:
+    """An event, with the error of its time where it is known, or a doubtful one."""
+    if best.doubtful is not None:
+        return Outcome("event", "event_doubtful", told)
+    if best.estimate is None or best.estimate.event is None:
+        return Outcome("event", "event", told)
+    return Outcome("event", "event_timed", told | {"error": float(f"{best.estimate.event:.2g}")})
+
+
+def _grown(problem: Problem, method: Method, step: float, told: dict[str, Number]) -> Outcome:
+    """A motion that grew beyond all bounds: because the step is outside of the region of stability, or by itself."""
+    bound = largest_stable_step(method.tableau, eigenvalues(problem, 0.0, problem.state[: 2 * problem.degrees]))
+    if 0.0 < bound < step:
+        return Outcome("diverged", "unstable_step", told | {"step": _short(step), "bound": _short(bound)})
+    return outcome_of(TOO_LARGE, told)
+
+
+def _short(number: float) -> float:
+    return float(f"{number:.3g}")

@@ -1,0 +1,109 @@
+"""What may end a run before its time: a flag from outside, and events, functions of the state that stay positive.
+
+Of each accepted step the continuous extension is looked at in Chebyshev's extreme points, both ends included. So many
+states determine every extension used here, so that `event.py` finds the time without the kernel.
+Source of the points: Trefethen, Approximation Theory and Approximation Practice, ch. 5.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .compiler import inner
+from .motion import EVENT, FINE, Floats
+from .pointer import call
+
+PLACES = 9  # extensions have degree 7 at most
+
+
+class Watch(NamedTuple):
+    """A flag, and a compiled function with so many outputs (`functions`), all positive as long as nothing has happened.
+
+    `inputs` are those of the motion. `states` receives the states at `times`, `places` (in units of the step) after
+    its start, and `values` what the function says of them. Of each output, `least` is the least value up to the
+    first step that may have fallen through zero, and `closest_times`, `closest_states` are the step with it.
+    """
+
+    cancelled: NDArray[np.int64]  # one number; anything but 0 ends the run
+    address: int
+    data: int
+    functions: int  # 0: no event is watched for
+    inputs: Floats
+    places: Floats
+    times: Floats
+    states: Floats
+    values: Floats
+    least: Floats
+    closest_times: Floats
+    closest_states: Floats
+
+
+def make_watch(
+    cancelled: NDArray[np.int64], addresses: tuple[int, int], functions: int, inputs: Floats, width: int
+) -> Watch:
+    """Room to watch so many functions of a state with `width` components."""
+    places = 0.5 - 0.5 * np.cos(np.pi * np.arange(PLACES) / (PLACES - 1))
+    times, states = np.zeros(PLACES), np.zeros((PLACES, width))
+    values, least = np.zeros((PLACES, functions)), np.full(functions, np.inf)
+    closest = np.zeros((functions, PLACES)), np.zeros((functions, PLACES, width))
+    return Watch(cancelled, *addresses, functions, inputs, places, times, states, values, least, *closest)
+
+
+def unwatched(cancelled: NDArray[np.int64]) -> Watch:
+    """A flag alone."""
+    return make_watch(cancelled, (0, 0), 0, np.zeros(1), 0)
+
+
+@inner
+def look_at(watch: Watch, t: float, h: float) -> None:
+    """The times to take states at, for the step of size h from t."""
+    for k in range(watch.places.size):
+        watch.times[k] = t + watch.places[k] * h
+
+
+@inner
+def seen(watch: Watch, degrees: int) -> int:
+    """EVENT if a function is no longer positive at one of the states, else FINE."""
+    for k in range(watch.times.size):
+        for d in range(2 * degrees):
+            watch.inputs[d] = watch.states[k, d]
+        watch.inputs[2 * degrees] = watch.times[k]
+        call(watch.address, watch.data, watch.values[k], watch.inputs)
+    outcome = FINE
+    for j in range(watch.functions):
+        lowest = 0
+        for k in range(1, watch.times.size):
+            if watch.values[k, j] < watch.values[lowest, j]:
+                lowest = k
+        if watch.values[lowest, j] <= 0.0:
+            outcome = EVENT
+        least = bottom(watch, lowest, j)
+        if least < watch.least[j] and watch.least[j] > 0.0:
+            keep(watch, j, least)
+    return outcome
+
+
+@inner
+def bottom(watch: Watch, k: int, j: int) -> float:
+    """The least value of function j around place k, by the parabola through its neighbours."""
+    middle = watch.values[k, j]
+    if k in (0, watch.times.size - 1):
+        return float(middle)
+    before, after = watch.places[k] - watch.places[k - 1], watch.places[k + 1] - watch.places[k]
+    fall, rise = (middle - watch.values[k - 1, j]) / before, (watch.values[k + 1, j] - middle) / after
+    bend = (rise - fall) / (before + after)
+    slope = fall + bend * before
+    return float(middle - 0.25 * slope * slope / bend) if bend > 0.0 else float(middle)
+
+
+@inner
+def keep(watch: Watch, j: int, least: float) -> None:
+    """The step looked at is the one in which function j came closest to zero."""
+    watch.least[j] = least
+    for k in range(watch.times.size):
+        watch.closest_times[j, k] = watch.times[k]
+        for d in range(watch.states.shape[1]):
+            watch.closest_states[j, k, d] = watch.states[k, d]
