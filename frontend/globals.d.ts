@@ -4,9 +4,10 @@ declare global {
   /** Set by the classic script vendor/katex/dist/katex.min.js (half the bytes of its ES module). */
   var katex: typeof katexModule;
 
-  /** Set by vendor/plotly.js-basic-dist-min/plotly-basic.min.js, loaded when the first plot is wanted. */
+  /** Set by a bundle of Plotly (with heat maps in the labs, the smaller one elsewhere), loaded when the first plot is wanted. */
   var Plotly: {
     react(root: HTMLElement, data: object[], layout: object, config: object): Promise<void>;
     purge(root: HTMLElement): void;
+    downloadImage(figure: object, options: object): Promise<string>;
   };
 }

@@ -53,7 +53,7 @@ export function writePlace(place) {
 }
 
 /** What there is besides the start page, in the order of the navigation. */
-export const PAGES = ["scene", "homework", "variations", "proof", "docs"];
+export const PAGES = ["scene", "variations", "proof", "labs", "homework", "docs"];
 
 /** A page in the same language and appearance. @param {string} name @param {Pick<Place, "lang" | "theme">} reader */
 export const pageAddress = (name, { lang, theme }) => `/${name}${name === "docs" ? "" : writePlace({ ...HOME, lang, theme })}`;

@@ -22,6 +22,7 @@ INK, GRID = "#222222", "#dddddd"
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b5b95", "#7f7f00")
 SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "star", "hexagon")
 FAILED = "x-thin-open"
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Say(Protocol):
@@ -42,7 +43,7 @@ def _base() -> dict[str, Any]:
         "plot_bgcolor": "#ffffff",
         "margin": {"l": 72, "r": 16, "t": 16, "b": 56},
         "hovermode": "closest",
-        "legend": {"x": 1.02, "y": 1, "xanchor": "left", "yanchor": "top", "font": {"size": 12}},
+        "legend": {"x": 1.02, "y": 1, "xanchor": "left", "yanchor": "top", "font": {"size": 12}, "tracegroupgap": 0},
     }
 
 
@@ -100,8 +101,16 @@ def numbers(values: Iterable[float]) -> dict[str, str]:
 
 
 def short(number: float | None) -> str:
-    """A number for a hover text."""
-    return "–" if number is None else f"{number:.3g}"
+    """A number in a text: three digits, and powers of ten as they are printed."""
+    if number is None:
+        return "–"
+    digits, _, power = f"{number:.3g}".partition("e")
+    return f"{digits}·10{str(int(power)).translate(SUPERSCRIPTS)}" if power else digits
+
+
+def joined(methods: Iterable[str], say: Say) -> str:
+    """The names of several methods."""
+    return ", ".join(name_of(method, say) for method in methods)
 
 
 def grouped(points: Iterable[Mapping[str, Any]]) -> dict[str, list[Mapping[str, Any]]]:

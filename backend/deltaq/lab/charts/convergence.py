@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from .chart import Chart, Result, Say, Trace, axis, chart, curve, grouped, look, name_of, short
+from .chart import Chart, Result, Say, Trace, axis, chart, curve, grouped, joined, look, name_of, short
 
 RANGE = [-15.5, 2.0]
 
@@ -14,7 +14,7 @@ RANGE = [-15.5, 2.0]
 def charts(result: Result, say: Say) -> list[Chart]:
     """One chart; the legend tells the measured slope and the order."""
     reference = result["reference"]
-    told = {"methods": ", ".join(reference["methods"]), "error": short(reference["error"])}
+    told = {"methods": joined(reference["methods"], say), "error": short(reference["error"])}
     caption = say("labs.convergence.caption", t_end=short(result["t_end"]), **told)
     x_axis = axis(say("labs.axis.step"), log=True)
     y_axis = axis(say("labs.axis.error"), log=True, range=RANGE, dtick=2)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
-from .chart import FAILED, Chart, Result, Say, Trace, axis, chart, curve, grouped, look, name_of, short
+from .chart import FAILED, Chart, Result, Say, Trace, axis, chart, curve, grouped, joined, look, name_of, short
 
 CEILING = 30.0  # where runs without an error are marked
 RANGE = [-15.5, 2.0]  # decades of the error
@@ -17,7 +17,7 @@ def charts(result: Result, say: Say) -> list[Chart]:
     reference, machine = result["reference"], result["machine"]
     told = {
         "t_end": short(result["t_end"]),
-        "methods": ", ".join(reference["methods"]),
+        "methods": joined(reference["methods"], say),
         "error": short(reference["error"]),
         "repeats": result["repeats"],
         **machine,

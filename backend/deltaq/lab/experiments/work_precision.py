@@ -67,7 +67,7 @@ def cheapest(points: list[Point], tolerance: float) -> Document | None:
     """The run that took least time of all whose error is within the tolerance."""
     good = [point for point in points if point.error is not None and point.error <= tolerance]
     best = min(good, key=lambda point: point.time, default=None)
-    return None if best is None else {"tolerance": significant(tolerance), **best.described}
+    return None if best is None else {"wanted": significant(tolerance), **best.described}
 
 
 EXPERIMENT = Experiment("work-precision", run, charts)

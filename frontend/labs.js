@@ -1,0 +1,200 @@
+/** The driver of the labs: it connects question, experiment, charts and address. */
+
+import { render } from "lit-html";
+import { createApi } from "./model/api.js";
+import { translator } from "./model/catalog.js";
+import { createBench } from "./model/labs/bench.js";
+import { withStep, withTolerance } from "./model/labs/figure.js";
+import { EXAMPLES, pointOf, readQuestion, requestOf, writeQuestion } from "./model/labs/question.js";
+import { stepRange } from "./model/labs/step.js";
+import { experiment, file } from "./model/labs/stream.js";
+import { completed, documentIn, OWN, readDraft } from "./model/own.js";
+import { createStore } from "./model/store.js";
+import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { withSides } from "./view/labs/form.js";
+import { createMotion } from "./view/labs/motion.js";
+import { page } from "./view/labs/page.js";
+import { createCharts } from "./view/labs/plotly.js";
+
+/** @typedef {import("./model/labs/stream.js").Chart} Chart */
+
+const PLAYED = 20;
+const root = /** @type {HTMLElement} */ (document.getElementById("page"));
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+const send = fetch.bind(globalThis);
+const api = createApi(send);
+const asked = readPlace(location.search);
+const store = createStore({
+  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
+  scenes: /** @type {import("./model/types.js").SceneEntry[]} */ ([]),
+  dial: { tolerance: 1e-6, step: 0 },
+  play: /** @type {import("./view/labs/page.js").Play | null} */ (null),
+});
+const { get, set } = store;
+let own = /** @type {import("./model/own.js").SceneDocument | null} */ (null);
+
+/** @param {Partial<import("./model/types.js").Place>} patch */
+const move = (patch) => set({ place: { ...get().place, ...patch } });
+const lang = () => get().place.lang;
+
+/** A scene for a request: its id, or the viewer's own as a document. @param {string} id */
+const documentOf = (id) => (id === OWN && own ? own : id);
+
+const bench = createBench({
+  lang,
+  document: documentOf,
+  run: (name, body, hear, signal) => experiment(send, name, body, hear, signal),
+  scene: async (id) => (id === OWN && own ? completed(own) : api.scene(id, lang())),
+}, usual(readQuestion(location.search)));
+
+/** @param {import("./model/labs/question.js").Question} question */
+function usual(question) {
+  return question.scene ? question : { ...question, ...EXAMPLES[question.lab] };
+}
+
+const motion = createMotion(root, () => still.matches);
+const charts = createCharts(root, pressed);
+
+/** @param {Chart} chart @param {number} x @param {number} y */
+function pressed(chart, x, y) {
+  const map = chart.data.find((trace) => trace.meta?.role === "map" || trace.meta?.role === "flips")?.meta;
+  if (map) void watch(pointOf(bench.get().question, map, x, y));
+}
+
+/** Simulates and plays what a chart points at. @param {any} wish */
+async function watch(wish) {
+  const { question, scene } = bench.get();
+  if (!scene) return;
+  const { parameters = question.parameters, initial = question.initial, method, step, t_end = PLAYED } = wish;
+  const stepped = method ? { method, step } : {};
+  const title = method ? say()("played-method", { method: methodTitle(method), step: step.toPrecision(3) }) : say()("played-point", { values: written({ parameters, initial }) });
+  try {
+    const body = { scene: documentOf(question.scene), parameters, initial, t_end, samples: Math.round(60 * PLAYED) + 1, include: ["coordinates", "positions", "loads", "energy"], lang: lang(), ...stepped };
+    const trajectory = await api.simulate(body);
+    set({ play: { title, status: trajectory.status === "ok" ? "" : trajectory.reason ?? "", address: "" } });
+    queueMicrotask(() => motion.begin(scene, trajectory));
+  } catch (error) {
+    set({ play: { title, status: /** @type {Error} */ (error).message, address: "" } });
+  }
+}
+
+/** @param {Pick<import("./model/labs/question.js").Question, "parameters" | "initial">} values */
+function written({ parameters, initial }) {
+  const numbers = [...Object.entries(parameters), ...Object.entries(initial).map(([name, { value }]) => /** @type {const} */ ([name, value ?? 0]))];
+  return numbers.map(([name, value]) => `${name} = ${Number(value).toPrecision(4)}`).join(", ");
+}
+
+/** @param {string} name */
+const section = (name) => /** @type {Record<string, unknown>} */ (get().catalog[name] ?? {});
+const say = () => translator(section("labs"));
+
+/** @param {string} id */
+function methodTitle(id) {
+  const title = translator(section("methods"))(`${id}.title`);
+  return title === `${id}.title` ? id.replace(/^scipy-/, "SciPy ") : title;
+}
+
+/** What is drawn: the charts that were measured, with the sliders' marks on them. */
+function drawn() {
+  const { charts: measured, question, result } = bench.get();
+  const { dial } = get();
+  if (question.lab === "work-precision") return measured.map((chart) => withTolerance(chart, dial.tolerance, "#888888"));
+  if (question.lab !== "stability" || !result) return measured;
+  const [low] = stepRange(result.eigenvalues);
+  return measured.map((chart) => (chart.id === "stability-regions" ? withStep(chart, dial.step || 10 * low) : chart));
+}
+
+let marked = /** @type {{from: Chart[], key: string, charts: Chart[]}} */ ({ from: [], key: "", charts: [] });
+/** The same objects as before where nothing changed, so that nothing is drawn twice. */
+function chartsNow() {
+  const from = bench.get().charts;
+  const key = JSON.stringify(get().dial) + String(bench.get().result !== null);
+  if (marked.from !== from || marked.key !== key) marked = { from, key, charts: drawn() };
+  return marked.charts;
+}
+
+/** @param {object} patch */
+function link(patch) {
+  const { question } = bench.get();
+  const place = writePlace({ ...get().place });
+  return `${location.pathname}${place}${place ? "&" : "?"}${writeQuestion({ ...question, ...patch })}${question.scene === OWN ? location.hash : ""}`;
+}
+
+/** @param {string} accept */
+async function fetchFile(accept) {
+  const { question } = bench.get();
+  const name = question.lab;
+  const blob = await file(send, name, requestOf(withSides(bench.get().scene, question), documentOf(question.scene), lang()), accept);
+  const anchor = document.createElement("a");
+  anchor.href = URL.createObjectURL(blob);
+  anchor.download = `${name}-${question.scene}.${accept === "text/csv" ? "csv" : "html"}`;
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(anchor.href), 1000);
+}
+
+/** @param {string} wanted */
+async function speak(wanted) {
+  move({ lang: wanted });
+  const catalog = await api.catalog(wanted, "labs", "methods").catch(() => null);
+  if (catalog && lang() === wanted) set({ catalog });
+}
+
+const session = {
+  move,
+  /** Charts carry their texts, so they are asked for again: what was measured comes from the cache. @param {string} wanted */
+  async language(wanted) {
+    await speak(wanted);
+    if (bench.get().result) void bench.start();
+  },
+};
+
+function update() {
+  const { place, catalog, scenes, dial, play } = get();
+  if (!catalog.page) return;
+  const t = translator(section("page"));
+  const theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
+  document.documentElement.dataset.theme = theme;
+  document.documentElement.lang = place.lang;
+  document.title = `δq · ${t("place.labs")}`;
+  const now = chartsNow();
+  render(page({
+    state: { place }, session, t, say: say(), bench: bench.get(), benches: starting, scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, watch: (wish) => void watch(wish),
+    turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
+    save: (chart, format) => void charts.save(chart, format),
+  }), root);
+  motion.arrange();
+  void charts.show(now, theme, place.lang);
+  history.replaceState(null, "", link({}));
+}
+
+/** The bench, whose maps begin with the sides that the form shows. */
+const starting = {
+  ...bench,
+  start() {
+    set({ play: null, dial: { ...get().dial, step: 0 } });
+    if (bench.get().question.lab === "stability-map") bench.edit(withSides(bench.get().scene, bench.get().question));
+    return bench.start();
+  },
+};
+
+let before = 0;
+/** @param {number} now */
+function tick(now) {
+  motion.advance((now - before) / 1000);
+  before = now;
+  requestAnimationFrame(tick);
+}
+
+async function start() {
+  own = (await documentIn(location.hash)) ?? readDraft(localStorage)?.document ?? null;
+  store.subscribe(update);
+  bench.subscribe(update);
+  dark.addEventListener("change", update);
+  new ResizeObserver(update).observe(root);
+  requestAnimationFrame(tick);
+  void api.scenes().then(({ scenes }) => set({ scenes }), () => {});
+  await Promise.all([speak(lang()), bench.load()]);
+}
+void start();

@@ -1,0 +1,103 @@
+/** The bench: one experiment at a time, begun, watched and stopped. */
+
+import { ApiError } from "../api.js";
+import { createStore } from "../store.js";
+import { EXAMPLES, requestOf } from "./question.js";
+
+/** @typedef {import("./question.js").Question} Question */
+/** @typedef {import("./stream.js").Chart} Chart */
+/** @typedef {import("./stream.js").Part} Part */
+/** @typedef {import("./stream.js").Result} Result */
+/**
+ * @typedef {object} Bench
+ * @property {Question} question
+ * @property {import("../types.js").Scene | null} scene
+ * @property {boolean} running
+ * @property {number} progress 0 to 1
+ * @property {Chart[]} charts
+ * @property {Result | null} result
+ * @property {import("../types.js").Failure | null} failure
+ * @property {string} stopped  why there are charts but no result
+ */
+
+/** @type {Omit<Bench, "question" | "scene">} */
+const EMPTY = { running: false, progress: 0, charts: [], result: null, failure: null, stopped: "" };
+
+/**
+ * @param {{run: (name: string, body: object, hear: (part: Part) => void, signal: AbortSignal) => Promise<Result>,
+ *   scene: (id: string) => Promise<import("../types.js").Scene>, document: (id: string) => string | object, lang: () => string}} around
+ * @param {Question} question
+ */
+export function createBench({ run, scene, document, lang }, question) {
+  const store = createStore(/** @type {Bench} */ ({ question, scene: null, ...EMPTY }));
+  const { get, set } = store;
+  let control = new AbortController();
+
+  /** @param {unknown} error */
+  const failureIn = (error) => (error instanceof ApiError ? error.failure : { title: "", detail: String(error), problems: [], status: 500 });
+
+  function stop() {
+    control.abort();
+    control = new AbortController();
+    if (get().running) set({ running: false, stopped: "stopped" });
+  }
+
+  async function start() {
+    stop();
+    const { signal } = control;
+    const { question } = get();
+    set({ ...EMPTY, running: true });
+    const body = requestOf(question, document(question.scene), lang());
+    const hear = (/** @type {Part} */ { done, total, charts }) => signal.aborted || set({ progress: done / total, charts });
+    try {
+      const result = await run(question.lab, body, hear, signal);
+      if (!signal.aborted) set({ running: false, progress: 1, result, charts: result.charts });
+    } catch (error) {
+      if (!signal.aborted) set({ running: false, failure: failureIn(error) });
+    }
+  }
+
+  async function load() {
+    const { scene: id } = get().question;
+    set({ scene: null });
+    try {
+      const found = await scene(id);
+      if (get().question.scene === id) set({ scene: found });
+    } catch (error) {
+      if (get().question.scene === id) set({ failure: failureIn(error) });
+    }
+  }
+
+  /** @param {Partial<Question>} patch */
+  function edit(patch) {
+    set({ question: { ...get().question, ...patch } });
+  }
+
+  return {
+    get,
+    subscribe: store.subscribe,
+    edit,
+    start,
+    stop,
+    load,
+    /** Another lab, on the same scene; where there is none, on the one that shows it best. @param {string} lab */
+    open(lab) {
+      stop();
+      const { scene, x, y } = get().question;
+      const usual = EXAMPLES[lab] ?? {};
+      const keeps = scene && lab !== "stability-map";
+      edit({ lab, ...(keeps ? {} : { ...usual, parameters: {}, initial: {} }), ...(lab === "stability-map" && x && y && scene === usual.scene ? { x, y } : {}) });
+      set(EMPTY);
+      if (!keeps) void load();
+    },
+    /** Another scene: what was said of the one before goes. @param {string} scene */
+    choose(scene) {
+      stop();
+      edit({ scene, parameters: {}, initial: {}, x: null, y: null, stiffness: "" });
+      set(EMPTY);
+      void load();
+    },
+  };
+}
+
+/** @typedef {ReturnType<typeof createBench>} Benches */

@@ -1,0 +1,63 @@
+/** A chart in the colours and the width of the page, and what is put over it while a slider moves. */
+
+/** @typedef {import("./stream.js").Chart} Chart */
+/** @typedef {{ink: string, muted: string, grid: string, paper: string}} Palette */
+
+const NARROW = 640;
+/** Symbols and lines in ink on white paper are in the page's ink. */
+const INK = "#222222";
+
+/**
+ * @param {Chart} chart @param {Palette} palette @param {number} width in pixels @param {number} em @param {string} lang
+ */
+export function themed(chart, palette, width, em, lang) {
+  const narrow = width < NARROW * (em / 16);
+  const layout = {
+    ...chart.layout,
+    width,
+    height: heightOf(chart, narrow, em),
+    font: { ...chart.layout.font, size: 0.8 * em, color: palette.ink },
+    paper_bgcolor: "rgba(0,0,0,0)",
+    plot_bgcolor: "rgba(0,0,0,0)",
+    separators: lang === "de" ? ",." : ".,",
+    legend: narrow ? { ...chart.layout.legend, orientation: "h", x: 0, y: -0.22, xanchor: "left", yanchor: "top", font: { size: 0.72 * em } } : { ...chart.layout.legend, font: { size: 0.75 * em } },
+    ...axesOf(chart.layout, palette),
+  };
+  return { data: chart.data.map((trace) => inked(trace, palette)), layout };
+}
+
+/** @param {Chart} chart @param {boolean} narrow @param {number} em */
+function heightOf(chart, narrow, em) {
+  const named = chart.data.filter((trace) => trace.name && trace.showlegend !== false).length;
+  const legend = narrow && chart.layout.showlegend !== false ? named * 1.35 * em : 0;
+  return 26 * em + legend;
+}
+
+/** @param {Record<string, any>} layout @param {Palette} palette */
+function axesOf(layout, palette) {
+  const axes = Object.keys(layout).filter((key) => /^[xy]axis\d*$/.test(key));
+  return Object.fromEntries(axes.map((key) => [key, { ...layout[key], gridcolor: palette.grid, linecolor: palette.muted, tickcolor: palette.muted, zerolinecolor: palette.muted }]));
+}
+
+/** @param {any} trace @param {Palette} palette */
+function inked(trace, palette) {
+  return trace.marker?.color === INK ? { ...trace, marker: { ...trace.marker, color: palette.ink } } : trace;
+}
+
+/** The crosses hλ for a step h. @param {Chart} chart @param {number} h @returns {Chart} */
+export function withStep(chart, h) {
+  const moved = (/** @type {any} */ trace) =>
+    trace.meta?.role === "eigenvalues" ? { ...trace, x: trace.x.map((/** @type {number} */ v) => v * h), y: trace.y.map((/** @type {number} */ v) => v * h) } : trace;
+  return { ...chart, data: chart.data.map(moved) };
+}
+
+/** A line across at the error that is wanted, on the charts of error. @param {Chart} chart @param {number} tolerance @param {string} color @returns {Chart} */
+export function withTolerance(chart, tolerance, color) {
+  const line = { type: "line", xref: "paper", x0: 0, x1: 1, y0: tolerance, y1: tolerance, line: { color, width: 1.5, dash: "dash" } };
+  return { ...chart, layout: { ...chart.layout, shapes: [line] } };
+}
+
+/** The cheapest run for a tolerance: that of the next finer one that was asked for. @param {{wanted: number, method: string, time: number}[]} cheapest @param {number} tolerance */
+export function cheapestFor(cheapest, tolerance) {
+  return cheapest.filter((one) => one.wanted <= tolerance * 1.0001).sort((a, b) => b.wanted - a.wanted)[0] ?? null;
+}

@@ -1,0 +1,85 @@
+/** Plotly with heat maps, fetched when the first chart is wanted; and charts drawn by it into the figures of the page. */
+
+import { themed } from "../../model/labs/figure.js";
+
+/** @typedef {import("../../model/labs/stream.js").Chart} Chart */
+
+/** Named in the import map, so that its address carries the version of the libraries. */
+const SOURCE = import.meta.resolve("plotly");
+const CONFIG = { displayModeBar: false, displaylogo: false, responsive: false };
+const FILE = { width: 1200, height: 800, scale: 2 };
+
+/** @type {Promise<void> | null} */
+let fetched = null;
+
+/** @returns {Promise<void>} */
+function library() {
+  fetched ??= new Promise((done, fail) => {
+    const script = document.createElement("script");
+    script.src = SOURCE;
+    script.onload = () => done();
+    script.onerror = () => fail(new Error("no Plotly"));
+    document.head.append(script);
+  });
+  return fetched;
+}
+
+/** @param {HTMLElement} root @returns {import("../../model/labs/figure.js").Palette} */
+function paletteOf(root) {
+  const probe = document.createElement("i");
+  root.append(probe);
+  const of = (/** @type {string} */ name) => {
+    probe.className = name;
+    return getComputedStyle(probe).color;
+  };
+  const palette = { ink: of("c-ink"), muted: of("c-muted"), grid: of("c-grid"), paper: of("c-paper") };
+  probe.remove();
+  return palette;
+}
+
+/** @param {HTMLElement} root @param {(chart: Chart, x: number, y: number) => void} press  a place on a map was pressed */
+export function createCharts(root, press) {
+  /** What each canvas shows, so that nothing is drawn twice. @type {WeakMap<HTMLElement, string>} */
+  const shown = new WeakMap();
+
+  /** @param {HTMLElement} canvas @param {Chart} chart @param {string} look @param {string} lang */
+  async function draw(canvas, chart, look, lang) {
+    const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
+    const { data, layout } = themed(chart, paletteOf(root), canvas.clientWidth, em, lang);
+    const first = !shown.has(canvas);
+    shown.set(canvas, look);
+    await globalThis.Plotly.react(canvas, data, layout, CONFIG);
+    const target = /** @type {any} */ (canvas);
+    if (first) target.on("plotly_click", (/** @type {any} */ event) => press(target.chart, event.points[0].x, event.points[0].y));
+    target.chart = chart;
+  }
+
+  return {
+    /** @param {Chart[]} charts @param {string} theme @param {string} lang */
+    async show(charts, theme, lang) {
+      if (!charts.length) return;
+      await library();
+      for (const chart of charts) {
+        const canvas = /** @type {HTMLElement | null} */ (root.querySelector(`[data-chart="${chart.id}"] .canvas`));
+        if (!canvas || canvas.clientWidth === 0) continue;
+        const look = `${theme} ${lang} ${canvas.clientWidth} ${stampOf(chart)}`;
+        if (shown.get(canvas) !== look) await draw(canvas, chart, look, lang);
+      }
+    },
+    /** As it was made, dark on light. @param {Chart} chart @param {"png" | "svg"} format */
+    async save(chart, format) {
+      await library();
+      await globalThis.Plotly.downloadImage({ data: chart.data, layout: { ...chart.layout, title: { text: chart.title } } }, { ...FILE, format, filename: chart.id });
+    },
+  };
+}
+
+/** @type {WeakMap<object, number>} */
+const stamps = new WeakMap();
+let last = 0;
+
+/** A number for each chart that was made. @param {Chart} chart */
+function stampOf(chart) {
+  if (!stamps.has(chart)) stamps.set(chart, (last += 1));
+  return stamps.get(chart);
+}
