@@ -69,7 +69,7 @@ async function watch(wish) {
   if (!scene) return;
   const { parameters = question.parameters, initial = question.initial, method, step, t_end = PLAYED } = wish;
   const stepped = method ? { method, step } : {};
-  const title = method ? say()("played-method", { method: methodTitle(method), step: step.toPrecision(3) }) : say()("played-point", { values: written({ parameters, initial }) });
+  const title = method ? speech()("labs.played-method", { method: methodTitle(method), step: step.toPrecision(3) }) : speech()("labs.played-point", { values: written({ parameters, initial }) });
   try {
     const body = { scene: documentOf(question.scene), parameters, initial, t_end, samples: Math.round(60 * PLAYED) + 1, include: ["coordinates", "positions", "loads", "energy"], lang: lang(), ...stepped };
     const trajectory = await api.simulate(body);
@@ -88,7 +88,7 @@ function written({ parameters, initial }) {
 
 /** @param {string} name */
 const section = (name) => /** @type {Record<string, unknown>} */ (get().catalog[name] ?? {});
-const say = () => translator(section("labs"));
+const speech = () => translator({ ...section("page"), labs: section("labs") });
 
 /** @param {string} id */
 function methodTitle(id) {
@@ -153,14 +153,14 @@ const session = {
 function update() {
   const { place, catalog, scenes, dial, play } = get();
   if (!catalog.page) return;
-  const t = translator(section("page"));
+  const t = speech();
   const theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
   document.documentElement.dataset.theme = theme;
   document.documentElement.lang = place.lang;
   document.title = `δq · ${t("place.labs")}`;
   const now = chartsNow();
   render(page({
-    state: { place }, session, t, say: say(), bench: bench.get(), benches: starting, scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, watch: (wish) => void watch(wish),
+    state: { place }, session, t, bench: bench.get(), benches: starting, scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, watch: (wish) => void watch(wish),
     turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
     save: (chart, format) => void charts.save(chart, format),
   }), root);

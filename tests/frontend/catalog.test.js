@@ -4,6 +4,7 @@ import { test } from "node:test";
 import { inLanguage, translator } from "../../frontend/model/catalog.js";
 import { SECTIONS } from "../../frontend/model/editor/schema.js";
 import { COURSE } from "../../frontend/model/start/course.js";
+import { LABS } from "../../frontend/model/labs/question.js";
 import { PAGES } from "../../frontend/model/url.js";
 import { SIDES } from "../../frontend/model/homework/place.js";
 import { EXAMPLES } from "../../frontend/model/variations/examples.js";
@@ -29,7 +30,10 @@ test("a text in the asked language, else in English, else in any", () => {
 
 const source = [...readdirSync(FRONTEND).filter((f) => f.endsWith(".js")), ...["view", "model"].flatMap((folder) => readdirSync(new URL(folder, FRONTEND), { recursive: true }).map(String).filter((f) => f.endsWith(".js")).map((f) => `${folder}/${f}`))]
   .map((file) => readFileSync(new URL(file, FRONTEND), "utf8")).join("\n");
-const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture", "exercises"].map((section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"))))]));
+/** Nested texts by flat keys. @param {Record<string, any>} texts @param {string} prefix @returns {Record<string, string>} */
+const flat = (texts, prefix) => Object.assign({}, ...Object.entries(texts).map(([key, text]) => (typeof text === "string" ? { [`${prefix}${key}`]: text } : flat(text, `${prefix}${key}.`))));
+const read = (/** @type {string} */ lang, /** @type {string} */ section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"));
+const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture", "exercises"].map((section) => read(lang, section)), flat(read(lang, "labs"), "labs."))]));
 
 test("both languages have the same texts with the same parameters", () => {
   const holes = (/** @type {string} */ text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort().join();
@@ -76,12 +80,19 @@ const EXERCISES = [
   ...["checking", "check", "solution", "points", "points-one", "hint", "next-hint", "compare", "moving", "mark"].map((key) => `homework.${key}`),
 ];
 
-for (const [name, asked] of Object.entries({ editor: EDITOR, variations: VARIATIONS, start: START, exercises: EXERCISES })) {
+/** What the labs ask for by lab and place; charts are made by the server, with its texts. */
+const LAB = [
+  ...LABS.flatMap((lab) => [`labs.experiments.${lab}.title`, `labs.experiments.${lab}.summary`]),
+  ...["duration", "steps", "at", "at-state", "at-rest", "stiffness", "axis-x", "axis-y"].map((key) => `labs.${key}`),
+];
+const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`);
+
+for (const [name, asked] of Object.entries({ labs: LAB, editor: EDITOR, variations: VARIATIONS, start: START, exercises: EXERCISES })) {
   test(`every text of the part "${name}" is there`, () => assert.deepEqual(asked.filter((key) => !(key in catalogs.en)), []));
 }
 
 test("every text that is there is used", () => {
-  const composed = ["theme.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical."];
-  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...EXERCISES].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
+  const composed = ["theme.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical.", ...CHARTS];
+  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...LAB, ...EXERCISES].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });

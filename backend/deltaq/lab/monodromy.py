@@ -36,6 +36,7 @@ TOLERANCE = 1e-12
 STEP_LIMIT = 20_000  # in one period
 ROUNDING = 1e-6  # of |μ|: central differences leave that much
 CHUNK = 256  # points that a thread takes at once
+PROBES = 16  # points that are looked at first
 
 
 @dataclass(frozen=True)
@@ -77,10 +78,20 @@ class Plane:
         """Every point, on all processors."""
         flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
         found, count = self._room, self._table.periods.size
-        starts = range(0, count, CHUNK)
+        spans = [(start, min(start + CHUNK, count)) for start in range(0, count, CHUNK)]
+        start = self._nearest(found, flag)
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            list(pool.map(lambda start: self._fill((start, min(start + CHUNK, count)), found, flag), starts))
+            list(pool.map(lambda span: self._fill(span, start, found, flag), spans))
         return self._read(found)
+
+    def _nearest(self, found: Found, cancelled: Flag) -> Floats:
+        """Of the periodic states at a few points, the one nearest to the problem's own state, so that all follow it."""
+        own = self.problem.state[: 2 * self.problem.degrees]
+        places = np.unique(np.linspace(0, len(found.outcomes) - 1, PROBES).astype(int))
+        for place in places:
+            self._fill((int(place), int(place) + 1), own, found, cancelled)
+        good = found.states[places][found.outcomes[places] == FINE]
+        return good[np.argmin(np.linalg.norm(good - own, axis=1))] if len(good) else own
 
     def refined(self, cancelled: Flag | None = None, coarsest: int = 8) -> Iterator[StabilityMap]:
         """The map with every 8th, every 4th, every second point of both axes, and all of them."""
@@ -107,16 +118,16 @@ class Plane:
         outcomes = np.full(count, CANCELLED, dtype=np.int64)
         return Found(np.zeros((count, width)), np.zeros((count, width, width)), outcomes)
 
-    def _fill(self, span: tuple[int, int], found: Found, cancelled: Flag) -> None:
+    def _fill(self, span: tuple[int, int], start: Floats, found: Found, cancelled: Flag) -> None:
         """Some points of the table; each thread has its own arrays."""
         scheme = get_method(METHOD).tableau
         if not isinstance(scheme, Tableau):
             raise TypeError("the survey steps by an explicit Runge–Kutta method")
         weights, width = explicit_weights(scheme), 2 * self.problem.degrees
         motion = motion_of(self.problem)._replace(is_powered=False)
-        start, longest = self.problem.state[:width].copy(), float(self.periods.max())
+        longest = float(self.periods.max())
         control = Control(TOLERANCE, longest, longest, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme))
-        room = make_room(start, weights)
+        room = make_room(start.copy(), weights)
         flow = Flow(motion, weights, control, unwatched(cancelled), room, np.zeros(2), np.zeros((2, width)))
         survey(flow, start, self._table, span, found, make_desk(width))
 

@@ -29,7 +29,7 @@ export const EXAMPLES = {
   "energy-drift": { scene: "elastic-pendulum" },
   stability: { scene: "quarter-car" },
   "stability-map": { scene: "kapitza", x: { parameter: "omega", from: 10, to: 120 }, y: { parameter: "y0", from: 0.01, to: 0.2 } },
-  chaos: { scene: "double-pendulum" },
+  chaos: { scene: "double-pendulum", initial: { phi1: { value: 2 }, phi2: { value: 2.5 } } },
 };
 
 /** @param {string} query */

@@ -16,7 +16,7 @@ const textOf = (event) => /** @type {HTMLInputElement} */ (event.target).value;
 
 /** @param {View} view */
 export function form(view) {
-  const { bench, benches, say } = view;
+  const { bench, benches, t } = view;
   const submit = (/** @type {Event} */ event) => {
     event.preventDefault();
     if (bench.running) benches.stop();
@@ -26,24 +26,24 @@ export function form(view) {
     <form class="question" @submit=${submit}>
       ${sceneOf(view)}
       ${OPTIONS[bench.question.lab].map((option) => option(view))}
-      <button class="main" type="submit" ?disabled=${!bench.scene && !bench.running}>${say(bench.running ? "stop" : bench.result ? "again" : "start")}</button>
+      <button class="main" type="submit" ?disabled=${!bench.scene && !bench.running}>${t(bench.running ? "labs.stop" : bench.result ? "labs.again" : "labs.start")}</button>
       ${bench.scene ? values(view, bench.scene) : nothing}
     </form>`;
 }
 
 /** @param {View} view */
-function sceneOf({ bench, benches, scenes, say, state }) {
+function sceneOf({ bench, benches, scenes, t, state }) {
   const { scene } = bench.question;
   return html`
-    <label class="field"><span>${say("scene")}</span>
+    <label class="field"><span>${t("labs.scene")}</span>
       <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => benches.choose(textOf(e))}>
-        ${scene === OWN ? html`<option value=${OWN} selected>${inLanguage(bench.scene?.title, state.place.lang) || say("own")}</option>` : nothing}
+        ${scene === OWN ? html`<option value=${OWN} selected>${inLanguage(bench.scene?.title, state.place.lang) || t("labs.own")}</option>` : nothing}
         ${scenes.map(({ id, title }) => html`<option value=${id} ?selected=${id === scene}>${inLanguage(title, state.place.lang)}</option>`)}
       </select></label>`;
 }
 
 /** @param {View} view @param {string} label @param {unknown} control */
-const field = ({ say }, label, control) => html`<label class="field"><span>${say(label)}</span>${control}</label>`;
+const field = ({ t }, label, control) => html`<label class="field"><span>${t(`labs.${label}`)}</span>${control}</label>`;
 
 /** @param {number | ""} value @param {(value: number) => void} put @param {{min?: number, max?: number, step?: string, placeholder?: string}} [bounds] */
 function number(value, put, { min, max, step = "any", placeholder = "" } = {}) {
@@ -58,13 +58,13 @@ function duration(view) {
 }
 
 /** @param {View} view */
-function peers({ bench, benches, say }) {
-  return html`<label class="tick"><input type="checkbox" .checked=${live(bench.question.peers)} @change=${() => benches.edit({ peers: !bench.question.peers })}>${say("peers")}</label>`;
+function peers({ bench, benches, t }) {
+  return html`<label class="tick"><input type="checkbox" .checked=${live(bench.question.peers)} @change=${() => benches.edit({ peers: !bench.question.peers })}>${t("labs.peers")}</label>`;
 }
 
 /** @param {View} view */
-function flips({ bench, benches, say }) {
-  return html`<label class="tick"><input type="checkbox" .checked=${live(bench.question.flips)} @change=${() => benches.edit({ flips: !bench.question.flips })}>${say("flips")}</label>`;
+function flips({ bench, benches, t }) {
+  return html`<label class="tick"><input type="checkbox" .checked=${live(bench.question.flips)} @change=${() => benches.edit({ flips: !bench.question.flips })}>${t("labs.flips")}</label>`;
 }
 
 /** @param {View} view */
@@ -77,9 +77,9 @@ function steps(view) {
 
 /** @param {View} view */
 function at(view) {
-  const { bench, benches, say } = view;
+  const { bench, benches, t } = view;
   return field(view, "at", html`<select .value=${live(bench.question.at)} @change=${(/** @type {Event} */ e) => benches.edit({ at: /** @type {"state" | "rest"} */ (textOf(e)) })}>
-    ${["state", "rest"].map((place) => html`<option value=${place} ?selected=${place === bench.question.at}>${say(`at-${place}`)}</option>`)}</select>`);
+    ${["state", "rest"].map((place) => html`<option value=${place} ?selected=${place === bench.question.at}>${t(`labs.at-${place}`)}</option>`)}</select>`);
 }
 
 /** @param {Scene | null} scene */
@@ -87,27 +87,27 @@ const parametersOf = (scene) => scene?.parameters ?? [];
 
 /** @param {View} view */
 function stiffness(view) {
-  const { bench, benches, say } = view;
+  const { bench, benches, t } = view;
   const { stiffness: chosen } = bench.question;
   return field(view, "stiffness", html`<select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => benches.edit({ stiffness: textOf(e) })}>
-    <option value="">${say("stiffness-usual")}</option>
+    <option value="">${t("labs.stiffness-usual")}</option>
     ${parametersOf(bench.scene).map(({ name }) => html`<option value=${name} ?selected=${name === chosen}>${name}</option>`)}</select>`);
 }
 
 /** @param {"x" | "y"} key @returns {(view: View) => unknown} */
 const side = (key) => (view) => {
-  const { bench, benches, say } = view;
+  const { bench, benches, t } = view;
   const parameters = parametersOf(bench.scene);
   const now = bench.question[key] ?? usualSide(parameters, key);
   if (!now) return nothing;
   const put = (/** @type {Partial<import("../../model/labs/question.js").Side>} */ patch) => benches.edit({ [key]: { ...now, ...patch } });
   const choose = (/** @type {Event} */ e) => put(rangeOf(parameters.find(({ name }) => name === textOf(e)) ?? parameters[0]));
   return html`
-    <fieldset class="side"><legend>${say(`axis-${key}`)}</legend>
-      <select aria-label=${say("parameter")} .value=${live(now.parameter)} @change=${choose}>${parameters.map(({ name }) => html`<option value=${name} ?selected=${name === now.parameter}>${name}</option>`)}</select>
-      <label><span class="unseen">${say("from")}</span>${number(now.from, (from) => put({ from }))}</label>
+    <fieldset class="side"><legend>${t(`labs.axis-${key}`)}</legend>
+      <select aria-label=${t("labs.parameter")} .value=${live(now.parameter)} @change=${choose}>${parameters.map(({ name }) => html`<option value=${name} ?selected=${name === now.parameter}>${name}</option>`)}</select>
+      <label><span class="unseen">${t("labs.from")}</span>${number(now.from, (from) => put({ from }))}</label>
       <span aria-hidden="true">…</span>
-      <label><span class="unseen">${say("to")}</span>${number(now.to, (to) => put({ to }))}</label>
+      <label><span class="unseen">${t("labs.to")}</span>${number(now.to, (to) => put({ to }))}</label>
     </fieldset>`;
 };
 
@@ -122,13 +122,13 @@ function usualSide(parameters, key) {
 
 /** The scene's numbers, as changed for this measurement. @param {View} view @param {Scene} scene */
 function values(view, scene) {
-  const { bench, benches, say } = view;
+  const { bench, benches, t } = view;
   const { parameters, initial } = bench.question;
   const guided = new Set((scene.guides ?? []).map((guide) => guide.coordinate));
   const changed = Object.keys(parameters).length + Object.keys(initial).length;
   const start = (/** @type {string} */ name, /** @type {object} */ patch) => benches.edit({ initial: { ...initial, [name]: { ...initial[name], ...patch } } });
   return html`
-    <details class="values" ?open=${changed > 0}><summary>${say("values")}</summary>
+    <details class="values" ?open=${changed > 0}><summary>${t("labs.values")}</summary>
       ${scene.parameters.map(({ name, latex, unit, value }) => html`<label class="field row"><span>${inline(latex || name)}</span>
         ${number(parameters[name] ?? value, (given) => benches.edit({ parameters: { ...parameters, [name]: given } }))}<span class="unit">${unit ?? ""}</span></label>`)}
       ${scene.coordinates.filter(({ name }) => !guided.has(name)).map(({ name, latex, unit, value, rate }) => html`

@@ -6,11 +6,11 @@ import { endOf } from "../../model/trajectory.js";
 import { createDrawing } from "../drawing.js";
 
 /** @param {import("./page.js").View} view */
-export function motion({ play, say }) {
+export function motion({ play, t }) {
   if (!play) return nothing;
   return html`
-    <section class="motion" aria-label=${say("motion")}>
-      <h2>${play.title} ${play.address ? html`<a class="open" href=${play.address}>${say("open-scene")}</a>` : nothing}</h2>
+    <section class="motion" aria-label=${t("labs.motion")}>
+      <h2>${play.title} ${play.address ? html`<a class="open" href=${play.address}>${t("labs.open-scene")}</a>` : nothing}</h2>
       <div class="drawing"><svg role="img" aria-label=${play.title}></svg><div class="labels" aria-hidden="true"></div></div>
       ${play.status ? html`<p class="note" role="status">${play.status}</p>` : nothing}
     </section>`;

@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
-import { LABS, writeQuestion } from "../../model/labs/question.js";
+import { LABS } from "../../model/labs/question.js";
 import { failure } from "../failure.js";
 import { appearance, brand, language, places } from "../header.js";
 import { form } from "./form.js";
@@ -14,7 +14,7 @@ import { tolerance } from "./tolerance.js";
 /**
  * @typedef {import("../header.js").Appearance & {bench: import("../../model/labs/bench.js").Bench,
  *   benches: import("../../model/labs/bench.js").Benches, scenes: import("../../model/types.js").SceneEntry[],
- *   say: View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
+ *   t: import("../page.js").View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
  *   save: (chart: Chart, format: "png" | "svg") => void, fetchFile: (accept: string) => void,
  *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string}} View
  * @typedef {{tolerance: number, step: number}} Dial  where the sliders stand: wanted error, step h in seconds
@@ -28,22 +28,22 @@ const BELOW = { stability: failures };
 
 /** @param {View} view */
 export function page(view) {
-  const { t, say, bench } = view;
+  const { t, bench } = view;
   return html`
     <a class="skip" href="#measured">${t("skip")}</a>
     <header class="top">
       ${brand(view)}
-      <div class="scene"><h1>${t("place.labs")}</h1><p class="summary">${say("lead")}</p></div>
+      <div class="scene"><h1>${t("place.labs")}</h1><p class="summary">${t("labs.lead")}</p></div>
       ${places(view, "labs")}
       <div class="tools">${language(view)}${appearance(view)}</div>
     </header>
     <main class="labs">
-      <nav class="kinds" aria-label=${say("choose-lab")}>${LABS.map((lab) => kind(view, lab))}</nav>
+      <nav class="kinds" aria-label=${t("labs.choose-lab")}>${LABS.map((lab) => kind(view, lab))}</nav>
       <div class="asking">${form(view)}</div>
       <div class="measured" id="measured" tabindex="-1">
-        <p class="purpose">${say(`experiments.${bench.question.lab}.summary`)}</p>
+        <p class="purpose">${t(`labs.experiments.${bench.question.lab}.summary`)}</p>
         ${progress(view)}
-        ${bench.failure ? failure(bench.failure, say("failed"), view.benches.start, t) : nothing}
+        ${bench.failure ? failure(bench.failure, t("labs.failed"), view.benches.start, t) : nothing}
         ${bench.charts.length ? charts(view) : bench.running || bench.failure ? nothing : invitation(view)}
         ${motion(view)}
       </div>
@@ -51,54 +51,51 @@ export function page(view) {
 }
 
 /** @param {View} view @param {string} lab */
-function kind({ bench, benches, link, say }, lab) {
+function kind({ bench, benches, link, t }, lab) {
   const open = (/** @type {MouseEvent} */ event) => {
     if (event.ctrlKey || event.metaKey || event.shiftKey) return;
     event.preventDefault();
     benches.open(lab);
   };
-  return html`<a href=${link({ lab })} aria-current=${bench.question.lab === lab ? "page" : nothing} @click=${open}>${say(`experiments.${lab}.title`)}</a>`;
+  return html`<a href=${link({ lab })} aria-current=${bench.question.lab === lab ? "page" : nothing} @click=${open}>${t(`labs.experiments.${lab}.title`)}</a>`;
 }
 
 /** @param {View} view */
-function progress({ bench, say }) {
+function progress({ bench, t }) {
   if (!bench.running && !bench.stopped) return nothing;
   const percent = Math.round(100 * bench.progress);
   return html`<div class="progress" role="status">
-    <progress max="100" value=${percent} aria-label=${say("progress")}></progress>
-    <span>${bench.running ? (bench.progress ? say("measuring", { percent }) : say("waiting")) : say("stopped", { percent })}</span></div>`;
+    <progress max="100" value=${percent} aria-label=${t("labs.progress")}></progress>
+    <span>${bench.running ? (bench.progress ? t("labs.measuring", { percent }) : t("labs.waiting")) : t("labs.stopped", { percent })}</span></div>`;
 }
 
 /** @param {View} view */
-function invitation({ benches, bench, say }) {
-  return html`<div class="invitation"><p>${say("invitation")}</p>
-    <button class="main" ?disabled=${!bench.scene} @click=${benches.start}>${say("start")}</button></div>`;
+function invitation({ benches, bench, t }) {
+  return html`<div class="invitation"><p>${t("labs.invitation")}</p>
+    <button class="main" ?disabled=${!bench.scene} @click=${benches.start}>${t("labs.start")}</button></div>`;
 }
 
 /** @param {View} view */
 function charts(view) {
-  const { bench, say, fetchFile } = view;
+  const { bench, t, fetchFile } = view;
   const { lab } = bench.question;
   return html`
     ${bench.result ? (ABOVE[lab]?.(view) ?? nothing) : nothing}
     ${repeat(view.charts, (chart) => chart.id, (chart) => figure(view, chart))}
     ${bench.result ? (BELOW[lab]?.(view) ?? nothing) : nothing}
-    ${bench.result ? html`<p class="files">${say("all")}
+    ${bench.result ? html`<p class="files">${t("labs.all")}
       <button class="quiet small" @click=${() => fetchFile("text/csv")}>CSV</button>
       <button class="quiet small" @click=${() => fetchFile("text/html")}>HTML</button></p>` : nothing}`;
 }
 
 /** @param {View} view @param {Chart} chart */
-function figure({ save, say }, chart) {
+function figure({ save, t }, chart) {
   return html`
     <figure data-chart=${chart.id} aria-labelledby=${`${chart.id}-title`}>
       <h2 id=${`${chart.id}-title`}>${chart.title}
-        <span class="files"><button class="quiet small" title=${say("save", { format: "PNG" })} @click=${() => save(chart, "png")}>PNG</button>
-        <button class="quiet small" title=${say("save", { format: "SVG" })} @click=${() => save(chart, "svg")}>SVG</button></span></h2>
+        <span class="files"><button class="quiet small" title=${t("labs.save", { format: "PNG" })} @click=${() => save(chart, "png")}>PNG</button>
+        <button class="quiet small" title=${t("labs.save", { format: "SVG" })} @click=${() => save(chart, "svg")}>SVG</button></span></h2>
       <div class="canvas"></div>
       <figcaption>${chart.caption}</figcaption>
     </figure>`;
 }
-
-/** The address of a question. @param {import("../../model/labs/question.js").Question} question */
-export const addressOf = (question) => writeQuestion(question);

@@ -13,7 +13,11 @@ SCALE = [[0.0, "#fde725"], [0.35, "#35b779"], [0.7, "#31688e"], [1.0, "#440154"]
 def charts(result: Result, say: Say) -> list[Chart]:
     """What there is so far."""
     makers = {"twins": _twins, "exponent": _exponent, "horizon": _horizon, "map": _map}
-    return [make(result, say) for part, make in makers.items() if part in result and "missing" not in result[part]]
+    return [make(result, say) for part, make in makers.items() if _can_be_drawn(result, part)]
+
+
+def _can_be_drawn(result: Result, part: str) -> bool:
+    return part in result and "missing" not in result[part] and (part != "horizon" or bool(result[part]["points"]))
 
 
 def _line(x: list[float], y: list[float], color: int, name: str, **more: Any) -> Trace:
@@ -29,7 +33,7 @@ def _twins(result: Result, say: Say) -> Chart:
         until = min(told["t"][-1], math.log(1.0 / result["apart"]) / rate)
         ends = [result["apart"], result["apart"] * math.exp(rate * until)]
         traces.append(_line([0.0, until], ends, 1, "e<sup>λt</sup>") | {"line": {"color": PALETTE[1], "dash": "dash"}})
-    axes = {"xaxis": axis(say("labs.axis.t")), "yaxis": axis(say("labs.chaos.distance-axis"), log=True, dtick=2)}
+    axes = {"xaxis": axis(say("labs.axis.t")), "yaxis": axis(say("labs.chaos.distance-axis"), log=True)}
     caption = say("labs.chaos.twins-caption", apart=short(result["apart"]))
     return chart("chaos-twins", say("labs.chaos.twins"), caption, traces, **axes)
 
@@ -39,6 +43,8 @@ def _exponent(result: Result, say: Say) -> Chart:
     traces = [_line(told["t"], told["values"], 2, "λ(t)")]
     axes = {"xaxis": axis(say("labs.axis.t")), "yaxis": axis("λ / s⁻¹", rangemode="tozero")}
     caption = say("labs.chaos.exponent-caption", last=short(told["last"]), spread=short(told["spread"]))
+    if "horizon" in result and not _can_be_drawn(result, "horizon"):
+        caption += " " + say("labs.chaos.no-horizon")
     return chart("chaos-exponent", say("labs.chaos.exponent"), caption, traces, showlegend=False, **axes)
 
 
@@ -53,8 +59,7 @@ def _horizon(result: Result, say: Say) -> Chart:
         traces.append(_line(x, fitted, 1, ""))
     rate = result.get("exponent", {}).get("last", 0.0)
     theory = math.log(10.0) / rate if rate > 1e-3 else None
-    which = "horizon-caption" if told["per_digit"] is not None else "no-horizon"
-    caption = say(f"labs.chaos.{which}", measured=short(told["per_digit"]), theory=short(theory))
+    caption = say("labs.chaos.horizon-caption", measured=short(told["per_digit"]), theory=short(theory))
     axes = {
         "xaxis": axis(say("labs.axis.tolerance"), log=True, autorange="reversed"),
         "yaxis": axis(say("labs.chaos.horizon-axis"), rangemode="tozero"),

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ...simulation.library import get_method, method_ids
+from ...simulation.library import method_ids
 
 Chart = dict[str, Any]
 Trace = dict[str, Any]
@@ -21,6 +21,7 @@ Result = Mapping[str, Any]
 INK, GRID = "#222222", "#dddddd"
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b5b95", "#7f7f00")
 SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "star", "hexagon")
+DASHES = ("solid", "dash", "dot")
 FAILED = "x-thin-open"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -69,9 +70,8 @@ def look(name: str) -> dict[str, Any]:
     if name not in known:
         place = sum(map(ord, name)) % len(SYMBOLS)
         return {"color": "#888888", "symbol": f"{SYMBOLS[place]}-open", "dash": "dash"}
-    place, method = known.index(name), get_method(name)
-    dash = "dot" if method.tableau.is_symplectic else "solid" if method.is_explicit else "dashdot"
-    return {"color": PALETTE[place % len(PALETTE)], "symbol": SYMBOLS[(place * 3) % len(SYMBOLS)], "dash": dash}
+    turn, place = divmod(known.index(name), len(PALETTE))
+    return {"color": PALETTE[place], "symbol": SYMBOLS[(place + 3 * turn) % len(SYMBOLS)], "dash": DASHES[turn]}
 
 
 def name_of(method: str, say: Say) -> str:

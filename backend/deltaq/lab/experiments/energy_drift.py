@@ -120,8 +120,8 @@ def _departure(problem: Problem, found: Run) -> Floats:
 
 
 def growth(times: Floats, errors: Floats) -> float | None:
-    """The exponent p of error ∝ t^p over the last two decades of time: about 0 is bounded, 1 linear."""
-    late = (times > 1e-2 * times[-1]) & (errors > 1e-15) & np.isfinite(errors) if times.size else times > 0
+    """The exponent p of error ∝ t^p over the last decade of time: about 0 is bounded, 1 linear."""
+    late = (times > 0.1 * times[-1]) & (errors > 1e-15) & np.isfinite(errors) if times.size else times > 0
     if late.sum() < 8:
         return None
     return significant(float(np.polyfit(np.log(times[late]), np.log(np.maximum.accumulate(errors[late])), 1)[0]), 2)
