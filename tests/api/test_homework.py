@@ -18,7 +18,7 @@ async def test_tasks_of_a_built_in_scene(client: httpx.AsyncClient) -> None:
     found = TaskList.model_validate(response.json())
     ids = {task.id for task in found.tasks}
     assert {"position:bob", "virtual-work", "generalized-force:y", "equations"} <= ids
-    assert found.tasks[0].title == "Ort von Masse"
+    assert found.tasks[0].title == "Ort: Masse"
     assert found.scene["drawing"]["elements"]
 
 

@@ -60,14 +60,19 @@ def _sentences(verdict: Verdict, scene: Scene, language: str) -> list[str]:
         besides = verdict.misconceptions and text(language, "homework.feedback.besides", slip=slip)
         sentences.append(str(besides or slip))
     if verdict.counterexample and not (verdict.misconceptions or verdict.slip):
-        sentences.append(_told(verdict.counterexample, language))
+        sentences.append(_told(verdict.counterexample, scene, language))
     return sentences
 
 
-def _told(example: Counterexample, language: str) -> str:
-    state = ", ".join(f"{name} = {value:g}" for name, value in example.state.items())
-    yours, right = rounded_text(example.yours), rounded_text(example.right)
+def _told(example: Counterexample, scene: Scene, language: str) -> str:
+    state = ", ".join(f"{_label(n, scene, language)} $= {_number(v, language)}$" for n, v in example.state.items())
+    yours, right = (f"${_number(value, language)}$" for value in (example.yours, example.right))
     return text(language, "homework.feedback.counterexample", state=state, yours=yours, right=right)
+
+
+def _number(value: float, language: str) -> str:
+    """With the decimal sign of the language, as LaTeX."""
+    return rounded_text(value).replace(".", text(language, "homework.decimal"))
 
 
 def _about(verdict: Verdict, scene: Scene, language: str) -> dict[str, str]:

@@ -55,12 +55,23 @@ export function createStaging(root, clock) {
   };
 }
 
+/** Another task begins at its beginning, and is seen in the list. @param {HTMLElement} root */
+function toTop(root) {
+  const list = root.querySelector(".tasks");
+  const current = /** @type {HTMLElement | null} */ (list?.querySelector("[aria-current]"));
+  root.querySelectorAll(".homework, .work").forEach((room) => (room.scrollTop = 0));
+  if (!list || !current) return;
+  list.scrollLeft = current.offsetLeft - (list.clientWidth - current.offsetWidth) / 2;
+  list.scrollTop = current.offsetTop - (list.clientHeight - current.offsetHeight) / 2;
+}
+
 /** @param {HTMLElement} root */
 export function createReach(root) {
   /** @type {{key: string | undefined, checked: State["draft"]["checked"]}} */
   let seen = { key: undefined, checked: null };
   return (/** @type {State} */ { entry, draft: { checked } }, /** @type {boolean} */ still) => {
     const judged = checked !== seen.checked && entry?.key === seen.key;
+    if (entry?.key !== seen.key) toTop(root);
     seen = { key: entry?.key, checked };
     if (judged) root.querySelector(".verdict-card")?.scrollIntoView({ block: "nearest", behavior: still ? "instant" : "smooth" });
   };

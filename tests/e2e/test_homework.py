@@ -1,0 +1,182 @@
+"""Homework in a real browser: answers written in both notations, checked, led on, kept, and marked."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+from tests.e2e.lecture import Lecture
+
+pytestmark = pytest.mark.e2e
+PATIENCE = 60_000.0
+FALLING = "m*l^2*ddot(phi) = m*g*l*sin(phi)"
+RIGHT = "l*ddot(phi) + g*sin(phi) = 0"
+
+
+def _open(lecture: Lecture, query: str = "scene=pendulum&task=equation:phi&lang=en") -> Page:
+    """The page with its task, and the field for formulas if there is one."""
+    lecture.page.goto(f"{lecture.address}homework?{query}")
+    lecture.page.locator(".question h2, .whole, .classroom").first.wait_for(timeout=PATIENCE)
+    return lecture.page
+
+
+def _answer_as_text(page: Page, *parts: str) -> None:
+    page.get_by_role("group", name=re.compile("Notation|Schreibweise")).get_by_role("button", name="Text").click()
+    for field, part in zip(page.locator("textarea.entry").all(), parts, strict=True):
+        field.fill(part)
+
+
+def _math_field(page: Page) -> Locator:
+    field = page.locator("math-field").first
+    field.wait_for(timeout=PATIENCE)
+    field.click()
+    page.wait_for_timeout(300)  # the field takes its first letter only after it has got the focus
+    return field
+
+
+def _check(page: Page, outcome: str) -> Locator:
+    page.locator(".answering button.main").click()
+    card = page.locator(f".verdict-card[data-outcome={outcome}]:not(.stale)")
+    card.wait_for(timeout=PATIENCE)
+    return card
+
+
+def test_wrong_diagnosed_corrected_correct(lecture: Lecture) -> None:
+    page = _open(lecture)
+    _answer_as_text(page, FALLING)
+    expect(page.locator(".understood-as .katex")).to_be_visible(timeout=PATIENCE)
+    expect(_check(page, "wrong")).to_contain_text("Sign of the weight")
+    page.get_by_role("button", name="Hint 1 of 3").click()
+    expect(page.locator(".hints li")).to_have_count(1)
+    page.locator("textarea.entry").fill(RIGHT)
+    expect(page.locator(".verdict-card")).to_contain_text("changed since")
+    _check(page, "correct")
+    expect(page.locator(".task[aria-current]")).to_have_attribute("data-status", "solved")
+    expect(page.locator(".total")).to_contain_text("3 of 18 points")
+
+
+def test_a_formula_is_typed_and_keyed(lecture: Lecture) -> None:
+    page = _open(lecture)
+    _math_field(page)
+    page.keyboard.type("l phi'' = -g ", delay=30)
+    page.get_by_role("button", name="sin(|)").click()
+    page.keyboard.type("phi", delay=30)
+    expect(page.locator(".understood-as .katex")).to_be_visible(timeout=PATIENCE)
+    page.keyboard.press("Enter")
+    page.locator(".verdict-card[data-outcome=correct]").wait_for(timeout=PATIENCE)
+    page.get_by_role("button", name="Text", exact=True).click()
+    expect(page.locator("textarea.entry")).to_have_value("l*ddot(phi) = -g*sin(phi)")
+    expect(page.locator(".verdict-card.stale")).to_have_count(0)
+
+
+def test_reload_and_language_keep_everything(lecture: Lecture) -> None:
+    page = _open(lecture)
+    _answer_as_text(page, FALLING)
+    _check(page, "wrong")
+    page.get_by_role("button", name="Hint 1 of 3").click()
+    page.reload()
+    expect(page.locator("textarea.entry")).to_have_value(FALLING, timeout=PATIENCE)
+    expect(page.locator(".verdict-card[data-outcome=wrong]")).to_be_visible()
+    page.locator(".segments [lang=de]").click()
+    expect(page.locator(".verdict-card")).to_contain_text("Vorzeichen der Gewichtskraft", timeout=PATIENCE)
+    expect(page.locator("textarea.entry")).to_have_value(FALLING)
+    expect(page.locator(".hints li")).to_have_count(1)
+    expect(page).to_have_url(re.compile("lang=de"))
+
+
+def test_nothing_typed_is_lost_without_a_server(lecture: Lecture) -> None:
+    page = _open(lecture)
+    page.context.set_offline(True)
+    _answer_as_text(page, RIGHT)
+    page.locator(".answering button.main").click()
+    expect(page.locator(".answering [role=alert]")).to_contain_text("safe in this browser", timeout=PATIENCE)
+    page.context.set_offline(False)
+    page.reload()
+    expect(page.locator("textarea.entry")).to_have_value(RIGHT, timeout=PATIENCE)
+    lecture.complaints.clear()  # the browser reports that it was offline
+
+
+def test_each_component_has_its_own_verdict_and_a_mistake_its_place(lecture: Lecture) -> None:
+    page = _open(lecture, "scene=pendulum&task=position:bob&lang=de")
+    _answer_as_text(page, "l*sin(phi)", "l*sin(phi)")
+    _check(page, "wrong")
+    assert [part.get_attribute("data-outcome") for part in page.locator(".part").all()] == ["correct", "wrong"]
+    page.locator("textarea.entry").nth(1).fill("l*cos(psi)")
+    expect(page.locator(".complaints mark")).to_have_text("psi", timeout=PATIENCE)
+    expect(page.locator("textarea.entry").nth(1)).to_have_attribute("aria-invalid", "true")
+    page.locator("textarea.entry").nth(1).fill("")
+    page.locator(".answering button.main").click()
+    expect(page.locator(".notice-line")).to_have_text("Es fehlt noch ein Teil der Antwort.")
+
+
+def test_both_motions_are_shown_and_the_solution_leads_to_its_step(lecture: Lecture) -> None:
+    page = _open(lecture)
+    _answer_as_text(page, FALLING)
+    _check(page, "wrong")
+    page.get_by_role("button", name="Show both motions").click()
+    expect(page.locator(".motions .apart")).to_contain_text("They part at", timeout=PATIENCE)
+    page.wait_for_timeout(1200)
+    places = [page.locator(f".drawing.{one} path.bob").get_attribute("transform") for one in ("right", "yours")]
+    assert places[0] != places[1]
+    page.get_by_role("button", name="Show the solution").click()
+    page.get_by_role("link", name="See this step").click(timeout=PATIENCE)
+    expect(page.locator("[data-step='equation:phi'][aria-current]")).to_be_visible(timeout=PATIENCE)
+
+
+def test_a_working_is_marked_line_by_line(lecture: Lecture) -> None:
+    page = _open(lecture, "scene=pendulum&side=working&lang=en")
+    for number, (task, text) in enumerate(
+        [("Kinetic energy", "m*l^2*dot(phi)^2"), ("Equation of motion", "2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0")]
+    ):
+        page.get_by_role("button", name="Line", exact=True).click()
+        line = page.locator(".line").nth(number)
+        line.locator("option", has_text=task).first.wait_for(state="attached")
+        line.locator("select").select_option(line.locator("option", has_text=task).first.get_attribute("value"))
+        if line.get_by_role("button", name="as text").count():
+            line.get_by_role("button", name="as text").click()
+        line.locator("textarea").fill(text)
+    page.get_by_role("button", name="Check the working").click()
+    expect(page.locator(".line.first-wrong")).to_contain_text("The first mistake is here", timeout=PATIENCE)
+    outcomes = [line.get_attribute("data-outcome") for line in page.locator(".line").all()]
+    assert outcomes == ["wrong", "follow_through"]
+    expect(page.locator(".acts .score")).to_have_text("1.5 of 5 points")
+    page.reload()
+    expect(page.locator(".line textarea").first).to_have_value("m*l^2*dot(phi)^2", timeout=PATIENCE)
+
+
+def test_an_assignment_is_opened_from_a_file_and_by_its_link(lecture: Lecture, tmp_path: Path) -> None:
+    page = _open(lecture)
+    sheet = {
+        "format": 1,
+        "title": {"en": "Sheet 3", "de": "Blatt 3"},
+        "tasks": [
+            {"scene": "pendulum", "task": "lagrangian", "points": 4},
+            {"scene": "atwood", "task": "kinetic-energy", "points": 2},
+        ],
+    }
+    file = tmp_path / "sheet.json"
+    file.write_text(json.dumps(sheet), encoding="utf-8")
+    page.locator(".files-of-work input").set_input_files(file)
+    expect(page.locator("h1")).to_have_text("Sheet 3", timeout=PATIENCE)
+    expect(page.locator(".task")).to_have_count(2)
+    expect(page.locator(".total")).to_contain_text("0 of 6 points")
+    page.locator(".task").nth(1).click()
+    expect(page).to_have_url(re.compile("task=2#a="))
+    page.goto("about:blank")
+    page.go_back()
+    expect(page.locator(".task[aria-current]")).to_have_text(re.compile("Kinetic energy"), timeout=PATIENCE)
+
+
+@pytest.mark.parametrize("language", ["de", "en"])
+def test_on_a_phone(lecture: Lecture, language: str) -> None:
+    lecture.page.set_viewport_size({"width": 360, "height": 740})
+    page = _open(lecture, f"scene=elastic-pendulum&task=equations&lang={language}")
+    page.locator(".drawing.right path.bob").wait_for(state="attached", timeout=PATIENCE)
+    _answer_as_text(page, "ddot(y) = 0", "ddot(phi) = 0")
+    _check(page, "wrong")
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    assert page.locator(".katex-error, .untypeset").count() == 0
+    expect(page.locator(".verdict-card")).to_be_in_viewport()

@@ -1,0 +1,227 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { isComplete, joined, partsOf, placeIn } from "../../frontend/model/homework/answer.js";
+import { createAnswering, isCurrent, partsIn } from "../../frontend/model/homework/answering.js";
+import { assignmentIn, fragmentOfAssignment } from "../../frontend/model/homework/assignment.js";
+import { createConversion } from "../../frontend/model/homework/conversion.js";
+import { keyboardOf, shortcutsOf, written } from "../../frontend/model/homework/keys.js";
+import { framed, parting } from "../../frontend/model/homework/motions.js";
+import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homework/place.js";
+import { BLANK, createProgress, draftOf } from "../../frontend/model/homework/progress.js";
+import { groupOf, pointsOf, referenceIn, sheetOfScene } from "../../frontend/model/homework/sheet.js";
+import { begin } from "../../frontend/model/homework/state.js";
+import { readTable, writeTable } from "../../frontend/model/homework/table.js";
+import { ApiError } from "../../frontend/model/api.js";
+import { createStore } from "../../frontend/model/store.js";
+import { scene, trajectory } from "./fixtures.js";
+
+/** A browser's storage. */
+function storage(records = {}) {
+  const kept = new Map(Object.entries(records));
+  return {
+    kept,
+    get length() {
+      return kept.size;
+    },
+    key: (/** @type {number} */ i) => [...kept.keys()][i] ?? null,
+    getItem: (/** @type {string} */ key) => kept.get(key) ?? null,
+    setItem: (/** @type {string} */ key, /** @type {string} */ value) => void kept.set(key, value),
+  };
+}
+
+const task = { id: "equation:phi", kind: "equation", subject: "phi", title: "", statement: "", form: "equation", form_text: "", components: null, points: 3, needs: [], hints: ["a", "b", "c"], solution: { chapter: "lagrange", steps: [] } };
+const symbols = [
+  { name: "y", latex: "q_1", kind: "coordinate", unit: "m", value: null },
+  { name: "phi", latex: "q_2", kind: "coordinate", unit: "rad", value: null },
+  { name: "m", latex: "m", kind: "parameter", unit: "kg", value: 1 },
+];
+/** @param {Partial<typeof task>[]} tasks */
+const sheetOf = (...tasks) => sheetOfScene({ scene: "swing" }, /** @type {any} */ ({ scene, symbols, tasks: tasks.map((one) => ({ ...task, ...one })) }));
+
+for (const [name, { form, components }, freedoms, count] of /** @type {const} */ ([
+  ["one expression", { form: "expression", components: null }, 2, 1],
+  ["components of a vector", { form: "vector", components: 3 }, 2, 3],
+  ["an equation for each degree of freedom", { form: "equations", components: null }, 2, 2],
+  ["a frequency for each", { form: "set", components: null }, 2, 2],
+])) test(`parts: ${name}`, () => assert.equal(partsOf({ form, components }, freedoms), count));
+
+for (const [name, parts, form, syntax, text] of /** @type {const} */ ([
+  ["a single part is itself", ["a = b"], "equation", "plain", "a = b"],
+  ["a vector in text", ["a", "b"], "vector", "plain", "[a, b]"],
+  ["a vector in LaTeX", ["a", "b"], "vector", "latex", "\\begin{bmatrix} a \\\\ b \\end{bmatrix}"],
+  ["a set of equations", ["a = 0", "b = 0"], "equations", "plain", "a = 0\nb = 0"],
+  ["a whole vector in the first field", ["[a, b]", ""], "vector", "plain", "[a, b]"],
+  ["all equations in the first field", ["a = 0; b = 0", ""], "equations", "plain", "a = 0; b = 0"],
+  ["a space is no separator", ["a\\;b = 0", "c = 0"], "equations", "latex", "a\\,b = 0\nc = 0"],
+])) test(`joined: ${name}`, () => assert.equal(joined(parts, form, syntax), text));
+
+test("an answer is complete when no part is missing, or when the first one is the whole", () => {
+  assert.equal(isComplete(["a", " "], "vector"), false);
+  assert.equal(isComplete(["[a, b]", ""], "vector"), true);
+  assert.equal(isComplete(["a"], "expression"), true);
+});
+
+for (const [name, parts, form, syntax, offset, place] of /** @type {const} */ ([
+  ["in the first component", ["foo", "b"], "vector", "plain", 1, { part: 0, offset: 0 }],
+  ["in the second component", ["a", "b + foo"], "vector", "plain", 8, { part: 1, offset: 4 }],
+  ["in a matrix", ["a", "b"], "vector", "latex", 21, { part: 1, offset: 0 }],
+  ["in the second equation", ["a = 0", "foo"], "equations", "plain", 6, { part: 1, offset: 0 }],
+  ["past the end", ["ab"], "expression", "plain", 9, { part: 0, offset: 2 }],
+  ["letters of two units count once", ["𝜑𝜑", "foo"], "vector", "plain", 5, { part: 1, offset: 0 }],
+])) test(`place of a problem: ${name}`, () => assert.deepEqual(placeIn(parts, form, syntax, offset), place));
+
+test("the address holds scene, task, seed and side, and is read back", () => {
+  const asked = readAsked("?scene=pendulum&lang=de&task=equation:phi&seed=Käthe&side=working");
+  assert.equal(asked.seed, "Käthe");
+  assert.deepEqual(readAsked(writeAsked(asked)), asked);
+  assert.equal(writeAsked(readAsked("?side=else&theme=dark")), "?theme=dark");
+  assert.equal(stepAddress("pendulum", "equation:phi", asked.place), "/scene?scene=pendulum&step=equation:phi&lang=de");
+});
+
+for (const [name, text, start, end, plain, value, caret] of /** @type {const} */ ([
+  ["a name", "a", 1, 1, "dot(phi)", "adot(phi)", 9],
+  ["a function around nothing", "", 0, 0, "sin(|)", "sin()", 4],
+  ["a function around what is chosen", "a+b", 0, 3, "sqrt(|)", "sqrt(a+b)", 8],
+  ["a name instead of what is chosen", "a+b", 2, 3, "g", "a+g", 3],
+])) test(`a key writes ${name}`, () => assert.deepEqual(written(text, start, end, plain), { value, caret }));
+
+const names = (/** @type {Partial<typeof task>} */ change, /** @type {string} */ row, guides = /** @type {any[]} */ ([])) =>
+  keyboardOf(/** @type {any} */ ({ symbols, scene: { ...scene, guides }, task: { ...task, ...change } })).find(({ id }) => id === row)?.keys.map(({ name }) => name);
+
+test("the keyboard offers what a task is made of", () => {
+  assert.deepEqual(names({}, "motion")?.slice(3, 6), ["phi", "dot(phi)", "ddot(phi)"]);
+  assert.deepEqual(names({ kind: "virtual-work", form: "expression" }, "motion")?.slice(0, 4), ["y", "delta(y)", "phi", "delta(phi)"]);
+  assert.equal(names({ kind: "eigenfrequencies", form: "set" }, "motion")?.[0], "omega");
+  assert.deepEqual(names({}, "motion", [{ coordinate: "y", value: "0" }])?.slice(0, 2), ["phi", "dot(phi)"]);
+  assert.deepEqual(names({}, "parameters"), ["m"]);
+  assert.equal(shortcutsOf(symbols)["phi''"], "\\ddot{q}_2");
+});
+
+test("a draft out of anything", () => {
+  assert.deepEqual(draftOf(null), BLANK);
+  assert.deepEqual(draftOf({ syntax: "plain", texts: { plain: ["a", 3] }, hints: 9, tries: -1, checked: { verdict: 3 } }), { ...BLANK, syntax: "plain", texts: { plain: ["a"], latex: [] }, hints: 3 });
+});
+
+test("work is exported and imported, and what is no work is refused", () => {
+  const own = createProgress(storage());
+  own.write("swing/equation:phi", { ...BLANK, solved: true });
+  const other = createProgress(storage({ unrelated: "1" }));
+  assert.equal(other.imported(own.exported()), 1);
+  assert.equal(other.draft("swing/equation:phi").solved, true);
+  assert.equal(other.imported("{}"), null);
+  assert.equal(other.imported("not JSON"), null);
+});
+
+test("where the browser keeps nothing, that is told", () => {
+  const full = { ...storage(), setItem: () => { throw new Error("full"); } };
+  assert.equal(createProgress(full).write("a", {}), false);
+});
+
+test("points: a task whose solution was seen before earns none", () => {
+  const sheet = sheetOf({}, { id: "lagrangian", points: 1 }, { id: "kinetic-energy", points: 2 });
+  const drafts = { [sheet.entries[0].key]: { ...BLANK, solved: true }, [sheet.entries[1].key]: { ...BLANK, solved: true, shown: true } };
+  assert.deepEqual(pointsOf(sheet, (key) => drafts[key] ?? BLANK), { earned: 3, of: 6, solved: 2, count: 3 });
+});
+
+test("what requests say of an assignment's scene, with each student's own values", () => {
+  const assignment = { format: 1, individual: true, tasks: [{ scene: "pendulum", task: "lagrangian", points: 2, guides: [{ coordinate: "y", value: "0" }] }] };
+  assert.deepEqual(referenceIn(assignment, 0, "ada"), { scene: "pendulum", guides: [{ coordinate: "y", value: "0" }], seed: "ada" });
+  assert.deepEqual(referenceIn({ ...assignment, individual: false }, 0, "ada").seed, undefined);
+  assert.notEqual(groupOf({ scene: "pendulum", guides: [] }), groupOf({ scene: "pendulum" }));
+  assert.equal(groupOf({ scene: "pendulum", seed: "ada" }), "pendulum@ada");
+});
+
+test("an assignment travels in an address, and comes from files", async () => {
+  const assignment = { format: 1, title: { de: "Blatt 3" }, tasks: [{ scene: "pendulum", task: "lagrangian" }] };
+  const api = { readToml: async () => ({ scene: assignment }) };
+  assert.deepEqual(await assignmentIn(await fragmentOfAssignment(assignment), "", api, "de"), assignment);
+  assert.deepEqual(await assignmentIn(JSON.stringify(assignment), "sheet.json", api, "de"), assignment);
+  assert.deepEqual(await assignmentIn("format = 1", "sheet.toml", api, "de"), assignment);
+  assert.equal(await assignmentIn('{"format": 1}', "work.json", api, "de"), null);
+  assert.equal(await assignmentIn("#a=broken", "", api, "de"), null);
+});
+
+for (const [name, text] of /** @type {const} */ ([["commas", 'Task,Answer\nequation:phi,"a, ""b"""\n'], ["semicolons", 'task;answer\r\nequation:phi;"a, ""b"""\r\n'], ["tabs", '\ufefftask\tanswer\nequation:phi\t"a, ""b"""\n\n']]))
+  test(`a table by ${name}`, () => assert.deepEqual(readTable(text), [{ task: "equation:phi", answer: 'a, "b"' }]));
+
+test("a table is written so that no cell is a formula of a spreadsheet", () => {
+  assert.equal(writeTable(["a", "b"], [{ a: "=1", b: 2 }, { a: 'x, "y"', b: null }]), 'a,b\n\'=1,2\n"x, ""y""",\n');
+});
+
+test("both motions stand in one frame, and part at a time", () => {
+  const wide = { ...trajectory, positions: { ...trajectory.positions, bob: trajectory.t.map(() => [9, 0]) } };
+  const [x0, x1] = framed(/** @type {any} */ (scene), [trajectory, wide]).drawing?.view ?? [];
+  assert.ok(x0 <= -9 && x1 >= 9);
+  const other = { ...trajectory, coordinates: { ...trajectory.coordinates, phi: trajectory.t.map((t) => (t < 2 ? t / 4 : 2)) } };
+  assert.equal(parting(trajectory, other), 2);
+  assert.equal(parting(trajectory, trajectory), null);
+});
+
+/** A page with one task, and a server that answers from a table. @param {Record<string, any>} answers */
+function pageWith(answers) {
+  const [entry] = sheetOf({}).entries;
+  const store = createStore({ ...begin(readAsked("?lang=en")), sheet: sheetOf({}), entry });
+  /** @type {[string, any][]} */
+  const sent = [];
+  const post = async (/** @type {string} */ path, /** @type {any} */ body) => {
+    sent.push([path, body]);
+    if (answers[path] instanceof Error) throw answers[path];
+    return answers[path];
+  };
+  const keeper = storage();
+  const progress = createProgress(keeper);
+  const api = /** @type {any} */ ({ post });
+  const answering = createAnswering(store, api, progress);
+  return { store, entry, sent, keeper, progress, answering, switchTo: createConversion(store, api, answering), again: () => createProgress(keeper).draft(entry.key) };
+}
+
+const WRONG = { outcome: "wrong", understood_as: "x", feedback: "Not right yet.", misconception: null, misconceptions: [], slip: null, parts: [], problems: [], counterexample: null };
+
+test("every keystroke is kept, and a verdict belongs to what was checked", async () => {
+  const { store, entry, answering, again } = pageWith({ "/checks": WRONG, "/checks/reading": { latex: "x", plain: "x", problems: [] } });
+  answering.type(0, "phi = 0");
+  assert.deepEqual(again().texts.latex, ["phi = 0"]);
+  await answering.check();
+  assert.equal(again().checked?.verdict.outcome, "wrong");
+  assert.equal(again().tries, 1);
+  assert.equal(isCurrent(entry, store.get().draft), true);
+  answering.type(0, "phi = 1");
+  assert.equal(isCurrent(entry, store.get().draft), false);
+});
+
+test("a server that does not answer takes nothing away", async () => {
+  const { store, answering, again } = pageWith({ "/checks": new ApiError({ title: "", detail: "", problems: [], status: 0 }), "/checks/reading": new ApiError({ title: "", detail: "", problems: [], status: 0 }) });
+  answering.type(0, "phi = 0");
+  await answering.check();
+  assert.equal(store.get().trouble?.status, 0);
+  assert.equal(store.get().busy, "");
+  assert.deepEqual(again().texts.latex, ["phi = 0"]);
+});
+
+test("an empty answer is not sent", async () => {
+  const { store, sent, answering } = pageWith({});
+  await answering.check();
+  assert.equal(store.get().notice, "homework.empty");
+  assert.deepEqual(sent, []);
+});
+
+test("from formula to text and back: what was typed comes back to the letter", async () => {
+  const { store, entry, answering, switchTo, sent } = pageWith({ "/checks/reading": { latex: "\\ddot{q}_2 = 0", plain: "ddot(phi) = 0", problems: [] } });
+  answering.type(0, "\\ddot{q}_2=0 ");
+  await switchTo("plain");
+  assert.deepEqual(partsIn(entry, store.get().draft), ["ddot(phi) = 0"]);
+  const before = sent.length;
+  await switchTo("latex");
+  assert.deepEqual(partsIn(entry, store.get().draft), ["\\ddot{q}_2=0 "]);
+  assert.equal(sent.length, before);
+});
+
+test("what cannot be read stays on its side", async () => {
+  const { store, entry, answering, switchTo } = pageWith({ "/checks/reading": { latex: "", plain: "", problems: [{ code: "syntax", offset: 0, length: 1, message: "" }] } });
+  answering.type(0, "\\frac{");
+  await switchTo("plain");
+  assert.equal(store.get().notice, "homework.kept-latex");
+  assert.deepEqual(partsIn(entry, store.get().draft), [""]);
+  await switchTo("latex");
+  assert.deepEqual(partsIn(entry, store.get().draft), ["\\frac{"]);
+});
