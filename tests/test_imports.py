@@ -20,15 +20,26 @@ MAY_KNOW = {
     "simulation": {"language", "mechanics", "model"},
     "lab": {"language", "mechanics", "model", "simulation"},
     "homework": {"language", "mechanics", "derivation", "narration"},
-    "api": {"language", "mechanics", "derivation", "narration", "model", "simulation", "lab", "homework"},
+    "handout": {"language", "mechanics", "derivation", "narration"},
+    "api": {"language", "mechanics", "derivation", "narration", "model", "simulation", "lab", "homework", "handout"},
 }
 # Who may know the modules beside the packages.
 BESIDE = {"": {"errors", "packages"}, "api": {"errors", "packages", "settings"}}
 FORBIDDEN = {
     "sympy": {"mechanics", "model", "simulation", "lab", "api", "scenes"},
-    "numpy": {"language", "mechanics", "derivation", "narration", "homework", "api"},
-    "symengine": {"language", "mechanics", "derivation", "narration", "homework", "simulation", "lab", "api"},
-    "numba": {"language", "mechanics", "derivation", "narration", "homework", "api"},
+    "numpy": {"language", "mechanics", "derivation", "narration", "homework", "api", "handout"},
+    "symengine": {
+        "language",
+        "mechanics",
+        "derivation",
+        "narration",
+        "homework",
+        "simulation",
+        "lab",
+        "api",
+        "handout",
+    },
+    "numba": {"language", "mechanics", "derivation", "narration", "homework", "api", "handout"},
     "fastapi": set(MAY_KNOW) - {"api"},
     "pydantic": set(MAY_KNOW) - {"api"},
 }

@@ -85,3 +85,8 @@ class RequestError(InputError):
 
 class UnknownNameError(InputError):
     """A scene, method, coordinate or task of this name does not exist."""
+
+
+def escaped(name: str) -> str:
+    """A name as part of a JSON pointer (RFC 6901)."""
+    return name[:40].replace("~", "~0").replace("/", "~1")

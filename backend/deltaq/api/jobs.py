@@ -125,6 +125,12 @@ def export_stack(document: Document) -> Document:
     return answer
 
 
+def export_handout(document: Document) -> Document:
+    """A derivation as a document, or its motion as a program."""
+    answer: Document = import_module("deltaq.handout.service").export_request(document)
+    return answer
+
+
 def check_lines(document: Document) -> Document:
     """The verdicts on a whole working, with points."""
     answer: Document = import_module("deltaq.homework.service").lines_request(document)

@@ -39,7 +39,7 @@ def derive_request(document: Mapping[str, object]) -> Document:
         "id": hashlib.sha256(key.encode()).hexdigest()[:24],
         "scene": scene.id,
         "formulation": formulation,
-        "chapters": Narrator(language, _notation(system, language)).chapters(derivation),
+        "chapters": Narrator(language, notation_of(system, language)).chapters(derivation),
         "result": written(result_of(system), Typography(scene.names)),
     }
 
@@ -54,7 +54,8 @@ def scene_of(document: Mapping[str, object]) -> Scene:
     )
 
 
-def _notation(system: System, language: str) -> Notation:
+def notation_of(system: System, language: str) -> Notation:
+    """How a scene's quantities are written in a derivation, with the classes of the page."""
     typography = Typography(system.scene.names, mark=by_coordinate(system.scene, in_class))
     names = {symbol.name: symbol.typeset for symbol in system.scene.names.symbols if symbol.kind == "coordinate"}
     return Notation(typography, QuantitySymbols(system.scene, language, names, in_class), system.h)

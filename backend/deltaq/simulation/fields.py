@@ -6,12 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from ..errors import Problem
-
-
-def escaped(name: str) -> str:
-    """A name as part of a JSON pointer (RFC 6901)."""
-    return name[:40].replace("~", "~0").replace("/", "~1")
+from ..errors import Problem, escaped
 
 
 @dataclass

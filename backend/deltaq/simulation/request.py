@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from ..errors import Problem, RequestError, UnknownNameError
+from ..errors import RequestError
 from ..mechanics.changes import change
-from ..mechanics.coordinate import Coordinate
+from ..mechanics.initial import with_initial
 from ..mechanics.requests import requested_scene
 from ..mechanics.scene import Scene
 from .choice import AUTO
-from .fields import Fields, escaped
+from .fields import Fields
 
 COLUMNS = ("numbers", "base64")  # how arrays may be written (`columns`)
 PARTS = ("coordinates", "rates", "positions", "loads", "energy", "error")
@@ -52,30 +52,6 @@ def read_request(document: Mapping[str, object]) -> Request:
     if fields.problems:
         raise RequestError(*fields.problems)
     scene, parameters = requested_scene(document["scene"], values)
-    changed = change(_with_initial(scene, initial, freeze), guides, freeze, parameters)
+    changed = change(with_initial(scene, initial, freeze), guides, freeze, parameters)
     wanted = DEFAULT_TOLERANCE if step is None and tolerance is None else tolerance
     return Request(changed, t_end or 0.0, samples, method, step, wanted, include, columns)
-
-
-def _with_initial(scene: Scene, initial: Mapping[str, Mapping[str, float]], freeze: tuple[str, ...]) -> Scene:
-    """The scene with other initial values; the range of the slider gives way."""
-    known = {coordinate.name for coordinate in scene.coordinates}
-    free = {coordinate.name for coordinate in scene.free}
-    for name in initial:
-        pointer = f"/initial/{escaped(name)}"
-        if name not in known:
-            parameters = {"name": name[:40], "known": ", ".join(sorted(free))}
-            raise UnknownNameError(Problem("unknown-coordinate", pointer, parameters=parameters))
-        if name not in free:
-            raise RequestError(Problem("guided-coordinate", pointer, parameters={"name": name}))
-        if name in freeze and initial[name].get("rate"):
-            raise RequestError(Problem("frozen-rate", f"{pointer}/rate", parameters={"name": name}))
-    coordinates = tuple(_set(coordinate, initial.get(coordinate.name, {})) for coordinate in scene.coordinates)
-    return replace(scene, coordinates=coordinates)
-
-
-def _set(coordinate: Coordinate, given: Mapping[str, float]) -> Coordinate:
-    value, rate = given.get("value", coordinate.value), given.get("rate", coordinate.rate)
-    low = None if coordinate.min is None else min(coordinate.min, value)
-    high = None if coordinate.max is None else max(coordinate.max, value)
-    return replace(coordinate, value=value, rate=rate, min=low, max=high)

@@ -1,0 +1,120 @@
+"""The content of a handout: a scene with its values, and its derivation told in one language."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from ..derivation.engine import check_formulation, derive
+from ..derivation.system import System
+from ..language.latex_printer import Typography
+from ..language.latex_printer import latex as latex_text
+from ..mechanics.requests import inside
+from ..mechanics.scene import Scene
+from ..narration.catalog import language_of, text
+from ..narration.derive import notation_of
+from ..narration.narrator import Narrator
+
+
+@dataclass(frozen=True)
+class Value:
+    """A given number: what it belongs to in LaTeX, its plain name, the value and its unit."""
+
+    latex: str
+    name: str
+    value: float
+    unit: str
+
+    @property
+    def equation(self) -> str:
+        """LaTeX of symbol = number."""
+        mantissa, _, exponent = f"{self.value:.12g}".partition("e")
+        return f"{self.latex} = {mantissa}" + (f" \\cdot 10^{{{int(exponent)}}}" if exponent else "")
+
+
+@dataclass(frozen=True)
+class Line:
+    """A step or substep, numbered as in the lecture; `depth` is 0 for a step, 1 for its substeps, and so on."""
+
+    number: str
+    depth: int
+    title: str
+    text: str
+    latex: str
+
+
+@dataclass(frozen=True)
+class Part:
+    """A chapter."""
+
+    title: str
+    lines: tuple[Line, ...]
+
+
+@dataclass(frozen=True)
+class Handout:
+    """A derivation to be written down. Sentences hold formulas between dollar signs."""
+
+    language: str
+    title: str
+    summary: str
+    coordinates: tuple[Value, ...]
+    parameters: tuple[Value, ...]
+    parts: tuple[Part, ...]
+
+    def say(self, key: str) -> str:
+        """A sentence of the handout itself."""
+        return text(self.language, f"handout.{key}")
+
+
+def handout_of(scene: Scene, language: str | None, formulation: str, *, substeps: bool = True) -> Handout:
+    """The handout of a scene. Raises UnknownNameError for an unknown formulation."""
+    check_formulation(formulation)
+    with inside("/scene"):
+        system, derivation = derive(scene, formulation)
+    lang = language_of(language)
+    chapters = Narrator(lang, notation_of(system, lang)).chapters(derivation)
+    return Handout(
+        lang,
+        _in_language(scene.title, lang),
+        _in_language(scene.summary, lang),
+        tuple(_initial_values(system)),
+        tuple(Value(_latex(scene, p.name), p.name, p.value, _unit(p.unit)) for p in scene.parameters),
+        tuple(_part(str(i), chapter, substeps=substeps) for i, chapter in enumerate(chapters, 1)),
+    )
+
+
+def _in_language(texts: Mapping[str, str], language: str) -> str:
+    return texts.get(language) or next(iter(texts.values()), "")
+
+
+def _latex(scene: Scene, name: str) -> str:
+    return next((symbol.typeset for symbol in scene.names.symbols if symbol.name == name), name)
+
+
+def _initial_values(system: System) -> Iterator[Value]:
+    """q(0) and q̇(0) of every free coordinate."""
+    scene = system.scene
+    typography = Typography(scene.names)
+    for coordinate in scene.free:
+        latex = _latex(scene, coordinate.name)
+        yield Value(f"{latex}(0)", coordinate.name, coordinate.value, _unit(coordinate.unit))
+        rate, unit = latex_text(system.rate(coordinate.name), typography), coordinate.unit
+        yield Value(f"{rate}(0)", f"dot({coordinate.name})", coordinate.rate, f"{unit or 1}/s")
+
+
+def _unit(unit: str) -> str:
+    return "" if unit == "1" else unit
+
+
+def _part(number: str, chapter: Mapping[str, object], *, substeps: bool) -> Part:
+    steps: Sequence[Mapping[str, object]] = chapter["steps"]  # type: ignore[assignment]
+    lines = (line for i, step in enumerate(steps, 1) for line in _lines(step, f"{number}.{i}", 0))
+    return Part(str(chapter["title"]), tuple(line for line in lines if substeps or line.depth == 0))
+
+
+def _lines(step: Mapping[str, object], number: str, depth: int) -> Iterator[Line]:
+    yield Line(number, depth, str(step["title"]), str(step["text"]), str(step["latex"]))
+    below: Sequence[Mapping[str, object]] = step["substeps"]  # type: ignore[assignment]
+    for i, substep in enumerate(below, 1):
+        yield from _lines(substep, f"{number}.{i}", depth + 1)

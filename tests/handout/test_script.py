@@ -1,0 +1,102 @@
+"""The exported program computes the motion that δq shows."""
+
+from __future__ import annotations
+
+import runpy
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from deltaq.handout.script import comment, script
+from deltaq.handout.service import export_request
+from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.simulation.service import run
+
+T_END = 2.0
+AGREEMENT = 1e-6
+
+
+def executed(text: str, folder: Path) -> dict[str, Any]:
+    """What the program defines, run as a user would but for printing."""
+    file = folder / "motion.py"
+    file.write_text(text, encoding="utf-8")
+    return runpy.run_path(str(file))
+
+
+@pytest.mark.parametrize("identifier", scene_ids())
+def test_program_agrees_with_the_simulation(identifier: str, tmp_path: Path) -> None:
+    program = executed(script(load_scene(identifier), "en", T_END), tmp_path)
+    times, q, v = program["solve"]()
+    request = {"scene": identifier, "t_end": T_END, "samples": len(times), "tolerance": 1e-9}
+    shown = run({**request, "include": ["coordinates", "rates", "positions"]})
+    for name, values, rates in zip(program["COORDINATES"], q, v, strict=True):
+        np.testing.assert_allclose(values, shown["coordinates"][name], atol=AGREEMENT, rtol=AGREEMENT)
+        np.testing.assert_allclose(rates, shown["rates"][name], atol=100 * AGREEMENT, rtol=AGREEMENT)
+    for body, position in program["positions"](times[-1], q[:, -1]).items():
+        np.testing.assert_allclose(position, shown["positions"][body][-1], atol=10 * AGREEMENT)
+
+
+def test_changes_of_a_request_reach_the_program(tmp_path: Path) -> None:
+    changes: dict[str, object] = {"parameters": {"l": 0.5}, "initial": {"phi": {"value": 1.2, "rate": -0.3}}}
+    text = export_request({"form": "python", "scene": "pendulum", "t_end": 1.0, **changes})["text"]
+    times, q, _ = executed(str(text), tmp_path)["solve"]()
+    shown = run({"scene": "pendulum", "t_end": 1.0, "samples": len(times), "tolerance": 1e-9, **changes})
+    np.testing.assert_allclose(q[0], shown["coordinates"]["phi"], atol=AGREEMENT)
+
+
+def test_guide_and_frozen_coordinate_reach_the_program(tmp_path: Path) -> None:
+    guided: dict[str, object] = {
+        "guides": [{"coordinate": "y", "value": "y0*sin(omega*t)"}],
+        "parameters": {"y0": 0.1, "omega": 12.0},
+    }
+    program = executed(str(export_request({"form": "python", "scene": "base-pendulum", **guided})["text"]), tmp_path)
+    assert program["COORDINATES"] == ["phi"]
+    frozen = export_request({"form": "python", "scene": "base-pendulum", "freeze": ["y"]})["text"]
+    assert executed(str(frozen), tmp_path)["COORDINATES"] == ["phi"]
+
+
+def test_names_that_mean_something_in_python_stay_apart(tmp_path: Path) -> None:
+    """A parameter may be called lambda, a coordinate t_end, and another one like its rate."""
+    document = {
+        "format": 1,
+        "id": "names",
+        "title": {"en": "Names"},
+        "summary": {"en": "Names"},
+        "coordinates": [{"name": "q", "value": 0.3}, {"name": "solve", "value": 0.1}],
+        "parameters": [{"name": "lambda", "value": 2.0}, {"name": "np", "value": 3.0}, {"name": "q_dot", "value": 1.0}],
+        "bodies": [{"name": "bob", "kind": "particle", "mass": "lambda", "position": ["q", "solve"]}],
+        "loads": [{"kind": "potential", "energy": "np*q^2/2 + q_dot*solve^2/2"}],
+    }
+    text = str(export_request({"form": "python", "scene": document, "t_end": 1.0})["text"])
+    times, q, _ = executed(text, tmp_path)["solve"]()
+    np.testing.assert_allclose(q[0], 0.3 * np.cos(np.sqrt(1.5) * times), atol=1e-9)
+    np.testing.assert_allclose(q[1], 0.1 * np.cos(np.sqrt(0.5) * times), atol=1e-9)
+
+
+HOSTILE = [
+    "Pendulum\nimport os; os.system('true')",
+    'Pendulum""" + print(1) + """',
+    "Pendulum\r\x0b\x0c\x85\u2028import os",
+    "{functions}",
+]
+
+
+@pytest.mark.parametrize("title", HOSTILE)
+def test_title_stays_a_comment(title: str, tmp_path: Path) -> None:
+    scene = replace(load_scene("pendulum"), title={"en": title})
+    text = script(scene, "en", 1.0)
+    assert text.splitlines()[0] == f"# {comment(title)}"
+    assert text.splitlines()[1:] == script(load_scene("pendulum"), "en", 1.0).splitlines()[1:]
+
+
+def test_program_prints_a_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "motion.py"
+    file.write_text(script(load_scene("pendulum"), "en", 1.0), encoding="utf-8")
+    runpy.run_path(str(file), run_name="__main__")
+    head, first, *rest = capsys.readouterr().out.splitlines()
+    assert head == "t,phi"
+    assert [float(value) for value in first.split(",")] == [0.0, load_scene("pendulum").free[0].value]
+    assert len(rest) == 30
