@@ -15,7 +15,7 @@ from ...packages import modules_of
 from .findings import FULL, Part, Rung
 from .footing import Back, Footing, Kind, Motion, Simplified
 
-MOST_RUNGS = 20
+MOST_RUNGS, MOST_OF_KIND = 20, 6
 LONGEST_CHAIN = 3
 Chain = tuple[Part, ...]
 
@@ -35,7 +35,7 @@ def chains(footing: Footing) -> tuple[Chain, ...]:
 
 def _chains(footing: Footing, allowed: tuple[str, ...], depth: int = 1) -> Iterator[Chain]:
     for kind in (kinds()[name] for name in allowed):
-        for part in kind.offered(footing):
+        for part in islice(kind.offered(footing), MOST_OF_KIND):
             yield (part,)
             if depth < LONGEST_CHAIN and kind.followers:
                 yield from ((part, *rest) for rest in _after(footing, part, depth))

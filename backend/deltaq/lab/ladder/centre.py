@@ -22,7 +22,8 @@ from .distance import mass_matrices
 from .mean import Mean
 from .momenta import Conserved
 
-TRIES, NUDGE, CLOSE = 40, 1e-6, 1e-9
+TRIES, NUDGE, CLOSE, STILL = 120, 1e-6, 1e-10, 1e-7
+FAR, SMALL = 100.0, 1e-8  # times the size of the start; a value that is zero but for rounding
 GROWS = 1e-3  # real part of an eigenvalue, relative to the largest, that differences cannot explain
 REGULAR = 1e10  # condition of M
 
@@ -111,18 +112,29 @@ class _Steady:
         return np.asarray((self.mean.weights @ table)[~self._is_cyclic])
 
     def settled(self, start: Floats) -> Floats | None:
-        """Where the forces vanish, by Newton's method from a start; None if it does not get there."""
+        """Where the forces vanish, by Newton's method from a start; None if it does not get there.
+
+        Far away forces only fade; and where M has no inverse nothing can be said of the motion.
+        """
         if self._is_cyclic.all():
             return start
-        place, size = start.copy(), max(1e-300, float(np.abs(self.force(start)).max(initial=0.0)))
+        place, far = start, FAR * (1.0 + float(np.abs(start).max()))
+        first = float(np.abs(self.force(start)).max())
         for _ in range(TRIES):
             force = self.force(place)
-            if not np.isfinite(force).all():
+            if not np.isfinite(force).all() or np.abs(place).max() > far:
                 return None
-            if np.abs(force).max(initial=0.0) <= CLOSE * max(size, 1.0):
-                return self._polished(place)
-            place = self._stepped(place, force)
+            moved = self._stepped(place, force)
+            if np.abs(moved - place).max() <= CLOSE * (1.0 + np.abs(place).max()):
+                is_still = np.abs(force).max() <= STILL * max(first, 1.0)
+                return np.where(np.abs(moved) < SMALL, 0.0, moved) if is_still and self._is_regular(moved) else None
+            place = moved
         return None
+
+    def _is_regular(self, place: Floats) -> bool:
+        state = np.concatenate([place, np.zeros(len(place))])[None]
+        mass = mass_matrices(self.problem, np.zeros(1), state)[0]
+        return bool(np.isfinite(mass).all() and np.linalg.cond(mass) < REGULAR)
 
     def _stepped(self, place: Floats, force: Floats) -> Floats:
         """One step, no longer than half a radian or half the size of the place."""
@@ -141,14 +153,6 @@ class _Steady:
             columns.append((self.force(place + nudge) - self.force(place - nudge)) / (2 * NUDGE))
         slopes = np.array(columns).T
         return slopes if np.isfinite(slopes).all() else np.zeros_like(slopes)
-
-    def _polished(self, place: Floats) -> Floats | None:
-        """One more step, values that are zero but for rounding made zero; None where M has no inverse."""
-        better = self._stepped(place, self.force(place))
-        better = np.where(np.abs(better) < CLOSE, 0.0, better)
-        state = np.concatenate([better, np.zeros(len(better))])[None]
-        condition = np.linalg.cond(mass_matrices(self.problem, np.zeros(1), state)[0])
-        return better if condition < REGULAR else None
 
     def lasts(self, place: Floats) -> bool:
         """Whether no small deviation grows, as far as the laws at the start tell; unasked where they change."""

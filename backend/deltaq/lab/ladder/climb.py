@@ -79,17 +79,18 @@ class _Climb:
     cancelled: Flag
 
     def findings(self, rungs: list[Rung], tolerance: float) -> Iterator[Finding]:
-        full = {1.0: self._full(1.0)}
-        measured = []
+        full, measured = {1.0: self._full(1.0)}, []
         for rung in rungs:
             measured.append(self._measured(rung, full[1.0]))
+            if self.cancelled[0]:
+                return
             yield measured[-1]
-        if len(self.amplitudes) > 1:
-            full = {factor: full.get(factor) or self._full(factor) for factor in self.amplitudes}
-            for rung in rungs:
-                if rung.parts:
-                    yield self._growth(rung, full)
-        yield Least(tolerance, _least(rungs, measured, tolerance))
+        full |= {factor: self._full(factor) for factor in self.amplitudes if factor != 1.0}
+        for rung in rungs if len(full) > 1 else ():
+            if rung.parts and not self.cancelled[0]:
+                yield self._growth(rung, full)
+        if not self.cancelled[0]:
+            yield Least(tolerance, _least(rungs, measured, tolerance))
 
     def _full(self, amplitude: float) -> Yardstick:
         return yardstick(ride(self._footing(amplitude).scene, self.span, self.cancelled))
@@ -108,8 +109,8 @@ class _Climb:
 
     def _growth(self, rung: Rung, full: dict[float, Yardstick]) -> Growth:
         found = [self._deviation(rung.parts, factor, full[factor]) for factor in self.amplitudes]
-        relative = tuple(each.relative if each else math.nan for each in found)
-        largest = tuple(each.largest if each else math.nan for each in found)
+        relative = tuple(each.relative if each else None for each in found)
+        largest = tuple(each.largest if each else None for each in found)
         return Growth(rung.id, relative, largest, _slope(self.amplitudes, found))
 
     def _deviation(self, chain: Chain, amplitude: float, full: Yardstick) -> Deviation | None:
@@ -131,7 +132,7 @@ def _slope(amplitudes: tuple[float, ...], found: list[Deviation | None]) -> floa
     points = [
         (math.log(amplitude), math.log(each.relative))
         for amplitude, each in zip(amplitudes, found, strict=True)
-        if each is not None and math.isfinite(each.relative) and each.relative > CERTAIN * max(each.floor, ROUNDING)
+        if each is not None and each.relative and each.relative > CERTAIN * max(each.floor, ROUNDING)
     ]
     if len(points) < 2:
         return None
@@ -144,6 +145,13 @@ def _least(rungs: list[Rung], measured: list[Measured], tolerance: float) -> str
     good = [
         (rung.degrees, each.cost.operations.total, rung.id)
         for rung, each in zip(rungs, measured, strict=True)
-        if each.cost is not None and each.deviation is not None and each.deviation.relative <= tolerance
+        if each.cost is not None and _is_within(each.deviation, tolerance)
     ]
     return min(good)[-1] if good else FULL
+
+
+def _is_within(deviation: Deviation | None, tolerance: float) -> bool:
+    """Where the full motion stands still, only what stands still with it is."""
+    if deviation is None:
+        return False
+    return deviation.largest == 0.0 if deviation.relative is None else deviation.relative <= tolerance

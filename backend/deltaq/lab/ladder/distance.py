@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -22,12 +23,13 @@ from ...simulation.problem import Floats, Problem
 
 @dataclass(frozen=True)
 class Yardstick:
-    """The full motion at `times`, its states (q, q̇), and the mass of all bodies."""
+    """The full motion at `times`, its states (q, q̇), the mass of all bodies, and the error of the integration."""
 
     problem: Problem
     mass: float
     times: Floats
     states: Floats
+    floor: float
 
     def errors(self, values: Mapping[str, Floats]) -> Floats:
         """d at each sample that a rung, its values by coordinate, has in common with the full motion, in metres."""
@@ -35,7 +37,7 @@ class Yardstick:
         rung = np.column_stack([values[name][:count] for name in self.problem.model.layout.free])
         return self._lengths(rung, self.states[:count, : self.problem.degrees])
 
-    @property
+    @cached_property
     def extent(self) -> float:
         """How far the motion gets from where it began, in metres."""
         values = self.states[:, : self.problem.degrees]

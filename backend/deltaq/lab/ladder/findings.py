@@ -25,7 +25,7 @@ class Part:
     @property
     def id(self) -> str:
         """`frozen:y`, `linearized`"""
-        return ":".join((self.kind, *self.parameters.values()))
+        return ":".join((self.kind, *self.parameters.values())).replace(" ", "")
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Ladder:
 
     `amplitudes` are factors of the initial deviation from `centre`: coordinates at rest, or in steady motion where
     coordinates are cyclic. They are 1 alone, and `centre` empty, where there is no such state. `count` is the number
-    of findings that follow.
+    of findings that follow, unless the climb is cancelled.
     """
 
     rungs: tuple[Rung, ...]
@@ -86,13 +86,13 @@ class Deviation:
     """How far a rung is from the full model over time (`deviation.py` has the norm).
 
     `errors` are in metres, one for each of `times`; `largest` is the largest of them and `relative` that as a part of
-    the extent of the full motion. `floor` is the relative error that the integration itself may have.
+    the extent of the full motion, None where that stands still. `floor` is what the integration itself may err by.
     """
 
     times: tuple[float, ...]
     errors: tuple[float, ...]
     largest: float
-    relative: float
+    relative: float | None
     floor: float
 
 
@@ -110,13 +110,13 @@ class Measured:
 class Growth:
     """How the error of a rung grows with the initial amplitude: relative ~ amplitude^slope.
 
-    `relative` and `largest` (metres) hold one number for each amplitude of the ladder, NaN where there is none;
-    `slope` is None where fewer than two of them are above the error of the integration.
+    `relative` and `largest` (metres) hold one number for each amplitude of the ladder, None where there is none; so is
+    `slope` where fewer than two of them are above the error of the integration.
     """
 
     rung: str
-    relative: tuple[float, ...]
-    largest: tuple[float, ...]
+    relative: tuple[float | None, ...]
+    largest: tuple[float | None, ...]
     slope: float | None
 
 

@@ -85,9 +85,13 @@ def _row(entries: Texts, name: str, vector: Mapping[str, str]) -> Iterator[str]:
     """The terms of a row of −A x."""
     for (a, b), text in entries.items():
         if a == name:
-            yield f"-{text}*{vector[b]}"
+            yield f"{_negative(text)}*{vector[b]}"
         if b == name:
             yield f"{text}*{vector[a]}"
+
+
+def _negative(text: str) -> str:
+    return text[2:-1] if text.startswith("(-") and is_name(text[2:-1]) else f"-{text}"
 
 
 def _push(scene: Scene, coordinate: Coordinate, force: Expression) -> Load:

@@ -63,7 +63,7 @@ def yardstick(full: Ride) -> Yardstick:
     found = full.trajectory
     count = int(np.count_nonzero(found.times <= found.trusted_until))
     states = np.hstack([found.values, found.rates])[:count]
-    return Yardstick(full.problem, total_mass(full.scene), found.times[:count], states)
+    return Yardstick(full.problem, total_mass(full.scene), found.times[:count], states, full.floor)
 
 
 def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
@@ -74,10 +74,10 @@ def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
     if good == 0:
         return None
     errors, largest = errors[:good], float(errors[:good].max())
-    relative = largest / full.extent if full.extent > 0.0 else (0.0 if largest == 0.0 else np.inf)
+    relative = largest / full.extent if full.extent > 0.0 else None
     shown = slice(0, good, SHOWN)
     times, curve = full.times[shown].tolist(), errors[shown].tolist()
-    return Deviation(tuple(times), tuple(curve), largest, relative, rung.floor)
+    return Deviation(tuple(times), tuple(curve), largest, relative, max(full.floor, rung.floor))
 
 
 def seen(rung: Ride) -> Motion:
