@@ -4,9 +4,9 @@ import { ApiError } from "./api.js";
 import { latestOnly } from "./latest.js";
 import { linesOf, moved } from "./reveal.js";
 import { endOf, samplesNeeded } from "./trajectory.js";
-import { changed, UNCHANGED } from "./values.js";
+import { changed, readChanges, UNCHANGED, writeChanges } from "./values.js";
 import { createSpeech } from "./speech.js";
-import { NO_FAILURES } from "./state.js";
+import { NO_FAILURES, preferred } from "./state.js";
 import { completed, fragmentOf, OWN } from "./own.js";
 
 /** @typedef {import("./types.js").Failure} Failure */
@@ -103,12 +103,19 @@ export function createSession(store, api, clock) {
     });
   }
 
-  /** @param {string} id @param {string} [step] @param {number} [n] */
-  async function choose(id, step = "", n = 0) {
+  /** @param {import("./types.js").Changes} changes */
+  function change(changes) {
+    set({ changes });
+    move({ set: writeChanges(changes) });
+    askSimulation();
+  }
+
+  /** @param {string} id @param {string} [step] @param {number} [n] @param {string} [changes] as the address has them */
+  async function choose(id, step = "", n = 0, changes = "") {
     simulations.cancel();
     clock.seek(0);
-    set({ scene: null, derivation: null, lines: [], trajectory: null, changes: UNCHANGED, failures: NO_FAILURES });
-    move({ scene: id, step, n, part: id === get().place.scene ? get().place.part : 0 });
+    set({ scene: null, derivation: null, lines: [], trajectory: null, changes: readChanges(changes), failures: NO_FAILURES });
+    move({ scene: id, step, n, set: changes, part: id === get().place.scene ? get().place.part : 0 });
     askSimulation();
     await attempt("scene", async () => {
       const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang, n);
@@ -131,12 +138,13 @@ export function createSession(store, api, clock) {
       const spoken = speak(place.lang);
       if (!place.scene || place.method) await listed;
       const scene = place.scene || preferred(get().scenes);
-      await Promise.all([listed, spoken, ...(scene && (scene !== OWN || own) ? [choose(scene, place.step, place.n)] : [])]);
+      await Promise.all([listed, spoken, ...(scene && (scene !== OWN || own) ? [choose(scene, place.step, place.n, place.set)] : [])]);
     },
     choose,
     /** Shows the viewer's own scene; what is on the page stays until the new is there. @param {import("./own.js").SceneDocument} own */
     async show(own) {
       set({ own, changes: UNCHANGED });
+      move({ set: "" });
       if (get().place.scene !== OWN) return choose(OWN);
       askSimulation();
       await derive();
@@ -175,24 +183,18 @@ export function createSession(store, api, clock) {
     slide(slider, value) {
       const { scene, changes } = get();
       if (!scene) return;
-      set({ changes: changed(scene, changes, slider, value) });
-      askSimulation();
+      change(changed(scene, changes, slider, value));
     },
-    reset() {
-      set({ changes: UNCHANGED });
-      askSimulation();
-    },
+    change,
+    reset: () => change(UNCHANGED),
+    /** Texts that are wanted from now on. */
+    need,
     /** @param {State["overlay"]} overlay */
     overlay(overlay) {
       need("lecture");
       set({ overlay: get().overlay === overlay ? "" : overlay });
     },
   };
-}
-
-/** The scene shown first: the lecture's main example, else any. @param {import("./types.js").SceneEntry[]} scenes */
-function preferred(scenes) {
-  return (scenes.find((scene) => scene.id === "elastic-pendulum") ?? scenes[0])?.id ?? "";
 }
 
 /** @typedef {ReturnType<typeof createSession>} Session */

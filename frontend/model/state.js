@@ -30,3 +30,8 @@ export const START = {
   place: HOME, catalog: {}, scenes: [], methods: [], scene: null, own: null, fragment: "", derivation: null, lines: [],
   trajectory: null, changes: UNCHANGED, failures: NO_FAILURES, simulating: false, overlay: "",
 };
+
+/** The scene shown first: the lecture's main example, else any. @param {import("./types.js").SceneEntry[]} scenes */
+export function preferred(scenes) {
+  return (scenes.find((scene) => scene.id === "elastic-pendulum") ?? scenes[0])?.id ?? "";
+}

@@ -16,14 +16,15 @@
  * @typedef {Record<string, string>} Texts  text by language
  * @typedef {{id: string, title: Texts, summary?: Texts, degrees_of_freedom: number, family?: Family}} SceneEntry
  * @typedef {{id: string, title: Texts, summary: Texts, dimension: number, coordinates: Coordinate[],
- *   parameters: Parameter[], points: Point[], bodies: Body[], loads: Load[], guides?: Guide[],
+ *   parameters: Parameter[], points: Point[], bodies: Body[], loads: Load[], guides?: Guide[], labels?: Record<string, Texts>,
  *   drawing?: Drawing | null}} Scene
  * @typedef {{parameter: string, min: number, max: number, value: number}} Family
  * @typedef {{id: string, rule: string, title: string, text: string, latex: string, marked: string,
  *   verified: boolean, sources: string[], substeps: Step[]}} Step
  * @typedef {{id: string, title: string, steps: Step[]}} Chapter
  * @typedef {{id: string, chapters: Chapter[],
- *   result?: {equations?: {coordinate: string, plain: string, latex: string}[]}}} Derivation
+ *   result?: {equations?: {coordinate: string, plain: string, latex: string}[], points?: Record<string, {plain: string[]}>,
+ *     positions?: Record<string, {plain: string[]}>, virtual_work?: {terms: {plain: string, sources: string[]}[]}}}} Derivation
  * @typedef {{id: string, title?: string, adaptive?: boolean, order?: number}} Method
  * @typedef {{kinetic: number[], potential: number[], balance: number[]}} Energy
  * @typedef {{status: string, reason?: string | null, remedy?: string | null, t: number[],
@@ -52,6 +53,7 @@
  * @typedef {"" | "substeps"} Pace  whether a lecture goes on by steps or by substeps
  * @typedef {"" | "plots" | "nothing"} Beside  what stands beside a step in a lecture, besides the drawing or without it
  * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, n: number, formulation: string,
- *   duration: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside}} Place  what the address says
+ *   duration: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside,
+ *   vary: string, set: string, at: number}} Place  what the address says
  */
 export {};

@@ -3,7 +3,7 @@
 /** @typedef {import("./types.js").Place} Place */
 
 /** @type {Place} */
-export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "" };
+export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "", vary: "", set: "", at: 0 };
 
 const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
@@ -38,6 +38,9 @@ export function readPlace(query) {
     part: whole(given.get("part")),
     pace: /** @type {import("./types.js").Pace} */ (oneOf(PACES, given.get("pace"), HOME.pace)),
     beside: /** @type {import("./types.js").Beside} */ (oneOf(BESIDES, given.get("beside"), HOME.beside)),
+    vary: slug(given.get("vary")),
+    set: slug(given.get("set")),
+    at: Math.max(0, Math.min(LONGEST, Number(given.get("at")) || 0)),
   };
 }
 

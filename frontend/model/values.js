@@ -80,6 +80,25 @@ export function changed(scene, changes, moved, value) {
   return { ...changes, initial: { ...changes.initial, [moved.name]: { ...before, [moved.field]: held } } };
 }
 
+/** Changes as the address has them: "l:0.5" for a parameter, "phi:0.6:0" for value and rate of a coordinate. @param {Changes} changes */
+export function writeChanges({ initial, parameters }) {
+  const numbers = (/** @type {number[]} */ ...values) => values.map((value) => Number(value.toPrecision(6))).join(":");
+  return [
+    ...Object.entries(parameters).map(([name, value]) => `${name}:${numbers(value)}`),
+    ...Object.entries(initial).map(([name, { value, rate }]) => `${name}:${numbers(value, rate)}`),
+  ].join();
+}
+
+/** @param {string} text @returns {Changes} */
+export function readChanges(text) {
+  const parts = text.split(",").map((part) => part.split(":")).filter(([name, ...values]) => name && values.length && values.every((value) => value && Number.isFinite(Number(value))));
+  const of = (/** @type {number} */ length) => parts.filter((part) => part.length === length + 1);
+  return {
+    parameters: Object.fromEntries(of(1).map(([name, value]) => [name, Number(value)])),
+    initial: Object.fromEntries(of(2).map(([name, value, rate]) => [name, { value: Number(value), rate: Number(rate) }])),
+  };
+}
+
 /** @param {Changes} changes */
 export function isChanged(changes) {
   return Object.keys(changes.initial).length + Object.keys(changes.parameters).length > 0;

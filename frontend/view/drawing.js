@@ -80,13 +80,26 @@ function typeset(element, latex) {
 }
 
 /**
+ * Draws figures, one after the other, on the same shapes and labels.
+ * @param {SVGSVGElement} svg @param {HTMLElement} layer
+ */
+export function createSheet(svg, layer) {
+  const drawShapes = pool(svg, () => document.createElementNS(SVG, "path"), updateShape);
+  const drawLabels = pool(layer, () => document.createElement("span"), updateLabel);
+  return (/** @type {import("../model/types.js").Figure} */ { shapes, labels }) => {
+    drawShapes(shapes);
+    drawLabels(labels);
+  };
+}
+
+/**
  * @param {HTMLElement} frame  holds an svg and a layer of labels
  */
 export function createDrawing(frame) {
   const svg = /** @type {SVGSVGElement} */ (frame.querySelector("svg"));
-  const layer = /** @type {HTMLElement} */ (frame.querySelector(".labels"));
-  const drawShapes = pool(svg, () => document.createElementNS(SVG, "path"), updateShape);
-  const drawLabels = pool(layer, () => document.createElement("span"), updateLabel);
+  const sheet = createSheet(svg, /** @type {HTMLElement} */ (frame.querySelector(".labels")));
+  /** @type {import("../model/types.js").Snapshot | null} */
+  let held = null;
   /** @type {{scene: Scene | null, trajectory: Trajectory | null}} */
   let given = { scene: null, trajectory: null };
   /** @type {{scene: Scene, trajectory: Trajectory} | null} */
@@ -102,21 +115,22 @@ export function createDrawing(frame) {
     frame.style.setProperty("--u", `${stage.unit}px`);
   }
 
-  function clear() {
-    drawShapes([]);
-    drawLabels([]);
-  }
-
   /** @param {number} t */
   function draw(t) {
     if (!stage || !shown) return;
-    const figure = figureOf(stage, snapshotAt(shown.trajectory, t));
-    drawShapes(figure.shapes);
-    drawLabels(figure.labels);
+    sheet(figureOf(stage, held ?? snapshotAt(shown.trajectory, t)));
   }
 
   return {
     draw,
+    /** Where things stand on the screen; null before there is anything to draw. */
+    get stage() {
+      return stage;
+    },
+    /** Shows a configuration instead of the motion, until it is let go. @param {import("../model/types.js").Snapshot | null} snapshot */
+    hold(snapshot) {
+      held = snapshot;
+    },
     /** @param {Scene | null} scene @param {Trajectory | null} trajectory @param {number} t */
     show(scene, trajectory, t) {
       if (given.scene === scene && given.trajectory === trajectory) return;
@@ -124,7 +138,7 @@ export function createDrawing(frame) {
       shown = scene && trajectory?.t.length ? { scene: withDrawing(scene, trajectory), trajectory } : null;
       measure();
       if (shown) draw(t);
-      else clear();
+      else sheet({ shapes: [], labels: [] });
     },
     /** @param {number} t */
     resize(t) {

@@ -25,6 +25,7 @@ import { FORMULATIONS } from "../model/url.js";
  * @property {() => void} fullscreen
  * @property {() => void} reload
  * @property {(typeof import("./overlays.js")["overlays"]) | undefined} overlays  once one has been asked for
+ * @property {import("./figure/open.js").Instruments | null} instruments  once they have been fetched
  * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
  * @property {() => void} enterLecture
  * @property {import("./lecture/open.js").Lecture | null} lecture  while lecture mode is on
@@ -44,7 +45,7 @@ export function page(view) {
       <section class="figure ${failures.simulation ? "failed" : ""}" aria-label=${t("drawing")}>
         ${drawing(view)}
         ${player(view)}
-        ${values(view)}
+        ${(state.place.vary && view.instruments?.panel(view)) || values(view)}
         <div class="plots" role="img" aria-label=${t("plots.description")}>
           <div class="canvas"></div><div class="rows"></div><div class="beyond" hidden></div>
           <div class="ghost" hidden></div><div class="cursor"></div>
@@ -112,7 +113,8 @@ function unknownScene({ state, link, follow, session, t }) {
 }
 
 /** @param {View} view */
-function drawing({ state, session, t }) {
+function drawing(view) {
+  const { state, session, t, instruments } = view;
   const { lang } = state.place;
   const title = inLanguage(state.scene?.title, lang);
   const summary = inLanguage(state.scene?.summary, lang);
@@ -122,6 +124,7 @@ function drawing({ state, session, t }) {
       <svg role="img" aria-label=${t("drawing.description", { title, summary })}></svg>
       <div class="labels" aria-hidden="true"></div>
       <div class="readouts" aria-hidden="true"></div>
+      <div class="figure-tools">${instruments?.tools(view)}</div>
       ${waiting ? html`<p class="patience" role="status">${t("drawing.loading")}</p>` : nothing}
       ${state.failures.simulation && !state.failures.scene ? failure(state.failures.simulation, t("failure.simulation"), () => session.resimulate({}), t) : nothing}
     </div>

@@ -36,6 +36,7 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
     assert all(chapter.steps for chapter in answer.chapters)
     assert answer.result.keys() == {
         "positions",
+        "points",
         "virtual_displacements",
         "virtual_work",
         "kinetic_energy",

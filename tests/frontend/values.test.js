@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { changed, dotted, isChanged, slidersOf, UNCHANGED } from "../../frontend/model/values.js";
+import { changed, dotted, isChanged, slidersOf, readChanges, UNCHANGED, writeChanges } from "../../frontend/model/values.js";
 import { scene } from "./fixtures.js";
 
 const sliderOf = (/** @type {string} */ key) => /** @type {import("../../frontend/model/values.js").Slider} */ (slidersOf(scene, UNCHANGED).find((s) => s.key === key));
@@ -45,3 +45,11 @@ const DOTS = [["q_1", "\\dot{q}_1"], ["\\varphi", "\\dot{\\varphi}"], ["x", "\\d
 for (const [latex, expected] of DOTS) {
   test(`the rate of ${latex}`, () => assert.equal(dotted(latex), expected));
 }
+
+test("changes have an address, and what is not one is passed over", () => {
+  const text = "l:0.5,phi:0.6:-1.25";
+  assert.deepEqual(readChanges(text), { parameters: { l: 0.5 }, initial: { phi: { value: 0.6, rate: -1.25 } } });
+  assert.equal(writeChanges(readChanges(text)), text);
+  assert.deepEqual(readChanges("l,:3,m:x,k:,a:1:2:3"), UNCHANGED);
+  assert.equal(writeChanges(UNCHANGED), "");
+});

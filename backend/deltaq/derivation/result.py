@@ -55,6 +55,7 @@ class Result:
 
     scene: Scene
     positions: Mapping[str, sp.ImmutableMatrix]
+    points: Mapping[str, sp.ImmutableMatrix]
     virtual_displacements: Mapping[str, sp.ImmutableMatrix]
     virtual_work: sp.Expr
     kinetic_energy: sp.Expr
@@ -80,6 +81,7 @@ def result_of(system: System) -> Result:
     return Result(
         scene=system.scene,
         positions={name: system.position(name) for name in bodies},
+        points={point.name: system.position(point.name) for point in system.scene.points},
         virtual_displacements={name: system.virtual_displacement(name) for name in bodies},
         virtual_work=system.collected(sum(map(system.virtual_work, system.scene.contributions), system.zero)),
         kinetic_energy=system.kinetic_energy,

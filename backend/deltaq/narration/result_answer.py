@@ -21,6 +21,7 @@ def written(result: Result, typography: Typography) -> Document:
     write = _Writer(result, typography)
     return {
         "positions": {name: write.vector(value) for name, value in result.positions.items()},
+        "points": {name: write.vector(value) for name, value in result.points.items()},
         "virtual_displacements": {name: write.vector(value) for name, value in result.virtual_displacements.items()},
         "virtual_work": write.sum("virtual_work", result.virtual_work),
         "kinetic_energy": write.sum("kinetic_energy", result.kinetic_energy),

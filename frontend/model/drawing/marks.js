@@ -21,7 +21,7 @@ const SHORTEST = 0.6;
  * @param {Pixel} from @param {Pixel} vector in pixels @param {string} key @param {string} className @param {number} size
  * @returns {import("../types.js").Shape[]}
  */
-function arrow(from, vector, key, className, size) {
+export function arrow(from, vector, key, className, size) {
   const tip = add(from, vector);
   const along = unit(vector);
   const shaft = line(from, add(tip, scaled(along, -size * 0.7)));

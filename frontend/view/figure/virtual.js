@@ -1,0 +1,150 @@
+/** The variation to be seen: sliders for δq, a ghost of the drawing, arrows δr and dr, and the work of each load. */
+
+import { html } from "lit-html";
+import { live } from "lit-html/directives/live.js";
+import { inline } from "../formula.js";
+import { createSheet } from "../drawing.js";
+import { inLanguage } from "../../model/catalog.js";
+import { decimalsOf, fixed, unitText } from "../../model/numbers.js";
+import { LONGEST, reachOf, readChoice, writeChoice } from "../../model/virtual/choice.js";
+import { virtualFigure } from "../../model/virtual/figure.js";
+import { scaled, virtualOf } from "../../model/virtual/virtual.js";
+
+/** @typedef {import("../page.js").View} View */
+/** @typedef {import("./open.js").Bench} Bench */
+
+const SVG = "http://www.w3.org/2000/svg";
+const NOTHING = { shapes: [], labels: [] };
+
+/** Two layers, below and above the drawing. @param {HTMLElement} frame */
+function layersIn(frame) {
+  const [under, over] = ["under", "over"].map((name) => {
+    const [svg, labels] = [document.createElementNS(SVG, "svg"), document.createElement("div")];
+    svg.setAttribute("class", name);
+    labels.className = "labels";
+    for (const part of [svg, labels]) part.setAttribute("aria-hidden", "true");
+    frame.append(svg, labels);
+    return { svg, draw: createSheet(svg, labels) };
+  });
+  return { under, over };
+}
+
+/** @param {Bench} bench */
+export function createVirtual(bench) {
+  const { frame, parts: { drawing }, state, session } = bench;
+  const { under, over } = layersIn(frame);
+  let shown = false;
+
+  const free = () => {
+    const { scene } = state();
+    const guided = new Set((scene?.guides ?? []).map(({ coordinate }) => coordinate));
+    return (scene?.coordinates ?? []).filter(({ name }) => !guided.has(name));
+  };
+  const choice = () => readChoice(state().place.vary, free());
+  /** @param {import("../../model/virtual/choice.js").Choice} next */
+  const choose = (next) => session.move({ vary: writeChoice(next) });
+
+  function clear() {
+    if (shown) [under, over].forEach(({ draw }) => draw(NOTHING));
+    frame.classList.remove("varied");
+    shown = false;
+  }
+
+  function compute() {
+    const [kinematics, now] = [bench.kinematics(), bench.now()];
+    if (!kinematics || !now || !state().scene) return null;
+    return virtualOf(kinematics, now, (state().scene?.bodies ?? []).map(({ name }) => name), choice());
+  }
+
+  function move() {
+    const { stage } = drawing;
+    const found = state().place.vary && stage ? compute() : null;
+    if (!stage || !found) return clear();
+    shown = true;
+    frame.classList.add("varied");
+    const { width, height } = stage.size;
+    const figure = virtualFigure(stage, found);
+    for (const { svg } of [under, over]) svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    under.draw(figure.under);
+    over.draw(figure.over);
+    weigh(found);
+  }
+
+  /** Each load's work as a bar to the right or left. @param {import("../../model/virtual/virtual.js").Virtual} virtual */
+  function weigh({ works, total }) {
+    const { lang } = state().place;
+    const largest = Math.max(...works.map(({ work }) => Math.abs(work)), Math.abs(total), 1e-12);
+    for (const { load, work } of [...works, { load: "", work: total }]) {
+      const bar = /** @type {HTMLElement | null} */ (document.querySelector(`.bars [data-load="${CSS.escape(load)}"]`));
+      if (!bar) continue;
+      /** @type {HTMLElement} */ (bar.querySelector(".fill")).style.transform = `scaleX(${work / largest})`;
+      /** @type {HTMLElement} */ (bar.querySelector(".number")).textContent = `${fixed(work, 3, lang)} J`;
+    }
+  }
+
+  /** The motion's own change of the coordinates in dt. */
+  function follow() {
+    const [now, { dt }] = [bench.now(), choice()];
+    if (now) choose({ delta: scaled(now.rates, dt), dt });
+  }
+
+  return {
+    move,
+    /** @param {View} view */
+    panel: (view) => panel(view, free(), choice(), { choose, follow, loads: compute()?.works.map(({ load }) => load) ?? [] }),
+  };
+}
+
+/**
+ * @param {View} view @param {import("../../model/types.js").Coordinate[]} free
+ * @param {import("../../model/virtual/choice.js").Choice} choice
+ * @param {{choose: (next: import("../../model/virtual/choice.js").Choice) => void, follow: () => void, loads: string[]}} actions
+ */
+function panel({ state, session, t }, free, { delta, dt }, { choose, follow, loads }) {
+  const { lang } = state.place;
+  const index = (/** @type {string} */ name) => state.scene?.coordinates.findIndex((each) => each.name === name);
+  return html`
+    <section class="values virtual-panel" aria-label=${t("virtual")}>
+      <div class="heading"><h2>${t("virtual.frozen")}</h2>
+        <button class="quiet small" @click=${() => session.move({ vary: "" })}>${t("virtual.close")}</button></div>
+      ${free.map((each) => row({
+        className: `q-${index(each.name)}`, key: each.name, latex: `\\delta ${each.latex || each.name}`, unit: each.unit, label: t("virtual.delta", { name: each.name }),
+        value: delta[each.name] ?? 0, reach: reachOf(each), least: -reachOf(each), set: (value) => choose({ delta: { ...delta, [each.name]: value }, dt }),
+      }))}
+      <div class="heading"><h2>${t("virtual.running")}</h2>
+        <button class="quiet small" title=${t("virtual.follow-help")} ?disabled=${!dt} @click=${follow}>${inline("\\delta q = \\dot q\\,\\mathrm dt")}</button></div>
+      ${row({ className: "time-term", key: "dt", latex: "\\mathrm dt", unit: "s", label: t("virtual.dt"), value: dt, reach: LONGEST, least: 0, set: (value) => choose({ delta, dt: value }) })}
+      <ul class="arrows">
+        <li><span class="swatch virtual"></span>${inline("\\delta\\mathbf r")}<span>${t("virtual.variation")}</span></li>
+        ${dt ? html`<li><span class="swatch actual"></span>${inline("\\mathrm d\\mathbf r")}<span>${t("virtual.differential")}</span></li>
+          <li class="time-term"><span class="swatch"></span>${inline("\\tfrac{\\partial\\mathbf r}{\\partial t}\\mathrm dt")}<span>${state.scene?.guides?.length ? t("virtual.explicit") : t("virtual.no-explicit")}</span></li>` : ""}
+      </ul>
+      <div class="heading"><h2>${t("virtual.work")} ${inline("\\mathbf F\\cdot\\delta\\mathbf r")}</h2></div>
+      <div class="bars">
+        ${loads.map((load) => bar(load, inLanguage(state.scene?.labels?.[load], lang) || load, `load-${load}`))}
+        ${bar("", inline("\\delta W"), "whole")}
+      </div>
+    </section>
+  `;
+}
+
+/** @param {{className: string, key: string, latex: string, unit: string, label: string, value: number, reach: number, least: number, set: (value: number) => void}} given */
+function row({ className, key, latex, unit, label, value, reach, least, set }) {
+  const changed = (/** @type {Event} */ e) => {
+    const asked = Number(/** @type {HTMLInputElement} */ (e.target).value);
+    if (Number.isFinite(asked)) set(Math.max(least, Math.min(reach, asked)));
+  };
+  const step = reach / 100;
+  return html`
+    <div class="row ${className}" data-slider=${`delta-${key}`}>
+      <span class="symbol" title=${label}>${inline(latex)}</span>
+      <input type="range" aria-label=${label} min=${least} max=${reach} step=${step} style="--filled:${(value - least) / (reach - least)}"
+        .value=${live(String(value))} @input=${changed}>
+      <input type="number" aria-label=${`${label} (${unitText(unit)})`} step="any" .value=${live(String(Number(value.toFixed(Math.max(2, decimalsOf(step))))))} @change=${changed}>
+      <span class="unit">${unitText(unit)}</span>
+    </div>`;
+}
+
+/** @param {string} load @param {unknown} name @param {string} className */
+const bar = (load, name, className) => html`
+  <div class="bar ${className}" data-load=${load}><span class="name">${name}</span><span class="rail"><span class="fill"></span></span><span class="number"></span></div>`;

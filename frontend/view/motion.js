@@ -1,0 +1,99 @@
+/** All that moves with the clock: drawing, plots, read-outs and slider, and the instruments to take it in hand. */
+
+import { createLater } from "../model/later.js";
+import { translator } from "../model/catalog.js";
+import { fixed } from "../model/numbers.js";
+import { createDrawing } from "./drawing.js";
+import { createTransport } from "./player.js";
+import { createPlots } from "./plots.js";
+import { createReadouts } from "./readouts.js";
+
+/** Milliseconds until the instruments come without a hand near them. */
+const PATIENCE = 8000;
+
+/**
+ * @param {{root: HTMLElement, state: () => import("../model/state.js").State, clock: import("../model/clock.js").Clock,
+ *   session: import("./page.js").View["session"], still: MediaQueryList, update: () => void}} around
+ */
+export function createMotion({ root, state, clock, session, still, update }) {
+  const find = (/** @type {string} */ selector) => /** @type {HTMLElement} */ (root.querySelector(selector));
+  /** @type {ReturnType<typeof assemble> | null} */
+  let parts = null;
+  let begun = false;
+
+  const instruments = createLater(async () => {
+    const { open } = await import("./figure/open.js");
+    return open({ root, frame: find(".drawing"), parts: /** @type {NonNullable<typeof parts>} */ (parts), state, clock, session });
+  }, update);
+
+  function assemble() {
+    const made = {
+      drawing: createDrawing(find(".drawing")), plots: createPlots(find(".plots"), { seek: scrub }),
+      readouts: createReadouts(find(".readouts")), transport: createTransport(find(".player")),
+    };
+    new ResizeObserver(() => made.drawing.resize(clock.time)).observe(find(".drawing"));
+    const near = (/** @type {Event} */ { target }) => target instanceof Element && target.closest(".figure") && void instruments.want();
+    for (const event of ["pointerover", "focusin"]) root.addEventListener(event, near);
+    setTimeout(instruments.want, PATIENCE);
+    return made;
+  }
+
+  /** The moment as a sentence, for those who do not see it. @param {number} t @param {string} values */
+  function moment(t, values) {
+    const { catalog, place } = state();
+    return translator(/** @type {Record<string, unknown>} */ (catalog.page ?? {}))("drawing.moment", { time: fixed(t, 2, place.lang), values });
+  }
+
+  /** Shows the moment t everywhere. @param {number} t */
+  function move(t) {
+    if (!parts) return;
+    parts.drawing.draw(t);
+    parts.plots.move(t);
+    parts.readouts.move(t);
+    parts.transport.move(t, clock, state().place.lang);
+    instruments.part?.move();
+    if (!clock.playing) parts.transport.scrub.setAttribute("aria-valuetext", moment(t, parts.readouts.text(t)));
+  }
+
+  /** The motion begins by itself once, unless the viewer prefers rest or was sent to a moment. */
+  function begin() {
+    if (begun || !state().trajectory) return;
+    begun = true;
+    if (state().place.at) clock.seek(state().place.at);
+    else if (!still.matches && !state().place.vary) play();
+  }
+
+  /** A resting motion has its moment in the address. @param {boolean} on @param {number} [t] */
+  function set(on, t) {
+    clock.play(on);
+    if (t !== undefined) clock.seek(t);
+    session.move({ at: on ? 0 : Math.round(clock.time * 100) / 100 });
+    update();
+  }
+  const play = () => set(!clock.playing);
+  const scrub = (/** @type {number} */ t) => set(false, t);
+  clock.subscribe(move);
+
+  return {
+    play, scrub,
+    get instruments() {
+      return instruments.part;
+    },
+    /** What the page holds, after it has been rendered. @param {string} theme */
+    show(theme) {
+      const { scene, trajectory, place, lines, failures } = state();
+      parts ??= assemble();
+      parts.drawing.show(scene, trajectory, clock.time);
+      parts.readouts.show(scene, trajectory, place.lang);
+      // The first step is to be read before the plots cost anything.
+      const readable = lines.length > 0 || failures.derivation;
+      parts.plots.show(readable && scene && trajectory ? { scene, trajectory, duration: place.duration, lang: place.lang, theme } : null);
+      if (place.vary) void instruments.want();
+      begin();
+      move(clock.time);
+    },
+  };
+}
+
+/** @typedef {Pick<ReturnType<typeof createMotion>, "play" | "scrub">} Motion */
+/** @typedef {{drawing: ReturnType<typeof createDrawing>, plots: ReturnType<typeof createPlots>}} Parts */

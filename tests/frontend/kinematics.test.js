@@ -1,0 +1,98 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { evaluator } from "../../frontend/model/kinematics/expression.js";
+import { configured, kinematicsOf } from "../../frontend/model/kinematics/kinematics.js";
+import { ratesAt } from "../../frontend/model/kinematics/rates.js";
+import { reached } from "../../frontend/model/kinematics/reach.js";
+import { snapshotAt } from "../../frontend/model/trajectory.js";
+import { readChoice, writeChoice } from "../../frontend/model/virtual/choice.js";
+import { virtualFigure } from "../../frontend/model/virtual/figure.js";
+import { virtualOf } from "../../frontend/model/virtual/virtual.js";
+import { stageOf } from "../../frontend/model/drawing/stage.js";
+import { scene, square, trajectory } from "./fixtures.js";
+
+const VALUES = { x: 3, y: 2, l: 0.5, phi: 0.4, t: 2, "dot(phi)": 7, "delta(phi)": 0.1 };
+/** @type {[string, number][]} */
+const EXPRESSIONS = [
+  ["2*x - y/4", 5.5],
+  ["x - y - 1", 0],
+  ["-x^2", -9],
+  ["2^3^2", 512],
+  ["x^(-1)", 1 / 3],
+  ["-(x + y)*l", -2.5],
+  ["l*sin(phi)", 0.5 * Math.sin(0.4)],
+  ["atan2(y, x)", Math.atan2(2, 3)],
+  ["dot(phi)^2*delta(phi)", 4.9],
+  ["1.5e-3*t", 0.003],
+  ["cos(pi)", -1],
+];
+for (const [text, value] of EXPRESSIONS) {
+  test(`the value of ${text}`, () => assert.ok(Math.abs(evaluator(text)(VALUES) - value) < 1e-12));
+}
+for (const text of ["", "x +", "(x", "x y", "f(x)", "x; y", "2**x", "x)"]) {
+  test(`“${text}” is refused`, () => assert.throws(() => evaluator(text), SyntaxError));
+}
+test("an unknown name has no value", () => assert.ok(Number.isNaN(evaluator("z + 1")(VALUES))));
+
+/** The pendulum of the fixtures on a base that a guide moves: y = 0.5 sin t. */
+const RESULT = {
+  points: { pivot: { plain: ["0", "0.5*sin(t)"] } },
+  positions: { bob: { plain: ["sin(phi)", "0.5*sin(t) + cos(phi)"] } },
+  virtual_work: { terms: [{ plain: "-m*g*sin(phi)*delta(phi)", sources: ["load:weight"] }, { plain: "2*delta(phi)", sources: ["load:F"] }] },
+};
+const guided = { ...scene, guides: [{ coordinate: "y", value: "0.5*sin(t)" }] };
+const kinematics = kinematicsOf(guided, RESULT, { m: 2 });
+const near = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.every((x, i) => Math.abs(x - b[i]) < 1e-6);
+
+test("a place for any values of the coordinates, and its slope with and without time", () => {
+  assert.deepEqual(kinematics.free, ["phi"]);
+  assert.ok(near(kinematics.places({ y: 0, phi: 0 }, Math.PI / 2).bob, [0, 1.5]));
+  assert.ok(near(kinematics.slope({ y: 0, phi: 0.3 }, 1, { phi: 2 }).bob, [2 * Math.cos(0.3), -2 * Math.sin(0.3)]));
+  assert.ok(near(kinematics.slope({ y: 0, phi: 0.3 }, 1, {}, 1).bob, [0, 0.5 * Math.cos(1)]));
+});
+
+test("the work of each load, with parameters as changed", () => {
+  const [weight, force] = kinematics.works({ y: 0, phi: 0.5 }, {}, 0, { phi: 0.1 });
+  assert.deepEqual([weight.load, force.load], ["weight", "F"]);
+  assert.ok(Math.abs(weight.work + 2 * 9.81 * Math.sin(0.5) * 0.1) < 1e-12);
+  assert.equal(force.work, 0.2);
+});
+
+const now = { ...snapshotAt(trajectory, 1), rates: { y: 0, phi: 0.25 } };
+
+test("the variation stands still in time, the differential does not", () => {
+  const { displacements: [bob], later } = virtualOf(kinematics, now, ["bob"], { delta: { phi: 0.25 * 0.2 }, dt: 0.2 });
+  assert.ok(near(bob.variation, bob.frozen), "the motion's own change of the coordinates, as a variation");
+  assert.ok(near(bob.explicit, [0, 0.2 * 0.5 * Math.cos(1)]), "what the guide adds");
+  assert.ok(near(later?.positions.pivot ?? [], [0, 0.5 * Math.sin(1.2)]));
+  assert.equal(virtualOf(kinematics, now, ["bob"], { delta: {}, dt: 0 }).later, null);
+});
+
+test("the ghost has the members and nothing else; each displacement has its arrow", () => {
+  const stage = stageOf(guided, trajectory, square(400));
+  const figure = virtualFigure(stage, virtualOf(kinematics, now, ["bob"], { delta: { phi: 0.5 }, dt: 0.4 }));
+  const kinds = new Set(figure.under.shapes.map(({ key }) => key.replace(/\d.*/, "")));
+  assert.deepEqual([...kinds], ["varied rod", "varied bob", "later rod", "later bob"]);
+  assert.deepEqual(figure.over.labels.map(({ key }) => key), ["variation-bob", "differential-bob", "explicit-bob"]);
+});
+
+test("a place is brought where the hand is, or as near as it can come", () => {
+  const project = (/** @type {number[]} */ [x, y]) => /** @type {[number, number]} */ ([100 * x, 100 * y]);
+  const free = kinematicsOf(scene, { ...RESULT, points: { pivot: { plain: ["0", "y"] } }, positions: { bob: { plain: ["sin(phi)", "y + cos(phi)"] } } }, {});
+  const there = reached(free, "bob", { y: 0, phi: 0.2 }, 0, [60, 110], project);
+  assert.ok(near(configured(free, now, there).positions.bob, [0.6, 1.1]));
+  const nearest = reached(kinematics, "bob", { y: 0, phi: 0.2 }, 0, [300, 0], project);
+  assert.ok(Math.abs(nearest.phi - Math.PI / 2) < 1e-2 && nearest.y === 0);
+});
+
+test("rates from the samples, where none were sent", () => {
+  assert.ok(Math.abs(ratesAt({ ...trajectory, rates: undefined }, 2).phi - 0.25) < 1e-9);
+  assert.equal(ratesAt(trajectory, 2).phi, 0.25);
+});
+
+test("what is varied has an address; at first something is", () => {
+  const free = scene.coordinates;
+  assert.equal(writeChoice(readChoice("y:0.1,phi:-0.2,dt:0.3", free)), "y:0.1,phi:-0.2,dt:0.3");
+  assert.ok(Object.values(readChoice("on", free).delta).some((value) => value > 0));
+  assert.deepEqual(readChoice("phi:9,dt:-1,z:3", free), { delta: { y: 0, phi: 1 }, dt: 0 });
+});
