@@ -8,7 +8,8 @@ import { withStep, withTolerance } from "./model/labs/figure.js";
 import { EXAMPLES, pointOf, readQuestion, requestOf, writeQuestion } from "./model/labs/question.js";
 import { stepRange } from "./model/labs/step.js";
 import { experiment, file } from "./model/labs/stream.js";
-import { completed, documentIn, OWN, readDraft } from "./model/own.js";
+import { motionOf, written } from "./model/labs/watch.js";
+import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { withSides } from "./view/labs/form.js";
@@ -18,7 +19,6 @@ import { createCharts } from "./view/labs/plotly.js";
 
 /** @typedef {import("./model/labs/stream.js").Chart} Chart */
 
-const PLAYED = 20;
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -63,32 +63,25 @@ function pressed(chart, x, y) {
   if (map) void watch(pointOf(bench.get().question, map, x, y));
 }
 
-/** Simulates and plays what a chart points at. @param {any} wish */
+/** Simulates and plays what a chart points at. @param {import("./model/labs/watch.js").Wish} wish */
 async function watch(wish) {
   const { question, scene } = bench.get();
   if (!scene) return;
-  const { parameters = question.parameters, initial = question.initial, method, step, t_end = PLAYED } = wish;
-  const stepped = method ? { method, step } : {};
-  const title = method ? speech()("labs.played-method", { method: methodTitle(method), step: step.toPrecision(3) }) : speech()("labs.played-point", { values: written({ parameters, initial }) });
+  const { method, step = 0 } = wish;
+  const title = method ? speech()("labs.played-method", { method: methodTitle(method), step: step.toPrecision(3) }) : speech()("labs.played-point", { values: written(wish) });
+  const told = (/** @type {string} */ status) => set({ play: { title, status, address: "" } });
   try {
-    const body = { scene: documentOf(question.scene), parameters, initial, t_end, samples: Math.round(60 * PLAYED) + 1, include: ["coordinates", "positions", "loads", "energy"], lang: lang(), ...stepped };
-    const trajectory = await api.simulate(body);
-    set({ play: { title, status: trajectory.status === "ok" ? "" : trajectory.reason ?? "", address: "" } });
+    const trajectory = await api.simulate(motionOf(question, wish, documentOf(question.scene), lang()));
+    told(trajectory.status === "ok" ? "" : trajectory.reason ?? "");
     queueMicrotask(() => motion.begin(scene, trajectory));
   } catch (error) {
-    set({ play: { title, status: /** @type {Error} */ (error).message, address: "" } });
+    told(/** @type {Error} */ (error).message);
   }
-}
-
-/** @param {Pick<import("./model/labs/question.js").Question, "parameters" | "initial">} values */
-function written({ parameters, initial }) {
-  const numbers = [...Object.entries(parameters), ...Object.entries(initial).map(([name, { value }]) => /** @type {const} */ ([name, value ?? 0]))];
-  return numbers.map(([name, value]) => `${name} = ${Number(value).toPrecision(4)}`).join(", ");
 }
 
 /** @param {string} name */
 const section = (name) => /** @type {Record<string, unknown>} */ (get().catalog[name] ?? {});
-const speech = () => translator({ ...section("page"), labs: section("labs") });
+const speech = () => translator({ ...section("page"), labs: section("labs"), ladder: section("ladder") });
 
 /** @param {string} id */
 function methodTitle(id) {
@@ -134,10 +127,16 @@ async function fetchFile(accept) {
   setTimeout(() => URL.revokeObjectURL(anchor.href), 1000);
 }
 
+/** A rung as a scene of its own. @param {object} scene */
+async function open(scene) {
+  const { lang, theme } = get().place;
+  location.assign(`/scene${writePlace({ ...HOME, lang, theme })}${await fragmentOf(/** @type {import("./model/own.js").SceneDocument} */ (scene))}`);
+}
+
 /** @param {string} wanted */
 async function speak(wanted) {
   move({ lang: wanted });
-  const catalog = await api.catalog(wanted, "labs", "methods").catch(() => null);
+  const catalog = await api.catalog(wanted, "labs", "ladder", "methods").catch(() => null);
   if (catalog && lang() === wanted) set({ catalog });
 }
 
@@ -160,7 +159,7 @@ function update() {
   document.title = `δq · ${t("place.labs")}`;
   const now = chartsNow();
   render(page({
-    state: { place }, session, t, bench: bench.get(), benches: starting, scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, watch: (wish) => void watch(wish),
+    state: { place }, session, t, bench: bench.get(), benches: starting, scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, open: (scene) => void open(scene), watch: (wish) => void watch(wish),
     turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
     save: (chart, format) => void charts.save(chart, format),
   }), root);

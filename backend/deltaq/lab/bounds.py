@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 LONGEST, SPAN = 1000.0, 10.0  # seconds of motion: at most, and usually
+TOLERANCES_OF_MODEL = (1e-9, 10.0)  # relative error of a simpler model
 LOCAL_TOLERANCES = (1e-13, 1e-1)
 DRIFT_STEPS, USUAL_DRIFT = (1_000, 1_000_000), 100_000
 MAP_POINTS, USUAL_MAP = (8, 400), 200  # on a side of the stability map

@@ -1,6 +1,6 @@
 /** What a lab is asked: which experiment, on which scene, with which values; as an address, and as a request. */
 
-export const LABS = ["work-precision", "convergence", "energy-drift", "stability", "stability-map", "chaos"];
+export const LABS = ["work-precision", "convergence", "energy-drift", "stability", "stability-map", "chaos", "fidelity"];
 
 /** @typedef {{parameter: string, from: number, to: number}} Side */
 /**
@@ -15,12 +15,13 @@ export const LABS = ["work-precision", "convergence", "energy-drift", "stability
  * @property {Side | null} x
  * @property {Side | null} y
  * @property {boolean} flips
+ * @property {number} allowed  relative error of the least rung, in percent
  * @property {Record<string, number>} parameters
  * @property {Record<string, {value?: number, rate?: number}>} initial
  */
 
 /** @type {Question} */
-export const NOTHING = { lab: LABS[0], scene: "", duration: 0, peers: false, steps: 0, at: "state", stiffness: "", x: null, y: null, flips: true, parameters: {}, initial: {} };
+export const NOTHING = { lab: LABS[0], scene: "", duration: 0, peers: false, steps: 0, at: "state", stiffness: "", x: null, y: null, flips: true, allowed: 1, parameters: {}, initial: {} };
 
 /** The scene that shows a lab best, and what else to ask there. @type {Record<string, Partial<Question>>} */
 export const EXAMPLES = {
@@ -30,6 +31,7 @@ export const EXAMPLES = {
   stability: { scene: "quarter-car" },
   "stability-map": { scene: "kapitza", x: { parameter: "omega", from: 10, to: 120 }, y: { parameter: "y0", from: 0.01, to: 0.2 } },
   chaos: { scene: "double-pendulum", initial: { phi1: { value: 2 }, phi2: { value: 2.5 } } },
+  fidelity: { scene: "elastic-pendulum" },
 };
 
 /** @param {string} query */
@@ -50,6 +52,7 @@ export function readQuestion(query) {
     x: sideOf(given.get("x")),
     y: sideOf(given.get("y")),
     flips: given.get("flips") !== "0",
+    allowed: number("allowed") || NOTHING.allowed,
     parameters: {},
     initial: {},
   };
@@ -74,9 +77,9 @@ function sideOf(text) {
 
 /** The query of a question, without what is as usual. @param {Question} question */
 export function writeQuestion(question) {
-  const { parameters, initial, x, y, lab, scene, duration, peers, steps, at, stiffness, flips } = question;
+  const { parameters, initial, x, y, lab, scene, duration, peers, steps, at, stiffness, flips, allowed } = question;
   const side = (/** @type {Side | null} */ s) => (s ? `${s.parameter}:${s.from}:${s.to}` : "");
-  const own = { lab, scene, t: duration || "", peers: peers ? 1 : "", steps: steps || "", at: at === "rest" ? at : "", stiffness, x: side(x), y: side(y), flips: flips ? "" : "0" };
+  const own = { lab, scene, t: duration || "", peers: peers ? 1 : "", steps: steps || "", at: at === "rest" ? at : "", stiffness, x: side(x), y: side(y), flips: flips ? "" : "0", allowed: allowed === NOTHING.allowed ? "" : allowed };
   const values = Object.entries(parameters).map(([name, value]) => [`p.${name}`, value]);
   const starts = Object.entries(initial).flatMap(([name, { value, rate }]) => [[`q.${name}`, value], [`v.${name}`, rate]]);
   const query = new URLSearchParams();
@@ -94,6 +97,7 @@ const OWN = {
   stability: ({ at, stiffness }) => ({ at, ...(stiffness ? { stiffness } : {}) }),
   "stability-map": ({ x, y }) => ({ x, y }),
   chaos: ({ flips }) => ({ map: flips }),
+  fidelity: ({ allowed }) => ({ tolerance: allowed / 100 }),
 };
 
 /** @param {Question} question @param {string | object} scene @param {string} lang */

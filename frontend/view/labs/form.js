@@ -82,6 +82,11 @@ function at(view) {
     ${["state", "rest"].map((place) => html`<option value=${place} ?selected=${place === bench.question.at}>${t(`labs.at-${place}`)}</option>`)}</select>`);
 }
 
+/** @param {View} view */
+function allowed(view) {
+  return field(view, "fidelity.tolerance", number(view.bench.question.allowed, (percent) => view.benches.edit({ allowed: percent }), { min: 1e-6, max: 100 }));
+}
+
 /** @param {Scene | null} scene */
 const parametersOf = (scene) => scene?.parameters ?? [];
 
@@ -145,6 +150,7 @@ const OPTIONS = {
   stability: [at, stiffness, duration],
   "stability-map": [side("x"), side("y")],
   chaos: [duration, flips],
+  fidelity: [duration, allowed],
 };
 
 /** The sides of a map as the form shows them, also while nobody has chosen. @param {Scene | null} scene @param {import("../../model/labs/question.js").Question} question */

@@ -7,6 +7,7 @@ import { failure } from "../failure.js";
 import { appearance, brand, language, places } from "../header.js";
 import { form } from "./form.js";
 import { motion } from "./motion.js";
+import { rungs } from "./rungs.js";
 import { failures, slider } from "./stability.js";
 import { tolerance } from "./tolerance.js";
 
@@ -16,7 +17,7 @@ import { tolerance } from "./tolerance.js";
  *   benches: import("../../model/labs/bench.js").Benches, scenes: import("../../model/types.js").SceneEntry[],
  *   t: import("../page.js").View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
  *   save: (chart: Chart, format: "png" | "svg") => void, fetchFile: (accept: string) => void,
- *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string}} View
+ *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string, open: (scene: object) => void}} View
  * @typedef {{tolerance: number, step: number}} Dial  where the sliders stand: wanted error, step h in seconds
  * @typedef {{title: string, address: string, status: string}} Play
  */
@@ -24,7 +25,7 @@ import { tolerance } from "./tolerance.js";
 /** What stands above and below the charts of a lab. @type {Record<string, (view: View) => unknown>} */
 const ABOVE = { "work-precision": tolerance, stability: slider };
 /** @type {Record<string, (view: View) => unknown>} */
-const BELOW = { stability: failures };
+const BELOW = { stability: failures, fidelity: rungs };
 
 /** @param {View} view */
 export function page(view) {

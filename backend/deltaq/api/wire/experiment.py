@@ -16,6 +16,7 @@ from ...lab.bounds import (
     LONGEST,
     MAP_POINTS,
     SPAN,
+    TOLERANCES_OF_MODEL,
     USUAL_DRIFT,
     USUAL_FLIPS,
     USUAL_MAP,
@@ -99,6 +100,17 @@ class ChaosRequest(ExperimentRequest):
     count: int = Field(USUAL_FLIPS, ge=FLIP_POINTS[0], le=FLIP_POINTS[1], description="points on a side of the map")
 
 
+class FidelityRequest(ExperimentRequest):
+    """Simpler models of the scene, each with its cost and its error."""
+
+    tolerance: float | None = Field(
+        None,
+        ge=TOLERANCES_OF_MODEL[0],
+        le=TOLERANCES_OF_MODEL[1],
+        description="relative error allowed of the least rung; 0.01 if empty",
+    )
+
+
 class Chart(Answer):
     """A figure for Plotly, with what it shows and how that was measured."""
 
@@ -125,4 +137,5 @@ REQUESTS: dict[str, type[ExperimentRequest]] = {
     "stability": StabilityRequest,
     "stability-map": StabilityMapRequest,
     "chaos": ChaosRequest,
+    "fidelity": FidelityRequest,
 }

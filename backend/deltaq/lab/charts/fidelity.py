@@ -1,0 +1,100 @@
+"""Rungs and methods, speed against accuracy; and how the error of each rung grows with the amplitude."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from .chart import INK, PALETTE, SYMBOLS, Chart, Result, Say, Trace, axis, chart, curve, grouped, name_of, short
+
+RANGE = [-10.5, 1.0]
+
+
+def charts(result: Result, say: Say) -> list[Chart]:
+    """Cost against error; error against amplitude, where there are several."""
+    titles = {rung["id"]: title_of(rung, say) for rung in result["rungs"]}
+    found = [_cost(result, titles, say)] if result["measured"] else []
+    return [*found, _amplitude(result, titles, say)] if result["growth"] else found
+
+
+def title_of(rung: Mapping[str, Any], say: Say) -> str:
+    """What is left out, in words."""
+    parts = [say(f"ladder.kinds.{part['kind']}.title", **part["parameters"]) for part in rung["parts"]]
+    return ", ".join(parts) or say("ladder.kinds.full.title")
+
+
+def _cost(result: Result, titles: Mapping[str, str], say: Say) -> Chart:
+    traces = [*_methods(result, say), *_rungs(result, titles, say)]
+    x_axis = axis(say("labs.axis.seconds"), log=True)
+    y_axis = axis(say("labs.fidelity.error"), log=True, range=RANGE, dtick=2)
+    told = {"repeats": result["repeats"], "t_end": short(result["t_end"]), **result["machine"]}
+    caption = say("labs.fidelity.cost-caption", **told) + " " + say("ladder.norm")
+    return chart("fidelity-cost", say("labs.fidelity.cost"), caption, traces, xaxis=x_axis, yaxis=y_axis)
+
+
+def _rungs(result: Result, titles: Mapping[str, str], say: Say) -> Iterator[Trace]:
+    """One mark for each rung; the least that meets the tolerance is ringed."""
+    order = [rung["id"] for rung in result["rungs"]]
+    degrees = {rung["id"]: rung["degrees"] for rung in result["rungs"]}
+    for one in result["measured"]:
+        if "time" not in one or "error" not in one:
+            continue
+        place = order.index(one["rung"])
+        is_least = one["rung"] == result["least"]
+        yield {
+            "type": "scatter",
+            "mode": "markers",
+            "name": titles[one["rung"]],
+            "x": [one["time"][0]],
+            "y": [max(one["error"], 10 ** RANGE[0])],
+            "text": [_hover(one, titles[one["rung"]], degrees[one["rung"]], say)],
+            "hoverinfo": "text",
+            "marker": {
+                "color": PALETTE[place % len(PALETTE)],
+                "symbol": SYMBOLS[place % len(SYMBOLS)],
+                "size": 15,
+                "line": {"width": 3 if is_least else 0.5, "color": INK},
+            },
+        }
+
+
+def _hover(one: Mapping[str, Any], title: str, degrees: int, say: Say) -> str:
+    cost = say("labs.hover.cost", evaluations=one["evaluations"], milliseconds=short(1e3 * one["time"][0]))
+    count = say("labs.fidelity.hover", degrees=degrees, operations=one["operations"]["total"])
+    return f"<b>{title}</b><br>{count}<br>{say('labs.hover.error', value=short(one['error']))}<br>{cost}"
+
+
+def _methods(result: Result, say: Say) -> Iterator[Trace]:
+    for method, points in grouped(result["points"]).items():
+        good = [point for point in points if point["error"] is not None and point["time"] > 0]
+        name = say("labs.fidelity.method", name=name_of(method, say))
+        errors = [max(point["error"], 10 ** RANGE[0]) for point in good]
+        yield curve(
+            name, [p["time"] for p in good], errors, method, opacity=0.6, marker={"size": 4, "color": "#888888"}
+        )
+
+
+def _amplitude(result: Result, titles: Mapping[str, str], say: Say) -> Chart:
+    order = [rung["id"] for rung in result["rungs"]]
+    traces = [_growth(one, result["amplitudes"], titles, order.index(one["rung"]), say) for one in result["growth"]]
+    x_axis = axis(say("labs.fidelity.amplitude"), log=True, dtick="D2")
+    y_axis = axis(say("labs.fidelity.error"), log=True)
+    caption = say("ladder.amplitude")
+    return chart("fidelity-amplitude", say("labs.fidelity.growth"), caption, traces, xaxis=x_axis, yaxis=y_axis)
+
+
+def _growth(one: Mapping[str, Any], amplitudes: list[float], titles: Mapping[str, str], place: int, say: Say) -> Trace:
+    name = titles[one["rung"]]
+    label = (
+        name if one["slope"] is None else say("labs.work-precision.with-slope", name=name, slope=short(one["slope"]))
+    )
+    color = PALETTE[place % len(PALETTE)]
+    return {
+        "type": "scatter",
+        "mode": "lines+markers",
+        "name": label,
+        "x": amplitudes,
+        "y": [value or None for value in one["relative"]],
+        "line": {"color": color, "width": 1.6},
+        "marker": {"color": color, "symbol": SYMBOLS[place % len(SYMBOLS)], "size": 8},
+    }

@@ -1,0 +1,24 @@
+/** What a chart points at, as a motion to be simulated: a point of a map, or a method at the step where it fails. */
+
+/** @typedef {import("./question.js").Question} Question */
+/** @typedef {Partial<Pick<Question, "parameters" | "initial">> & {method?: string, step?: number, t_end?: number}} Wish */
+
+const SECONDS = 20;
+const RATE = 60;
+const PARTS = ["coordinates", "positions", "loads", "energy"];
+
+/** @param {Question} question @param {Wish} wish @param {string | object} scene @param {string} lang */
+export function motionOf({ parameters, initial }, wish, scene, lang) {
+  const { method, step, t_end = SECONDS } = wish;
+  const stepped = method ? { method, step } : {};
+  return { scene, parameters, initial, ...only(wish), t_end, samples: RATE * SECONDS + 1, include: PARTS, lang, ...stepped };
+}
+
+/** @param {Wish} wish */
+const only = ({ parameters, initial }) => ({ ...(parameters ? { parameters } : {}), ...(initial ? { initial } : {}) });
+
+/** The values of a point, as a line of text. @param {Wish} wish */
+export function written({ parameters = {}, initial = {} }) {
+  const starts = Object.entries(initial).map(([name, { value }]) => /** @type {const} */ ([name, value ?? 0]));
+  return [...Object.entries(parameters), ...starts].map(([name, value]) => `${name} = ${Number(value.toPrecision(4))}`).join(", ");
+}

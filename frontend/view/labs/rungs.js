@@ -1,0 +1,33 @@
+/** The rungs of the ladder as a table, each to be opened as a scene, and the least one that will do. */
+
+import { html, nothing } from "lit-html";
+import { significant } from "../../model/numbers.js";
+import { titleOf } from "../../model/labs/ladder.js";
+
+/** @param {import("./page.js").View} view */
+export function rungs(view) {
+  const { bench, t, state } = view;
+  const { result } = bench;
+  if (!result) return nothing;
+  const least = result.rungs.find((/** @type {any} */ rung) => rung.id === result.least);
+  return html`
+    ${least ? html`<p class="verdict">${t("labs.fidelity.least", { tolerance: significant(100 * result.tolerance, 2, state.place.lang), title: titleOf(least, t) })}</p>` : nothing}
+    <table class="numbers failures">
+      <caption>${t("labs.fidelity.table")}</caption>
+      <thead><tr><th scope="col">${t("labs.fidelity.rung")}</th>${["degrees", "operations", "time", "error"].map((key) => html`<th scope="col">${t(`labs.fidelity.${key}`)}</th>`)}<td></td></tr></thead>
+      <tbody>${result.rungs.map((/** @type {any} */ rung) => line(view, rung))}</tbody>
+    </table>`;
+}
+
+/** @param {import("./page.js").View} view @param {any} rung */
+function line({ bench, t, state, open }, rung) {
+  const { lang } = state.place;
+  const one = bench.result?.measured.find((/** @type {any} */ each) => each.rung === rung.id) ?? {};
+  const failed = rung.refused.length ? t("labs.fidelity.refused") : one.status && one.status !== "ok" ? t(`labs.status.${one.status}`) : "";
+  return html`<tr class=${rung.id === bench.result?.least ? "least" : ""}>
+    <th scope="row">${titleOf(rung, t)}</th><td>${rung.degrees}</td><td>${one.operations?.total ?? ""}</td>
+    <td>${one.time ? `${significant(1e3 * one.time[0], 3, lang)} ms` : ""}</td>
+    <td>${one.error === undefined ? failed : `${significant(100 * one.error, 2, lang)} %`}</td>
+    <td>${rung.scene ? html`<button class="quiet small" @click=${() => open(rung.scene)}>${t("labs.fidelity.open")}</button>` : nothing}</td>
+  </tr>`;
+}
