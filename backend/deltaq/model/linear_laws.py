@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import symengine as se
 
@@ -50,9 +51,9 @@ def is_linear(scene: Scene) -> bool:
     """Whether the equations of motion are linear as they are."""
     eqs = equations(scene)
     state = _state(eqs.symbols)
-    slopes = [entry.diff(x) for row in eqs.mass_matrix for entry in row for x in state]
-    bends = [force.diff(x).diff(y) for force in eqs.forcing for x in state for y in state]
-    return all(map(vanishes, (*slopes, *bends)))
+    slopes = (entry.diff(x) for row in eqs.mass_matrix for entry in row for x in state)
+    bends = (force.diff(x).diff(y) for force in eqs.forcing for x in state for y in state)
+    return all(map(vanishes, chain(slopes, bends)))
 
 
 def linear_laws(scene: Scene, rest: Mapping[str, str]) -> LinearLaws:

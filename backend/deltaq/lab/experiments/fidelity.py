@@ -6,7 +6,6 @@ and only one of them may be worth it.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from functools import partial
@@ -81,8 +80,8 @@ def _measured(found: Measured) -> Document:
     head: Document = {"rung": found.rung, "status": found.outcome.status}
     if found.deviation is not None:
         told = found.deviation
-        error = max(told.relative, told.floor)
-        head |= {"error": significant(error), "largest": significant(told.largest)}
+        head |= {"largest": significant(told.largest)}
+        head |= {} if told.relative is None else {"error": significant(max(told.relative, told.floor))}
     if found.cost is not None:
         cost = found.cost
         head |= {
@@ -96,7 +95,7 @@ def _measured(found: Measured) -> Document:
 
 
 def _growth(found: Growth) -> Document:
-    relative = [significant(each) if math.isfinite(each) else None for each in found.relative]
+    relative = [None if each is None else significant(each) for each in found.relative]
     return {"rung": found.rung, "relative": relative, "slope": None if found.slope is None else round(found.slope, 2)}
 
 
