@@ -39,8 +39,8 @@ export function dotted(latex) {
   return `\\dot{${letter}}${rest ?? ""}`;
 }
 
-/** @param {import("./types.js").Coordinate} coordinate */
-function coordinateRange({ unit, value, min, max }) {
+/** What a coordinate may be at the start: as the scene says, else one turn or twice its value. @param {import("./types.js").Coordinate} coordinate @returns {[number, number]} */
+export function coordinateRange({ unit, value, min, max }) {
   const reach = unit === "rad" ? Math.PI : Math.max(1, 2 * Math.abs(value));
   return [min ?? Math.min(-reach, value), max ?? Math.max(reach, value)];
 }

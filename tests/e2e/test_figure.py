@@ -64,3 +64,56 @@ def test_the_guide_adds_to_the_differential_alone(lecture: Lecture) -> None:
     page = open_at_rest(lecture, "?scene=elastic-pendulum&lang=en&vary=phi:0.3,dt:0.2&at=1.2")
     expect(page.locator("svg.over .arrow.actual").first).to_be_attached()
     expect(page.locator("svg.over .arrow.time-term")).to_have_count(0)
+
+
+def drag(page: Page, start: tuple[float, float], end: tuple[float, float]) -> None:
+    """From one place of the drawing to another, in pixels of its frame, with the hand still down."""
+    box = page.locator(".drawing").bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + start[0], box["y"] + start[1])
+    page.mouse.down()
+    page.mouse.move(box["x"] + (start[0] + end[0]) / 2, box["y"] + (start[1] + end[1]) / 2, steps=3)
+    page.mouse.move(box["x"] + end[0], box["y"] + end[1], steps=3)
+
+
+def test_the_bob_is_dragged_to_where_the_motion_begins(lecture: Lecture) -> None:
+    """It follows the hand at once; both coordinates and the address follow, and the motion begins there."""
+    page = open_at_rest(lecture, "?scene=elastic-pendulum&lang=en")
+    x, y = lecture.bob_position()
+    aim = (x - 90, y - 5)
+    drag(page, (x, y), aim)
+    assert lecture.bob_position() == pytest.approx(aim, abs=1.5)
+    with page.expect_response("**/api/v1/simulations"):
+        page.mouse.up()
+    expect(page).to_have_url(re.compile(r"set=y:[-.\d]+:0%2Cphi:-?[.\d]+:0"))
+    page.wait_for_timeout(400)
+    assert lecture.bob_position() == pytest.approx(aim, abs=1.5)
+    slider = page.locator("[data-slider=initial-phi-value] input[type=number]").input_value()
+    page.reload()
+    lecture.bob.wait_for(state="attached")
+    assert lecture.bob_position() == pytest.approx(aim, abs=1.5)
+    assert page.locator("[data-slider=initial-phi-value] input[type=number]").input_value() == slider
+
+
+def test_a_place_is_moved_with_keys(lecture: Lecture) -> None:
+    """The arrow keys move what has the focus, and turn no page."""
+    page = open_at_rest(lecture, "?scene=elastic-pendulum&lang=en")
+    before = lecture.bob_position()
+    page.locator(".handle[data-place=bob]").focus()
+    for _ in range(3):
+        page.keyboard.press("ArrowRight")
+    expect(page).to_have_url(re.compile("set="))
+    page.wait_for_timeout(400)
+    assert lecture.bob_position()[0] == pytest.approx(before[0] + 24, abs=2)
+    expect(lecture.steps).to_have_count(1)
+
+
+def test_a_dragged_variation_leaves_the_motion_alone(lecture: Lecture) -> None:
+    """While the variation is shown, the hand moves the ghost: δq changes, the initial values do not."""
+    page = open_at_rest(lecture, "?scene=pendulum&lang=en&vary=phi:0.1,dt:0")
+    x, y = lecture.bob_position()
+    drag(page, (x, y), (x + 60, y - 20))
+    page.mouse.up()
+    assert lecture.bob_position() == (x, y)
+    assert float(page.locator("[data-slider=delta-phi] input[type=range]").input_value()) > 0.2
+    assert "set=" not in page.url

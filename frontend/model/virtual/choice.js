@@ -1,5 +1,7 @@
 /** What is varied, and how far: written into the address as "y:0.1,phi:-0.2,dt:0.1". */
 
+import { wrapped } from "../drawing/geometry.js";
+
 /** @typedef {import("../kinematics/expression.js").Values} Values */
 /** @typedef {{delta: Values, dt: number}} Choice */
 
@@ -27,6 +29,15 @@ export function readChoice(text, free) {
 /** @param {Choice} choice */
 export function writeChoice({ delta, dt }) {
   return [...Object.entries(delta), ["dt", dt]].map(([name, value]) => `${name}:${round(Number(value))}`).join(",");
+}
+
+/** How far the coordinates are from one configuration to another, each within its reach. @param {import("../types.js").Coordinate[]} free @param {Values} from @param {Values} to @returns {Values} */
+export function differences(free, from, to) {
+  return Object.fromEntries(free.map((each) => {
+    const far = to[each.name] - from[each.name];
+    const reach = reachOf(each);
+    return [each.name, Math.max(-reach, Math.min(reach, each.unit === "rad" ? wrapped(far) : far))];
+  }));
 }
 
 /** @param {number} x */

@@ -3,6 +3,7 @@
 import { kinematicsOf } from "../../model/kinematics/kinematics.js";
 import { ratesAt } from "../../model/kinematics/rates.js";
 import { snapshotAt } from "../../model/trajectory.js";
+import { createHand } from "./hand.js";
 import { createVirtual } from "./virtual.js";
 import { tools } from "./tools.js";
 
@@ -51,14 +52,21 @@ export function open(around) {
     const { trajectory } = state();
     return trajectory?.t.length ? { ...snapshotAt(trajectory, clock.time), rates: ratesAt(trajectory, clock.time) } : null;
   };
-  const virtual = createVirtual({ ...around, kinematics: keeper(state), now });
+  const bench = { ...around, kinematics: keeper(state), now };
+  const virtual = createVirtual(bench);
+  const hand = createHand(bench, virtual);
   void session.need("figure");
   return {
-    tools,
     panel: virtual.panel,
+    /** @param {View} view */
+    tools(view) {
+      hand.handles(view);
+      return tools(view);
+    },
     /** Follows the clock. */
     move() {
       virtual.move();
+      hand.move();
     },
   };
 }

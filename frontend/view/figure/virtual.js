@@ -6,7 +6,7 @@ import { inline } from "../formula.js";
 import { createSheet } from "../drawing.js";
 import { inLanguage } from "../../model/catalog.js";
 import { decimalsOf, fixed, unitText } from "../../model/numbers.js";
-import { LONGEST, reachOf, readChoice, writeChoice } from "../../model/virtual/choice.js";
+import { differences, LONGEST, reachOf, readChoice, writeChoice } from "../../model/virtual/choice.js";
 import { virtualFigure } from "../../model/virtual/figure.js";
 import { scaled, virtualOf } from "../../model/virtual/virtual.js";
 
@@ -90,6 +90,15 @@ export function createVirtual(bench) {
 
   return {
     move,
+    /** The coordinates as varied. */
+    varied: () => compute()?.varied.coordinates ?? null,
+    /** Where a place stands when varied. @param {string} place @returns {import("../../model/types.js").Pixel} */
+    where: (place) => drawing.stage?.project(compute()?.varied.positions[place] ?? []) ?? [0, 0],
+    /** Varies the coordinates to these values. @param {import("../../model/kinematics/expression.js").Values} q */
+    vary(q) {
+      const now = bench.now();
+      if (now) choose({ ...choice(), delta: differences(free(), now.coordinates, q) });
+    },
     /** @param {View} view */
     panel: (view) => panel(view, free(), choice(), { choose, follow, loads: compute()?.works.map(({ load }) => load) ?? [] }),
   };
