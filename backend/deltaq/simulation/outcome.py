@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 from .kernels.motion import (
     CANCELLED,
+    EVENT,
     FINE,
     NEWTON_FAILED,
     NOT_FINITE,
@@ -48,6 +49,7 @@ _WORDS: Mapping[int, tuple[str, str]] = MappingProxyType(
         CANCELLED: ("cancelled", "cancelled"),
         NEWTON_FAILED: ("newton_failed", "newton_failed"),
         STIFF: ("stiff", "stiff"),
+        EVENT: ("event", "event"),
     }
 )
 
@@ -60,5 +62,5 @@ def outcome_of(kernel_outcome: int, parameters: Mapping[str, Number]) -> Outcome
 
 def codes() -> tuple[str, ...]:
     """All codes that a trajectory may carry."""
-    others = ("horizon_reached", "tolerance_missed", "unstable_step")
-    return (*(code for _, code in _WORDS.values()), "event", "event_timed", "event_doubtful", *others)
+    others = ("horizon_reached", "tolerance_missed", "unstable_step", "event_timed", "event_doubtful")
+    return (*(code for _, code in _WORDS.values()), *others)
