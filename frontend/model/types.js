@@ -10,13 +10,14 @@
  * @typedef {{kind: string, name: string, at?: string, latex?: string, acceleration?: string[],
  *   from?: string, to?: string}} Load
  * @typedef {{coordinate: string, value: string}} Guide
+ * @typedef {{name: string, value: string, at?: string}} SceneEvent
  * @typedef {{kind: string, at?: string, from?: string, to?: string, load?: string, coordinate?: string,
  *   direction?: string, radius?: number | string, width?: number, height?: number, label?: string}} Element
  * @typedef {{vertical?: "up" | "down", view?: number[] | null, elements?: Element[]}} Drawing
  * @typedef {Record<string, string>} Texts  text by language
  * @typedef {{id: string, title: Texts, summary?: Texts, degrees_of_freedom: number, family?: Family}} SceneEntry
  * @typedef {{id: string, title: Texts, summary: Texts, dimension: number, coordinates: Coordinate[],
- *   parameters: Parameter[], points: Point[], bodies: Body[], loads: Load[], guides?: Guide[], labels?: Record<string, Texts>,
+ *   parameters: Parameter[], points: Point[], bodies: Body[], loads: Load[], guides?: Guide[], events?: SceneEvent[], labels?: Record<string, Texts>,
  *   drawing?: Drawing | null}} Scene
  * @typedef {{parameter: string, min: number, max: number, value: number}} Family
  * @typedef {{id: string, rule: string, title: string, text: string, latex: string, marked: string,
@@ -27,7 +28,7 @@
  *     positions?: Record<string, {plain: string[]}>, virtual_work?: {terms: {plain: string, sources: string[]}[]}}}} Derivation
  * @typedef {{id: string, title?: string, adaptive?: boolean, order?: number}} Method
  * @typedef {{kinetic: number[], potential: number[], balance: number[]}} Energy
- * @typedef {{status: string, reason?: string | null, remedy?: string | null, t: number[],
+ * @typedef {{status: string, reason?: string | null, remedy?: string | null, event?: {name: string, t: number} | null, t: number[],
  *   coordinates: Record<string, number[]>, rates?: Record<string, number[]>,
  *   positions: Record<string, number[][]>, loads?: Record<string, number[][]>, energy?: Energy,
  *   error?: {estimate?: (number | null)[] | null, horizon?: number | null},

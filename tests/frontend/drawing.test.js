@@ -35,6 +35,16 @@ test("the bob stands where the trajectory says", () => {
   assert.ok(Math.abs(moved[0] - (200 + 100 * Math.sin(1))) < 1e-9);
 });
 
+test("a ring stands where an event ends the motion, at the place that the scene names", () => {
+  const given = { ...scene, events: [{ name: "slack", value: "g", at: "bob" }, { name: "other", value: "g" }] };
+  const ring = (/** @type {string | undefined} */ name) => {
+    const ended = { ...trajectory, event: name ? { name, t: 4 } : null };
+    return shape(figureOf(stageOf(given, ended, square(400)), snapshotAt(ended, 0)), "event")?.at;
+  };
+  assert.deepEqual(ring("slack"), stage.project(/** @type {number[]} */ (trajectory.positions.bob.at(-1))));
+  assert.deepEqual([ring("other"), ring(undefined)], [undefined, undefined]);
+});
+
 test("bob above rod above ground, whatever the order in the scene", () => {
   const keys = figureAt(1).shapes.map((s) => s.key);
   assert.ok(keys.indexOf("ground4-line") < keys.indexOf("rod1") && keys.indexOf("rod1") < keys.indexOf("bob0"));

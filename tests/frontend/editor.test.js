@@ -104,6 +104,14 @@ test("what hung on a removed row goes too", () => {
   assert.deepEqual(next.drawing.elements.map((/** @type {any} */ e) => e.kind), ["bob", "force"]);
 });
 
+test("an event follows the place it hangs on, and takes nothing along when it goes", () => {
+  const event = { name: "slack", value: "k", at: String(/** @type {any} */ (scene).bodies[0].name) };
+  const given = { ...scene, events: [event] };
+  assert.equal(/** @type {any} */ (renamed(given, "bodies", 0, "mass")).events[0].at, "mass");
+  assert.deepEqual(removed(given, "events", 0), { ...scene, events: [] });
+  assert.deepEqual(rowFor(given, "events"), { name: "event", value: "" });
+});
+
 test("rows move, and stay within their list", () => {
   assert.deepEqual(/** @type {any} */ (shifted(scene, "coordinates", 0, 1)).coordinates.map((/** @type {any} */ q) => q.name), ["phi", "y"]);
   assert.equal(shifted(scene, "coordinates", 0, -1), scene);

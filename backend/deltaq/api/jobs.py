@@ -45,7 +45,7 @@ def explained(answer: Document, language: str) -> Document:
     """`reason`, `remedy` and why the method was chosen as sentences, from the codes that the simulation gave."""
     code, event = answer["reason"]["code"], answer.get("event")
     title = event and event["title"].get(language, event["name"])
-    parameters = answer["reason"]["parameters"] | ({"title": title, "t": event["t"]} if event else {})
+    parameters = answer["reason"]["parameters"] | ({"title": title} if event else {})
     told = {part: text(language, f"statuses.{code}.{part}", **parameters) for part in ("reason", "remedy")}
     choice = answer["choice"]
     why = choice and text(language, f"statuses.{choice['code']}.reason", **choice["parameters"])

@@ -10,6 +10,8 @@ from .problem import Problem
 from .stability import largest_stable_step
 from .stiffness import eigenvalues
 
+SMALL = 1e-5  # an error of a time, relative to it, that is not worth telling in a sentence
+
 
 def outcome(problem: Problem, method: Method, best: Attempt, tolerance: float | None, step: float | None) -> Outcome:
     """A failure of a run comes first, then a horizon (behind which no event is sure), an event, a tolerance missed."""
@@ -32,12 +34,14 @@ def outcome(problem: Problem, method: Method, best: Attempt, tolerance: float | 
 
 
 def _ended(best: Attempt, told: dict[str, Number]) -> Outcome:
-    """An event, with the error of its time where it is known, or a doubtful one."""
+    """An event, with the error of its time where that can be seen in the digits told, or a doubtful one."""
     if best.doubtful is not None:
         return Outcome("event", "event_doubtful", told)
-    if best.estimate is None or best.estimate.event is None:
-        return Outcome("event", "event", told)
-    return Outcome("event", "event_timed", told | {"error": float(f"{best.estimate.event:.2g}")})
+    error = 0.0 if best.estimate is None else best.estimate.event or 0.0
+    precise = told | {"t": float(f"{best.reached:.6g}")}
+    if error <= SMALL * best.reached:
+        return Outcome("event", "event", precise)
+    return Outcome("event", "event_timed", precise | {"error": float(f"{error:.2g}")})
 
 
 def _grown(problem: Problem, method: Method, step: float, told: dict[str, Number]) -> Outcome:

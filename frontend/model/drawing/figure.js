@@ -1,5 +1,6 @@
 /** The whole drawing at a moment: every element of the scene, in the order in which it lies on the paper. */
 
+import { circle } from "./geometry.js";
 import { ground, guide, pivot, wall } from "./supports.js";
 import { bob, cart, disc, hoop, rod, spring, trail } from "./members.js";
 import { angle, dimension, force, weight } from "./marks.js";
@@ -21,7 +22,14 @@ const ORDER = Object.keys(KINDS);
  */
 export function figureOf(stage, now) {
   const figures = stage.once("elements", () => inOrder(stage)).map(({ draw, element, key }) => draw(element, stage, now, key));
-  return { shapes: figures.flatMap((f) => f.shapes), labels: figures.flatMap((f) => f.labels) };
+  return { shapes: [...ending(stage), ...figures.flatMap((f) => f.shapes)], labels: figures.flatMap((f) => f.labels) };
+}
+
+/** A ring where an event ends the motion. @param {Stage} stage @returns {Figure["shapes"]} */
+function ending({ scene, trajectory, project, unit }) {
+  const at = scene.events?.find(({ name }) => name === trajectory.event?.name)?.at;
+  const place = at && trajectory.positions[at]?.at(-1);
+  return place ? [{ key: "event", d: circle(unit * 1.6), className: "reference", at: project(place) }] : [];
 }
 
 /** @param {Stage} stage */

@@ -8,6 +8,8 @@ import { tableOf } from "../own.js";
 /** Where things are called by their names, besides expressions. */
 const PLACES = ["at", "from", "to"];
 const NAMED = ["points", "bodies", "loads"];
+/** Nothing refers to these by their names, or expressions alone do. */
+const UNREFERRED = ["parameters", "guides", "events"];
 
 /**
  * The document with another value at a pointer; undefined takes the field away.
@@ -56,7 +58,7 @@ export function shifted(document, key, index, by) {
 export function removed(document, key, index) {
   const gone = rowsOf(document[key])[index]?.name;
   const next = { ...document, [key]: rowsOf(document[key]).filter((_, i) => i !== index) };
-  if (!gone || key === "parameters" || key === "guides") return next;
+  if (!gone || UNREFERRED.includes(key)) return next;
   const keys = referring(key);
   const kept = labelled(next, (labels) => Object.fromEntries(Object.entries(labels).filter(([name]) => key === "coordinates" || name !== gone)));
   return elements(kept, (all) => all.filter((element) => !keys.some((one) => element?.[one] === gone)));
@@ -85,10 +87,10 @@ export function renamed(document, key, index, name) {
   const before = rowsOf(document[key])[index]?.name;
   const next = written(document, `/${key}/${index}/name`, name);
   const taken = SECTIONS.flatMap((section) => rowsOf(document[section.key]).map((row) => row?.name));
-  if (!before || !name || key === "parameters" || taken.includes(name) || taken.filter((one) => one === before).length > 1) return next;
+  if (!before || !name || UNREFERRED.includes(key) || taken.includes(name) || taken.filter((one) => one === before).length > 1) return next;
   const keys = referring(key);
   const follow = (/** @type {any} */ row) => Object.fromEntries(Object.entries(row ?? {}).map(([k, v]) => [k, keys.includes(k) && v === before ? name : v]));
-  const lists = key === "coordinates" ? ["guides"] : ["loads"];
+  const lists = key === "coordinates" ? ["guides"] : ["loads", "events"];
   const moved = Object.fromEntries(lists.filter((list) => Array.isArray(next[list])).map((list) => [list, rowsOf(next[list]).map(follow)]));
   const labels = (/** @type {SceneDocument} */ all) => Object.fromEntries(Object.entries(all).map(([k, v]) => [NAMED.includes(key) && k === before ? name : k, v]));
   return elements(labelled({ ...next, ...moved }, labels), (all) => all.map(follow));

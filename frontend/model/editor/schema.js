@@ -46,6 +46,7 @@ export const SECTIONS = [
     },
   },
   { key: "guides", fields: [field("coordinate", "coordinate"), field("value", "expression")] },
+  { key: "events", fields: [NAME, field("value", "expression")] },
 ];
 
 /** In space a rigid body has three principal moments, and an angular velocity in place of an angle. */

@@ -7,7 +7,7 @@ import { componentsOf, dimensionOf, rowsOf, SECTIONS } from "./schema.js";
 /** @type {SceneDocument} */
 export const EMPTY = {
   format: 1, id: "my-scene", title: { de: "Meine Szene", en: "My scene" }, summary: { de: "", en: "" }, dimension: 2,
-  coordinates: [], parameters: [], points: [], bodies: [], loads: [], guides: [], drawing: { vertical: "down" },
+  coordinates: [], parameters: [], points: [], bodies: [], loads: [], guides: [], events: [], drawing: { vertical: "down" },
 };
 
 /** @type {Record<string, object>} */
@@ -18,6 +18,7 @@ const ROWS = {
   bodies: { name: "body", kind: "particle", mass: "", position: ["", ""] },
   loads: { name: "load", kind: "gravity", acceleration: ["0", ""] },
   guides: { coordinate: "", value: "" },
+  events: { name: "event", value: "" },
 };
 
 /** A copy of a built-in scene, to be changed. @param {SceneDocument} given */
