@@ -29,11 +29,12 @@ def eliminated(scene: Scene, coordinate: str, value: Expression) -> Scene:
         points=tuple(rewritten(each, elimination.into) for each in scene.points),
         bodies=tuple(rewritten(each, elimination.into) for each in scene.bodies),
         loads=tuple(rewritten(each, elimination.into) for each in scene.loads),
+        events=tuple(rewritten(each, elimination.into) for each in scene.events),
     )
 
 
 def rewritten(thing: T, change: Callable[[Expression], Expression]) -> T:
-    """A point, body or load with all its expressions changed."""
+    """A point, body, load or event with all its expressions changed."""
     found = {item.name: getattr(thing, item.name) for item in fields(thing)}  # type: ignore[arg-type]
     return replace(thing, **{key: _changed(value, change) for key, value in found.items()})  # type: ignore[type-var]
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
 import pytest
 from tests.lab.ladder.climbing import climbed
@@ -12,6 +14,7 @@ from deltaq.lab.ladder.findings import FULL, Ladder, Measured
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
+from deltaq.mechanics.writing import write_scene
 
 
 def test_every_number_out_of_bounds_is_told() -> None:
@@ -103,3 +106,55 @@ def test_the_constant_e_is_not_the_parameter_of_that_name() -> None:
     """x = 0.3: the linear oscillator with E·e instead of k, to first order of its amplitude."""
     slope = climbed(potential("E*exp(1)*x^2/2 + k*x^4"), 2.0, (0.01, 0.02)).growth["linearized"].slope
     assert slope == pytest.approx(2.0, abs=0.3)
+
+
+def spherical(**changes: object) -> Scene:
+    return read_scene(write_scene(load_scene("spherical-pendulum")) | changes)
+
+
+def starting(theta: float, rate: float) -> list[dict[str, object]]:
+    first, second = cast("list[dict[str, object]]", write_scene(load_scene("spherical-pendulum"))["coordinates"])
+    return [first | {"value": theta, "min": None}, second | {"rate": rate}]
+
+
+def test_where_the_full_motion_cannot_begin_no_rung_is_least() -> None:
+    """At its pole the spherical pendulum has no azimuth."""
+    found = climbed(spherical(coordinates=starting(0.0, 1.0)), 2.0)
+    assert found.measured[FULL].outcome.status == "singular_mass_matrix"
+    assert found.least.rung == FULL
+
+
+def test_without_angular_momentum_the_plane_pendulum_is_enough() -> None:
+    assert climbed(spherical(coordinates=starting(0.9, 0.0)), 4.0).least.rung == "frozen:psi"
+
+
+def test_an_event_ends_the_comparison() -> None:
+    """The string goes slack; both motions are compared as far as both go."""
+    found = climbed(load_scene("string-pendulum"), 5.0)
+    full, rung = found.measured[FULL], found.measured["linearized"]
+    assert (full.outcome.status, rung.outcome.status) == ("event", "event")
+    assert full.deviation is not None
+    assert rung.deviation is not None
+    assert full.deviation.times[-1] < 5.0
+    assert rung.deviation.times[-1] <= full.deviation.times[-1]
+
+
+def test_a_rung_that_ends_too_early_is_not_least() -> None:
+    """With the azimuth held, nothing keeps the pendulum away from the vertical, where the event is."""
+    found = climbed(spherical(events=[{"name": "low", "value": "theta - 0.4"}]), 5.0, (0.5,), tolerance=0.5)
+    assert found.measured[FULL].outcome.is_ok
+    assert found.measured["frozen:psi"].outcome.status == "event"
+    assert found.relative("frozen:psi") < 0.5
+    assert found.least.rung == "cyclic:psi"
+
+
+def test_events_that_need_a_cyclic_rate_are_left_out_of_the_reduced_scene() -> None:
+    events = [{"name": "fast", "value": "20 - dot(psi)"}, {"name": "low", "value": "theta - 0.1"}]
+    found = climbed(spherical(events=events), 0.5)
+    kept = {
+        rung.id: [event["name"] for event in cast("list[dict[str, str]]", rung.scene.get("events", []))]
+        for rung in found.ladder.rungs
+        if rung.scene is not None
+    }
+    assert kept["cyclic:psi"] == ["low"]
+    assert kept["frozen:psi"] == ["fast", "low"]

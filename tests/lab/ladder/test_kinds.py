@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import cast
 
 import pytest
 from tests.lab.ladder.climbing import climbed
@@ -11,6 +12,7 @@ from deltaq.lab.ladder.building import kinds
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
+from deltaq.mechanics.writing import write_scene
 from deltaq.narration.catalog import LANGUAGES, text
 
 
@@ -116,6 +118,19 @@ def test_a_spring_between_masses_on_a_line_is_made_rigid_by_giving_up_one_of_the
     rigid = next(rung for rung in found.ladder.rungs if rung.id == "rigid:s")
     assert rigid.degrees == 1
     assert found.relative("rigid:s") < 1.0
+
+
+def test_the_lowest_rung_leaves_out_damping_and_spring_and_is_linear() -> None:
+    drag = {"kind": "dissipation", "name": "drag", "function": "c*dot(phi)^2/2"}
+    document = write_scene(load_scene("base-pendulum"))
+    loads, parameters = cast("list[object]", document["loads"]), cast("list[object]", document["parameters"])
+    constant = {"name": "c", "value": 0.1, "unit": "N m s"}
+    damped = read_scene(document | {"loads": [*loads, drag], "parameters": [*parameters, constant]})
+    ladder = climbed(damped, 0.5).ladder
+    lowest = next(rung for rung in ladder.rungs if rung.id == "undamped+rigid:suspension+linearized")
+    assert lowest.degrees == 1
+    assert lowest.scene is not None
+    assert [load["kind"] for load in cast("list[dict[str, str]]", lowest.scene["loads"])] == ["potential"]
 
 
 def test_a_momentum_that_no_displacement_undoes_has_no_scene() -> None:

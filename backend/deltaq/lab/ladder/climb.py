@@ -22,6 +22,7 @@ from .measurement import cost, deviation, ride, yardstick
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0)
 MOST_AMPLITUDES, MOST_REPEATS, LARGEST_SPAN = 8, 25, 1000.0
+WHOLE = 0.99  # of the full motion, which a rung must last for
 CERTAIN, ROUNDING = 10.0, 1e-10  # an error counts in a slope if it is so many times that of the integration
 
 
@@ -90,7 +91,7 @@ class _Climb:
             if rung.parts and not self.cancelled[0]:
                 yield self._growth(rung, full)
         if not self.cancelled[0]:
-            yield Least(tolerance, _least(rungs, measured, tolerance))
+            yield Least(tolerance, _least(rungs, measured, tolerance, full[1.0].end))
 
     def _full(self, amplitude: float) -> Yardstick:
         return yardstick(ride(self._footing(amplitude).scene, self.span, self.cancelled))
@@ -119,7 +120,8 @@ class _Climb:
             found = ride(below.scene, self.span, self.cancelled)
         except InputError:
             return None
-        return deviation(full, found, below.back) if found.outcome.is_ok else None
+        apart = deviation(full, found, below.back) if found.is_sound else None
+        return apart if apart and _lasts(apart, full.end) else None
 
 
 def _refusal(error: InputError) -> Outcome:
@@ -140,18 +142,23 @@ def _slope(amplitudes: tuple[float, ...], found: list[Deviation | None]) -> floa
     return float(np.polyfit(across, up, 1)[0])
 
 
-def _least(rungs: list[Rung], measured: list[Measured], tolerance: float) -> str:
-    """Of the rungs within the tolerance, the one of fewest degrees of freedom, then of fewest operations."""
+def _least(rungs: list[Rung], measured: list[Measured], tolerance: float, end: float) -> str:
+    """Of the rungs within the tolerance up to the end, the one of fewest degrees of freedom, then of operations."""
     good = [
         (rung.degrees, each.cost.operations.total, rung.id)
         for rung, each in zip(rungs, measured, strict=True)
-        if each.cost is not None and _is_within(each.deviation, tolerance)
+        if each.cost is not None and _is_within(each.deviation, tolerance, end)
     ]
-    return min(good)[-1] if good else FULL
+    return min(good)[-1] if good and measured[0].cost is not None else FULL
 
 
-def _is_within(deviation: Deviation | None, tolerance: float) -> bool:
+def _lasts(deviation: Deviation, end: float) -> bool:
+    """Whether the rung goes on as long as the full motion, which an event may end."""
+    return deviation.times[-1] >= WHOLE * end
+
+
+def _is_within(deviation: Deviation | None, tolerance: float, end: float) -> bool:
     """Where the full motion stands still, only what stands still with it is."""
-    if deviation is None:
+    if deviation is None or not _lasts(deviation, end):
         return False
     return deviation.largest == 0.0 if deviation.relative is None else deviation.relative <= tolerance

@@ -37,6 +37,11 @@ class Yardstick:
         rung = np.column_stack([values[name][:count] for name in self.problem.model.layout.free])
         return self._lengths(rung, self.states[:count, : self.problem.degrees])
 
+    @property
+    def end(self) -> float:
+        """When the motion ends; 0 if it could not begin."""
+        return float(self.times[-1]) if len(self.times) else 0.0
+
     @cached_property
     def extent(self) -> float:
         """How far the motion gets from where it began, in metres."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -39,11 +40,24 @@ class Ride:
     @property
     def outcome(self) -> Outcome:
         """How it ended; a motion within the tolerance is sound even if it is too small to have a digit of its own."""
-        return OK if self.trajectory.tolerance_reached else self.trajectory.outcome
+        found = self.trajectory
+        return OK if found.tolerance_reached and found.event is None else found.outcome
 
     @property
     def is_complete(self) -> bool:
-        return self.trajectory.reached >= self.problem.t_end
+        """Whether it came to the end, or to an event that ended it."""
+        return self.trajectory.event is not None or self.trajectory.reached >= self.problem.t_end
+
+    @property
+    def is_sound(self) -> bool:
+        return self.is_complete and (self.outcome.is_ok or self.trajectory.event is not None)
+
+    @cached_property
+    def sampled(self) -> tuple[Floats, Floats]:
+        """Times and states of the even samples, without that of an event."""
+        found = self.trajectory
+        count = int(np.searchsorted(found.times, found.reached)) if found.event else len(found.times)
+        return found.times[:count], np.hstack([found.values, found.rates])[:count]
 
     @property
     def floor(self) -> float:
@@ -60,16 +74,16 @@ def ride(scene: Scene, span: float, cancelled: Flag) -> Ride:
 
 def yardstick(full: Ride) -> Yardstick:
     """The full motion, as long as its digits can be trusted."""
-    found = full.trajectory
-    count = int(np.count_nonzero(found.times <= found.trusted_until))
-    states = np.hstack([found.values, found.rates])[:count]
-    return Yardstick(full.problem, total_mass(full.scene), found.times[:count], states, full.floor)
+    times, states = full.sampled
+    count = int(np.count_nonzero(times <= full.trajectory.trusted_until))
+    return Yardstick(full.problem, total_mass(full.scene), times[:count], states[:count], full.floor)
 
 
 def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
     """How far the rung is from the full motion; None if not even one sample can be compared."""
-    values = back(seen(rung)).values
-    errors = full.errors(values)
+    if not len(full.times) or not len(rung.sampled[0]):
+        return None
+    errors = full.errors(back(seen(rung)).values)
     good = int(np.isfinite(errors).cumprod().sum())
     if good == 0:
         return None
@@ -82,12 +96,11 @@ def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
 
 def seen(rung: Ride) -> Motion:
     """Values and rates of all coordinates of the rung's own scene."""
-    found, free = rung.trajectory, rung.problem.model.layout.free
-    states = np.hstack([found.values, found.rates])
-    observed = rung.problem.model.observe(rung.problem.inputs(found.times, states))
-    values = _named(free, found.values) | dict(observed.values)
-    rates = _named(free, found.rates) | dict(observed.rates)
-    return Motion(found.times, values, rates)
+    (times, states), n, free = rung.sampled, rung.problem.degrees, rung.problem.model.layout.free
+    observed = rung.problem.model.observe(rung.problem.inputs(times, states))
+    values = _named(free, states[:, :n]) | dict(observed.values)
+    rates = _named(free, states[:, n:]) | dict(observed.rates)
+    return Motion(times, values, rates)
 
 
 def _named(names: tuple[str, ...], columns: Floats) -> dict[str, Floats]:

@@ -15,6 +15,7 @@ import numpy as np
 from ....language.names import Symbol
 from ....mechanics.changes import change
 from ....mechanics.coordinate import Coordinate
+from ....mechanics.event import Event
 from ....mechanics.loads.potential import Potential
 from ....mechanics.parameter import Parameter
 from ....mechanics.scene import Scene
@@ -46,7 +47,7 @@ def _simplify(footing: Footing, _part: Part) -> Simplified:
     constants = tuple(_momentum(each, momenta[each.name], value) for each, value in values)
     held = tuple(Parameter(starts[c.name], unit=c.unit, value=c.value, positive=False) for c in coordinates)
     found = reduction(with_parameters(scene, constants + held), momenta, starts)
-    wider = with_parameters(scene, constants)
+    wider = with_parameters(replace(scene, events=_events(scene, conserved)), constants)
     potentials = (Potential(_load_name(scene), found.potential),) if found.potential else ()
     with_potential = replace(wider, loads=(*wider.loads, *potentials))
     if not found.values:
@@ -55,6 +56,11 @@ def _simplify(footing: Footing, _part: Part) -> Simplified:
     for name, value in found.values.items():
         reduced = eliminated(reduced, name, value)
     return Simplified(tidied(reduced, scene.labels), _back(scene, conserved))
+
+
+def _events(scene: Scene, conserved: Conserved) -> tuple[Event, ...]:
+    """Those that can still be told: of the cyclic rates nothing is known while the reduced scene moves."""
+    return tuple(event for event in scene.events if not event.value.rates & set(conserved.names))
 
 
 def _momentum(coordinate: Coordinate, name: str, value: float) -> Parameter:
@@ -82,7 +88,7 @@ def _back(scene: Scene, conserved: Conserved) -> Back:
         rates = np.column_stack([column(motion.rates, name) for name in starts])
         all_rates = conserved.rates(motion.times, np.hstack([values, rates]))
         own = {name: all_rates[:, place] for name, place in zip(conserved.names, conserved.places, strict=True)}
-        step = float(motion.times[1] - motion.times[0])
+        step = float(motion.times[-1] - motion.times[0]) / max(1, len(motion.times) - 1)
         turned = {name: starts[name] + running_integral(rate, step) for name, rate in own.items()}
         return Motion(motion.times, {**motion.values, **turned}, {**motion.rates, **own})
 
