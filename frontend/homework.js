@@ -9,6 +9,7 @@ import { assignmentIn, fragmentOfAssignment } from "./model/homework/assignment.
 import { createConversion } from "./model/homework/conversion.js";
 import { createExercise } from "./model/homework/exercise.js";
 import { keyboardOf, shortcutsOf } from "./model/homework/keys.js";
+import { patient } from "./model/homework/patience.js";
 import { readAsked, writeAsked } from "./model/homework/place.js";
 import { createProgress } from "./model/homework/progress.js";
 import { begin } from "./model/homework/state.js";
@@ -27,7 +28,8 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readAsked(location.search);
 const store = createStore(begin({ ...asked, place: { ...asked.place, lang: startLanguage(asked.place.lang, navigator.languages) } }));
 const { get, set } = store;
-const api = createApi(fetch.bind(globalThis));
+const { post, simulate, ...rest } = createApi(fetch.bind(globalThis));
+const api = { ...rest, post: patient(post), simulate: patient(simulate) };
 const clock = createClock();
 const progress = createProgress(localStorage);
 const answering = createAnswering(store, api, progress);
@@ -117,7 +119,7 @@ function address(wanted) {
 async function openClassroom() {
   if (classroom) return;
   const { open } = await import("./view/homework/open-classroom.js");
-  classroom = open({ api, state: get, changed: update });
+  classroom = open({ api, state: get, changed: update, say: (key) => view().t(key) });
   update();
 }
 

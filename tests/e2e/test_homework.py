@@ -170,6 +170,36 @@ def test_an_assignment_is_opened_from_a_file_and_by_its_link(lecture: Lecture, t
     expect(page.locator(".task[aria-current]")).to_have_text(re.compile("Kinetic energy"), timeout=PATIENCE)
 
 
+TABLE = """student,scene,task,answer,syntax,line
+ada,pendulum,kinetic-energy,m*l^2*dot(phi)^2,plain,1
+ada,pendulum,equation:phi,2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0,plain,2
+emmy,pendulum,equation:phi,\\ddot\\varphi = -\\frac{g}{\\ell}\\sin\\varphi,latex,1
+max,pendulum,equation:phi,l*ddot(phi) = g*sin(phi),plain,1
+xen,pendulum,nonsense,1,plain,1
+"""
+
+
+def test_the_answers_of_a_class_are_graded_and_their_mistakes_counted(lecture: Lecture, tmp_path: Path) -> None:
+    page = _open(lecture, "scene=pendulum&side=class&lang=en")
+    file = tmp_path / "class.csv"
+    file.write_text(TABLE, encoding="utf-8")
+    page.locator(".classroom input[type=file]").set_input_files(file)
+    expect(page.locator(".grading")).to_contain_text("5 of 5", timeout=PATIENCE)
+    equation = page.locator(".chart", has_text="Equation of motion")
+    expect(equation).to_contain_text("1 of 3 right")
+    expect(equation.locator(".mistakes tr")).to_have_text([re.compile("Sign of the weight")])
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save results").click()
+    rows = download.value.path().read_text(encoding="utf-8").splitlines()
+    assert [row.split(",")[3:7] for row in rows[1:]] == [
+        ["wrong", "half-in-kinetic-energy", "0", "2"],
+        ["follow_through", "", "1.5", "3"],
+        ["correct", "", "3", "3"],
+        ["wrong", "gravity-sign", "0", "3"],
+        ["invalid", "", "0", "0"],
+    ]
+
+
 @pytest.mark.parametrize("language", ["de", "en"])
 def test_on_a_phone(lecture: Lecture, language: str) -> None:
     lecture.page.set_viewport_size({"width": 360, "height": 740})

@@ -6,6 +6,7 @@ import { SECTIONS } from "../../frontend/model/editor/schema.js";
 import { COURSE } from "../../frontend/model/start/course.js";
 import { LABS } from "../../frontend/model/labs/question.js";
 import { PAGES } from "../../frontend/model/url.js";
+import { SLIPS } from "../../frontend/model/homework/grading.js";
 import { SIDES } from "../../frontend/model/homework/place.js";
 import { EXAMPLES } from "../../frontend/model/variations/examples.js";
 import { KINDS } from "../../frontend/model/variations/question.js";
@@ -77,6 +78,8 @@ const EXERCISES = [
   ...["keys-motion", "keys-parameters", "keys-operations", "status-solved", "status-begun"].map((key) => `homework.${key}`),
   ...["latex", "plain"].flatMap((syntax) => ["syntax", "to", "kept"].map((key) => `homework.${key}-${syntax}`)),
   ...SIDES.map((side) => `homework.side-${side}`),
+  ...SLIPS.map((slip) => `homework.slip-${slip}`),
+  ...["student", "task", "answer", "outcome", "points", "wrong", "invalid", "undecided"].map((key) => `homework.class-${key}`),
   ...["checking", "check", "solution", "points", "points-one", "hint", "next-hint", "compare", "moving", "mark"].map((key) => `homework.${key}`),
 ];
 

@@ -5,6 +5,9 @@ import { createAnswering, isCurrent, partsIn } from "../../frontend/model/homewo
 import { assignmentIn, fragmentOfAssignment } from "../../frontend/model/homework/assignment.js";
 import { createConversion } from "../../frontend/model/homework/conversion.js";
 import { keyboardOf, shortcutsOf, written } from "../../frontend/model/homework/keys.js";
+import { createClassroom } from "../../frontend/model/homework/classroom.js";
+import { checksOf, earned, onceEach, summaryOf, targetOf } from "../../frontend/model/homework/grading.js";
+import { patient } from "../../frontend/model/homework/patience.js";
 import { framed, parting } from "../../frontend/model/homework/motions.js";
 import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homework/place.js";
 import { BLANK, createProgress, draftOf } from "../../frontend/model/homework/progress.js";
@@ -224,4 +227,72 @@ test("what cannot be read stays on its side", async () => {
   assert.deepEqual(partsIn(entry, store.get().draft), [""]);
   await switchTo("latex");
   assert.deepEqual(partsIn(entry, store.get().draft), ["\\frac{"]);
+});
+
+const SHEET = { format: 1, individual: true, tasks: [{ scene: "pendulum", task: "lagrangian", points: 4 }, { scene: "atwood", task: "momentum:y" }] };
+
+for (const [name, row, assignment, target] of /** @type {const} */ ([
+  ["scene and task by name", { task: " lagrangian ", scene: "pendulum" }, null, { reference: { scene: "pendulum" }, task: "lagrangian", points: null }],
+  ["the scene of the page where the table names none", { task: "lagrangian" }, null, { reference: { scene: "swing" }, task: "lagrangian", points: null }],
+  ["by its number, with the student's own values", { task: "1", student: "ada" }, SHEET, { reference: { scene: "pendulum", seed: "ada" }, task: "lagrangian", points: 4 }],
+  ["by its id", { task: "momentum:y", student: "ada", seed: "7" }, SHEET, { reference: { scene: "atwood", seed: "7" }, task: "momentum:y", points: null }],
+  ["none", { task: "3" }, SHEET, null],
+])) test(`the task of a row: ${name}`, () => assert.deepEqual(targetOf(/** @type {any} */ (row), /** @type {any} */ (assignment), "swing"), target));
+
+test("the rows of one student on one scene are a working, if the table counts lines", () => {
+  const rows = [{ student: "ada", task: "b", answer: "2", line: "2" }, { student: "ada", task: "a", answer: "1", line: "1" }, { student: "max", task: "b", answer: "3", line: "2" }];
+  const targets = rows.map((row) => targetOf(row, null, "swing"));
+  const previous = (/** @type {any[]} */ some) => checksOf(some, targets).map((check) => /** @type {any} */ (check).previous?.map((/** @type {any} */ line) => line.task));
+  assert.deepEqual(previous(rows), [["a"], undefined, undefined]);
+  assert.deepEqual(previous(rows.map(({ line: _, ...row }) => row)), [undefined, undefined, undefined]);
+});
+
+test("points: in full, in part, and once for each task", () => {
+  const outcome = (/** @type {any} */ one, remark = "") => earned({ outcome: one, remark }, 4, 0.5);
+  assert.deepEqual([outcome("correct"), outcome("follow_through"), outcome("follow_through", "repeated"), outcome("wrong")], [4, 2, 0, 0]);
+  const result = (/** @type {string} */ student, /** @type {number} */ points) => /** @type {any} */ ({ student, scene: "s", task: "t", points });
+  assert.deepEqual(onceEach([result("ada", 2), result("ada", 4), result("max", 4), result("ada", 4), result("", 1), result("", 1)]).map(({ points }) => points), [2, 2, 4, 0, 1, 1]);
+});
+
+test("a summary by task, the most frequent mistake first", () => {
+  const result = (/** @type {string} */ student, /** @type {string} */ outcome, /** @type {string} */ mistake) => /** @type {any} */ ({ student, scene: "s", task: "t", title: "T", outcome, mistake });
+  const [{ count, mistakes, outcomes }] = summaryOf([result("a", "wrong", "x"), result("b", "wrong", "y"), result("c", "wrong", "y"), result("d", "correct", "")]);
+  assert.equal(count, 4);
+  assert.deepEqual(mistakes.map(({ mistake, students }) => [mistake, ...students]), [["y", "b", "c"], ["x", "a"]]);
+  assert.deepEqual(outcomes, [{ outcome: "wrong", count: 3 }, { outcome: "correct", count: 1 }]);
+});
+
+/** A server that knows one task and refuses an answer `bad`. @param {any[]} sent */
+const serverOf = (sent) => async (/** @type {string} */ path, /** @type {any} */ body) => {
+  sent.push(path);
+  const refusal = new ApiError({ title: "", detail: "", problems: [{ message: "refused" }], status: 422 });
+  if (path === "/tasks" && body.scene !== "pendulum") throw refusal;
+  if (path === "/tasks") return { scene: { id: "pendulum" }, tasks: [{ id: "lagrangian", title: "L", points: 2 }] };
+  if (body.checks.some((/** @type {any} */ check) => check.answer.value === "bad")) throw refusal;
+  return { verdicts: body.checks.map(() => ({ ...WRONG, outcome: "correct", misconceptions: [] })) };
+};
+
+test("a class: one bad answer, an unknown task or scene spoils no other", async () => {
+  const sent = /** @type {any[]} */ ([]);
+  const state = /** @type {any} */ ({ asked: { place: { lang: "en" } }, assignment: null, sheet: null, entry: null });
+  const session = createClassroom({ api: /** @type {any} */ ({ post: serverOf(sent) }), state: () => state, say: (key) => key });
+  await session.grade("class.csv", "student,scene,task,answer\na,pendulum,lagrangian,1\nb,pendulum,lagrangian,bad\nc,pendulum,other,1\nd,nowhere,lagrangian,1\n");
+  const { results, done, running } = session.get();
+  assert.deepEqual(results.map(({ outcome, points, of, feedback }) => [outcome, points, of, feedback]), [
+    ["correct", 2, 2, "Not right yet."], ["invalid", 0, 2, "refused"], ["invalid", 0, 0, "homework.class-unknown"], ["invalid", 0, 0, "refused"],
+  ]);
+  assert.deepEqual([done, running], [4, false]);
+  await session.grade("other.csv", "a,b\n1,2\n");
+  assert.deepEqual([session.get().column, session.get().results.length], ["task", 0]);
+});
+
+test("a busy server is asked again, any other failure is not", async () => {
+  const failing = (/** @type {number[]} */ ...statuses) => patient(async () => {
+    const status = statuses.shift();
+    if (status) throw new ApiError({ title: "", detail: "", problems: [], status });
+    return "answer";
+  }, async () => {});
+  assert.equal(await failing(503, 429)(), "answer");
+  await assert.rejects(failing(422)(), ApiError);
+  await assert.rejects(failing(503, 503, 503, 503, 503)(), ApiError);
 });

@@ -11,7 +11,8 @@ from deltaq.cli import main
 from deltaq.errors import InputError
 from deltaq.homework.assignment import load_assignment, read_assignment
 from deltaq.homework.command import check_file
-from deltaq.homework.grading import grade, read_answers, results_csv, summary
+from deltaq.homework.grading import grade, read_answers
+from deltaq.homework.results import results_csv, summary
 
 TABLE = """student;scene;task;answer;syntax
 ada;pendulum;kinetic-energy;m*l^2*dot(phi)^2/2;
@@ -146,3 +147,37 @@ def test_assignment_that_is_no_toml(tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         load_assignment(path)
     assert [problem.code for problem in caught.value.problems] == ["assignment-syntax"]
+
+
+WORKING = """student,task,answer,line
+ada,2,2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0,2
+emmy,2,2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0,1
+ada,1,m*l^2*dot(phi)^2,1
+ada,2,2*l*ddot(phi) + g*sin(phi) = 0,3
+ada,9,1,4
+"""
+TWO_TASKS = {
+    "format": 1,
+    "follow_through": 0.25,
+    "tasks": [
+        {"scene": "pendulum", "task": "kinetic-energy", "points": 2},
+        {"scene": "pendulum", "task": "equation:phi", "points": 4},
+    ],
+}
+
+
+def test_rows_of_a_student_are_a_working_in_the_order_of_their_lines() -> None:
+    graded = list(grade(read_answers(WORKING), read_assignment(TWO_TASKS), "en"))
+    assert [(each.student, each.outcome, each.points) for each in graded] == [
+        ("ada", "follow_through", 1.0),
+        ("emmy", "wrong", 0.0),
+        ("ada", "wrong", 0.0),
+        ("ada", "follow_through", 0.0),  # the task has earned its points already
+        ("ada", "invalid", 0.0),
+    ]
+
+
+def test_without_the_column_every_row_stands_alone() -> None:
+    rows = [{key: value for key, value in row.items() if key != "line"} for row in read_answers(WORKING)]
+    outcomes = [each.outcome for each in grade(rows, read_assignment(TWO_TASKS), "en")]
+    assert outcomes == ["wrong", "wrong", "wrong", "wrong", "invalid"]

@@ -10,7 +10,8 @@ from typing import TextIO
 from ..errors import InputError
 from ..narration.catalog import message
 from .assignment import load_assignment
-from .grading import Graded, grade, read_answers, results_csv, summary
+from .grading import grade, read_answers
+from .results import Graded, results_csv, summary
 from .stack.question import quiz
 from .workbook import workbook_of
 

@@ -1,48 +1,29 @@
-"""A table of answers → a table of verdicts, and which misconceptions come up how often in which task."""
+"""A table of answers → a table of verdicts."""
 
 from __future__ import annotations
 
 import csv
 import io
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import cast
 
 from ..errors import InputError, Problem, RequestError
 from ..language.parser import Syntax
-from ..narration.catalog import message, text
+from ..narration.catalog import message
 from .assignment import AssignedTask, Assignment
-from .checking import check
 from .feedback import verdict_document
+from .results import Graded
 from .verdict import Verdict
-from .workbook import workbook_of
+from .workbook import Workbook, workbook_of
+from .working import Line, Marked, Scheme, mark
 
 NEEDED = ("task", "answer")
-RESULT = ("student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback")
-BAR = 30
 SYNTAXES: Mapping[str, Syntax] = {"": "plain", "plain": "plain", "latex": "latex"}
 
 
-@dataclass(frozen=True)
-class Graded:
-    """One row of the results."""
-
-    student: str
-    scene: str
-    task: str
-    outcome: str
-    misconception: str
-    points: float
-    of: float
-    understood_as: str
-    feedback: str
-
-    def row(self) -> list[object]:
-        return [getattr(self, name) for name in RESULT]
-
-
 def read_answers(content: str) -> list[dict[str, str]]:
-    """The rows of a CSV with a header: `task` and `answer`, and `student`, `scene`, `syntax`, `seed` where wanted."""
+    """The rows of a CSV with a header: `task`, `answer`; where wanted `student`, `scene`, `syntax`, `seed`, `line`."""
     first = content.splitlines()[0] if content.strip() else ""
     separator = max(",;\t", key=first.count)
     reader = csv.DictReader(io.StringIO(content), delimiter=separator)
@@ -54,35 +35,95 @@ def read_answers(content: str) -> list[dict[str, str]]:
 
 
 def grade(rows: Iterable[Mapping[str, str]], assignment: Assignment | None, language: str) -> Iterator[Graded]:
-    """Every row graded; one that names no scene or task says so and spoils no other."""
-    for row in rows:
-        try:
-            yield _graded(row, assignment, language)
-        except InputError as error:
-            told = " ".join(message(language, problem) for problem in error.problems)
-            fields = (row.get("student", ""), row.get("scene", ""), row["task"])
-            yield Graded(*fields, "invalid", "", 0.0, 0.0, "", told)
+    """Every row graded, in order; one that names no scene or task says so and spoils no other.
+
+    In a table with a column `line`, the rows of a student on a scene are a working: what follows from a wrong line is
+    told, and a task earns its points once.
+    """
+    table = list(rows)
+    posed = [_attempted(row, assignment, language) for row in table]
+    share = Scheme.follow_through if assignment is None else assignment.follow_through
+    done: dict[int, Graded] = {}
+    for index, what in enumerate(posed):
+        if isinstance(what, Graded):
+            yield what
+            continue
+        if index not in done:
+            members = [i for i, other in enumerate(posed) if isinstance(other, Posed) and what.same_working(other)]
+            members = sorted(members, key=lambda i: _number(table[i])) if "line" in table[index] else [index]
+            graded = _marked([cast("Posed", posed[i]) for i in members], share, language)
+            done.update(zip(members, graded, strict=True))
+        yield done.pop(index)
 
 
-def _graded(row: Mapping[str, str], assignment: Assignment | None, language: str) -> Graded:
-    student, number = row.get("student", ""), row["task"].strip()
-    seed, points = row.get("seed") or None, None
+@dataclass(frozen=True)
+class Posed:
+    """A row as a question: who answers which task of which scene, and what it counts (None: as usual)."""
+
+    student: str
+    scene: Mapping[str, object]
+    seed: str | None
+    line: Line
+    points: float | None = None
+
+    def same_working(self, other: Posed) -> bool:
+        return (self.student, self.scene, self.seed) == (other.student, other.scene, other.seed)
+
+
+def _attempted(row: Mapping[str, str], assignment: Assignment | None, language: str) -> Posed | Graded:
+    try:
+        return _posed(row, assignment)
+    except InputError as error:
+        return _refused(row.get("student", ""), row.get("scene", ""), row["task"], error, language)
+
+
+def _posed(row: Mapping[str, str], assignment: Assignment | None) -> Posed:
+    student, number, seed = row.get("student", ""), row["task"].strip(), row.get("seed") or None
     if assignment is None:
-        scene: Mapping[str, object] = {"scene": row.get("scene", "").strip()}
-        identifier = number
-    else:
-        assigned = _assigned(assignment, number)
-        scene, identifier, points = assigned.scene, assigned.task, assigned.points
-        seed = (seed or student) if assignment.individual else seed
-    workbook = workbook_of({**scene, "seed": seed})
-    task = workbook.task(identifier)
-    verdict = check(workbook, task, row["answer"], _syntax(row))
+        return Posed(student, {"scene": row.get("scene", "").strip()}, seed, Line(number, row["answer"], _syntax(row)))
+    assigned = _assigned(assignment, number)
+    seed = (seed or student) if assignment.individual else seed
+    return Posed(student, assigned.scene, seed, Line(assigned.task, row["answer"], _syntax(row)), assigned.points)
+
+
+def _number(row: Mapping[str, str]) -> float:
+    """Which line of the working a row is; what is no number comes first."""
+    try:
+        return float(row["line"])
+    except ValueError:
+        return 0.0
+
+
+def _refused(student: str, scene: str, task: str, error: InputError, language: str) -> Graded:
+    told = " ".join(message(language, problem) for problem in error.problems)
+    return Graded(student, scene, task, "invalid", "", 0.0, 0.0, "", told)
+
+
+def _marked(questions: Sequence[Posed], share: float, language: str) -> list[Graded]:
+    """One working of one student, or a single answer."""
+    errors: dict[Line, InputError] = {}
+    for each in questions:
+        try:
+            workbook = workbook_of({**each.scene, "seed": each.seed})
+            workbook.task(each.line.task)
+        except InputError as error:
+            errors[each.line] = error
+    known = [each for each in questions if each.line not in errors]
+    scheme = Scheme({each.line.task: each.points for each in known if each.points is not None}, share)
+    marks = iter(mark(workbook, [each.line for each in known], scheme) if known else ())
+    return [
+        _refused(each.student, str(each.scene["scene"]), each.line.task, errors[each.line], language)
+        if each.line in errors
+        else _graded(each, workbook, next(marks), language)
+        for each in questions
+    ]
+
+
+def _graded(posed: Posed, workbook: Workbook, marked: Marked, language: str) -> Graded:
+    verdict = marked.verdict
     told = verdict_document(verdict, workbook.scene, language)
-    worth = task.quantity.points if points is None else points
-    gained = worth if verdict.outcome == "correct" else 0.0
-    mistake = _mistake(verdict)
-    shown = (verdict.outcome, mistake, gained, worth, verdict.understood_as, str(told["feedback"]))
-    return Graded(student, workbook.scene.id, task.id, *shown)
+    found = (verdict.outcome, _mistake(verdict), marked.points, marked.of, verdict.understood_as, str(told["feedback"]))
+    return Graded(posed.student, workbook.scene.id, posed.line.task, *found)
 
 
 def _assigned(assignment: Assignment, number: str) -> AssignedTask:
@@ -107,37 +148,3 @@ def _mistake(verdict: Verdict) -> str:
     if verdict.misconceptions:
         return verdict.misconceptions[0]
     return f"slip:{verdict.slip.kind}" if verdict.slip else verdict.remark if verdict.outcome == "wrong" else ""
-
-
-def results_csv(graded: Iterable[Graded]) -> str:
-    """The results as CSV. A cell that a spreadsheet would take for a formula is quoted."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(RESULT)
-    writer.writerows([_harmless(cell) for cell in each.row()] for each in graded)
-    return out.getvalue()
-
-
-def _harmless(cell: object) -> object:
-    return f"'{cell}" if isinstance(cell, str) and cell[:1] in ("=", "+", "-", "@", "\t", "\r") else cell
-
-
-def summary(graded: Iterable[Graded], language: str) -> str:
-    """By task: how many answers were right, and a bar for every mistake."""
-    rows = list(graded)
-    lines: list[str] = []
-    for scene, task in dict.fromkeys((each.scene, each.task) for each in rows):
-        own = [each for each in rows if (each.scene, each.task) == (scene, task)]
-        right = sum(each.outcome == "correct" for each in own)
-        lines.append(f"{scene}  {task}: {right}/{len(own)} {text(language, 'homework.summary.correct')}")
-        counts = Counter(
-            each.misconception or text(language, "homework.summary.other") for each in own if _failed(each)
-        )
-        widest = max((len(name) for name in counts), default=0)
-        for name, count in counts.most_common():
-            lines.append(f"  {name:<{widest}}  {'█' * max(1, round(BAR * count / len(own)))} {count}")
-    return "\n".join(lines)
-
-
-def _failed(each: Graded) -> bool:
-    return each.outcome in ("wrong", "invalid", "undecided")

@@ -11,6 +11,7 @@
  * @property {string | null} misconception
  * @property {{id: string, title: string}[]} misconceptions
  * @property {string | null} slip
+ * @property {string | null} [remark]
  * @property {("correct" | "wrong" | "undecided")[]} parts
  * @property {AnswerProblem[]} problems
  * @property {{values: Record<string, number>, of: string, yours: number, right: number} | null} counterexample

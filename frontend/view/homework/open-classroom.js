@@ -1,4 +1,11 @@
 /** The table of a class, fetched when it is first opened. */
 
-/** @param {{api: import("../../model/homework/state.js").Api, state: () => import("../../model/homework/state.js").State, changed: () => void}} _around */
-export const open = (_around) => () => null;
+import { createClassroom } from "../../model/homework/classroom.js";
+import { classroom } from "./classroom.js";
+
+/** @param {{api: import("../../model/homework/state.js").Api, state: () => import("../../model/homework/state.js").State, changed: () => void, say: (key: string) => string}} around */
+export function open({ api, state, changed, say }) {
+  const session = createClassroom({ api, state, say });
+  session.subscribe(changed);
+  return (/** @type {import("./page.js").HomeworkView} */ view) => classroom(view, session);
+}

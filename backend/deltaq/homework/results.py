@@ -1,0 +1,66 @@
+"""What came out of a table of answers: as CSV, and which misconceptions come up how often in which task."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ..narration.catalog import text
+
+RESULT = ("student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback")
+BAR = 30
+
+
+@dataclass(frozen=True)
+class Graded:
+    """One row of the results."""
+
+    student: str
+    scene: str
+    task: str
+    outcome: str
+    misconception: str
+    points: float
+    of: float
+    understood_as: str
+    feedback: str
+
+    def row(self) -> list[object]:
+        return [getattr(self, name) for name in RESULT]
+
+
+def results_csv(graded: Iterable[Graded]) -> str:
+    """The results as CSV. A cell that a spreadsheet would take for a formula is quoted."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(RESULT)
+    writer.writerows([_harmless(cell) for cell in each.row()] for each in graded)
+    return out.getvalue()
+
+
+def _harmless(cell: object) -> object:
+    return f"'{cell}" if isinstance(cell, str) and cell[:1] in ("=", "+", "-", "@", "\t", "\r") else cell
+
+
+def summary(graded: Iterable[Graded], language: str) -> str:
+    """By task: how many answers were right, and a bar for every mistake."""
+    rows = list(graded)
+    lines: list[str] = []
+    for scene, task in dict.fromkeys((each.scene, each.task) for each in rows):
+        own = [each for each in rows if (each.scene, each.task) == (scene, task)]
+        right = sum(each.outcome == "correct" for each in own)
+        lines.append(f"{scene}  {task}: {right}/{len(own)} {text(language, 'homework.summary.correct')}")
+        counts = Counter(
+            each.misconception or text(language, "homework.summary.other") for each in own if _failed(each)
+        )
+        widest = max((len(name) for name in counts), default=0)
+        for name, count in counts.most_common():
+            lines.append(f"  {name:<{widest}}  {'█' * max(1, round(BAR * count / len(own)))} {count}")
+    return "\n".join(lines)
+
+
+def _failed(each: Graded) -> bool:
+    return each.outcome in ("wrong", "invalid", "undecided")
