@@ -10,7 +10,7 @@ RUN python -m venv /opt/deltaq \
 
 # Compile the kernels once, so that the first simulation does not wait for a compiler.
 ENV NUMBA_CACHE_DIR=/opt/kernels
-RUN /opt/deltaq/bin/python -c "from deltaq.simulation.service import warm; warm()"
+RUN /opt/deltaq/bin/python -c "from deltaq.api.jobs import warm; warm({})"
 
 FROM python:3.11-slim
 RUN useradd --system --no-create-home --shell /usr/sbin/nologin deltaq

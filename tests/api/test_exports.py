@@ -45,3 +45,11 @@ async def test_refused(
     problems = answer.json()["problems"]
     assert pointer is None or pointer in [problem["pointer"] for problem in problems]
     assert all(problem["message"] for problem in problems)
+
+
+async def test_half_of_an_initial_state(client: httpx.AsyncClient) -> None:
+    answer = await client.post(
+        "/api/v1/exports/python", json={"scene": "pendulum", "initial": {"phi": {"value": 0.25}}}
+    )
+    assert answer.status_code == 200
+    assert "0.25" in answer.text

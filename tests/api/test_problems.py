@@ -198,11 +198,23 @@ async def test_no_such_address(client: httpx.AsyncClient) -> None:
         assert response.json() == document("not-found", 404, "There is nothing at this address", detail="")
 
 
-async def test_wrong_method(client: httpx.AsyncClient) -> None:
-    response = await client.delete("/api/v1/scenes")
-    assert response.headers["allow"] == "GET"
+@pytest.mark.parametrize(
+    ("method", "path", "allowed"),
+    [
+        pytest.param("DELETE", "/api/v1/scenes", "GET", id="not GET"),
+        pytest.param("GET", DERIVATIONS, "POST", id="not POST"),
+        pytest.param("OPTIONS", "/api/v1/scenes/validate", "POST", id="a name where others have an identifier"),
+        pytest.param("POST", "/app.js", "GET, HEAD", id="a file"),
+    ],
+)
+async def test_wrong_method(client: httpx.AsyncClient, method: str, path: str, allowed: str) -> None:
+    response = await client.request(method, path)
+    assert ", ".join(sorted(response.headers["allow"].split(", "))) == allowed
     assert response.json() == document(
-        "method-not-allowed", 405, "This address does not take this method", detail="Allowed here: GET."
+        "method-not-allowed",
+        405,
+        "This address does not take this method",
+        detail=f"Allowed here: {response.headers['allow']}.",
     )
 
 

@@ -137,6 +137,7 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
         "POST /tasks/solution",
         "POST /tasks/stack",
         "POST /assignments",
+        "POST /exports/{form}",
         *(f"POST /experiments/{name}" for name in REQUESTS),
     }
     for path, methods in description["paths"].items():

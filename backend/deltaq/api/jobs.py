@@ -12,6 +12,7 @@ from ..mechanics.document import examine
 from ..mechanics.toml import read_toml
 from ..narration.catalog import text
 from .problems import describe
+from .workers.kernels import mark_as_compiled
 
 Document = dict[str, Any]
 PART_PAUSE = 0.4  # seconds between two parts of a stream
@@ -80,6 +81,7 @@ def typeset_all(document: Document) -> Document:
 def warm(document: Document) -> Document:
     """Bring the compiled kernels to disk and into this worker, so that nobody waits for a compiler."""
     import_module("deltaq.simulation.service").warm()
+    mark_as_compiled()
     return document
 
 

@@ -34,7 +34,9 @@ def export_request(document: Mapping[str, object]) -> Document:
 def _scene_of(document: Mapping[str, object]) -> Scene:
     freeze = cast("list[str]", document.get("freeze") or [])
     scene, parameters = requested_scene(document["scene"], cast("dict[str, float]", document.get("parameters") or {}))
-    begun = with_initial(scene, cast("dict[str, dict[str, float]]", document.get("initial") or {}), freeze)
+    initial = cast("dict[str, dict[str, float | None]]", document.get("initial") or {})
+    given = {name: {key: one for key, one in values.items() if one is not None} for name, values in initial.items()}
+    begun = with_initial(scene, given, freeze)
     return change(begun, cast("list[dict[str, str]]", document.get("guides") or []), freeze, parameters)
 
 

@@ -1,10 +1,12 @@
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
-from deltaq.api.workers.kernels import compiled_kernels
+from deltaq.api.workers import kernels
+from deltaq.api.workers.kernels import are_compiled, compiled_kernels, mark_as_compiled
 
 
 @pytest.mark.parametrize(
@@ -29,3 +31,16 @@ def test_kernels_are_looked_for_beside_the_code(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     here = len(list(Path(__file__).parents[3].glob("backend/deltaq/simulation/kernels/__pycache__/*.nbc")))
     assert compiled_kernels() == here
+
+
+def test_kernels_of_another_source_do_not_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    source = tmp_path / "source"
+    source.mkdir()
+    (source / "step.py").write_text("one = 1\n")
+    monkeypatch.setattr(kernels, "KERNELS", source)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache" / "new"))
+    assert not are_compiled()
+    mark_as_compiled()
+    assert are_compiled()
+    os.utime(source / "step.py", (1, 1))
+    assert not are_compiled()

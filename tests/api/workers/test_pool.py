@@ -189,6 +189,12 @@ async def test_pure_job_survives_one_kill(make_pool: MakePool, tmp_path: Path) -
     assert answer == {"runs": 2}
 
 
+async def test_killed_while_replying_is_repeated(make_pool: MakePool, tmp_path: Path) -> None:
+    pool = make_pool()
+    assert await run(pool, "kill_self_while_replying", {"marker": str(tmp_path / "marker")}) == "whole"
+    assert pool.state.kills == 1
+
+
 async def test_no_answer_is_lost_or_wrong_while_workers_are_killed(make_pool: MakePool) -> None:
     pool = make_pool(3)
     stop = asyncio.Event()

@@ -33,6 +33,7 @@ from ..workers.job import Job
 from .common import failures, question_of
 
 router = APIRouter(tags=["homework"], route_class=StrictRoute)
+XML: dict[int | str, dict[str, Any]] = {200: {"content": {"application/xml": {"schema": {"type": "string"}}}}}
 TASKS = Job("deltaq.api.jobs:tasks", deadline=8.0)
 CHECK = Job("deltaq.api.jobs:check", deadline=15.0)
 READING = Job("deltaq.api.jobs:read_answer", deadline=4.0)
@@ -61,7 +62,7 @@ async def tasks(request: Request, body: TasksRequest) -> Response:
     return await _answered(request, TASKS, question_of(request, body))
 
 
-@router.post("/tasks/stack", responses=failures(400, 404, 413, 422, 503, 504))
+@router.post("/tasks/stack", response_class=Response, responses=XML | failures(400, 404, 413, 422, 503, 504))
 async def export_stack(request: Request, body: StackRequest) -> Response:
     """Tasks as questions of STACK (Moodle XML): input, model answer, feedback tree made of the misconceptions."""
     answer = await service_of(request).run(STACK, question_of(request, body))

@@ -7,15 +7,29 @@ from functools import cache
 from importlib.resources import files
 
 from fastapi import APIRouter, Request, Response
+from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 from starlette.responses import RedirectResponse
+from starlette.routing import Match
+from starlette.types import Scope
 
 from ..assets import ASK_AGAIN, Asset, import_map_hash
 from ..headers import content_security_policy
 from ..responses import coding_for, not_modified
 from ..service import service_of
+from .common import PREFIX
 
-router = APIRouter(include_in_schema=False)
+
+class PageRoute(APIRoute):
+    """A route of the pages: it leaves the addresses of the API to themselves, so that those know their methods."""
+
+    def matches(self, scope: Scope) -> tuple[Match, Scope]:
+        if scope["type"] == "http" and scope["path"].startswith(f"{PREFIX}/"):
+            return Match.NONE, {}
+        return super().matches(scope)
+
+
+router = APIRouter(include_in_schema=False, route_class=PageRoute)
 
 
 @cache

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Request, Response
 
+from ...errors import Problem, RequestError
 from ...mechanics.library import family_of, load_scene, scene_ids
 from ...mechanics.scene import Scene
 from ...mechanics.writing import write_scene
@@ -50,14 +51,6 @@ def list_scenes(
     return tagged(request, {"scenes": entries})
 
 
-@router.get("/{identifier}", responses=failures(404, 422))
-def get_scene(
-    request: Request, identifier: str, n: Annotated[int | None, Query(description="members of a chain")] = None
-) -> Response:
-    """The document of a built-in scene, format 1; of a family the member with `n` links, or its usual one."""
-    return tagged(request, write_scene(load_scene(identifier, n)))
-
-
 @router.post("/validate", response_model=SceneValidity, responses=failures(400, 413, 422, 503, 504))
 async def validate_scene(request: Request, scene: Annotated[SceneDocument, Body(examples=[EXAMPLE])]) -> Response:
     """Whether a scene document describes a mechanical system, and all that is wrong with it."""
@@ -69,4 +62,14 @@ async def validate_scene(request: Request, scene: Annotated[SceneDocument, Body(
 async def read_toml_scene(request: Request) -> Response:
     """A scene document written in TOML, as JSON. Whether it describes a mechanical system, `/scenes/validate` says."""
     text = (await request.body()).decode("utf-8", errors="replace")
+    if not text:
+        raise RequestError(Problem("missing-field", parameters={"field": "body"}))
     return Response(await service_of(request).run(READ, {"text": text, "lang": language_of(request)}), media_type=JSON)
+
+
+@router.get("/{identifier}", responses=failures(404, 422))
+def get_scene(
+    request: Request, identifier: str, n: Annotated[int | None, Query(description="members of a chain")] = None
+) -> Response:
+    """The document of a built-in scene, format 1; of a family the member with `n` links, or its usual one."""
+    return tagged(request, write_scene(load_scene(identifier, n)))

@@ -2,13 +2,47 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
+import platform
+from contextlib import suppress
 from pathlib import Path
 
-_BESIDE_THE_CODE = Path(__file__).parents[2] / "simulation" / "kernels" / "__pycache__"
+KERNELS = Path(__file__).parents[2] / "simulation" / "kernels"
+
+
+def folder() -> Path:
+    """Where Numba keeps what it has compiled."""
+    return Path(os.environ.get("NUMBA_CACHE_DIR") or KERNELS / "__pycache__")
 
 
 def compiled_kernels() -> int:
     """The number of compiled signatures in the cache."""
-    folder = Path(os.environ.get("NUMBA_CACHE_DIR") or _BESIDE_THE_CODE)
-    return sum(1 for _ in folder.rglob("*.nbc"))
+    return sum(1 for _ in folder().rglob("*.nbc"))
+
+
+def mark_as_compiled() -> None:
+    """Note that all kernels are there, for this source and this processor."""
+    with suppress(OSError):
+        folder().mkdir(parents=True, exist_ok=True)
+        _mark().touch()
+
+
+def are_compiled() -> bool:
+    """Whether all kernels are there, so that loading them is quick."""
+    return _mark().exists()
+
+
+def _mark() -> Path:
+    """A file whose name depends on what Numba's cache depends on."""
+    files = sorted(KERNELS.glob("*.py"))
+    surroundings = [str((file.name, file.stat().st_mtime_ns, file.stat().st_size)) for file in files]
+    digest = hashlib.sha256("".join([*surroundings, platform.python_version(), _processor()]).encode())
+    return folder() / f"{digest.hexdigest()[:16]}.compiled"
+
+
+def _processor() -> str:
+    with suppress(OSError):
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+        return "".join(sorted({line for line in lines if line.startswith(("model name", "flags", "Features"))}))
+    return platform.processor()

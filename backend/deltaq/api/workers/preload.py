@@ -10,7 +10,7 @@ import os
 from contextlib import suppress
 from importlib import import_module
 
-from .kernels import compiled_kernels
+from .kernels import are_compiled
 from .limits import die_with_parent
 
 SCENE = "pendulum"
@@ -28,7 +28,7 @@ def load() -> None:
         import_module("deltaq.narration.derive").derive_request({"scene": SCENE})
     with suppress(Exception):
         service = import_module("deltaq.simulation.service")
-        if compiled_kernels():  # compiling them here would keep all workers waiting
+        if are_compiled():  # compiling them here would keep all workers waiting
             service.warm()
     gc.collect()
     gc.freeze()  # what is there now is shared by all workers; the collector must not touch its pages
