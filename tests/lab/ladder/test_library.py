@@ -6,8 +6,10 @@ import pytest
 from tests.lab.ladder.climbing import climbed
 
 from deltaq.lab.ladder.findings import FULL
-from deltaq.mechanics.document import examine
+from deltaq.mechanics.document import examine, read_scene
 from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.narration.derive import derive
+from deltaq.simulation.service import run
 
 
 @pytest.mark.parametrize("identifier", scene_ids())
@@ -28,3 +30,24 @@ def test_scene_climbs(identifier: str) -> None:
     full = found.measured[FULL].deviation
     assert full is not None
     assert full.relative < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("identifier", "rung"),
+    [
+        pytest.param("elastic-pendulum", "linearized", id="follower force, linearized"),
+        pytest.param("quarter-car", "rigid:spring", id="coordinate given up"),
+        pytest.param("spherical-pendulum", "cyclic:psi+linearized", id="effective potential, linearized"),
+        pytest.param("cart-pendulum", "cyclic:x", id="seen from the centre of mass"),
+        pytest.param("wind-on-rod", "point-mass", id="rod as a particle"),
+        pytest.param("bead-on-free-hoop", "guided:psi", id="guided"),
+    ],
+)
+def test_a_rung_can_be_opened_as_a_scene(identifier: str, rung: str) -> None:
+    """It is derived step by step, each step verified, and simulated, as any other scene."""
+    rungs = climbed(load_scene(identifier), 0.5).ladder.rungs
+    document = next(each.scene for each in rungs if each.id == rung)
+    assert document is not None
+    _, derivation = derive(read_scene(document))
+    assert all(step.verified for step in derivation.steps())
+    assert run({"scene": document, "t_end": 1.0})["status"] == "ok"
