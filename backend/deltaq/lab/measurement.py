@@ -7,7 +7,7 @@ above. Times are medians of repeated runs of the stepping loop alone; compiling 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import median
 
 import numpy as np
@@ -72,6 +72,14 @@ class Point:
 def too_slow(method: str, setting: Setting) -> Point:
     """A run that is not tried, since the one before took so long."""
     return Point(method, setting, "too_slow", None)
+
+
+def warm(problem: Problem, *methods: Method) -> None:
+    """Loads the kernels of methods, so that no run that is measured has to."""
+    short = replace(problem, t_end=1e-3 * problem.t_end)
+    times, flag = np.array([0.0, short.t_end]), np.zeros(1, dtype=np.int64)
+    for method in methods:
+        run(short, method, times, flag, Steps(short.t_end, 1e-3 if method.is_adaptive else 0.0))
 
 
 def measure(problem: Problem, method: Method, reference: Reference, setting: Setting, *, repeats: int) -> Point:

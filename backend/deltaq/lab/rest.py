@@ -14,6 +14,7 @@ from ..errors import RequestError
 from ..simulation.problem import Floats, Problem
 
 PASSES, CLOSE, NUDGE, LONGEST_MOVE = 60, 1e-12, 1e-6, 0.5
+LEFT = 1e-6  # of force per unit of stiffness
 
 
 def at_rest(problem: Problem, pointer: str) -> Problem:
@@ -27,6 +28,8 @@ def at_rest(problem: Problem, pointer: str) -> Problem:
         move = np.linalg.lstsq(jacobian, -force, rcond=1e-10)[0]  # a direction without forces stays as it is
         values = values + move * min(1.0, LONGEST_MOVE / max(float(np.abs(move).max()), 1e-300))
         if np.abs(move).max() < CLOSE * max(1.0, np.abs(values).max()):
+            if np.abs(force).max() > LEFT * np.abs(jacobian).max(initial=1.0):
+                break  # a force that no displacement changes
             return replace(problem, values=tuple(map(float, values)), rates=(0.0,) * problem.degrees)
     raise RequestError(Mistake("lab-no-rest", pointer))
 

@@ -133,7 +133,7 @@ function values(view, scene) {
   const changed = Object.keys(parameters).length + Object.keys(initial).length;
   const start = (/** @type {string} */ name, /** @type {object} */ patch) => benches.edit({ initial: { ...initial, [name]: { ...initial[name], ...patch } } });
   return html`
-    <details class="values" ?open=${changed > 0}><summary>${t("labs.values")}</summary>
+    <details class="numbers-of-scene" ?open=${changed > 0}><summary>${t("labs.values")}</summary>
       ${scene.parameters.map(({ name, latex, unit, value }) => html`<label class="field row"><span>${inline(latex || name)}</span>
         ${number(parameters[name] ?? value, (given) => benches.edit({ parameters: { ...parameters, [name]: given } }))}<span class="unit">${unit ?? ""}</span></label>`)}
       ${scene.coordinates.filter(({ name }) => !guided.has(name)).map(({ name, latex, unit, value, rate }) => html`

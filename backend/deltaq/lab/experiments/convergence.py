@@ -13,7 +13,7 @@ from ...simulation.library import get_method
 from ...simulation.reference import reference
 from ..charts.convergence import charts
 from ..experiment import Experiment
-from ..measurement import floor_of, measure, order_of
+from ..measurement import floor_of, measure, order_of, warm
 from ..report import Document, Report
 from ..subject import bounded, methods_of, subject_of
 from ..sweep import SAMPLES, Track, fixed_steps, sweep
@@ -29,6 +29,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     subject.finish("methods")
     problem = bounded(subject, STEP_LIMIT)
     trusted, settings = reference(problem), fixed_steps(problem)
+    warm(problem, *methods)
     tracks = [Track(method.id, settings, partial(measure, problem, method, trusted, repeats=1)) for method in methods]
     head = subject.described | {"reference": described(trusted, problem)}
     for done, total in sweep(tracks, trusted):

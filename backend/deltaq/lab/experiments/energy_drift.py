@@ -23,6 +23,7 @@ from ...simulation.stiffness import spectrum
 from ..bounds import DRIFT_STEPS, LOCAL_TOLERANCES, USUAL_DRIFT
 from ..charts.energy_drift import charts
 from ..experiment import Experiment
+from ..measurement import warm
 from ..report import Document, Report, rounded, significant
 from ..subject import methods_of, subject_of
 
@@ -47,6 +48,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     problem = replace(subject.problem, t_end=count * size, step_limit=4 * DRIFT_STEPS[1])
     head = subject.described | {"t_end": count * size, "steps": count, "step": size, "tolerance": tolerance}
     lines: list[Document] = []
+    warm(problem, *methods)
     for method in methods:
         yield Report(len(lines), len(methods), head | {"lines": lines})
         lines = [*lines, _line(problem, method, _steps(method, size, tolerance))]

@@ -23,7 +23,7 @@ from ..ladder.climb import climb
 from ..ladder.distance import Yardstick
 from ..ladder.findings import Finding, Growth, Ladder, Least, Measured, Rung
 from ..ladder.measurement import ride, yardstick
-from ..measurement import Point, Setting, too_slow
+from ..measurement import Point, Setting, too_slow, warm
 from ..report import Document, Report, machine, rounded, significant
 from ..subject import Subject, subject_of
 from ..sweep import settings_of
@@ -103,7 +103,9 @@ def _methods(subject: Subject) -> Iterator[list[Document]]:
     """The full model by several methods, roughly and finely, in the same measure as the rungs."""
     flag = np.zeros(1, dtype=np.int64)
     full = yardstick(ride(subject.scene, subject.problem.t_end, flag))
-    for method in map(get_method, METHODS):
+    methods = [get_method(name) for name in METHODS]
+    warm(full.problem, *methods)
+    for method in methods:
         points: list[Point] = []
         for setting in settings_of(full.problem, method)[:COARSE]:
             if points and points[-1].is_slow:

@@ -14,7 +14,7 @@ from ...simulation.problem import Problem
 from ...simulation.reference import Reference, reference
 from ..charts.work_precision import charts
 from ..experiment import Experiment
-from ..measurement import REPEATS, Point, floor_of, measure, order_of
+from ..measurement import REPEATS, Point, floor_of, measure, order_of, warm
 from ..peers import peer_tracks
 from ..report import Document, Report, machine, significant
 from ..subject import bounded, methods_of, subject_of
@@ -31,6 +31,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     subject.finish("methods", "peers")
     problem = bounded(subject, STEP_LIMIT)
     trusted = reference(problem)
+    warm(problem, *methods)
     tracks = [
         Track(method.id, settings_of(problem, method), partial(measure, problem, method, trusted, repeats=REPEATS))
         for method in methods

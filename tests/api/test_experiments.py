@@ -1,0 +1,175 @@
+"""Experiments over HTTP: as one answer, as a stream, as files; refused, and given up."""
+
+from __future__ import annotations
+
+import asyncio
+import csv
+import io
+import json
+import time
+from collections.abc import AsyncIterator, Iterator
+from typing import Any
+
+import httpx
+import pytest
+from fastapi import FastAPI
+
+from deltaq.api.wire.experiment import REQUESTS
+from deltaq.lab.experiment import experiment_ids, get_experiment
+from deltaq.narration.catalog import text
+
+pytestmark = pytest.mark.anyio
+
+AXES = {
+    "x": {"parameter": "omega", "from": 20.0, "to": 80.0, "count": 8},
+    "y": {"parameter": "y0", "from": 0.02, "to": 0.1, "count": 8},
+}
+SMALL: dict[str, dict[str, Any]] = {
+    "work-precision": {"scene": "pendulum", "t_end": 1.0, "methods": ["rk4", "dop853"]},
+    "convergence": {"scene": "pendulum", "t_end": 1.0, "methods": ["heun"]},
+    "energy-drift": {"scene": "pendulum", "steps": 1000, "methods": ["rk4", "stormer-verlet"]},
+    "stability": {"scene": "two-mass-oscillator", "t_end": 1.0, "methods": ["rk4", "radau-5"]},
+    "stability-map": {"scene": "kapitza", **AXES},
+    "chaos": {"scene": "double-pendulum", "t_end": 3.0, "map": True, "count": 16},
+    "fidelity": {"scene": "elastic-pendulum", "t_end": 2.0},
+}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def laboratory(app: FastAPI) -> Iterator[None]:
+    pool = app.state.service.laboratory
+    pool.start()
+    yield
+    pool.stop(0.1)
+
+
+def address(name: str) -> str:
+    return f"/api/v1/experiments/{name}"
+
+
+def test_every_experiment_has_a_call_and_every_call_an_experiment() -> None:
+    assert set(REQUESTS) == set(experiment_ids()) == set(SMALL)
+
+
+@pytest.mark.parametrize("name", SMALL)
+async def test_an_answer_has_its_charts_with_words_in_the_language_asked_for(
+    client: httpx.AsyncClient, name: str
+) -> None:
+    for lang in ("en", "de"):
+        response = await client.post(address(name), json={**SMALL[name], "lang": lang})
+        assert response.status_code == 200, response.text
+        answer = response.json()
+        assert answer["experiment"] == name
+        assert answer["scene"] == SMALL[name]["scene"]
+        assert answer["charts"]
+        for chart in answer["charts"]:
+            assert chart["title"]
+            assert "{" not in chart["caption"] + chart["title"]
+            assert chart["data"]
+            titles = [chart["layout"][axis]["title"]["text"] for axis in ("xaxis", "yaxis")]
+            assert all(titles)
+            assert not any(title.startswith("labs.") for title in titles)
+
+
+async def events_of(response: httpx.Response) -> AsyncIterator[tuple[str, Any]]:
+    """The events of a stream, as they come."""
+    kind = ""
+    async for line in response.aiter_lines():
+        if line.startswith("event: "):
+            kind = line.removeprefix("event: ")
+        elif line.startswith("data: "):
+            yield kind, json.loads(line.removeprefix("data: "))
+
+
+async def test_a_stream_has_growing_parts_and_ends_with_the_result(client: httpx.AsyncClient) -> None:
+    question = {"scene": "elastic-pendulum", "t_end": 3.0, "lang": "en"}
+    headers = {"Accept": "text/event-stream"}
+    async with client.stream("POST", address("work-precision"), json=question, headers=headers) as response:
+        assert response.headers["content-type"].startswith("text/event-stream")
+        assert response.headers["cache-control"] == "no-store"
+        found = [event async for event in events_of(response)]
+    kinds = [kind for kind, _ in found]
+    assert kinds == ["part"] * (len(kinds) - 1) + ["result"]
+    parts = [data for kind, data in found if kind == "part"]
+    assert parts
+    assert all(0 < part["done"] <= part["total"] for part in parts)
+    assert [part["done"] for part in parts] == sorted(part["done"] for part in parts)
+    result = found[-1][1]
+    again = (await client.post(address("work-precision"), json=question)).json()
+    assert again == result  # from the cache: times would differ
+
+
+async def test_a_stream_that_is_refused_says_why(client: httpx.AsyncClient) -> None:
+    question = {"scene": "pendulum", "x": {**AXES["x"], "parameter": "l"}, "y": {**AXES["y"], "parameter": "g"}}
+    headers = {"Accept": "text/event-stream"}
+    async with client.stream("POST", address("stability-map"), json=question, headers=headers) as response:
+        ((kind, problem),) = [event async for event in events_of(response)]
+    assert (kind, problem["status"]) == ("problem", 422)
+    assert [one["code"] for one in problem["problems"]] == ["no-period"]
+
+
+REFUSED = [
+    pytest.param("work-precision", {"methods": ["rk5"]}, 404, "/methods/0", "unknown-method", id="method"),
+    pytest.param("work-precision", {"t_end": 5000.0}, 422, "/t_end", "request-too-large", id="span"),
+    pytest.param("energy-drift", {"steps": 10**8}, 422, "/steps", "request-too-large", id="steps"),
+    pytest.param("stability", {"at": "noon"}, 422, "/at", "request-not-one-of", id="place"),
+    pytest.param("stability", {"stiffness": "q"}, 404, "/stiffness", "unknown-parameter", id="stiffness"),
+    pytest.param("stability-map", {}, 422, "/x", "missing-field", id="no axes"),
+    pytest.param(
+        "stability-map", {**AXES, "x": {**AXES["x"], "count": 4000}}, 422, "/x/count", "request-too-large", id="grid"
+    ),
+    pytest.param(
+        "stability-map", {**AXES, "y": AXES["x"]}, 422, "/y/parameter", "request-same-parameter", id="one parameter"
+    ),
+    pytest.param("stability-map", {**AXES, "x": {**AXES["x"], "to": 1.0}}, 422, "/x/to", "request-outside", id="range"),
+    pytest.param("chaos", {"count": 5000}, 422, "/count", "request-too-large", id="map"),
+    pytest.param("fidelity", {"tolerance": -1.0}, 422, "/tolerance", "request-too-small", id="tolerance"),
+    pytest.param("fidelity", {"scene": {}}, 422, "/scene/bodies", "no-body", id="empty scene"),
+    pytest.param("chaos", {"speed": 1}, 422, "/speed", "unknown-field", id="unknown field"),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "status", "pointer", "code"), REFUSED)
+async def test_what_is_out_of_bounds_is_refused_at_its_place(
+    client: httpx.AsyncClient, name: str, change: dict[str, Any], status: int, pointer: str, code: str
+) -> None:
+    scene = "kapitza" if name == "stability-map" else "pendulum"
+    response = await client.post(address(name), json={"scene": scene, **change})
+    assert response.status_code == status
+    assert (pointer, code) in [(one["pointer"], one["code"]) for one in response.json()["problems"]]
+
+
+async def test_charts_as_a_table(client: httpx.AsyncClient) -> None:
+    response = await client.post(address("convergence"), json=SMALL["convergence"], headers={"Accept": "text/csv"})
+    assert response.headers["content-disposition"] == 'attachment; filename="convergence-pendulum.csv"'
+    rows = list(csv.DictReader(io.StringIO(response.text)))
+    assert list(rows[0]) == ["chart", "curve", "x", "y", "z"]
+    assert all(float(row["x"]) > 0 and float(row["y"]) > 0 for row in rows)
+
+
+async def test_charts_as_a_page_that_needs_nothing_else(client: httpx.AsyncClient) -> None:
+    response = await client.post(address("chaos"), json=SMALL["chaos"], headers={"Accept": "text/html"})
+    assert response.headers["content-type"].startswith("text/html")
+    assert response.text.startswith("<!doctype html>")
+    assert "<script src=" not in response.text
+    assert len(response.text) > 1_000_000  # Plotly is in it
+
+
+async def test_given_up_frees_the_bench_within_a_second(client: httpx.AsyncClient, app: FastAPI) -> None:
+    pool = app.state.service.laboratory
+    question = {"scene": "triple-pendulum", "t_end": 77.0, "peers": True}
+    running = asyncio.create_task(client.post(address("work-precision"), json=question))
+    while not pool.state.busy:
+        await asyncio.sleep(0.02)
+    await asyncio.sleep(0.3)
+    running.cancel()
+    before = time.monotonic()
+    while pool.state.busy:
+        await asyncio.sleep(0.02)
+        assert time.monotonic() - before < 1.0
+
+
+@pytest.mark.parametrize("name", experiment_ids())
+def test_every_experiment_has_a_title_in_both_languages(name: str) -> None:
+    assert get_experiment(name).id == name
+    assert len({text(lang, f"labs.experiments.{name}.summary") for lang in ("de", "en")}) == 2

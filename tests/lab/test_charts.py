@@ -1,0 +1,66 @@
+"""Charts: valid figures, and a text for every state in both languages."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import plotly.graph_objects as go
+import pytest
+
+from deltaq.lab.charts.chart import look, short
+from deltaq.lab.experiment import get_experiment
+from deltaq.lab.experiments import chaos, energy_drift, fidelity, stability
+from deltaq.lab.export import page, table
+from deltaq.narration.catalog import text
+from deltaq.simulation.library import method_ids
+from deltaq.simulation.outcome import _WORDS, codes
+
+QUESTIONS: dict[str, dict[str, Any]] = {
+    "work-precision": {"scene": "pendulum", "t_end": 1.0, "methods": ["rk4", "explicit-euler", "radau-5"]},
+    "convergence": {"scene": "elastic-pendulum", "t_end": 1.0, "parameters": {"k": 5000.0}},
+    "energy-drift": {"scene": "pendulum", "steps": 1000},
+    "stability": {"scene": "elastic-pendulum", "t_end": 1.0, "methods": ["rk4", "stormer-verlet"]},
+    "chaos": {"scene": "double-pendulum", "t_end": 2.0, "map": True, "count": 16},
+    "fidelity": {"scene": "elastic-pendulum", "t_end": 2.0},
+}
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+@pytest.mark.parametrize("lang", ["de", "en"])
+def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str) -> None:
+    experiment, say = get_experiment(name), partial(text, lang)
+    reports = list(experiment.run(QUESTIONS[name]))
+    for report in (reports[0], reports[len(reports) // 2], reports[-1]):
+        for chart in experiment.charts(report.result, say):
+            go.Figure({"data": chart["data"], "layout": chart["layout"]})  # Plotly refuses what it does not know
+    charts = experiment.charts(reports[-1].result, say)
+    assert table(charts).count("\n") > 10
+    assert page(charts, lang).count("<figure>") == len(charts)
+
+
+def test_methods_are_told_apart_by_look() -> None:
+    looks = [(look(name)["color"], look(name)["dash"]) for name in method_ids()]
+    assert len(set(looks)) == len(method_ids())
+
+
+@pytest.mark.parametrize("lang", ["de", "en"])
+def test_every_way_to_end_has_its_words(lang: str) -> None:
+    statuses = {status for status, _ in _WORDS.values()} | {"horizon_reached", "tolerance_missed", "too_slow", "event"}
+    for status in statuses:
+        assert text(lang, f"labs.status.{status}")
+    assert codes()
+
+
+@pytest.mark.parametrize(
+    ("number", "expected"),
+    [(None, "–"), (0.0, "0"), (1.5, "1.5"), (1e-14, "1·10⁻¹⁴"), (12345.0, "1.23·10⁴"), (-2e-7, "-2·10⁻⁷")],
+)
+def test_numbers_are_written_as_they_are_printed(number: float | None, expected: str) -> None:
+    assert short(number) == expected
+
+
+def test_one_experiment_is_one_file() -> None:
+    for module in (chaos, energy_drift, fidelity, stability):
+        assert module.EXPERIMENT.id.replace("-", "_") == Path(module.__file__ or "").stem
