@@ -5,7 +5,7 @@ import { unitText } from "./numbers.js";
 
 /** @typedef {import("./types.js").Trajectory} Trajectory */
 /** @typedef {import("./types.js").Scene} Scene */
-/** @typedef {{key: string, latex: string, className: string, values: number[], dash: string, band: boolean}} Curve */
+/** @typedef {{key: string, latex: string, className: string, values: number[], dash: string, band: boolean, beside?: number[]}} Curve  beside: the times of another run */
 /** @typedef {{key: string, unit: string, curves: Curve[]}} Row */
 /** @typedef {{ink: string, muted: string, grid: string, paper: string, of: (className: string) => string}} Palette */
 
@@ -13,12 +13,29 @@ import { unitText } from "./numbers.js";
 const VISIBLE = 0.01;
 const LEAST_RANGE = 1e-3;
 
+const DASHES = ["dash", "dot"];
+
+/**
+ * The rows of a motion; the same curves of runs beside it are dashed in them.
+ * @param {Scene} scene @param {Trajectory} trajectory @param {readonly Trajectory[]} [beside]
+ * @returns {Row[]}
+ */
+export function rowsOf(scene, trajectory, beside = []) {
+  const others = beside.map((run) => rowsOfOne(scene, run));
+  return rowsOfOne(scene, trajectory).map((row) => ({
+    ...row,
+    curves: [...row.curves, ...others.flatMap((rows, i) => (rows.find(({ key }) => key === row.key)?.curves ?? [])
+      .filter(({ dash }) => dash === "solid")
+      .map((curve) => ({ ...curve, dash: DASHES[i % 2], band: false, beside: beside[i].t })))],
+  }));
+}
+
 /**
  * Coordinates of the same unit share a row; the energies have the last one.
  * @param {Scene} scene @param {Trajectory} trajectory
  * @returns {Row[]}
  */
-export function rowsOf(scene, trajectory) {
+function rowsOfOne(scene, trajectory) {
   /** @type {Map<string, Row>} */
   const rows = new Map();
   scene.coordinates.forEach((coordinate, index) => {
@@ -73,7 +90,7 @@ export function tracesOf(rows, trajectory, palette) {
       const axis = { xaxis: "x", yaxis: r === 0 ? "y" : `y${r + 1}` };
       const color = palette.of(curve.className);
       const trace = {
-        type: "scatter", mode: "lines", x: trajectory.t, y: curve.values, name: curve.key, hoverinfo: "skip",
+        type: "scatter", mode: "lines", x: curve.beside ?? trajectory.t, y: curve.values, name: curve.key, hoverinfo: "skip",
         line: { color, width: curve.dash === "solid" ? 2 : 1.6, dash: curve.dash, simplify: false }, ...axis,
       };
       return curve.band ? [...bandOf(curve, trajectory, color, axis), trace] : [trace];

@@ -2,6 +2,7 @@
 
 import { ApiError } from "./api.js";
 import { latestOnly } from "./latest.js";
+import { requestOf, sceneOf } from "./request.js";
 import { linesOf, moved } from "./reveal.js";
 import { endOf, samplesNeeded } from "./trajectory.js";
 import { changed, readChanges, UNCHANGED, writeChanges } from "./values.js";
@@ -12,11 +13,8 @@ import { completed, fragmentOf, OWN } from "./own.js";
 /** @typedef {import("./types.js").Failure} Failure */
 /** @typedef {import("./state.js").State} State */
 
-/** Milliseconds between two simulations while a slider moves, samples per second, and the step where one is asked for. */
+/** Milliseconds between two simulations while a slider moves. */
 const PAUSE = 100;
-const RATE = 30;
-const PARTS = ["coordinates", "positions", "loads", "energy", "error"];
-const STEP = 0.01;
 
 /**
  * @param {ReturnType<typeof import("./store.js").createStore<State>>} store
@@ -30,11 +28,7 @@ export function createSession(store, api, clock) {
   /** @param {keyof State["failures"]} part @param {Failure | null} failure */
   const fail = (part, failure) => set({ failures: { ...get().failures, [part]: failure } });
 
-  /** What requests call the scene: its id, or its document */
-  const asked = () => (get().place.scene === OWN ? get().own : get().place.scene);
-
-  /** Changed parameters, with the size of a chain among them */
-  const parameters = () => ({ ...get().changes.parameters, ...(get().place.n ? { n: get().place.n } : {}) });
+  const asked = () => sceneOf(get());
 
   /** Runs a task; what goes wrong is kept for the view of its part. @param {keyof State["failures"]} part @param {() => Promise<void>} task */
   async function attempt(part, task) {
@@ -79,15 +73,7 @@ export function createSession(store, api, clock) {
   }
 
   function askSimulation() {
-    if (!asked()) return;
-    const { place, changes, methods } = get();
-    const method = methods.find((candidate) => candidate.id === place.method);
-    simulations.ask({
-      scene: asked(), ...changes, parameters: parameters(), t_end: place.duration, samples: Math.min(2001, place.duration * RATE + 1), include: PARTS,
-      lang: place.lang,
-      ...(method ? { method: method.id } : {}),
-      ...(method && method.adaptive === false ? { step: STEP } : {}),
-    });
+    if (asked()) simulations.ask(requestOf(get(), get().changes, get().place.method));
   }
 
   async function derive() {
@@ -114,8 +100,8 @@ export function createSession(store, api, clock) {
   async function choose(id, step = "", n = 0, changes = "") {
     simulations.cancel();
     clock.seek(0);
-    set({ scene: null, derivation: null, lines: [], trajectory: null, changes: readChanges(changes), failures: NO_FAILURES });
-    move({ scene: id, step, n, set: changes, part: id === get().place.scene ? get().place.part : 0 });
+    set({ scene: null, derivation: null, lines: [], trajectory: null, runs: [], changes: readChanges(changes), failures: NO_FAILURES });
+    move({ scene: id, step, n, set: changes, ...(id === get().place.scene ? {} : { part: 0, vary: "", runs: "", at: 0 }) });
     askSimulation();
     await attempt("scene", async () => {
       const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang, n);
@@ -186,6 +172,10 @@ export function createSession(store, api, clock) {
       change(changed(scene, changes, slider, value));
     },
     change,
+    /** A motion beside the present one. @param {import("./types.js").Changes} changes @param {string} method */
+    run: (changes, method) => api.simulate(requestOf(get(), changes, method)),
+    /** @param {State["runs"]} runs */
+    compare: (runs) => set({ runs }),
     reset: () => change(UNCHANGED),
     /** Texts that are wanted from now on. */
     need,

@@ -55,6 +55,6 @@
  * @typedef {"" | "plots" | "nothing"} Beside  what stands beside a step in a lecture, besides the drawing or without it
  * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, n: number, formulation: string,
  *   duration: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside,
- *   vary: string, set: string, at: number}} Place  what the address says
+ *   vary: string, set: string, at: number, with: string, runs: string}} Place  what the address says
  */
 export {};

@@ -23,7 +23,7 @@ export function createMotion({ root, state, clock, session, still, update }) {
 
   const instruments = createLater(async () => {
     const { open } = await import("./figure/open.js");
-    return open({ root, frame: find(".drawing"), parts: /** @type {NonNullable<typeof parts>} */ (parts), state, clock, session });
+    return open({ root, frame: find(".drawing"), parts: /** @type {NonNullable<typeof parts>} */ (parts), state, clock, session, seek: scrub });
   }, update);
 
   function assemble() {
@@ -81,14 +81,15 @@ export function createMotion({ root, state, clock, session, still, update }) {
     },
     /** What the page holds, after it has been rendered. @param {string} theme */
     show(theme) {
-      const { scene, trajectory, place, lines, failures } = state();
+      const { scene, trajectory, runs, place, lines, failures } = state();
       parts ??= assemble();
       parts.drawing.show(scene, trajectory, clock.time);
       parts.readouts.show(scene, trajectory, place.lang);
       // The first step is to be read before the plots cost anything.
       const readable = lines.length > 0 || failures.derivation;
-      parts.plots.show(readable && scene && trajectory ? { scene, trajectory, duration: place.duration, lang: place.lang, theme } : null);
-      if (place.vary) void instruments.want();
+      parts.plots.show(readable && scene && trajectory ? { scene, trajectory, runs, duration: place.duration, lang: place.lang, theme } : null);
+      if (place.vary || place.with || place.runs) void instruments.want();
+      instruments.part?.show();
       begin();
       move(clock.time);
     },

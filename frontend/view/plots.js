@@ -6,7 +6,7 @@ import { fixed } from "../model/numbers.js";
 
 /** @typedef {import("../model/types.js").Scene} Scene */
 /** @typedef {import("../model/types.js").Trajectory} Trajectory */
-/** @typedef {{scene: Scene, trajectory: Trajectory, duration: number, lang: string, theme: string}} Shown */
+/** @typedef {{scene: Scene, trajectory: Trajectory, runs: import("../model/figure/runs.js").Run[], duration: number, lang: string, theme: string}} Shown */
 
 /** Named in the import map, so that its address carries the version of the libraries. */
 const SOURCE = import.meta.resolve("plotly");
@@ -64,10 +64,10 @@ export function createPlots(root, { seek }) {
     if (!shown || !visible || root.clientWidth === 0) return;
     plotly ??= fetchPlotly();
     if (!(await plotly) || !shown) return;
-    const { scene, trajectory, duration, lang } = shown;
+    const { scene, trajectory, runs, duration, lang } = shown;
     const palette = paletteOf(root);
     const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
-    const rows = rowsOf(scene, trajectory);
+    const rows = rowsOf(scene, trajectory, runs.map((run) => run.trajectory));
     const layout = { ...layoutOf(rows, duration, palette, lang, root.clientHeight, em), width: root.clientWidth, height: root.clientHeight };
     await globalThis.Plotly.react(canvas, tracesOf(rows, trajectory, palette), layout, { staticPlot: true, displayModeBar: false });
     scale = timeScale(root.clientWidth, duration, em);
@@ -128,7 +128,7 @@ function legend(row, top) {
   const line = document.createElement("div");
   line.className = "legend";
   line.style.top = `${top}px`;
-  for (const curve of row.curves) {
+  for (const curve of row.curves.filter(({ beside }) => !beside)) {
     const name = document.createElement("span");
     name.className = `key ${curve.className}`;
     globalThis.katex.render(curve.latex, name, { throwOnError: false, strict: "ignore", maxExpand: 1000, maxSize: 10 });

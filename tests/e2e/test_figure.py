@@ -117,3 +117,46 @@ def test_a_dragged_variation_leaves_the_motion_alone(lecture: Lecture) -> None:
     assert lecture.bob_position() == (x, y)
     assert float(page.locator("[data-slider=delta-phi] input[type=range]").input_value()) > 0.2
     assert "set=" not in page.url
+
+
+def test_runs_are_compared(lecture: Lecture) -> None:
+    """Up to two motions stay beside the present one, in drawing, plots and legend; the address has them."""
+    page = open_at_rest(lecture, "?scene=pendulum&lang=en")
+    page.locator(".plots.ready").wait_for()
+    keep = page.locator(".figure-tools").get_by_role("button", name="Keep this motion")
+    length = page.locator("[data-slider=parameter-l-value] input[type=number]")
+    for value in ("0.5", "1.5"):
+        keep.click()
+        length.fill(value)
+        length.press("Tab")
+    legend = page.locator(".runs li")
+    expect(legend).to_have_count(3)
+    expect(legend.nth(0)).to_contain_text("now")
+    expect(page.locator("svg.beside .run-0.bob")).to_have_count(1)
+    expect(page.locator("svg.beside .run-1.bob")).to_have_count(1)
+    page.reload()
+    expect(legend).to_have_count(3)
+    legend.nth(1).get_by_role("button").click()
+    expect(legend).to_have_count(2)
+    expect(page.locator("svg.beside .run-1")).to_have_count(0)
+    page.locator(".scene select").select_option("double-pendulum")
+    expect(legend).to_have_count(0)
+
+
+def test_energy_bars_paths_and_the_phase_portrait(lecture: Lecture) -> None:
+    """Each is switched on by a button and by the address; a click on the curve leads to its moment."""
+    page = open_at_rest(lecture, "?scene=pendulum&lang=en&with=bars,paths")
+    expect(page.locator(".energies .column")).to_have_count(3)
+    expect(page.locator("svg.paths path")).to_have_count(1)
+    page.locator(".figure-tools").get_by_role("button", name="Phase portrait").click()
+    expect(page).to_have_url(re.compile("with=bars%2Cpaths%2Cphase"))
+    expect(page.locator(".phase path.curve")).to_have_count(1)
+    before = page.locator(".phase .state").bounding_box()
+    curve = page.locator(".phase path.curve").bounding_box()
+    assert before is not None
+    assert curve is not None
+    page.mouse.click(curve["x"] + 2, curve["y"] + curve["height"] / 2)
+    after = page.locator(".phase .state").bounding_box()
+    assert after is not None
+    assert abs(after["x"] + after["width"] / 2 - curve["x"]) < 8
+    expect(page).to_have_url(re.compile(r"at=\d"))

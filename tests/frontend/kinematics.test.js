@@ -72,7 +72,7 @@ test("the ghost has the members and nothing else; each displacement has its arro
   const stage = stageOf(guided, trajectory, square(400));
   const figure = virtualFigure(stage, virtualOf(kinematics, now, ["bob"], { delta: { phi: 0.5 }, dt: 0.4 }));
   const kinds = new Set(figure.under.shapes.map(({ key }) => key.replace(/\d.*/, "")));
-  assert.deepEqual([...kinds], ["varied rod", "varied bob", "later rod", "later bob"]);
+  assert.deepEqual([...kinds], ["ghost-varied rod", "ghost-varied bob", "ghost-later rod", "ghost-later bob"]);
   assert.deepEqual(figure.over.labels.map(({ key }) => key), ["variation-bob", "differential-bob", "explicit-bob"]);
 });
 

@@ -104,7 +104,7 @@ export function stageOf(scene, trajectory, size) {
 }
 
 /** Makes each thing when it is first asked for, and keeps it. @returns {Stage["once"]} */
-function keeper() {
+export function keeper() {
   /** @type {Map<string, any>} */
   const kept = new Map();
   return (key, make) => {

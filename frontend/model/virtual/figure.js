@@ -19,16 +19,16 @@ const SHORTEST = 0.5;
  * @returns {{under: Figure, over: Figure}}
  */
 export function virtualFigure(stage, { varied, later, displacements }) {
-  const ghosts = [ghost(stage, varied, "varied"), ...(later ? [ghost(stage, later, "later")] : [])];
+  const ghosts = [outline(stage, varied, "ghost-varied"), ...(later ? [outline(stage, later, "ghost-later")] : [])];
   const arrows = displacements.map((displacement) => arrowsOf(stage, displacement, later !== null));
   return { under: { shapes: ghosts.flat(), labels: [] }, over: merged(arrows) };
 }
 
-/** @param {Stage} stage @param {Snapshot} then @param {string} kind */
-function ghost(stage, then, kind) {
+/** The members of a drawing at a moment, in a class of their own. @param {Stage} stage @param {Snapshot} then @param {string} kind */
+export function outline(stage, then, kind) {
   return figureOf(stage, then).shapes
     .filter(({ key }) => MEMBERS.test(key))
-    .map((shape) => ({ ...shape, key: `${kind} ${shape.key}`, className: `${shape.className} ghost-${kind}` }));
+    .map((shape) => ({ ...shape, key: `${kind} ${shape.key}`, className: `outline ${kind} ${shape.className}` }));
 }
 
 /** @param {readonly Figure[]} figures @returns {Figure} */

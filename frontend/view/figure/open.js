@@ -1,9 +1,15 @@
 /** The figure's instruments: what a reader can do with it beyond watching. Fetched when a hand comes near. */
 
+import { html } from "lit-html";
 import { kinematicsOf } from "../../model/kinematics/kinematics.js";
 import { ratesAt } from "../../model/kinematics/rates.js";
 import { snapshotAt } from "../../model/trajectory.js";
+import { createEnergies } from "./energies.js";
 import { createHand } from "./hand.js";
+import { layerIn } from "./layer.js";
+import { createPaths } from "./paths.js";
+import { createPhase } from "./phase.js";
+import { createRuns } from "./runs.js";
 import { createVirtual } from "./virtual.js";
 import { tools } from "./tools.js";
 
@@ -18,6 +24,7 @@ import { tools } from "./tools.js";
  * @property {() => State} state
  * @property {import("../../model/clock.js").Clock} clock
  * @property {import("../page.js").View["session"]} session
+ * @property {(t: number) => void} seek
  */
 
 /** @typedef {Around & {kinematics: () => import("../../model/kinematics/kinematics.js").Kinematics | null,
@@ -55,18 +62,28 @@ export function open(around) {
   const bench = { ...around, kinematics: keeper(state), now };
   const virtual = createVirtual(bench);
   const hand = createHand(bench, virtual);
+  const runs = createRuns(bench, layerIn(around.frame, "beside"));
+  const phase = createPhase(bench, around.seek);
+  const energies = createEnergies(bench);
+  const paths = createPaths(bench, layerIn(around.frame, "paths"));
   void session.need("figure");
   return {
     panel: virtual.panel,
     /** @param {View} view */
     tools(view) {
       hand.handles(view);
-      return tools(view);
+      return html`${tools(view, runs)}${runs.legend(view)}`;
+    },
+    /** What the page holds has changed. */
+    show() {
+      void runs.gather();
+      phase.show();
+      energies.show();
+      paths.show();
     },
     /** Follows the clock. */
     move() {
-      virtual.move();
-      hand.move();
+      for (const part of [virtual, hand, runs, phase, energies]) part.move();
     },
   };
 }

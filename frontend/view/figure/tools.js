@@ -1,14 +1,34 @@
 /** The buttons above the drawing. */
 
-import { html } from "lit-html";
+import { html, svg } from "lit-html";
 
-/** @param {import("../page.js").View} view */
-export function tools({ state, session, clock, t }) {
-  const { vary } = state.place;
-  const toggle = () => {
+/** @typedef {import("../page.js").View} View */
+
+const PATHS = {
+  bars: "M3 17h14M5 17V9h2.6v8M9 17V4h2.6v13M13 17v-6h2.6v6",
+  paths: "M3 8c3 9 11 9 14 0M10 3v2M10 7v2M10 11v2",
+  phase: "M10 10m-7 0a7 5 0 1 0 14 0a7 5 0 1 0-14 0M10 2v16M2 10h16",
+  keep: "M3 15C6 3 9 3 12 9M3 17C8 9 12 9 17 15M15 3v6M12 6h6",
+};
+
+/** @param {keyof typeof PATHS} name */
+const picture = (name) => html`<svg class="icon" viewBox="0 0 20 20" aria-hidden="true">${svg`<path d=${PATHS[name]} />`}</svg>`;
+
+/** @param {View} view @param {{keep: () => void}} actions */
+export function tools({ state, session, clock, t }, { keep }) {
+  const { vary, with: shown, panel } = state.place;
+  const vary1 = () => {
     if (!vary) clock.play(false);
-    session.move({ vary: vary ? "" : "on", panel: vary ? state.place.panel : "values" });
+    session.move({ vary: vary ? "" : "on", panel: vary ? panel : "values" });
   };
-  return html`<button class="quiet small" aria-pressed=${String(Boolean(vary))} title=${t("virtual.open")} @click=${toggle}>
-    <span class="math"><i>δ</i><b>r</b></span>&nbsp;${t("virtual")}</button>`;
+  const toggled = (/** @type {string} */ name) => {
+    const names = shown.split(",").filter(Boolean);
+    session.move({ with: names.includes(name) ? names.filter((other) => other !== name).join() : [...names, name].join() });
+  };
+  const switched = (/** @type {"bars" | "paths" | "phase"} */ name) => html`
+    <button class="tool" aria-pressed=${String(shown.split(",").includes(name))} title=${t(`tools.${name}`)} aria-label=${t(`tools.${name}`)} @click=${() => toggled(name)}>${picture(name)}</button>`;
+  return html`
+    <button class="tool" aria-pressed=${String(Boolean(vary))} title=${t("virtual.open")} aria-label=${t("virtual.open")} @click=${vary1}><span class="math"><i>δ</i><b>r</b></span></button>
+    ${switched("bars")}${switched("paths")}${switched("phase")}
+    <button class="tool" title=${t("runs.keep")} aria-label=${t("runs.keep")} ?disabled=${!state.trajectory} @click=${keep}>${picture("keep")}</button>`;
 }

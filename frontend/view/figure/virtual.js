@@ -3,7 +3,7 @@
 import { html } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "../formula.js";
-import { createSheet } from "../drawing.js";
+import { layerIn } from "./layer.js";
 import { inLanguage } from "../../model/catalog.js";
 import { decimalsOf, fixed, unitText } from "../../model/numbers.js";
 import { differences, LONGEST, reachOf, readChoice, writeChoice } from "../../model/virtual/choice.js";
@@ -13,26 +13,12 @@ import { scaled, virtualOf } from "../../model/virtual/virtual.js";
 /** @typedef {import("../page.js").View} View */
 /** @typedef {import("./open.js").Bench} Bench */
 
-const SVG = "http://www.w3.org/2000/svg";
 const NOTHING = { shapes: [], labels: [] };
-
-/** Two layers, below and above the drawing. @param {HTMLElement} frame */
-function layersIn(frame) {
-  const [under, over] = ["under", "over"].map((name) => {
-    const [svg, labels] = [document.createElementNS(SVG, "svg"), document.createElement("div")];
-    svg.setAttribute("class", name);
-    labels.className = "labels";
-    for (const part of [svg, labels]) part.setAttribute("aria-hidden", "true");
-    frame.append(svg, labels);
-    return { svg, draw: createSheet(svg, labels) };
-  });
-  return { under, over };
-}
 
 /** @param {Bench} bench */
 export function createVirtual(bench) {
   const { frame, parts: { drawing }, state, session } = bench;
-  const { under, over } = layersIn(frame);
+  const [under, over] = ["under", "over"].map((name) => layerIn(frame, name));
   let shown = false;
 
   const free = () => {

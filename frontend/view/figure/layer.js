@@ -1,0 +1,15 @@
+/** A layer of the drawing: shapes and labels that belong together. */
+
+import { createSheet } from "../drawing.js";
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** @param {HTMLElement} frame of the drawing @param {string} name */
+export function layerIn(frame, name) {
+  const [svg, labels] = [document.createElementNS(SVG, "svg"), document.createElement("div")];
+  svg.setAttribute("class", name);
+  labels.className = "labels";
+  for (const part of [svg, labels]) part.setAttribute("aria-hidden", "true");
+  frame.append(svg, labels);
+  return { svg, draw: createSheet(svg, labels) };
+}
