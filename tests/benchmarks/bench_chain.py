@@ -17,7 +17,7 @@ from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 from tests.derivation.scenes import chain
 
 from deltaq.model.equations import equations
-from deltaq.model.model import _compiled
+from deltaq.model.model import build
 from deltaq.narration.derive import derive_request
 
 LARGEST, LIMIT, LONG = 12, 60.0, 5.0
@@ -36,7 +36,7 @@ def seconds(work: Callable[[], object]) -> float:
 
 def model(n: int) -> Callable[[], object]:
     scene = chain(n)
-    return lambda: _compiled(equations(scene), scene)
+    return lambda: build(equations(scene), scene)
 
 
 def lagranges_method(n: int) -> None:

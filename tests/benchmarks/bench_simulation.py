@@ -1,4 +1,4 @@
-"""Everything about speed in one run: right-hand sides, error against time, a new scene from cold, growth with n.
+"""Speed of simulations in one run: right-hand sides, error against time, a new scene from cold.
 
 Run it from the checkout: `python -m tests.benchmarks.bench_simulation`. heyoka and diffrax take part if they are
 installed (bench extra). Medians, all in the same run; ratios say more than times. Prints; judges nothing.
@@ -17,13 +17,12 @@ import numpy as np
 import sympy as sp
 from scipy.integrate import solve_ivp
 from tests.benchmarks import bench_rhs
-from tests.derivation.scenes import chain
 from tests.model.lagranges_method import lagranges_method
 from tests.simulation.scenes import double_pendulum
 
 from deltaq.mechanics.scene import Scene
 from deltaq.model.equations import equations
-from deltaq.model.model import _compiled as compiled
+from deltaq.model.model import build
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method
 from deltaq.simulation.problem import Problem
@@ -32,7 +31,6 @@ from deltaq.simulation.service import problem_of
 SPAN, SAMPLES, REPEATS = 100.0, 501, 5
 PEERS = (("DOP853", (1e-6, 1e-9, 1e-12)), ("Radau", (1e-6, 1e-9)), ("LSODA", (1e-6, 1e-9, 1e-12)))
 OWN = (("dop853", (1e-3, 1e-6, 1e-9, 1e-11)), ("gauss-6", (1e-3, 1e-6, 1e-9)), ("radau-5", (1e-3, 1e-6, 1e-9)))
-CHAIN = (1, 2, 4, 6, 8, 10, 12, 15, 20)
 
 Motion = Callable[[], np.ndarray]  # coordinates at the samples
 
@@ -53,7 +51,6 @@ def main() -> None:
         error, seconds = _measured(motion, reference)
         print(f"{name:44}{error:10.1e}{seconds * 1e3:10.2f}")
     _cold()
-    _chain()
 
 
 def _measured(motion: Motion, reference: np.ndarray) -> tuple[float, float]:
@@ -173,7 +170,7 @@ def _cold() -> None:
     """From a scene never seen before to 100 s at 1e-9, kernels at hand."""
     start = perf_counter()
     scene = calm()
-    compiled(equations(scene), scene)
+    build(equations(scene), scene)
     built = perf_counter() - start
     simulate(problem_of(scene, SPAN, SAMPLES), get_method("dop853"), tolerance=1e-9)
     print(f"\nnew scene to 100 s at 1e-9: δq {1e3 * (perf_counter() - start):.1f} ms (model {1e3 * built:.1f} ms)")
@@ -189,25 +186,6 @@ def _cold() -> None:
         integrator = _taylor(problem, rates, 1e-12)
         integrator.propagate_grid(np.linspace(0.0, SPAN, SAMPLES))
         print(f"  heyoka from given expressions (compile and run) {1e3 * (perf_counter() - start):.0f} ms")
-
-
-def _chain() -> None:
-    """Growth with the number of links; the first model of each size is new."""
-    print(f"\n{'links':>5}{'model ms':>10}{'phase ms':>10}{'ns per right-hand side':>24}")
-    for n in CHAIN:
-        scene = chain(n)
-        start = perf_counter()
-        model = compiled(equations(scene), scene)
-        built = perf_counter() - start
-        start = perf_counter()
-        assert isinstance(model.phase, object)
-        phase = perf_counter() - start
-        problem = problem_of(scene, 2.0, 21)
-        times = []
-        for _ in range(REPEATS):
-            cost = simulate(problem, get_method("rk4"), step=1e-3, with_error=False).cost
-            times.append(cost.run_time / cost.run_evaluations * 1e9)
-        print(f"{n:5}{built * 1e3:10.1f}{phase * 1e3:10.1f}{statistics.median(times):24.0f}")
 
 
 if __name__ == "__main__":

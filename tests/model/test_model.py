@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.simulation.scenes import scene
+from tests.simulation.scenes import all_scenes, get_scene, scene
 
 from deltaq.errors import Problem, SceneError
 from deltaq.mechanics.changes import change
@@ -42,6 +42,14 @@ def test_model_survives_pickling() -> None:
     rows = np.random.default_rng(1).uniform(0.1, 1.0, (3, model.motion.inputs))
     np.testing.assert_array_equal(copy.motion.table(rows), model.motion.table(rows))
     assert copy.motion.addresses[0] > 0
+
+
+@pytest.mark.parametrize("name", all_scenes())
+def test_thorough_code_gives_the_same_numbers(name: str) -> None:
+    """To the last bit: how long a run is must not be seen in its answer."""
+    model = compile_model(get_scene(name))
+    rows = np.random.default_rng(1).uniform(0.1, 1.4, (50, model.motion.inputs))
+    np.testing.assert_array_equal(model.thorough.table(rows), model.motion.table(rows))
 
 
 @pytest.mark.parametrize(

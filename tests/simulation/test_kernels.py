@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from tests.simulation.scenes import oscillator
 
+from deltaq.model.model import compile_model
+from deltaq.simulation.driver import simulate
 from deltaq.simulation.kernels.compiler import source_stamp
 from deltaq.simulation.kernels.explicit_runge_kutta import integrate
 from deltaq.simulation.kernels.motion import SMALLEST_PIVOT, factor, solve, solve_small
+from deltaq.simulation.library import get_method
+from deltaq.simulation.service import problem_of
 
 
 def packed(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -73,3 +80,24 @@ def test_small_singular_matrices_are_found(matrix: list[list[float]]) -> None:
 @pytest.mark.parametrize("numbers", [[np.nan, 1.0], [1.0, np.nan, 1.0, 0.0, 0.0], [1.0, 0.0, np.nan, 0.0, 0.0]])
 def test_nan_in_small_systems_is_told_from_singular(numbers: list[float]) -> None:
     assert np.isnan(solve_small(np.array(numbers), 1 if len(numbers) == 2 else 2))
+
+
+def test_thorough_code_is_made_for_long_runs_only() -> None:
+    """The model of a scene that nobody else has, so that it is new."""
+    model = compile_model(oscillator("-k*x*0.987654321"))
+    problem = replace(problem_of(oscillator("-k*x*0.987654321"), 10.0), model=replace(model))
+    brief = simulate(problem, get_method("dop853"), tolerance=1e-9)
+    assert not problem.model.is_thorough
+    simulate(replace(problem, t_end=3000.0), get_method("bogacki-shampine-32"), tolerance=1e-9, with_error=False)
+    assert problem.model.is_thorough
+    again = simulate(problem, get_method("dop853"), tolerance=1e-9)
+    np.testing.assert_array_equal(again.values, brief.values)
+    assert again.cost.rhs_evaluations == brief.cost.rhs_evaluations
+
+
+def test_fixed_steps_are_known_to_be_many_beforehand() -> None:
+    problem = problem_of(oscillator(), 10.0)
+    problem = replace(problem, model=replace(problem.model))
+    found = simulate(problem, get_method("rk4"), step=1e-4, with_error=False)
+    assert problem.model.is_thorough
+    assert (found.outcome.status, found.cost.steps) == ("ok", 100_000)

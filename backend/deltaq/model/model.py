@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
 from ..mechanics.scene import Scene
-from .compiled import Compiled, Floats, compile_expressions
+from .compiled import THOROUGH, Compiled, Floats, compile_expressions
 from .equations import Equations, equations
+from .functions import Expr
 from .phase import PhaseSpace, phase_space
 from .store import key_of, user_store
 
@@ -59,6 +60,17 @@ class Model:
     observed: Compiled
     events: Compiled | None
     scene: Scene = field(repr=False, compare=False)
+
+    @cached_property
+    def thorough(self) -> Compiled:
+        """The same as `motion`, in machine code whose compilation pays in long runs; made when first asked for."""
+        eqs = equations(self.scene)
+        return compile_expressions(eqs.symbols.inputs, of_motion(eqs), THOROUGH)
+
+    @property
+    def is_thorough(self) -> bool:
+        """Whether `thorough` is there already."""
+        return "thorough" in self.__dict__
 
     @cached_property
     def phase(self) -> PhaseSpace:
@@ -113,12 +125,13 @@ def _compiled_once(mechanics: _Mechanics) -> Model:
     kept = store.load(key)
     if isinstance(kept, Model):
         return kept
-    model = _compiled(equations(mechanics.scene), mechanics.scene)
+    model = build(equations(mechanics.scene), mechanics.scene)
     store.save(key, model)
     return model
 
 
-def _compiled(eqs: Equations, scene: Scene) -> Model:
+def build(eqs: Equations, scene: Scene) -> Model:
+    """The model of a scene whose equations are at hand, compiled quickly."""
     symbols = eqs.symbols
     layout = Layout(
         symbols.free,
@@ -129,15 +142,19 @@ def _compiled(eqs: Equations, scene: Scene) -> Model:
         scene.dimension,
         eqs.is_powered,
     )
-    triangle = [entry for i, row in enumerate(eqs.mass_matrix) for entry in row[: i + 1]]
-    power = [eqs.power, *eqs.acceleration_power] if eqs.is_powered else []
     vectors = [*eqs.positions.values(), *eqs.arrows.values()]
     seen = [value for value, _ in eqs.guided.values()] + [rate for _, rate in eqs.guided.values()]
     observed = [eqs.kinetic, eqs.potential, *seen, *(x for vector in vectors for x in vector)]
     return Model(
         layout,
-        compile_expressions(symbols.inputs, [*triangle, *eqs.forcing, *power]),
+        compile_expressions(symbols.inputs, of_motion(eqs)),
         compile_expressions(symbols.inputs, observed),
         compile_expressions(symbols.inputs, eqs.events) if eqs.events else None,
         scene,
     )
+
+
+def of_motion(eqs: Equations) -> list[Expr]:
+    """What `Model.motion` computes."""
+    triangle = [entry for i, row in enumerate(eqs.mass_matrix) for entry in row[: i + 1]]
+    return [*triangle, *eqs.forcing, *([eqs.power, *eqs.acceleration_power] if eqs.is_powered else [])]

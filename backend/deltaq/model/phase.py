@@ -14,7 +14,7 @@ import math
 from dataclasses import dataclass
 from random import Random
 
-from .compiled import Compiled, compile_expressions
+from .compiled import THOROUGH, Compiled, compile_expressions
 from .equations import Equations
 from .functions import Expr
 
@@ -47,7 +47,7 @@ def phase_space(eqs: Equations) -> PhaseSpace:
         and not any(force.free_symbols & set(rates) for force in eqs.forces)
     )
     forces = eqs.forces if is_separable else tuple(a + b for a, b in zip(bends, eqs.forces, strict=True))
-    return PhaseSpace(compile_expressions(symbols.inputs, [*triangle, *momenta, *forces]), is_separable)
+    return PhaseSpace(compile_expressions(symbols.inputs, [*triangle, *momenta, *forces], THOROUGH), is_separable)
 
 
 def vanishes(expression: Expr) -> bool:

@@ -72,9 +72,9 @@ def _newmark(scheme: Newmark, its: Setting) -> Result:
     return integrate_newmark(its.motion, weights, its.control, its.watch, room, its.times, its.out)
 
 
-def motion_of(problem: Problem) -> Motion:
-    """The right-hand side of a problem, for kernels."""
-    motion = problem.model.motion
+def motion_of(problem: Problem, *, is_long: bool = True) -> Motion:
+    """The right-hand side of a problem, for kernels; in the machine code that suits a long run or a short one."""
+    motion = problem.model.thorough if is_long else problem.model.motion
     address, data = motion.addresses
     inputs = np.zeros(motion.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters

@@ -10,13 +10,15 @@ import numpy as np
 from .event import Approach, Event, approaches, first_event
 from .integration import Flag, Setting, integrated, motion_of, watch_of
 from .kernels.explicit_runge_kutta import Result
-from .kernels.motion import EVENT, FINE
+from .kernels.motion import EVENT, FINE, STEP_LIMIT, STIFF
 from .kernels.step_control import Control
 from .method import Method
 from .problem import Floats, Problem
 from .stability import real_stability
 
 APART = 1e-6  # of the distance between two samples; the last one before an event is that far from it at least
+
+SHORT = 100_000  # right-hand sides; the time for so many is about that of compiling thoroughly
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,22 @@ class Steps:
 
 
 def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
-    """Integrates a problem once; samples at `times`."""
+    """Integrates a problem once; samples at `times`.
+
+    A run begins in machine code that is compiled quickly. One that turns out to be long begins again in code that runs
+    faster, whose compilation takes as long as what was lost.
+    """
+    shortest = problem.step_limit * method.tableau.stages <= SHORT
+    known = float(times[-1]) / steps.size if steps.tolerance == 0.0 else 0.0
+    if shortest or not (problem.model.is_thorough or known * method.tableau.stages > SHORT):
+        limit = min(SHORT // method.tableau.stages, problem.step_limit)
+        found = _run(replace(problem, step_limit=limit), method, times, cancelled, steps, is_long=False)
+        if shortest or found.result.outcome not in (STEP_LIMIT, STIFF):
+            return found
+    return _run(problem, method, times, cancelled, steps, is_long=True)
+
+
+def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, *, is_long: bool) -> Run:
     control = Control(
         float(steps.tolerance),
         float(steps.size),
@@ -62,7 +79,7 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
     )
     setting = Setting(
         problem,
-        motion_of(problem),
+        motion_of(problem, is_long=is_long),
         control,
         watch_of(problem, cancelled),
         times,
