@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import signal
@@ -131,3 +132,46 @@ def test_unknown_benchmark() -> None:
     found = command("bench", "speed")
     assert found.returncode == 2
     assert found.stderr == f"deltaq: no benchmark speed; there are {', '.join(benchmark_names())}\n"
+
+
+def test_lab_writes_what_it_found(tmp_path: Path) -> None:
+    outputs = [tmp_path / name for name in ("found.json", "found.csv", "found.html")]
+    chosen = [part for output in outputs for part in ("--output", str(output))]
+    ended = command("lab", "convergence", "pendulum", "--set", "t_end=1", "--set", 'methods=["heun"]', *chosen)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert ended.stdout == "".join(f"→ {output}\n" for output in outputs)
+    found = json.loads(outputs[0].read_text(encoding="utf-8"))
+    assert found["orders"]["heun"]["theory"] == 2
+    assert outputs[1].read_text(encoding="utf-8").startswith("chart,curve,x,y,z\nconvergence,Heun")
+    assert "<figure>" in outputs[2].read_text(encoding="utf-8")
+
+
+def test_lab_takes_a_scene_of_ones_own(tmp_path: Path, root: Path) -> None:
+    scene = tmp_path / "own.toml"
+    scene.write_text((root / "backend/deltaq/scenes/pendulum.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    output = tmp_path / "found.json"
+    ended = command("lab", "chaos", str(scene), "--set", "t_end=2", "--output", str(output), "--lang", "de")
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert json.loads(output.read_text(encoding="utf-8"))["charts"][0]["title"] == "Zwillinge"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        pytest.param(
+            ["chaoss", "pendulum"],
+            "deltaq: There is no experiment “chaoss”. There are: chaos, convergence, energy-drift, fidelity, "
+            "stability, stability-map, work-precision. Did you mean “chaos”?\n",
+            id="experiment",
+        ),
+        pytest.param(
+            ["chaos", "pendulum", "--set", "speed=1"], "deltaq: /speed: There is no field “speed” here.\n", id="field"
+        ),
+        pytest.param(
+            ["chaos", "nowhere.toml"], "deltaq: [Errno 2] No such file or directory: 'nowhere.toml'\n", id="file"
+        ),
+    ],
+)
+def test_lab_says_what_is_wrong(arguments: list[str], message: str) -> None:
+    ended = command("lab", *arguments)
+    assert (ended.returncode, ended.stderr) == (2, message)

@@ -21,10 +21,15 @@ MAY_KNOW = {
     "lab": {"language", "mechanics", "model", "simulation"},
     "homework": {"language", "mechanics", "derivation", "narration"},
     "handout": {"language", "mechanics", "derivation", "narration"},
+    "commands": {"language", "mechanics", "narration", "model", "simulation", "lab", "homework", "api"},
     "api": {"language", "mechanics", "derivation", "narration", "model", "simulation", "lab", "homework", "handout"},
 }
 # Who may know the modules beside the packages.
-BESIDE = {"": {"errors", "packages"}, "api": {"errors", "packages", "settings"}}
+BESIDE = {
+    "": {"errors", "packages"},
+    "api": {"errors", "packages", "settings"},
+    "commands": {"errors", "bench", "settings"},
+}
 FORBIDDEN = {
     "sympy": {"mechanics", "model", "simulation", "lab", "api", "scenes"},
     "numpy": {"language", "mechanics", "derivation", "narration", "homework", "api", "handout"},

@@ -1,6 +1,7 @@
 """The exception tree. An input error is the user's to mend; anything else that is raised is our bug.
 
     DeltaqError
+    ├── CommandError          a command of the shell cannot do what it was asked
     └── InputError            carries Problems: where, what, and what to write instead
         ├── ExpressionError   in the text of one expression (language)
         ├── SceneError        in a scene document (mechanics)
@@ -53,6 +54,10 @@ class Problem:
 
 class DeltaqError(Exception):
     """Anything that δq raises on purpose."""
+
+
+class CommandError(DeltaqError):
+    """A command of the shell cannot do what it was asked; the text says why and what to do."""
 
 
 class InputError(DeltaqError):

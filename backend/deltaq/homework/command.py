@@ -7,8 +7,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TextIO
 
-from ..errors import InputError
-from ..narration.catalog import message
 from .assignment import load_assignment
 from .grading import grade, read_answers
 from .results import Graded, results_csv, summary
@@ -48,8 +46,3 @@ def stack_file(scene: str, tasks: Sequence[str], output: Path, language: str) ->
     wanted = [workbook.task(task) for task in tasks] or workbook.tasks
     output.write_text(quiz(workbook, wanted, language), encoding="utf-8")
     return len(wanted)
-
-
-def told(error: InputError, language: str) -> str:
-    """Why it could not be done, one line for each problem."""
-    return "\n".join(f"deltaq: {p.pointer + ': ' if p.pointer else ''}{message(language, p)}" for p in error.problems)

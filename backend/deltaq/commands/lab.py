@@ -1,0 +1,106 @@
+"""`deltaq lab`: an experiment from the shell, with a progress bar and files."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ..lab.report import Report
+
+HELP = "run an experiment on a scene"
+DESCRIPTION = """Runs an experiment, such as work-precision, stability or fidelity, on a built-in scene (by its id) or
+one of your own (a TOML file), and writes what was found: JSON with all numbers, CSV with the curves, HTML with the
+charts."""
+WIDTH = 40
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.add_argument(
+        "experiment", help="work-precision, convergence, energy-drift, stability, stability-map, chaos or fidelity"
+    )
+    parser.add_argument("scene", help="id of a built-in scene, or a TOML file")
+    parser.add_argument(
+        "--set",
+        dest="fields",
+        action="append",
+        default=[],
+        type=_field,
+        metavar="FIELD=VALUE",
+        help='a field of the request, its value as JSON: t_end=20, methods=["rk4"], parameters={"k":100}',
+    )
+    parser.add_argument(
+        "--output",
+        type=Path,
+        action="append",
+        default=[],
+        help="a file, by its suffix .json, .csv or .html; several may be given (default: .json and .html here)",
+    )
+    parser.add_argument("--lang", choices=("en", "de"), default="en", help="language (default: %(default)s)")
+
+
+def _field(text: str) -> tuple[str, Any]:
+    name, sign, value = text.partition("=")
+    if not sign:
+        raise argparse.ArgumentTypeError(f"FIELD=VALUE is needed, not {text}")
+    try:
+        return name, json.loads(value)
+    except json.JSONDecodeError:
+        return name, value  # a word without its quotes
+
+
+def run(options: argparse.Namespace) -> None:
+    """Measure, and write the files."""
+    from ..lab.experiment import get_experiment
+    from ..narration.catalog import text
+
+    experiment = get_experiment(options.experiment)
+    question = {**dict(options.fields), "scene": _scene(options.scene), "lang": options.lang}
+    result: dict[str, Any] = {}
+    for report in _with_progress(experiment.run(question)):
+        result = report.result
+    charts = experiment.charts(result, partial(text, options.lang))
+    outputs = options.output or [Path(f"{experiment.id}-{result['scene']}{suffix}") for suffix in (".json", ".html")]
+    for output in outputs:
+        output.write_text(_file(output.suffix, {**result, "charts": charts}, options.lang), encoding="utf-8")
+        print(f"→ {output}")
+
+
+def _scene(given: str) -> object:
+    """A built-in scene by its id, or the document in a file."""
+    if not given.endswith(".toml"):
+        return given
+    from ..mechanics.toml import read_toml
+
+    return read_toml(Path(given).read_text(encoding="utf-8"))
+
+
+def _with_progress(reports: Iterator[Report]) -> Iterator[Report]:
+    """The reports, a bar on the screen growing with them if it is a terminal."""
+    shown = sys.stderr.isatty()
+    for report in reports:
+        if shown:
+            filled = WIDTH * report.done // max(report.total, 1)
+            sys.stderr.write(f"\r[{'#' * filled}{'.' * (WIDTH - filled)}] {report.done}/{report.total}")
+            sys.stderr.flush()
+        yield report
+    if shown:
+        sys.stderr.write("\n")
+
+
+def _file(suffix: str, result: dict[str, Any], lang: str) -> str:
+    from ..lab.export import page, table
+
+    match suffix:
+        case ".csv":
+            return table(result["charts"])
+        case ".html":
+            return page(result["charts"], lang)
+        case _:
+            return json.dumps(result, ensure_ascii=False, indent=1)

@@ -1,0 +1,138 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { cheapestFor, themed, withStep, withTolerance } from "../../frontend/model/labs/figure.js";
+import { createBench } from "../../frontend/model/labs/bench.js";
+import { titleOf } from "../../frontend/model/labs/ladder.js";
+import { LABS, NOTHING, pointOf, readQuestion, requestOf, writeQuestion } from "../../frontend/model/labs/question.js";
+import { stepRange } from "../../frontend/model/labs/step.js";
+import { eventReader, experiment } from "../../frontend/model/labs/stream.js";
+import { motionOf, written } from "../../frontend/model/labs/watch.js";
+
+const TEXT = 'event: part\ndata: {"done":1}\n\nevent: result\ndata: {"experiment":"chaos"}\n\n';
+const EVENTS = [{ kind: "part", data: { done: 1 } }, { kind: "result", data: { experiment: "chaos" } }];
+
+test("events are read wherever the text is cut", () => {
+  for (let cut = 0; cut <= TEXT.length; cut += 1) {
+    const read = eventReader();
+    assert.deepEqual([...read(TEXT.slice(0, cut)), ...read(TEXT.slice(cut))], EVENTS);
+  }
+});
+
+/** @param {string} text @param {number} [status] */
+const answering = (text, status = 200) => async () => new Response(text, { status });
+const signal = new AbortController().signal;
+
+test("an experiment lets hear its parts and ends with its result", async () => {
+  /** @type {any[]} */
+  const heard = [];
+  const found = await experiment(answering(TEXT), "chaos", {}, (part) => heard.push(part), signal);
+  assert.deepEqual([heard, found], [[{ done: 1 }], { experiment: "chaos" }]);
+});
+
+test("a problem in the stream, a refusal and a stream that breaks off are failures that can be shown", async () => {
+  const problem = { status: 422, title: "no", detail: "because", problems: [] };
+  const failing = (/** @type {any} */ send) => experiment(send, "chaos", {}, () => {}, signal).catch((error) => error.failure);
+  assert.deepEqual(await failing(answering(`event: problem\ndata: ${JSON.stringify(problem)}\n\n`)), problem);
+  assert.deepEqual(await failing(answering(JSON.stringify(problem), 422)), problem);
+  assert.equal((await failing(answering("event: part\ndata: {}\n\n"))).status, 0);
+});
+
+const ASKED = { ...NOTHING, lab: "stability-map", scene: "kapitza", duration: 5, peers: true, steps: 1000, at: /** @type {const} */ ("rest"), stiffness: "k", x: { parameter: "omega", from: -10, to: 120.5 }, y: { parameter: "y0", from: 0.01, to: 0.2 }, flips: false, allowed: 0.5, parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 2 } } };
+
+test("every question has an address, and the usual one a short one", () => {
+  assert.deepEqual(readQuestion(`?${writeQuestion(ASKED)}`), ASKED);
+  assert.equal(writeQuestion({ ...NOTHING, scene: "pendulum" }), "lab=work-precision&scene=pendulum");
+});
+
+test("an address that makes no sense is read as the usual", () => {
+  assert.deepEqual(readQuestion("?lab=alchemy&t=-3&x=omega:a:b&p.l=x&at=noon&allowed=none"), NOTHING);
+});
+
+test("each lab asks for what it knows", () => {
+  const bodies = Object.fromEntries(LABS.map((lab) => [lab, Object.keys(requestOf({ ...ASKED, lab }, "kapitza", "en")).filter((key) => !["scene", "parameters", "initial", "lang"].includes(key)).sort()]));
+  assert.deepEqual(bodies, {
+    "work-precision": ["peers", "t_end"], convergence: ["t_end"], "energy-drift": ["steps"], stability: ["at", "stiffness", "t_end"],
+    "stability-map": ["x", "y"], chaos: ["map", "t_end"], fidelity: ["t_end", "tolerance"],
+  });
+  assert.equal(/** @type {any} */ (requestOf({ ...ASKED, lab: "fidelity" }, "kapitza", "en")).tolerance, 0.005);
+});
+
+test("a place on a map is two parameters, or two angles at rest", () => {
+  assert.deepEqual(pointOf(ASKED, { role: "map", x: "omega", y: "y0" }, 30, 0.1), { parameters: { l: 0.4, omega: 30, y0: 0.1 }, initial: ASKED.initial });
+  assert.deepEqual(pointOf(ASKED, { role: "flips", x: "a", y: "b" }, 1, 2), { parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 0 }, a: { value: 1, rate: 0 }, b: { value: 2, rate: 0 } } });
+});
+
+const PALETTE = { ink: "ink", muted: "muted", grid: "grid", paper: "paper" };
+const CHART = { id: "c", title: "", caption: "", data: [{ name: "a", x: [1], y: [2], marker: { color: "#222222" }, meta: { role: "eigenvalues" } }, { name: "b", x: [1], y: [2] }], layout: { xaxis: { title: "x" }, legend: { x: 1.02 }, font: {} } };
+
+test("a chart takes the page's colours, and puts the legend below where it is narrow", () => {
+  const wide = themed(CHART, PALETTE, 1000, 16, "de");
+  const narrow = themed(CHART, PALETTE, 320, 16, "en");
+  assert.equal(wide.data[0].marker.color, "ink");
+  assert.equal(wide.layout.xaxis.gridcolor, "grid");
+  assert.equal(wide.layout.xaxis.title, "x");
+  assert.deepEqual([wide.layout.separators, narrow.layout.separators], [",.", ".,"]);
+  assert.deepEqual([wide.layout.legend.orientation, narrow.layout.legend.orientation], [undefined, "h"]);
+  assert.ok(narrow.layout.height > wide.layout.height);
+  assert.equal(CHART.data[0].marker?.color, "#222222");
+});
+
+test("the crosses follow the step, and nothing else does", () => {
+  const { data } = withStep(CHART, 0.5);
+  assert.deepEqual([data[0].x, data[0].y, data[1].x], [[0.5], [1], [1]]);
+  assert.equal(withTolerance(CHART, 1e-3, "grey").layout.shapes[0].y0, 1e-3);
+});
+
+test("the cheapest run for a tolerance is that of the next finer wish", () => {
+  const runs = [1e-2, 1e-4, 1e-6].map((wanted, i) => ({ wanted, method: `m${i}`, time: i }));
+  assert.deepEqual([0.5, 1e-2, 1e-3, 1e-6, 1e-9].map((tolerance) => cheapestFor(runs, tolerance)?.method), ["m0", "m0", "m1", "m2", undefined]);
+});
+
+test("the slider of h reaches from where nothing fails to where all explicit methods have", () => {
+  assert.deepEqual(stepRange([[0, 10], [-3, 4]]), [0.002, 0.8]);
+  assert.deepEqual(stepRange([]), [0.02, 8]);
+});
+
+test("what is watched keeps the question's values unless it has its own", () => {
+  const watched = motionOf(ASKED, { method: "rk4", step: 0.1, t_end: 2 }, "kapitza", "en");
+  assert.deepEqual([watched.parameters, watched.step, watched.t_end], [{ l: 0.4 }, 0.1, 2]);
+  assert.deepEqual(motionOf(ASKED, { parameters: { l: 1 } }, "kapitza", "en").parameters, { l: 1 });
+  assert.equal(written({ parameters: { l: 0.123456 }, initial: { phi: { value: 1 } } }), "l = 0.1235, phi = 1");
+});
+
+test("rungs are named by what they leave out", () => {
+  const t = (/** @type {string} */ key, /** @type {any} */ given = {}) => `${key.split(".")[2]}(${Object.values(given)})`;
+  assert.equal(titleOf({ parts: [] }, t), "full()");
+  assert.equal(titleOf({ parts: [{ kind: "rigid", parameters: { load: "spring" } }, { kind: "linearized", parameters: {} }] }, t), "rigid(spring), linearized()");
+});
+
+const SCENE = /** @type {any} */ ({ id: "pendulum", parameters: [], coordinates: [] });
+
+test("the bench shows parts, then the result; stopped, it keeps what was measured", async () => {
+  /** @type {(() => void)[]} */
+  const ends = [];
+  const run = (/** @type {string} */ name, /** @type {object} */ body, /** @type {(part: any) => void} */ hear) => new Promise((done) => {
+    hear({ done: 1, total: 4, charts: [name] });
+    ends.push(() => done({ experiment: name, charts: [name, body] }));
+  });
+  const bench = createBench(/** @type {any} */ ({ run, scene: async () => SCENE, document: (/** @type {string} */ id) => id, lang: () => "en" }), { ...NOTHING, scene: "pendulum" });
+  await bench.load();
+  const first = bench.start();
+  assert.deepEqual([bench.get().running, bench.get().progress, bench.get().charts], [true, 0.25, ["work-precision"]]);
+  ends[0]();
+  await first;
+  assert.deepEqual([bench.get().running, bench.get().progress, bench.get().result?.experiment], [false, 1, "work-precision"]);
+  const second = bench.start();
+  bench.stop();
+  ends[1]();
+  await second;
+  assert.deepEqual([bench.get().running, bench.get().stopped, bench.get().charts.length, bench.get().result], [false, "stopped", 1, null]);
+});
+
+test("another lab keeps the scene, but for the map, which needs a driven one", async () => {
+  const bench = createBench(/** @type {any} */ ({ run: async () => {}, scene: async () => SCENE, document: (/** @type {string} */ id) => id, lang: () => "en" }), { ...NOTHING, scene: "pendulum" });
+  bench.open("chaos");
+  assert.deepEqual([bench.get().question.lab, bench.get().question.scene], ["chaos", "pendulum"]);
+  bench.open("stability-map");
+  assert.deepEqual([bench.get().question.scene, bench.get().question.x?.parameter], ["kapitza", "omega"]);
+});
