@@ -1,0 +1,90 @@
+"""The labs, in a real browser: charts grow, sliders answer, maps lead to motions, and a run can be stopped."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import expect
+from tests.e2e.lecture import Lecture
+
+pytestmark = pytest.mark.e2e
+PATIENCE = 90_000.0
+
+
+def opened(lecture: Lecture, query: str, lang: str = "en") -> Lecture:
+    lecture.page.goto(f"{lecture.address}labs?{query}&lang={lang}")
+    lecture.page.locator("form.question button.main:enabled").wait_for(timeout=PATIENCE)
+    return lecture
+
+
+def measured(lecture: Lecture) -> Lecture:
+    lecture.page.locator("form.question button.main").click()
+    lecture.page.locator("p.files").wait_for(timeout=PATIENCE)
+    return lecture
+
+
+def test_work_and_precision_answers_while_the_wish_is_dragged(lecture: Lecture) -> None:
+    page = measured(opened(lecture, "lab=work-precision&scene=pendulum&t=2")).page
+    assert page.locator("figure .main-svg").count() >= 2
+    answer = page.locator("output[for=tolerance]")
+    before = answer.inner_text()
+    assert re.match(r"For an error of 1\.0·10⁻⁶ take .+: .+ ms with ", before)
+    page.locator("#tolerance").focus()
+    page.keyboard.press("End")
+    expect(answer).not_to_have_text(before)
+
+
+def test_a_run_is_stopped_and_keeps_what_was_measured(lecture: Lecture) -> None:
+    page = opened(lecture, "lab=work-precision&scene=triple-pendulum&t=60&peers=1").page
+    page.locator("form.question button.main").click()
+    page.locator("figure .main-svg").first.wait_for(timeout=PATIENCE)
+    page.get_by_role("button", name="Stop").click()
+    expect(page.locator(".progress")).to_contain_text("what was measured stays")
+    assert page.locator("figure").count() >= 1
+    expect(page.get_by_role("button", name="Measure", exact=True)).to_be_enabled()
+
+
+def test_the_step_of_failure_is_told_and_played(lecture: Lecture) -> None:
+    page = measured(opened(lecture, "lab=stability&scene=two-mass-oscillator&t=2")).page
+    row = page.locator(".failures tbody tr", has_text="Classical Runge–Kutta")
+    expect(row.locator("td").nth(3)).to_have_text(re.compile(r"^−?[\d.]+ %$"))
+    expect(page.locator(".failures tbody tr", has_text="Gauss, order 6").locator("td").nth(1)).to_have_text("never")
+    row.get_by_role("button", name="play").click()
+    expect(page.locator(".motion .drawing path").first).to_be_attached(timeout=PATIENCE)
+    expect(page.locator(".motion h2")).to_contain_text("Classical Runge–Kutta with h = ")
+
+
+def test_a_place_on_the_map_is_simulated(lecture: Lecture) -> None:
+    page = measured(opened(lecture, "lab=stability-map&scene=kapitza&x=omega:20:100&y=y0:0.02:0.15")).page
+    expect(page.locator("figcaption")).to_contain_text("200 × 200 points")
+    page.locator("[data-chart='stability-map'] .nsewdrag").click(position={"x": 200, "y": 100})
+    expect(page.locator(".motion .drawing path").first).to_be_attached(timeout=PATIENCE)
+    expect(page.locator(".motion h2")).to_contain_text(re.compile(r"Motion at omega = \d+"))
+
+
+def test_the_least_rung_is_named_and_opened_as_a_scene(lecture: Lecture) -> None:
+    page = measured(opened(lecture, "lab=fidelity&scene=spherical-pendulum&t=4")).page
+    expect(page.locator(".verdict")).to_contain_text("The least rung within an error of 1.0 %")
+    page.locator("tr.least").get_by_role("button", name="open").click()
+    page.wait_for_url(re.compile(r"/scene\?.*#"), timeout=PATIENCE)
+    lecture.steps.first.wait_for(timeout=PATIENCE)
+
+
+def test_bad_values_are_told_and_nothing_is_lost(lecture: Lecture) -> None:
+    page = opened(lecture, "lab=stability-map&scene=pendulum").page
+    page.locator("form.question button.main").click()
+    expect(page.locator(".failure")).to_contain_text("Nothing here depends on the time", timeout=PATIENCE)
+    expect(page.locator("form.question select").first).to_have_value("pendulum")
+    lecture.complaints.clear()
+
+
+@pytest.mark.parametrize("lang", ["de", "en"])
+def test_a_phone_shows_all_of_it(lecture: Lecture, lang: str) -> None:
+    lecture.page.set_viewport_size({"width": 360, "height": 740})
+    page = measured(opened(lecture, "lab=convergence&scene=pendulum&t=1", lang)).page
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    canvas = page.locator(".canvas").first.bounding_box()
+    assert canvas is not None
+    assert canvas["x"] + canvas["width"] <= 360
+    expect(page).to_have_url(re.compile("lab=convergence.*scene=pendulum.*t=1"))
