@@ -159,7 +159,7 @@ function update() {
   document.title = `δq · ${t("place.labs")}`;
   const now = chartsNow();
   render(page({
-    state: { place }, session, t, bench: bench.get(), benches: starting, scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, open: (scene) => void open(scene), watch: (wish) => void watch(wish),
+    state: { place: { ...place, scene: bench.get().question.scene } }, session, t, bench: bench.get(), benches: starting, scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, open: (scene) => void open(scene), watch: (wish) => void watch(wish),
     turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
     save: (chart, format) => void charts.save(chart, format),
   }), root);

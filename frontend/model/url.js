@@ -60,8 +60,14 @@ export function writePlace(place) {
 /** What there is besides the start page, in the order of the navigation. */
 export const PAGES = ["scene", "variations", "proof", "labs", "homework", "docs"];
 
-/** A page in the same language and appearance. @param {string} name @param {Pick<Place, "lang" | "theme">} reader */
-export const pageAddress = (name, { lang, theme }) => `/${name}${name === "docs" ? "" : writePlace({ ...HOME, lang, theme })}`;
+/** Pages that show whichever scene one comes from. */
+const ABOUT_A_SCENE = ["scene", "labs", "homework"];
+
+/** A page in the same language and appearance, about the same scene. @param {string} name @param {Pick<Place, "lang" | "theme"> & Partial<Place>} reader */
+export function pageAddress(name, { lang, theme, scene = "" }) {
+  if (name === "docs") return "/docs";
+  return `/${name}${writePlace({ ...HOME, lang, theme, scene: ABOUT_A_SCENE.includes(name) ? scene : "" })}`;
+}
 
 /** @param {string | null} value */
 const whole = (value) => Math.max(0, Math.min(MOST, Math.trunc(Number(value)) || 0));

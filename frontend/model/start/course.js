@@ -1,5 +1,6 @@
 /** The lecture as a course: its chapters in order, each entry the address at which its subject is shown. */
 
+import { EXAMPLES, NOTHING, writeQuestion as writeLab } from "../labs/question.js";
 import { HOME, writePlace } from "../url.js";
 import { example } from "../variations/examples.js";
 import { writeQuestion } from "../variations/question.js";
@@ -14,6 +15,9 @@ const shown = (id, scene, step, more = {}) => ({ id, path: "/scene", place: { sc
 const varied = (id) => ({ id, path: "/variations", place: {}, more: writeQuestion(example(id)) });
 /** @param {string} id @param {string} step @returns {Entry} */
 const proved = (id, step) => ({ id, path: "/proof", place: { step } });
+
+/** @param {string} id @param {string} lab @returns {Entry} */
+const measured = (id, lab) => ({ id, path: "/labs", place: {}, more: writeLab({ ...NOTHING, ...EXAMPLES[lab], lab }) });
 
 /** @type {Part[]} */
 export const COURSE = [
@@ -57,6 +61,18 @@ export const COURSE = [
       shown("hamilton", "elastic-pendulum", "", { formulation: "hamilton" }),
       shown("chaos", "double-pendulum", "equation:phi1"),
       shown("kapitza", "kapitza", ""),
+    ],
+  },
+  {
+    id: "labs",
+    entries: [
+      measured("cost", "work-precision"),
+      measured("order", "convergence"),
+      measured("energy", "energy-drift"),
+      measured("failure", "stability"),
+      measured("upright", "stability-map"),
+      measured("horizon", "chaos"),
+      measured("least", "fidelity"),
     ],
   },
 ];
