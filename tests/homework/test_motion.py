@@ -6,6 +6,7 @@ import pytest
 
 from deltaq.errors import ExpressionError
 from deltaq.homework.equality import equations
+from deltaq.homework.feedback import model_answer
 from deltaq.homework.motion import moved_scene
 from deltaq.homework.reading import read
 from deltaq.homework.workbook import Workbook, workbook_of
@@ -43,6 +44,17 @@ def test_the_scene_moves_as_the_answer_says(scene: str, task: str, answer: str, 
     own = moved.task(f"equation:{road.free[0]}")
     given = tuple(part for text in expected for part in read(own, road, f"{text} = 0", "plain").parts)
     assert equations.same(given, tuple(map(road.equation, road.free)), road).equal
+
+
+def test_a_wrong_force_needs_no_elimination_however_many_freedoms_there_are() -> None:
+    workbook = workbook_of({"scene": "chain-pendulum"})
+    task = workbook.task("equation:phi4")
+    right = model_answer(task, workbook)["plain"][0]
+    loads = moved_scene(workbook, task, f"2*({right.removesuffix(' = 0')}) + m*g = 0", "plain")["loads"]
+    assert [load["moment"] for load in loads[-1:]] == ["-m*g/2"]
+    with pytest.raises(ExpressionError) as caught:
+        moved_scene(workbook, task, "ddot(phi4) = 0", "plain")
+    assert [problem.code for problem in caught.value.problems] == ["motion-too-large"]
 
 
 def test_a_right_answer_needs_no_force() -> None:

@@ -22,19 +22,20 @@ from .equality import Parts
 from .equality.equations import system_of
 from .own import OwnRoad
 from .reading import read
+from .road import Road
 from .task import Task
 from .workbook import Workbook
 
 MOVING = frozenset(
     {"kinetic-energy", "potential-energy", "lagrangian", "momentum", "generalized-force", "equation", "equations"}
 )
-MOST_OPERATIONS = 3000
-MOST_FREEDOMS = 4
+MOST_OPERATIONS = 1200
+MOST_ELIMINATED = 3
 
 
 def moved_scene(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> dict[str, object]:
     """The document of the scene that moves as the answer says. Raises ExpressionError where none can be given."""
-    if task.quantity.kind not in MOVING or len(workbook.road.free) > MOST_FREEDOMS:
+    if task.quantity.kind not in MOVING:
         raise ExpressionError(Problem("motion-not-asked", "/task", parameters={"task": task.id}))
     given = read(task, workbook.road, text, syntax).parts
     forces = _forces(workbook, _equations(workbook, task, given))
@@ -59,19 +60,44 @@ def _equations(workbook: Workbook, task: Task, given: Parts) -> Parts:
 
 
 def _forces(workbook: Workbook, own: Parts) -> Parts:
-    """Q = b − M A⁻¹ c, by Cramer's rule, in display form."""
+    """Q of every equation, in display form."""
     road = workbook.road
-    if len(own) != len(road.free) or sum(part.count_ops() for part in own) > MOST_OPERATIONS:
+    if len(own) != len(road.free):
         raise _unsolvable()
     mass, rest = system_of(tuple(road.equation(q) for q in road.free), road)
     matrix, own_rest = system_of(own, road)
     if matrix.free_symbols & {road.acceleration(q) for q in road.free}:
         raise _unsolvable()
-    determinant = display(matrix.det(method="berkowitz").expand(), road.symbols)
+    factors = [_factor(matrix[i, :], mass[i, :], road) for i in range(mass.rows)]
+    if None not in factors:
+        return tuple(_short(b - c / k, road) for b, c, k in zip(rest, own_rest, factors, strict=True))
+    return _by_elimination(mass, rest, matrix, own_rest, road)
+
+
+def _factor(row: sp.Matrix, right: sp.Matrix, road: Road) -> sp.Expr | None:
+    """k where the row is k times the right one: then Q = b − c/k, and no other equation is needed."""
+    pivot = next((j for j in range(right.cols) if is_zero(right[j], road.symbols) is False), None)
+    if pivot is None or is_zero(row[pivot], road.symbols) is not False:
+        return None
+    if not all(is_zero(row[j] * right[pivot] - right[j] * row[pivot], road.symbols) for j in range(right.cols)):
+        return None
+    return display(row[pivot].expand(), road.symbols) / display(right[pivot].expand(), road.symbols)
+
+
+def _by_elimination(mass: sp.Matrix, rest: sp.Matrix, matrix: sp.Matrix, own_rest: sp.Matrix, road: Road) -> Parts:
+    """Q = b − M A⁻¹ c, by Cramer's rule."""
+    size = sum(entry.count_ops() for entry in (*mass, *rest, *matrix, *own_rest))
+    if mass.rows > MOST_ELIMINATED or size > MOST_OPERATIONS:
+        raise ExpressionError(Problem("motion-too-large", "/answer/value"))
+    determinant = _short(matrix.det(method="berkowitz"), road)
     if is_zero(determinant, road.symbols) is not False:
         raise _unsolvable()
     above = rest * determinant - mass * matrix.adjugate() * own_rest
-    return tuple(display(entry.expand(), road.symbols) / determinant for entry in above)
+    return tuple(_short(entry, road) / determinant for entry in above)
+
+
+def _short(value: sp.Expr, road: Road) -> sp.Expr:
+    return cast("sp.Expr", display(value.expand(), road.symbols))
 
 
 def _with_forces(document: dict[str, object], forces: Mapping[str, sp.Expr]) -> dict[str, object]:

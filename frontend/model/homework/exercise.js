@@ -86,8 +86,9 @@ export function createExercise(store, api, progress, answering) {
         api.post("/tasks/solution", { ...entry.reference, task: entry.task.id, lang: lang() }),
         api.derive({ ...reference, lang: lang() }).catch(() => null),
       ]);
-      const shown = derivation?.chapters.find(({ id }) => id === chapter)?.steps ?? [];
-      const step = steps.map((id) => shown.find((one) => one.id === id)).find(Boolean) ?? shown.at(-1) ?? null;
+      const chapters = derivation?.chapters ?? [];
+      const shown = steps.map((id) => chapters.flatMap((one) => one.steps).find((one) => one.id === id)).find(Boolean);
+      const step = shown ?? chapters.find(({ id }) => id === chapter)?.steps.at(-1) ?? null;
       if (get().entry?.key !== entry.key) return;
       set({ solution: { latex: answer.latex, step } });
       answering.keep(entry, (draft) => ({ shown: draft.shown || !draft.solved }));
