@@ -13,7 +13,7 @@ from fastapi import FastAPI
 
 from deltaq.api.app import create_app
 from deltaq.api.workers.account import QuotaExceeded
-from deltaq.api.workers.job import DeadlineExceeded, JobFailed, MemoryExceeded, Overloaded, WorkerDied
+from deltaq.api.workers.job import DeadlineExceeded, JobFailed, MemoryExceeded, Overloaded, WorkerDied, WorkerKilled
 from deltaq.settings import Settings
 
 pytestmark = pytest.mark.anyio
@@ -263,6 +263,12 @@ async def test_body_too_slow() -> None:
 BUSY = document(
     "overloaded", 503, "The service is busy", detail="Too many computations are waiting. Ask again in 2 seconds."
 )
+INTERRUPTED = document(
+    "interrupted",
+    503,
+    "The computation was interrupted",
+    detail="The process that worked on it was ended from outside. Ask again in 2 seconds.",
+)
 SHARE_USED = document(
     "quota-exceeded",
     429,
@@ -301,6 +307,7 @@ async def asked(app: FastAPI, error: Exception, monkeypatch: pytest.MonkeyPatch)
     [
         pytest.param(Overloaded("the queue is full"), BUSY, id="queue full"),
         pytest.param(QuotaExceeded("192.0.2.1", 30.2), SHARE_USED, id="share used up"),
+        pytest.param(WorkerKilled("exit code -9"), INTERRUPTED, id="killed from outside"),
         pytest.param(DeadlineExceeded("no answer within 5 s"), HEAVY, id="deadline"),
         pytest.param(MemoryExceeded("MemoryError"), HEAVY, id="memory"),
     ],
@@ -317,7 +324,7 @@ async def test_job_that_cannot_be_done(
     "error",
     [
         pytest.param(JobFailed("ValueError: secret", "trace with a secret"), id="in the worker"),
-        pytest.param(WorkerDied("exit code -11", repeatable=False), id="crash"),
+        pytest.param(WorkerDied("exit code -11"), id="crash"),
         pytest.param(KeyError("secret"), id="in the service"),
     ],
 )

@@ -21,7 +21,7 @@ from .languages import Language, language_of
 from .strict_json import JsonError
 from .validation import problems_of
 from .workers.account import QuotaExceeded
-from .workers.job import DeadlineExceeded, JobError, JobFailed, MemoryExceeded, Overloaded
+from .workers.job import DeadlineExceeded, JobError, JobFailed, MemoryExceeded, Overloaded, WorkerKilled
 
 LOGGER = logging.getLogger("deltaq.api")
 MEDIA_TYPE = "application/problem+json"
@@ -46,6 +46,7 @@ BODY_TOO_LARGE = ProblemType("body-too-large", 413)
 UNKNOWN_HOST = ProblemType("unknown-host", 421)
 QUOTA_EXCEEDED = ProblemType("quota-exceeded", 429)
 INTERNAL_ERROR = ProblemType("internal-error", 500)
+INTERRUPTED = ProblemType("interrupted", 503)
 OVERLOADED = ProblemType("overloaded", 503)
 COMPUTATION_TOO_LARGE = ProblemType("computation-too-large", 504)
 
@@ -57,11 +58,12 @@ _TYPES: tuple[tuple[type[Exception], ProblemType], ...] = (
     (RequestValidationError, INVALID_REQUEST),
     (QuotaExceeded, QUOTA_EXCEEDED),
     (Overloaded, OVERLOADED),
+    (WorkerKilled, INTERRUPTED),
     (DeadlineExceeded, COMPUTATION_TOO_LARGE),
     (MemoryExceeded, COMPUTATION_TOO_LARGE),
     (Exception, INTERNAL_ERROR),
 )
-_TEMPORARY = frozenset({QUOTA_EXCEEDED, OVERLOADED})
+_TEMPORARY = frozenset({QUOTA_EXCEEDED, OVERLOADED, INTERRUPTED})
 _HTTP_TYPES = {
     404: NOT_FOUND,
     405: METHOD_NOT_ALLOWED,

@@ -44,11 +44,11 @@ class MemoryExceeded(JobError):
 
 
 class WorkerDied(JobError):
-    """The process that ran the job is gone; `repeatable` if it was killed from outside, not by what it did."""
+    """The process that ran the job is gone, by what the job did."""
 
-    def __init__(self, summary: str, *, repeatable: bool) -> None:
-        super().__init__(summary)
-        self.repeatable = repeatable
+
+class WorkerKilled(WorkerDied):
+    """The process that ran the job was killed from outside; the job may well be run again."""
 
 
 class Overloaded(JobError):

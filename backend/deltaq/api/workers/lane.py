@@ -12,7 +12,7 @@ from typing import get_args
 
 from ...errors import DeltaqError, InputError
 from .account import QuotaExceeded
-from .job import GivenUp, JobError, JobFailed, Overloaded, Pace, WorkerDied
+from .job import GivenUp, JobError, JobFailed, Overloaded, Pace, WorkerKilled
 from .message import decode_reply
 from .queue import FairQueue
 from .task import Task
@@ -102,8 +102,7 @@ class Lane(Thread):
         try:
             task.account.admit()  # others of its tasks may have used up the share meanwhile
             first = self.attempt(task)
-            repeated = isinstance(first, WorkerDied) and first.repeatable and task.job.pure
-            return self.attempt(task) if repeated else first
+            return self.attempt(task) if isinstance(first, WorkerKilled) and task.job.pure else first
         except QuotaExceeded as error:
             return error
         finally:

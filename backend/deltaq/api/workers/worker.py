@@ -12,7 +12,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from threading import Lock
 
-from .job import DeadlineExceeded, GivenUp, WorkerDied
+from .job import DeadlineExceeded, GivenUp, WorkerDied, WorkerKilled
 from .message import PART, READY
 from .runner import run
 
@@ -73,7 +73,8 @@ class Worker:
             code = self.process.exitcode
         if code == -signal.SIGXCPU:
             return DeadlineExceeded("processor time used up")
-        return WorkerDied(f"the worker process ended with exit code {code}", repeatable=code in _KILLED_FROM_OUTSIDE)
+        kind = WorkerKilled if code in _KILLED_FROM_OUTSIDE else WorkerDied
+        return kind(f"the worker process ended with exit code {code}")
 
     def kill(self) -> None:
         """End the process at once and free what it held."""
