@@ -1,24 +1,30 @@
-# Build: the wheel needs node for the front-end libraries; the build hook brings it.
-FROM python:3.11-slim AS build
+# The service with its kernels compiled. It runs without root and on read-only files; /cache is all that it writes to:
+#   docker run --read-only --tmpfs /cache -p 8000:8000 deltaq
+# `.ci/prove-dockerfile` carries out every line of this file in a bare Debian.
+FROM python:3.11-slim-bookworm AS build
 WORKDIR /source
 COPY pyproject.toml README.md LICENSE ./
 COPY backend backend
 COPY frontend frontend
+# The libraries of the page come from npm; the build hook brings a node along where there is none.
 RUN python -m venv /opt/deltaq \
- && /opt/deltaq/bin/pip install --no-cache-dir --no-compile . \
- && /opt/deltaq/bin/python -m compileall -q /opt/deltaq/lib
+ && /opt/deltaq/bin/pip install --no-cache-dir --constraint backend/constraints.txt '.[redis]' \
+ && rm -rf /opt/deltaq/lib/python3.11/site-packages/pip*
 
-# Compile the kernels once, so that the first simulation does not wait for a compiler.
+# Compiled once, so that the first simulation does not wait for a compiler.
 ENV NUMBA_CACHE_DIR=/opt/kernels
 RUN /opt/deltaq/bin/python -c "from deltaq.api.jobs import warm; warm({})"
 
-FROM python:3.11-slim
-RUN useradd --system --no-create-home --shell /usr/sbin/nologin deltaq
+FROM python:3.11-slim-bookworm
+RUN useradd --system --no-create-home --shell /usr/sbin/nologin deltaq \
+ && install --directory --owner deltaq /cache
 COPY --from=build /opt/deltaq /opt/deltaq
-COPY --from=build --chown=deltaq /opt/kernels /opt/kernels
-ENV NUMBA_CACHE_DIR=/opt/kernels PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1
+COPY --from=build /opt/kernels /opt/kernels
+ENV NUMBA_CACHE_DIR=/cache/kernels DELTAQ_MODEL_CACHE=/cache/models DELTAQ_CACHE_FOLDER=/cache/answers TMPDIR=/cache
+ENV PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1
 USER deltaq
 EXPOSE 8000
 HEALTHCHECK --interval=30s --timeout=3s --start-period=20s CMD ["/opt/deltaq/bin/python", "-c", \
   "import urllib.request; urllib.request.urlopen('http://127.0.0.1:8000/api/v1/health', timeout=2)"]
-ENTRYPOINT ["/opt/deltaq/bin/deltaq", "serve", "--host", "0.0.0.0"]
+# Numba wants to be able to write where it reads kernels.
+ENTRYPOINT ["/bin/sh", "-c", "cp -r /opt/kernels /cache && exec /opt/deltaq/bin/deltaq serve --host 0.0.0.0 \"$@\"", "deltaq"]

@@ -31,9 +31,10 @@ def served(**settings: object) -> Iterator[Served]:
     """`deltaq serve` with these settings; killed at the end if it has not ended by itself."""
     given = {f"DELTAQ_{name.upper()}": str(value) for name, value in settings.items()}
     command = [sys.executable, "-m", "deltaq.cli", "serve", "--port", "0"]
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with subprocess.Popen(command, env=os.environ | given, text=True, **pipes) as process:  # type: ignore[call-overload]
+    environment, quiet = os.environ | given, subprocess.DEVNULL  # a pipe that nobody reads would stop the service
+    with subprocess.Popen(command, env=environment, text=True, stdout=subprocess.PIPE, stderr=quiet) as process:
         try:
+            assert process.stdout is not None
             found = re.search(r"http://\S+/", process.stdout.readline())
             assert found is not None
             yield Served(process, found[0])
