@@ -3,16 +3,16 @@
 import { render } from "lit-html";
 import { createApi } from "./model/api.js";
 import { createClock } from "./model/clock.js";
-import { createLater } from "./model/later.js";
 import { createSession } from "./model/session.js";
 import { START } from "./model/state.js";
-import { documentIn, keepDraft, OWN, readDraft } from "./model/own.js";
+import { documentIn, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { translator } from "./model/catalog.js";
 import { readPlace, startLanguage, writePlace } from "./model/url.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
 import { listen } from "./view/keys.js";
 import { linkHighlights } from "./view/highlight.js";
+import { createAside } from "./view/aside.js";
 import { createMotion } from "./view/motion.js";
 import { page } from "./view/page.js";
 
@@ -27,20 +27,7 @@ const session = createSession(store, api, clock);
 
 const motion = createMotion({ root, state: store.get, clock, session, still, update });
 
-// Most readers never need these: they are fetched when they are first wanted.
-const above = createLater(() => import("./view/overlays.js"), update);
-const editor = createLater(async () => {
-  const { open } = await import("./view/editor/open.js");
-  const keep = (/** @type {import("./model/own.js").Draft} */ draft) => keepDraft(localStorage, draft);
-  return open({ api, session, state: store.get, draft: readDraft(localStorage), keep, changed: update });
-}, update);
-const lecture = createLater(async () => {
-  const { bringStyle, open } = await import("./view/lecture/open.js");
-  await bringStyle();
-  return open({ root, session, state: store.get, changed: update, play: motion.play });
-}, update);
-/** Lecture mode while it is on. */
-const lecturing = () => (store.get().place.view && store.get().catalog.lecture ? lecture.part : null);
+const aside = createAside({ root, store, api, session, send: fetch.bind(globalThis), changed: update, play: motion.play });
 
 function fullscreen() {
   void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.());
@@ -55,7 +42,7 @@ function enterLecture() {
 /** The presenter's window belongs to a lecture. */
 async function present() {
   session.move({ view: "lecture", edit: "" });
-  (await lecture.want()).present();
+  (await aside.lecture.want()).present();
 }
 
 /** @returns {import("./view/page.js").View} */
@@ -65,7 +52,7 @@ function view() {
   const methods = translator(section("methods"));
   return {
     state, session, clock, togglePlay: motion.play, scrub: motion.scrub, instruments: motion.instruments, fullscreen, enterLecture,
-    editor: editor.part, lecture: lecturing(), overlays: state.catalog.lecture ? above.part?.overlays : undefined,
+    editor: aside.editor.part, lecture: aside.lecturing(), overlays: aside.overlays(),
     t: translator({ ...section("page"), ...section("editor"), ...section("lecture"), ...section("figure") }),
     methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,
     link: (patch) => location.pathname + writePlace({ ...state.place, ...patch }) + ((patch.scene ?? state.place.scene) === OWN ? state.fragment : ""),
@@ -89,13 +76,9 @@ function update() {
   document.documentElement.lang = place.lang;
   document.title = current.t("title");
   render(page(current), root);
-  if (state.overlay) void above.want();
-  above.part?.openDialog(root);
+  aside.update();
   motion.show(theme);
   history.replaceState(null, "", current.link({}));
-  if (place.edit) void editor.want();
-  if (place.view) void lecture.want();
-  lecture.part?.update();
   if (reach(place.step, still.matches)) announce(state.lines, place.step, current.t);
 }
 
@@ -103,7 +86,7 @@ store.subscribe(update);
 dark.addEventListener("change", update);
 linkHighlights(root);
 listen(document, {
-  go: (by) => (lecturing() ?? session).go(by), more: () => lecturing()?.keys ?? {},
+  go: (by) => (aside.lecturing() ?? session).go(by), more: () => aside.lecturing()?.keys ?? {},
   fullscreen, overlay: session.overlay, play: motion.play, lecture: enterLecture, presenter: () => void present(),
   covered: () => store.get().overlay !== "",
   uncover: () => session.overlay(""),

@@ -17,14 +17,14 @@ import { UNCHANGED } from "./values.js";
  * @property {import("./reveal.js").Line[]} lines  the derivation's steps in order
  * @property {import("./types.js").Trajectory | null} trajectory
  * @property {import("./types.js").Changes} changes
- * @property {{page: Failure | null, scene: Failure | null, derivation: Failure | null, simulation: Failure | null}} failures
+ * @property {{page: Failure | null, scene: Failure | null, derivation: Failure | null, simulation: Failure | null, export: Failure | null}} failures
  * @property {import("./figure/runs.js").Run[]} runs  motions kept beside the present one
  * @property {boolean} simulating
  * @property {import("./types.js").Overlay} overlay
  */
 
 /** @type {State["failures"]} */
-export const NO_FAILURES = { page: null, scene: null, derivation: null, simulation: null };
+export const NO_FAILURES = { page: null, scene: null, derivation: null, simulation: null, export: null };
 
 /** @type {State} */
 export const START = {

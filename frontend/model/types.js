@@ -53,8 +53,9 @@
  * @typedef {"" | "lecture"} Showing  all steps so far beside the figure, or one step at a time in a lecture
  * @typedef {"" | "substeps"} Pace  whether a lecture goes on by steps or by substeps
  * @typedef {"" | "plots" | "nothing"} Beside  what stands beside a step in a lecture, besides the drawing or without it
+ * @typedef {"" | "figure" | "derivation"} Shown  what a frame of another page shows; "" for both
  * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, n: number, formulation: string,
  *   duration: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside,
- *   vary: string, set: string, at: number, with: string, runs: string}} Place  what the address says
+ *   vary: string, set: string, at: number, with: string, runs: string, show: Shown}} Place  what the address says
  */
 export {};

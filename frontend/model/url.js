@@ -3,7 +3,7 @@
 /** @typedef {import("./types.js").Place} Place */
 
 /** @type {Place} */
-export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "", vary: "", set: "", at: 0, with: "", runs: "" };
+export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "", vary: "", set: "", at: 0, with: "", runs: "", show: "" };
 
 const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
@@ -13,6 +13,7 @@ const EDITING = ["form", "json", "toml"];
 const VIEWS = ["lecture"];
 const PACES = ["substeps"];
 const BESIDES = ["plots", "nothing"];
+const SHOWN = ["figure", "derivation"];
 const LONGEST = 100;
 const MOST = 99;
 
@@ -43,6 +44,7 @@ export function readPlace(query) {
     at: Math.max(0, Math.min(LONGEST, Number(given.get("at")) || 0)),
     with: slug(given.get("with")),
     runs: slug(given.get("runs")),
+    show: /** @type {import("./types.js").Shown} */ (oneOf(SHOWN, given.get("show"), HOME.show)),
   };
 }
 

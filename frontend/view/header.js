@@ -22,11 +22,12 @@ export function header(view) {
     <header class="top">
       ${brand(view)}
       ${sceneChooser(view)}
-      ${places(view, "scene")}
+      ${places(view, "scene", actions(view))}
       <div class="tools">
         ${pen(view)}
         ${language(view)}
         ${appearance(view)}
+        <button class="tool" title=${t("tool.share")} aria-label=${t("tool.share")} @click=${() => session.overlay("share")}>${icon("share")}</button>
         <button class="tool" title=${t("tool.overview")} aria-label=${t("tool.overview")} @click=${() => session.overlay("overview")}>${icon("overview")}</button>
         <button class="tool wide-only" title=${t("tool.lecture")} aria-label=${t("tool.lecture")} @click=${view.enterLecture}>${icon("lecture")}</button>
         <button class="tool wide-only" title=${t("tool.help")} aria-label=${t("tool.help")} @click=${() => session.overlay("help")}>${icon("help")}</button>
@@ -40,12 +41,22 @@ export function brand({ state, t }) {
   return html`<a class="brand" href=${pageAddress("", state.place)} title=${t("tagline")} aria-label=${t("place.start")}><span class="delta">δ</span><span class="q">q</span></a>`;
 }
 
-/** The way to every page, behind a button where there is no room for it. @param {Pick<Appearance, "state" | "t">} view @param {string} here */
-export function places({ state, t }, here) {
+/** What the buttons of the header do, where there is no room for them. @param {View} view */
+function actions({ session, enterLecture, t }) {
+  const action = (/** @type {string} */ label, /** @type {() => void} */ press) => html`
+    <button class="action" popovertarget="places" popovertargetaction="hide" @click=${press}>${label}</button>`;
+  return [
+    action(t("tool.overview"), () => session.overlay("overview")), action(t("tool.share"), () => session.overlay("share")),
+    action(t("tool.lecture"), enterLecture),
+  ];
+}
+
+/** The way to every page, behind a button where there is no room for it. @param {Pick<Appearance, "state" | "t">} view @param {string} here @param {unknown} [more] */
+export function places({ state, t }, here, more = nothing) {
   return html`
     <button class="tool menu" popovertarget="places" title=${t("places")} aria-label=${t("places")}>${icon("menu")}</button>
     <nav class="places" id="places" popover aria-label=${t("places")}>${PAGES.map((name) => html`
-      <a href=${pageAddress(name, state.place)} aria-current=${name === here ? "page" : nothing}>${t(`place.${name}`)}</a>`)}</nav>`;
+      <a href=${pageAddress(name, state.place)} aria-current=${name === here ? "page" : nothing}>${t(`place.${name}`)}</a>`)}${more}</nav>`;
 }
 
 /** Into the editor with a copy of the scene, or with one's own; and out of it. @param {View} view */

@@ -23,8 +23,8 @@ export function overlays(view) {
   return nothing;
 }
 
-/** @param {"overview" | "jump" | "help"} name @param {unknown} content @param {View} view */
-function dialog(name, content, { session, t }) {
+/** @param {"overview" | "jump" | "help" | "share"} name @param {unknown} content @param {View} view */
+export function dialog(name, content, { session, t }) {
   const close = () => session.overlay("");
   return html`
     <dialog class=${name} aria-label=${t(name)} @close=${close}

@@ -24,7 +24,7 @@ import { FORMULATIONS } from "../model/url.js";
  * @property {(t: number) => void} scrub
  * @property {() => void} fullscreen
  * @property {() => void} reload
- * @property {(typeof import("./overlays.js")["overlays"]) | undefined} overlays  once one has been asked for
+ * @property {((view: View) => unknown) | undefined} overlays  once one has been asked for
  * @property {import("./figure/open.js").Instruments | null} instruments  once they have been fetched
  * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
  * @property {() => void} enterLecture

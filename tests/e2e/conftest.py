@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 from tests.e2e.browser import FLAGS, chromium
 from tests.e2e.lecture import Lecture
 
@@ -47,6 +47,10 @@ def _warm_up(address: str, patience: float = 240.0) -> None:
             time.sleep(0.5)
         else:
             return
+
+
+# Waiting costs nothing where all is well, and a busy machine is not an error.
+expect.set_options(timeout=20_000)
 
 
 @pytest.fixture(scope="session")

@@ -5,6 +5,7 @@ import { inLanguage, translator } from "../../frontend/model/catalog.js";
 import { SECTIONS } from "../../frontend/model/editor/schema.js";
 import { COURSE } from "../../frontend/model/start/course.js";
 import { LABS } from "../../frontend/model/labs/question.js";
+import { FORMS, SHOWN } from "../../frontend/model/share.js";
 import { PAGES } from "../../frontend/model/url.js";
 import { SLIPS } from "../../frontend/model/homework/grading.js";
 import { SIDES } from "../../frontend/model/homework/place.js";
@@ -90,12 +91,15 @@ const LAB = [
 ];
 const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`).concat("ladder.");
 
-for (const [name, asked] of Object.entries({ labs: LAB, editor: EDITOR, variations: VARIATIONS, start: START, exercises: EXERCISES })) {
+/** What sharing asks for by form of file and by what a frame shows. */
+const SHARE = [...FORMS.map((form) => `share.${form}`), ...SHOWN.map((shown) => `share.show-${shown || "both"}`)];
+
+for (const [name, asked] of Object.entries({ labs: LAB, editor: EDITOR, variations: VARIATIONS, start: START, share: SHARE, exercises: EXERCISES })) {
   test(`every text of the part "${name}" is there`, () => assert.deepEqual(asked.filter((key) => !(key in catalogs.en)), []));
 }
 
 test("every text that is there is used", () => {
   const composed = ["theme.", "tools.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical.", ...CHARTS];
-  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...LAB, ...EXERCISES].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
+  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...SHARE, ...LAB, ...EXERCISES].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });

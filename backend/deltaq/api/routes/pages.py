@@ -48,6 +48,15 @@ def start(request: Request) -> Response:
     return _page(request, html)
 
 
+@router.api_route("/embed", methods=["GET", "HEAD"])
+def embed(request: Request) -> Response:
+    """The page of a scene for frames of other pages, which DELTAQ_FRAME_ANCESTORS names."""
+    html = service_of(request).assets.page("scene")
+    if html is None:
+        raise HTTPException(404)
+    return _page(request, html.replace("</head>", '<link rel="stylesheet" href="/styles/embed.css"></head>'))
+
+
 @router.api_route("/docs", methods=["GET", "HEAD"])
 def documentation(request: Request) -> Response:
     """The API, to be read and tried."""

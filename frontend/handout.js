@@ -1,0 +1,48 @@
+/** The driver of the handout: a derivation as a sheet of paper. */
+
+import { render } from "lit-html";
+import { createApi } from "./model/api.js";
+import { translator } from "./model/catalog.js";
+import { createHandout } from "./model/handout.js";
+import { documentIn } from "./model/own.js";
+import { createStore } from "./model/store.js";
+import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { createDrawing } from "./view/drawing.js";
+import { page } from "./view/handout/page.js";
+
+const SUBSTEPS = "substeps";
+
+const root = /** @type {HTMLElement} */ (document.getElementById("page"));
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const asked = readPlace(location.search);
+/** @type {import("./model/handout.js").Sheet} */
+const START = {
+  place: { ...HOME, scene: asked.scene || "elastic-pendulum", n: asked.n, set: asked.set, formulation: asked.formulation, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  catalog: {}, scene: null, lines: [], trajectory: null, failure: null,
+  substeps: new URLSearchParams(location.search).get(SUBSTEPS) !== "no",
+};
+const store = createStore(START);
+const session = createHandout(store, createApi(fetch.bind(globalThis)), await documentIn(location.hash));
+
+/** @type {ReturnType<typeof createDrawing> | null} */
+let drawing = null;
+
+/** What is drawn, typeset and named, once everything is there. */
+function update() {
+  const { place, catalog, scene, trajectory, substeps } = store.get();
+  if (!catalog.page) return;
+  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture) });
+  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
+  document.documentElement.lang = place.lang;
+  const shared = writePlace(place);
+  const address = `${location.pathname}${shared}${substeps ? "" : `${shared ? "&" : "?"}${SUBSTEPS}=no`}${location.hash}`;
+  render(page({ ...store.get(), state: { place }, session, t, print: () => window.print(), address: location.origin + address.replace("/handout", "/scene") }), root);
+  const frame = /** @type {HTMLElement | null} */ (root.querySelector(".drawing"));
+  if (frame && trajectory) (drawing ??= createDrawing(frame)).show(scene, trajectory, 0);
+  document.title = `δq · ${root.querySelector("h1")?.textContent ?? ""}`;
+  history.replaceState(null, "", address);
+}
+
+store.subscribe(update);
+dark.addEventListener("change", update);
+void session.load();

@@ -1,0 +1,61 @@
+/** A handout: the whole derivation of a scene, with its values and one picture of it. */
+
+import { ApiError } from "./api.js";
+import { linesOf } from "./reveal.js";
+import { completed, OWN } from "./own.js";
+import { readChanges } from "./values.js";
+
+/** @typedef {import("./types.js").Failure} Failure */
+/**
+ * @typedef {object} Sheet
+ * @property {import("./types.js").Place} place
+ * @property {import("./types.js").Catalog} catalog
+ * @property {import("./types.js").Scene | null} scene
+ * @property {import("./reveal.js").Line[]} lines
+ * @property {import("./types.js").Trajectory | null} trajectory
+ * @property {boolean} substeps  whether they are told, too
+ * @property {Failure | null} failure
+ */
+
+const PARTS = ["coordinates", "positions", "loads"];
+const SECONDS = 2;
+const SAMPLES = 61;
+
+/**
+ * @param {ReturnType<typeof import("./store.js").createStore<Sheet>>} store
+ * @param {import("./api.js").Api} api
+ * @param {import("./own.js").SceneDocument | null} own  the viewer's own scene, if it is that
+ */
+export function createHandout({ get, set }, api, own) {
+  const move = (/** @type {Partial<import("./types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } });
+
+  async function load() {
+    const { lang, scene, n, formulation, set: changes } = get().place;
+    const { parameters: values, initial } = readChanges(changes);
+    const asked = scene === OWN ? own : scene;
+    const parameters = n ? { n } : {};
+    try {
+      const [catalog, { chapters }, document, trajectory] = await Promise.all([
+        api.catalog(lang, "lecture"),
+        api.derive({ scene: asked, lang, formulation, parameters }),
+        own && scene === OWN ? completed(own) : api.scene(scene, lang, n),
+        api.simulate({ scene: asked, parameters: { ...values, ...parameters }, initial, t_end: SECONDS, samples: SAMPLES, include: PARTS, lang }).catch(() => null),
+      ]);
+      if (get().place.lang === lang) set({ catalog, lines: linesOf(chapters), scene: document, trajectory, failure: null });
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error;
+      const catalog = await api.catalog(lang, "lecture").catch(() => ({}));
+      set({ failure: error.failure, catalog });
+    }
+  }
+
+  return {
+    load, move,
+    /** @param {string} lang */
+    async language(lang) {
+      move({ lang });
+      await load();
+    },
+    toggleSubsteps: () => set({ substeps: !get().substeps }),
+  };
+}

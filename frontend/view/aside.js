@@ -1,0 +1,56 @@
+/** What most readers never need, fetched when it is first wanted: the editor, lecture mode, overlays, sharing. */
+
+import { createLater } from "../model/later.js";
+import { keepDraft, readDraft } from "../model/own.js";
+
+/** @typedef {import("./page.js").View} View */
+/** @typedef {ReturnType<typeof import("../model/store.js").createStore<import("../model/state.js").State>>} Store */
+
+/**
+ * @param {{root: HTMLElement, store: Store, api: import("../model/api.js").Api, session: View["session"], send: typeof fetch,
+ *   changed: () => void, play: () => void}} page
+ */
+export function createAside({ root, store, api, session, send, changed, play }) {
+  const { get } = store;
+  const above = createLater(() => import("./overlays.js"), changed);
+  const editor = createLater(async () => {
+    const { open } = await import("./editor/open.js");
+    const keep = (/** @type {import("../model/own.js").Draft} */ draft) => keepDraft(localStorage, draft);
+    return open({ api, session, state: get, draft: readDraft(localStorage), keep, changed });
+  }, changed);
+  const lecture = createLater(async () => {
+    const { bringStyle, open } = await import("./lecture/open.js");
+    await bringStyle();
+    return open({ root, session, state: get, changed, play });
+  }, changed);
+  const sharing = createLater(async () => {
+    const [{ share }, { createExports }] = await Promise.all([import("./share.js"), import("../model/share.js"), above.want()]);
+    const take = createExports(send, store);
+    return (/** @type {View} */ view) => share(view, take);
+  }, changed);
+
+  const framed = location.pathname === "/embed" ? import("./embed.js").then(({ embed }) => embed(root, () => get().place, whole)) : null;
+  const whole = () => location.href.replace("/embed", "/scene");
+
+  return {
+    editor, lecture,
+    /** Lecture mode while it is on. */
+    lecturing: () => (get().place.view && get().catalog.lecture ? lecture.part : null),
+    /** What lies above the page, once its texts are there. @returns {View["overlays"]} */
+    overlays() {
+      const { catalog, overlay } = get();
+      if (!catalog.lecture) return undefined;
+      return (overlay === "share" ? sharing.part : above.part?.overlays) ?? undefined;
+    },
+    /** Called after each rendering: fetches what is wanted now. */
+    update() {
+      const { overlay, place } = get();
+      if (overlay) void (overlay === "share" ? sharing : above).want();
+      above.part?.openDialog(root);
+      void framed?.then((tell) => tell());
+      if (place.edit) void editor.want();
+      if (place.view) void lecture.want();
+      lecture.part?.update();
+    },
+  };
+}

@@ -1,0 +1,91 @@
+/** The handout on a sheet of paper: title, picture, values, and every step. */
+
+import { html, nothing } from "lit-html";
+import { failure } from "../failure.js";
+import { displayed, inline, prose } from "../formula.js";
+import { appearance, brand, language, places } from "../header.js";
+import { icon } from "../icons.js";
+import { inLanguage } from "../../model/catalog.js";
+import { partsOf } from "../../model/lecture/stops.js";
+import { unitText } from "../../model/numbers.js";
+import { readChanges } from "../../model/values.js";
+
+/** @typedef {import("../../model/types.js").Step} Step */
+/**
+ * @typedef {import("../../model/handout.js").Sheet & import("../header.js").Appearance & {print: () => void, address: string,
+ *   session: import("../../model/handout.js").createHandout extends (...given: any) => infer R ? R : never}} HandoutView
+ */
+
+/** @param {HandoutView} view */
+export function page(view) {
+  const { session, substeps, t } = view;
+  return html`
+    <a class="skip" href="#sheet">${t("skip")}</a>
+    <header class="top">
+      ${brand(view)}${places(view, "")}
+      <div class="tools">
+        <label class="check"><input type="checkbox" .checked=${substeps} @change=${session.toggleSubsteps}>${t("handout.substeps")}</label>
+        <button class="main" @click=${view.print}>${icon("print")}${t("handout.print")}</button>
+        ${language(view)}${appearance(view)}
+      </div>
+    </header>
+    <main class="handout" id="sheet" tabindex="-1">
+      ${view.failure ? failure(view.failure, t("failure.derivation"), () => void session.load(), t) : sheet(view)}
+    </main>`;
+}
+
+/** @param {HandoutView} view */
+function sheet(view) {
+  const { scene, lines, state, t } = view;
+  if (!scene || !lines.length) return html`<p class="notice" role="status">${t("derivation.loading")}</p>`;
+  const { lang } = state.place;
+  const title = inLanguage(scene.title, lang);
+  const summary = inLanguage(scene.summary, lang);
+  return html`
+    <article class="paper">
+      <h1>${title}</h1>
+      <p class="summary">${summary}</p>
+      <div class="given">
+        <div class="drawing"><svg role="img" aria-label=${t("drawing.still", { title })}></svg><div class="labels" aria-hidden="true"></div></div>
+        ${values(view)}
+      </div>
+      ${lines.map((line) => step(line, view))}
+      <footer>${t("handout.source")} <a href=${view.address}>${view.address.length < 160 ? view.address : location.origin}</a></footer>
+    </article>`;
+}
+
+/** @param {HandoutView} view */
+function values({ scene, state, t }) {
+  if (!scene) return nothing;
+  const { parameters, initial } = readChanges(state.place.set);
+  const guided = new Set((scene.guides ?? []).map((guide) => guide.coordinate));
+  const rows = [
+    ...scene.parameters.map(({ name, latex, value, unit }) => ({ latex: latex || name, value: parameters[name] ?? value, unit })),
+    ...scene.coordinates.filter(({ name }) => !guided.has(name)).flatMap(({ name, latex, value, rate, unit }) => [
+      { latex: `${latex || name}(0)`, value: initial[name]?.value ?? value, unit },
+      { latex: `\\dot{${latex || name}}(0)`, value: initial[name]?.rate ?? rate, unit: `${unit || "1"}/s` },
+    ]),
+  ];
+  return html`
+    <table><caption>${t("handout.values")}</caption>
+      <tbody>${rows.map(({ latex, value, unit }) => html`<tr><th scope="row">${inline(latex)}</th><td>${value} ${unitText(unit)}</td></tr>`)}</tbody></table>`;
+}
+
+/** @param {import("../../model/reveal.js").Line} line @param {HandoutView} view */
+function step({ step, number, chapter, chapterIndex }, { substeps }) {
+  const parts = substeps ? partsOf(step) : [];
+  return html`
+    ${number.endsWith(".1") ? html`<h2><span class="ordinal">${chapterIndex + 1}</span>${chapter.title}</h2>` : nothing}
+    <section class="step" data-step=${step.id}>
+      <h3><span class="number">${number}</span>${prose(step.title)}</h3>
+      ${words(step)}
+      ${parts.map(({ step: part, depth }, i) => html`
+        <section class="part" style="--depth:${depth}">
+          ${part.title ? html`<h4><span class="number">${number}.${i + 1}</span>${prose(part.title)}</h4>` : nothing}${words(part)}</section>`)}
+    </section>`;
+}
+
+/** @param {Step} step */
+const words = ({ text, marked, latex }) => html`
+  ${text ? html`<p>${prose(text)}</p>` : nothing}
+  ${marked || latex ? displayed(marked || latex) : nothing}`;

@@ -1,0 +1,77 @@
+/** Sharing: the address, a code for phones, a frame for other pages, files to take away. */
+
+import { generate } from "lean-qr";
+import { html, nothing, svg } from "lit-html";
+import { dialog } from "./overlays.js";
+import { icon } from "./icons.js";
+import { inLanguage } from "../model/catalog.js";
+import { FORMS, frameAddress, pathOf, SHOWN, snippet } from "../model/share.js";
+import { HOME, writePlace } from "../model/url.js";
+
+/** @typedef {import("./page.js").View} View */
+/** Empty modules around a code, so that phones find it. */
+const QUIET = 4;
+/** More does not fit a code that a phone reads from a wall. */
+const LONGEST = 1200;
+
+/** @typedef {(form: typeof FORMS[number]) => Promise<import("../model/share.js").File | null>} Take */
+
+/** @param {View} view @param {Take} take */
+export function share(view, take) {
+  const { state, link, t } = view;
+  const address = location.origin + link({});
+  const title = inLanguage(state.scene?.title, state.place.lang);
+  return dialog("share", html`
+    <div class="sharing">
+      <section><h3>${t("share.link")}</h3>${copied(address, t("share.link"), t)}</section>
+      <section class="code">${address.length > LONGEST ? html`<p>${t("share.code-too-long")}</p>` : code(address, t)}</section>
+      <section><h3>${t("share.frame")}</h3><p>${t("share.frame-help")}</p>
+        ${SHOWN.map((shown) => html`<p class="kind">${t(`share.show-${shown || "both"}`)}</p>${copied(snippet(frameAddress(location.origin, state.place, shown, fragment(state)), shown, title), t(`share.show-${shown || "both"}`), t)}`)}</section>
+      <section><h3>${t("share.files")}</h3>${files(view, take)}</section>
+    </div>`, view);
+}
+
+/** @param {View["state"]} state */
+const fragment = ({ place, fragment }) => (place.scene === "own" ? fragment : "");
+
+/** @param {string} text @param {string} label @param {View["t"]} t */
+function copied(text, label, t) {
+  const copy = async (/** @type {Event} */ { currentTarget }) => {
+    const button = /** @type {HTMLElement} */ (currentTarget);
+    const done = await navigator.clipboard?.writeText(text).then(() => true, () => false);
+    const field = /** @type {HTMLInputElement} */ (button.previousElementSibling);
+    if (!done) field.select();
+    /** @type {HTMLElement} */ (button.nextElementSibling).textContent = t(done ? "share.copied" : "share.copy-by-hand");
+  };
+  return html`<p class="copied"><input readonly .value=${text} aria-label=${label} @focus=${(/** @type {Event} */ { target }) => /** @type {HTMLInputElement} */ (target).select()}>
+    <button class="quiet" @click=${copy}>${t("share.copy")}</button><span role="status"></span></p>`;
+}
+
+/** @param {string} address @param {View["t"]} t */
+function code(address, t) {
+  const made = generate(address);
+  const side = made.size + 2 * QUIET;
+  return html`<svg class="qr" role="img" aria-label=${t("share.code")} viewBox="${-QUIET} ${-QUIET} ${side} ${side}">
+    ${svg`<rect x=${-QUIET} y=${-QUIET} width=${side} height=${side} /><path d=${pathOf(made)} />`}</svg>`;
+}
+
+/** Hands a file to the browser. @param {import("../model/share.js").File | null} file */
+function save(file) {
+  if (!file) return;
+  const address = URL.createObjectURL(new Blob([file.text], { type: file.type }));
+  const link = Object.assign(document.createElement("a"), { href: address, download: file.name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** @param {View} view @param {Take} take */
+function files({ state, t }, take) {
+  const { scene, lang, theme, formulation, n, set } = state.place;
+  const handout = `/handout${writePlace({ ...HOME, scene, lang, theme, formulation, n, set })}${fragment(state)}`;
+  return html`
+    <ul class="files">
+      <li><a href=${handout}>${icon("print")}<span>${t("share.handout")}</span></a></li>
+      ${FORMS.map((form) => html`<li><button class="quiet" @click=${() => void take(form).then(save)}>${icon("file")}<span>${t(`share.${form}`)}</span></button></li>`)}
+    </ul>
+    ${state.failures.export ? html`<p class="warning" role="alert">${state.failures.export.detail || t("failure.unreachable")}</p>` : nothing}`;
+}
