@@ -18,7 +18,7 @@ import { createStore } from "./model/store.js";
 import { startLanguage } from "./model/url.js";
 import { linkHighlights } from "./view/highlight.js";
 import { offer } from "./view/homework/files.js";
-import { fetchMathLive } from "./view/homework/mathfield.js";
+import { fetchMathLive, offerKeys } from "./view/homework/mathfield.js";
 import { page } from "./view/homework/page.js";
 import { createReach, createStaging } from "./view/homework/staging.js";
 
@@ -55,6 +55,7 @@ const session = {
   move: exercise.move,
   /** @param {string} lang */
   async language(lang) {
+    set({ marked: null });
     await Promise.all([speak(lang), exercise.load()]);
   },
 };
@@ -95,7 +96,10 @@ let offered = { entry: null, keys: [], shortcuts: {} };
 function view() {
   const state = get();
   const { entry, catalog } = state;
-  if (entry && offered.entry !== entry) offered = { entry, keys: keyboardOf(entry), shortcuts: shortcutsOf(entry.symbols) };
+  if (entry && offered.entry !== entry) {
+    offered = { entry, keys: keyboardOf(entry), shortcuts: shortcutsOf(entry.symbols) };
+    offerKeys(offered.keys, "δq");
+  }
   return {
     state, answering, exercise, working, session, switchTo, clock, togglePlay, scrub, download, upload, formulas, classroom,
     keys: offered.keys, shortcuts: offered.shortcuts,
@@ -125,6 +129,7 @@ async function openClassroom() {
 
 async function fetchFormulas() {
   formulas = await fetchMathLive();
+  offerKeys(offered.keys, "δq");
   update();
 }
 

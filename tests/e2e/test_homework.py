@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 from tests.e2e.lecture import Lecture
 
 pytestmark = pytest.mark.e2e
@@ -152,6 +152,7 @@ def test_an_assignment_is_opened_from_a_file_and_by_its_link(lecture: Lecture, t
     sheet = {
         "format": 1,
         "title": {"en": "Sheet 3", "de": "Blatt 3"},
+        "individual": True,
         "tasks": [
             {"scene": "pendulum", "task": "lagrangian", "points": 4},
             {"scene": "atwood", "task": "kinetic-energy", "points": 2},
@@ -163,8 +164,12 @@ def test_an_assignment_is_opened_from_a_file_and_by_its_link(lecture: Lecture, t
     expect(page.locator("h1")).to_have_text("Sheet 3", timeout=PATIENCE)
     expect(page.locator(".task")).to_have_count(2)
     expect(page.locator(".total")).to_contain_text("0 of 6 points")
+    expect(page.locator(".own .asks")).to_contain_text("enter your name")
+    page.locator(".seed input").fill("ada")
+    page.locator(".seed input").press("Enter")
+    expect(page.locator(".own .asks")).to_have_count(0, timeout=PATIENCE)
     page.locator(".task").nth(1).click()
-    expect(page).to_have_url(re.compile("task=2#a="))
+    expect(page).to_have_url(re.compile("task=2&seed=ada#a="))
     page.goto("about:blank")
     page.go_back()
     expect(page.locator(".task[aria-current]")).to_have_text(re.compile("Kinetic energy"), timeout=PATIENCE)
@@ -210,3 +215,21 @@ def test_on_a_phone(lecture: Lecture, language: str) -> None:
     assert page.evaluate("document.documentElement.scrollWidth") == 360
     assert page.locator(".katex-error, .untypeset").count() == 0
     expect(page.locator(".verdict-card")).to_be_in_viewport()
+
+
+def test_with_a_finger_the_keys_of_the_task_come_up_below_the_field(browser: Browser, server: str) -> None:
+    context = browser.new_context(viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True)
+    lecture = Lecture(context.new_page(), server)
+    page = _open(lecture)
+    field = page.locator("math-field")
+    field.wait_for(timeout=PATIENCE)
+    field.tap()
+    caps = page.locator(".MLK__rows .MLK__keycap:visible")
+    caps.first.wait_for(timeout=PATIENCE)
+    page.wait_for_timeout(600)
+    caps.nth(2).tap()
+    expect(page.locator(".understood-as .katex").first).to_be_visible(timeout=PATIENCE)
+    assert field.evaluate("field => field.value") == r"\ddot{\varphi}"
+    expect(field).to_be_in_viewport()
+    assert lecture.complaints == []
+    context.close()

@@ -24,7 +24,8 @@ def counterexample(task: Task, given: Parts, right: Parts, road: Road) -> Counte
         for of, yours, true in _values(task, given, right, road, state):
             finite = math.isfinite(yours) and math.isfinite(true)
             if finite and abs(yours - true) > RELATIVE * max(abs(yours), abs(true), 1e-3):
-                return Counterexample(_shown(state, (*given, *right)), _rounded(yours), _rounded(true), of)
+                shown = _shown(state, (*given, *right), _unknown(task, of, road))
+                return Counterexample(shown, _rounded(yours), _rounded(true), of)
     return None
 
 
@@ -83,9 +84,14 @@ def _at(part: sp.Expr, state: dict[str, float]) -> float:
         return math.nan
 
 
-def _shown(state: dict[str, float], parts: Parts) -> dict[str, float]:
+def _unknown(task: Task, of: str, road: Road) -> set[str]:
+    """What is solved for, and so not given: one acceleration, or all of a whole set."""
+    return {f"ddot({q})" for q in road.free} if task.quantity.form == "equations" else {of}
+
+
+def _shown(state: dict[str, float], parts: Parts, unknown: set[str]) -> dict[str, float]:
     """Only what the two answers depend on."""
-    used = {symbol.name for part in parts for symbol in part.free_symbols}
+    used = {symbol.name for part in parts for symbol in part.free_symbols} - unknown
     return {name: value for name, value in state.items() if name in used}
 
 

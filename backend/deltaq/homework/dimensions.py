@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..errors import Problem
-from ..language.tree import Equation, Negation, Node, Sum, Vector
+from ..language.tree import Equation, Node, Sum, Vector
 from ..mechanics.dimensions import DimensionCheck
 from ..mechanics.scene import Scene
 from ..mechanics.units import dimension_of
@@ -24,11 +24,15 @@ def dimension_problem(reading: Reading, scene: Scene) -> Problem | None:
 
 
 def _sums(tree: Node) -> list[Node]:
-    """Each component by itself; the sides of an equation belong together."""
+    """Each component by itself; the terms on both sides of an equation belong together."""
     match tree:
         case Vector(components=components):
             return [part for component in components for part in _sums(component)]
         case Equation(left=left, right=right):
-            return [Sum((left, Negation(right)))]
+            return [Sum((*_terms(left), *_terms(right)), span=tree.span)]
         case _:
             return [tree]
+
+
+def _terms(side: Node) -> tuple[Node, ...]:
+    return side.terms if isinstance(side, Sum) else (side,)

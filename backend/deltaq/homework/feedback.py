@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..errors import Problem
+from ..errors import ExpressionError, Problem
 from ..language.latex_printer import Typography, latex
+from ..language.parser import parse
 from ..language.plain_printer import plain
+from ..language.symbols import Symbols
+from ..language.sympy_algebra import to_sympy
 from ..mechanics.scene import Scene
 from ..narration.catalog import message, text
 from .counterexamples import rounded_text
@@ -31,7 +34,7 @@ def verdict_document(verdict: Verdict, scene: Scene, language: str) -> Document:
         "parts": list(verdict.parts),
         "problems": problems,
         "offset": problems[0]["offset"] if problems else None,
-        "counterexample": _example(verdict.counterexample),
+        "counterexample": _example(verdict.counterexample, scene),
     }
     return document
 
@@ -65,7 +68,7 @@ def _sentences(verdict: Verdict, scene: Scene, language: str) -> list[str]:
 
 
 def _told(example: Counterexample, scene: Scene, language: str) -> str:
-    state = ", ".join(f"{_label(n, scene, language)} $= {_number(v, language)}$" for n, v in example.state.items())
+    state = ", ".join(f"${_typeset(name, scene)} = {_number(v, language)}$" for name, v in example.state.items())
     yours, right = (f"${_number(value, language)}$" for value in (example.yours, example.right))
     return text(language, "homework.feedback.counterexample", state=state, yours=yours, right=right)
 
@@ -92,10 +95,26 @@ def _label(name: str, scene: Scene, language: str) -> str:
     return f"${symbol.typeset}$" if symbol else scene.label(name, language)
 
 
-def _example(example: Counterexample | None) -> Document | None:
+def _example(example: Counterexample | None, scene: Scene) -> Document | None:
     if example is None:
         return None
-    return {"values": dict(example.state), "of": example.of, "yours": example.yours, "right": example.right}
+    names = [*example.state, *([example.of] if example.of else [])]
+    return {
+        "values": dict(example.state),
+        "of": example.of,
+        "yours": example.yours,
+        "right": example.right,
+        "latex": {name: _typeset(name, scene) for name in names},
+    }
+
+
+def _typeset(name: str, scene: Scene) -> str:
+    """A symbol as the counterexample names it: phi, ddot(phi), delta(phi)."""
+    try:
+        tree = parse(name, scene.names, "plain").tree
+    except ExpressionError:
+        return name
+    return latex(to_sympy(tree, Symbols(scene.names)), Typography(scene.names))
 
 
 def task_document(task: Task, workbook: Workbook, language: str) -> Document:

@@ -14,7 +14,7 @@
  * @property {string | null} [remark]
  * @property {("correct" | "wrong" | "undecided")[]} parts
  * @property {AnswerProblem[]} problems
- * @property {{values: Record<string, number>, of: string, yours: number, right: number} | null} counterexample
+ * @property {{values: Record<string, number>, latex?: Record<string, string>, of: string, yours: number, right: number} | null} counterexample
  */
 /** @typedef {{verdict: Verdict, syntax: Syntax, value: string, lang: string}} Checked  the last verdict and what it is about */
 /**

@@ -69,7 +69,7 @@ function fields(view, entry) {
       ${outcomes[index] ? html`<span class="part-outcome" title=${t(`homework.part-${outcomes[index]}`)}>${icon(outcomes[index] === "correct" ? "verified" : "close")}<span class="unseen">${t(`homework.part-${outcomes[index]}`)}</span></span>` : nothing}
     </div>`;
   })}
-  ${found.length ? html`<div class="complaints" id="why" role="alert">${found.map((problem, i) => complaint(problem, parts, places[i]))}</div>` : nothing}</div>`;
+  ${found.length ? html`<div class="complaints" id="why" role="status">${found.map((problem, i) => complaint(problem, parts, places[i]))}</div>` : nothing}</div>`;
 }
 
 /** @param {Entry} entry @param {number} index @param {number} count @param {HomeworkView["t"]} t */

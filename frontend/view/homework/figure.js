@@ -37,7 +37,7 @@ function legend({ state, t, exercise }) {
   return html`<div class="motions" role="status">
     <span class="key yours"><i></i>${t("homework.motion-yours")}</span><span class="key right"><i></i>${t("homework.motion-right")}</span>
     <span class="apart">${ended ? own.reason : apart === null ? t("homework.motion-same") : t("homework.motion-apart", { time: fixed(apart, 2, lang) })}</span>
-    <button type="button" class="quiet small" @click=${() => exercise.part()}>${t("homework.motion-close")}</button></div>`;
+    <button type="button" class="quiet framed small" @click=${() => exercise.part()}>${t("homework.motion-close")}</button></div>`;
 }
 
 /** The numbers that belong to the scene: what is prescribed, where it starts, and its parameters. @param {HomeworkView} view */

@@ -7,6 +7,8 @@ import { Directive, directive } from "lit-html/directive.js";
 
 /** Named in the import map, so that the addresses carry the version of the libraries. */
 const FONTS = import.meta.resolve("katex-fonts/");
+/** Milliseconds until MathLive's keyboard has come up from below. */
+const RISE = 350;
 const coarse = matchMedia("(pointer: coarse)");
 
 /** False if it cannot be had. */
@@ -21,6 +23,19 @@ export async function fetchMathLive() {
     return false;
   }
 }
+
+/** Where there is no keyboard to type on, MathLive's own shows the keys of the task. @param {import("../../model/homework/keys.js").Row[]} rows @param {string} label */
+export function offerKeys(rows, label) {
+  if (!coarse.matches || !window.mathVirtualKeyboard) return;
+  const caps = rows.filter(({ id }) => id !== "greek").flatMap(({ keys }) => keys.map((key) => ({ latex: key.label, insert: key.latex, tooltip: key.name })));
+  const digits = [..."1234567890"].map((digit) => ({ label: digit, key: digit }));
+  const layout = { label, rows: [...inRows(caps), digits, ["[left]", "[right]", ",", ";", "[backspace]", "[return]"]] };
+  window.mathVirtualKeyboard.layouts = /** @type {any} */ ([layout, "alphabetic", "greek"]);
+}
+
+const IN_A_ROW = 8;
+/** @template T @param {T[]} caps @returns {T[][]} */
+const inRows = (caps) => Array.from({ length: Math.ceil(caps.length / IN_A_ROW) }, (_, i) => caps.slice(i * IN_A_ROW, (i + 1) * IN_A_ROW));
 
 class MathField extends Directive {
   /** @type {Wiring | null} */
@@ -51,6 +66,9 @@ class MathField extends Directive {
     field.addEventListener("keydown", (event) => {
       if (event.key === "Enter") this.wiring?.enter();
     }, { capture: true });
+    field.addEventListener("focusin", () => {
+      if (coarse.matches) setTimeout(() => field.scrollIntoView({ block: "start" }), RISE);
+    });
     field.smartFence = true;
     field.mathVirtualKeyboardPolicy = coarse.matches ? "auto" : "manual";
     requestAnimationFrame(() => (field.menuItems = []));

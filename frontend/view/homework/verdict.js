@@ -32,7 +32,15 @@ export function verdict(view) {
       <h3>${icon(ICONS[found.outcome])}<span>${t(`homework.outcome.${found.outcome}`)}</span></h3>
       ${isCurrent(entry, draft) ? nothing : html`<p class="so">${t("homework.changed-since")}</p>`}
       ${found.outcome === "invalid" ? nothing : said(view, found)}
+      ${found.outcome === "correct" ? onward(view) : nothing}
     </section></div>`;
+}
+
+/** The next task that is not solved yet. @param {HomeworkView} view */
+function onward({ state, t, draftOf, exercise }) {
+  const entries = state.sheet?.entries ?? [];
+  const next = entries.slice(entries.findIndex(({ key }) => key === state.entry?.key) + 1).find(({ key }) => !draftOf(key).solved);
+  return next ? html`<p class="acts"><button type="button" class="quiet framed" @click=${() => exercise.show(next)}>${t("homework.next-task")}: ${prose(next.task.title)}${icon("next")}</button></p>` : nothing;
 }
 
 /** @param {HomeworkView} view @param {Verdict} found */
@@ -49,13 +57,14 @@ function said(view, found) {
 }
 
 /** @param {HomeworkView} view @param {NonNullable<Verdict["counterexample"]>} found */
-function example({ state, t }, { values, yours, right }) {
-  const lang = state.asked.place.lang;
+function example({ state, t }, { values, latex = {}, of, yours, right }) {
+  const { lang } = state.asked.place;
+  const given = (/** @type {number} */ value) => value.toLocaleString(lang, { maximumSignificantDigits: 4 });
   const number = (/** @type {number} */ value) => significant(value, 4, lang);
-  const latexOf = (/** @type {string} */ name) => state.entry?.symbols.find((symbol) => symbol.name === name)?.latex;
+  const what = latex[of] && !/^\d+$/.test(of) ? html`${inline(latex[of])} = ` : nothing;
   return html`<details class="example"><summary>${icon("chevron")}${t("homework.example")}</summary>
-    <p class="state">${Object.entries(values).map(([name, value]) => html`<span>${latexOf(name) ? inline(String(latexOf(name))) : name} = ${number(value)}</span>`)}</p>
-    <dl class="numbers"><div><dt>${t("homework.yours")}</dt><dd>${number(yours)}</dd></div><div><dt>${t("homework.right")}</dt><dd>${number(right)}</dd></div></dl>
+    <p class="state">${Object.entries(values).map(([name, value]) => html`<span>${latex[name] ? inline(latex[name]) : name} = ${given(value)}</span>`)}</p>
+    <dl class="numbers"><div><dt>${t("homework.yours")}</dt><dd>${what}${number(yours)}</dd></div><div><dt>${t("homework.right")}</dt><dd>${what}${number(right)}</dd></div></dl>
   </details>`;
 }
 

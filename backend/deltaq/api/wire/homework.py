@@ -224,6 +224,7 @@ class CounterexampleAnswer(Answer):
     """A state at which the answer given and the right one have different values."""
 
     values: dict[str, float]
+    latex: dict[str, str] = Field(description="the names among them as LaTeX")
     of: str
     yours: float
     right: float

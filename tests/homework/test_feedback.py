@@ -1,0 +1,50 @@
+"""What is said of wrong answers: terms by name, states in the symbols of the scene and the language's numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from deltaq.homework.service import check_request
+
+
+def verdict(scene: str, task: str, answer: str, language: str = "en") -> dict[str, Any]:
+    return check_request({"scene": scene, "task": task, "answer": {"value": answer}, "lang": language})
+
+
+@pytest.mark.parametrize(
+    ("answer", "term"),
+    [
+        pytest.param("ddot(phi) = phi", "phi", id="the right side"),
+        pytest.param("ddot(phi) + g*phi = 1", "g*phi", id="a term of the left side"),
+        pytest.param("l*ddot(phi) + g*sin(phi) = m - g", "m", id="a term of the right side"),
+    ],
+)
+def test_the_term_of_another_unit_is_named(answer: str, term: str) -> None:
+    assert f"“{term}”" in verdict("pendulum", "equation:phi", answer)["feedback"]
+
+
+@pytest.mark.parametrize(
+    ("task", "answer", "unknown"),
+    [
+        pytest.param("equation:x", "(M + m)*ddot(x) = 0", {"ddot(x)"}, id="one equation"),
+        pytest.param("equations", "ddot(x) = 0; ddot(phi) = phi", {"ddot(x)", "ddot(phi)"}, id="a set"),
+    ],
+)
+def test_what_is_solved_for_is_not_given(task: str, answer: str, unknown: set[str]) -> None:
+    example = verdict("cart-pendulum", task, answer)["counterexample"]
+    assert example["of"] == "ddot(x)"
+    assert not unknown & set(example["values"])
+    assert example["latex"]["ddot(x)"] == r"\ddot{x}"
+
+
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [
+        pytest.param("de", r"$q_2 = 0{,}9$ ergibt Ihre Antwort $1$, richtig wäre $0{,}7833$.", id="de"),
+        pytest.param("en", r"$q_2 = 0.9$", id="en"),
+    ],
+)
+def test_states_are_told_in_symbols_and_the_languages_numbers(language: str, told: str) -> None:
+    assert told in verdict("elastic-pendulum", "position:bob", "[1, 2]", language)["feedback"]
