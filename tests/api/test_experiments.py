@@ -66,6 +66,7 @@ async def test_an_answer_has_its_charts_with_words_in_the_language_asked_for(
             assert chart["title"]
             assert "{" not in chart["caption"] + chart["title"]
             assert chart["data"]
+            assert " = " in chart["subject"]
             titles = [chart["layout"][axis]["title"]["text"] for axis in ("xaxis", "yaxis")]
             assert all(titles)
             assert not any(title.startswith("labs.") for title in titles)

@@ -63,7 +63,7 @@ test("a place on a map is two parameters, or two angles at rest", () => {
 });
 
 const PALETTE = { ink: "ink", muted: "muted", grid: "grid", paper: "paper" };
-const CHART = { id: "c", title: "", caption: "", data: [{ name: "a", x: [1], y: [2], marker: { color: "#222222" }, meta: { role: "eigenvalues" } }, { name: "b", x: [1], y: [2] }], layout: { xaxis: { title: "x" }, legend: { x: 1.02 }, font: {} } };
+const CHART = { id: "c", title: "", subject: "", caption: "", data: [{ name: "a", x: [1], y: [2], marker: { color: "#222222" }, meta: { role: "eigenvalues" } }, { name: "b", x: [1], y: [2] }], layout: { xaxis: { title: "x" }, legend: { x: 1.02 }, font: {} } };
 
 test("a chart takes the page's colours, and puts the legend below where it is narrow", () => {
   const wide = themed(CHART, PALETTE, 1000, 16, "de");

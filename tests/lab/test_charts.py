@@ -10,7 +10,7 @@ import plotly.graph_objects as go
 import pytest
 
 from deltaq.lab.charts.chart import look, short
-from deltaq.lab.experiment import get_experiment
+from deltaq.lab.experiment import drawn, get_experiment
 from deltaq.lab.experiments import chaos, energy_drift, fidelity, stability
 from deltaq.lab.export import page, table
 from deltaq.narration.catalog import text
@@ -35,7 +35,8 @@ def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str)
     for report in (reports[0], reports[len(reports) // 2], reports[-1]):
         for chart in experiment.charts(report.result, say):
             go.Figure({"data": chart["data"], "layout": chart["layout"]})  # Plotly refuses what it does not know
-    charts = experiment.charts(reports[-1].result, say)
+    charts = drawn(experiment, reports[-1].result, say, lang)
+    assert all(chart["subject"].startswith(reports[-1].result["title"][lang]) for chart in charts)  # type: ignore[index]
     assert table(charts).count("\n") > 10
     assert page(charts, lang).count("<figure>") == len(charts)
 

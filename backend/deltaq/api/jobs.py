@@ -147,14 +147,15 @@ def check_batch(document: Document) -> Document:
 def experiment(document: Document) -> Iterator[Document]:
     """Parts with the charts so far, not more often than they can be looked at; then the result with its charts."""
     given = {key: value for key, value in document.items() if key != "experiment" and value is not None}
-    found = import_module("deltaq.lab.experiment").get_experiment(document["experiment"])
-    say, shown, result = partial(text, document["lang"]), 0.0, {}
+    module, lang = import_module("deltaq.lab.experiment"), document["lang"]
+    found, shown, result = module.get_experiment(document["experiment"]), 0.0, {}
+    drawn = partial(module.drawn, found, say=partial(text, lang), language=lang)
     for report in found.run(given):
         result = report.result
         if monotonic() - shown > PART_PAUSE:
-            yield {"done": report.done, "total": report.total, "charts": found.charts(result, say)}
+            yield {"done": report.done, "total": report.total, "charts": drawn(result)}
             shown = monotonic()
-    yield {"experiment": found.id, **result, "charts": found.charts(result, say)}
+    yield {"experiment": found.id, **result, "charts": drawn(result)}
 
 
 def export_charts(document: Document) -> Document:

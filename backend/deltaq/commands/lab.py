@@ -57,7 +57,7 @@ def _field(text: str) -> tuple[str, Any]:
 
 def run(options: argparse.Namespace) -> None:
     """Measure, and write the files."""
-    from ..lab.experiment import get_experiment
+    from ..lab.experiment import drawn, get_experiment
     from ..narration.catalog import text
 
     experiment = get_experiment(options.experiment)
@@ -65,7 +65,7 @@ def run(options: argparse.Namespace) -> None:
     result: dict[str, Any] = {}
     for report in _with_progress(experiment.run(question)):
         result = report.result
-    charts = experiment.charts(result, partial(text, options.lang))
+    charts = drawn(experiment, result, partial(text, options.lang), options.lang)
     outputs = options.output or [Path(f"{experiment.id}-{result['scene']}{suffix}") for suffix in (".json", ".html")]
     for output in outputs:
         output.write_text(_file(output.suffix, {**result, "charts": charts}, options.lang), encoding="utf-8")

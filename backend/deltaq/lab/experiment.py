@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
+from typing import Any
 
 from ..errors import Problem, UnknownNameError
 from ..packages import modules_of
-from .charts.chart import Chart, Say
+from .charts.chart import Chart, Say, short
 from .report import Document, Report
 
 
@@ -24,6 +25,19 @@ class Experiment:
     id: str
     run: Callable[[Mapping[str, object]], Iterator[Report]]
     charts: Callable[[Document, Say], list[Chart]]
+
+
+def drawn(experiment: Experiment, result: Document, say: Say, language: str) -> list[Chart]:
+    """The charts of a result; each says which scene with which values it is about."""
+    subject = _subject(result, language)
+    return [{**chart, "subject": subject} for chart in experiment.charts(result, say)]
+
+
+def _subject(result: Mapping[str, Any], language: str) -> str:
+    titles, values = result["title"], dict(result["parameters"])
+    values |= {f"{name}(0)": start["value"] for name, start in result["initial"].items()}
+    told = ", ".join(f"{name} = {short(value)}" for name, value in values.items())
+    return f"{titles.get(language) or next(iter(titles.values()), result['scene'])}: {told}"
 
 
 @cache

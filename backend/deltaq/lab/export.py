@@ -31,9 +31,8 @@ def page(charts: Sequence[Chart], lang: str) -> str:
 def _figure(chart: Chart, to_html: Any, *, with_library: bool) -> str:
     figure = {"data": chart["data"], "layout": {**chart["layout"], "height": 520}}
     drawn = to_html(figure, include_plotlyjs=with_library, full_html=False, validate=False)
-    return (
-        f"<h2>{escape(chart['title'])}</h2><figure>{drawn}<figcaption>{escape(chart['caption'])}</figcaption></figure>"
-    )
+    title, subject, caption = (escape(chart[part]) for part in ("title", "subject", "caption"))
+    return f"<h2>{title}</h2><p>{subject}</p><figure>{drawn}<figcaption>{caption}</figcaption></figure>"
 
 
 def table(charts: Sequence[Chart]) -> str:

@@ -3,7 +3,7 @@
 import { ApiError, failureOf } from "../api.js";
 
 /** @typedef {{done: number, total: number, charts: Chart[]}} Part */
-/** @typedef {{id: string, title: string, caption: string, data: any[], layout: Record<string, any>}} Chart */
+/** @typedef {{id: string, title: string, subject: string, caption: string, data: any[], layout: Record<string, any>}} Chart */
 /** @typedef {{experiment: string, charts: Chart[], [key: string]: any}} Result */
 /** @typedef {{kind: string, data: any}} StreamEvent */
 

@@ -69,7 +69,7 @@ export function createCharts(root, press) {
     /** As it was made, dark on light. @param {Chart} chart @param {"png" | "svg"} format */
     async save(chart, format) {
       await library();
-      await globalThis.Plotly.downloadImage({ data: chart.data, layout: { ...chart.layout, title: { text: chart.title } } }, { ...FILE, format, filename: chart.id });
+      await globalThis.Plotly.downloadImage({ data: chart.data, layout: { ...chart.layout, title: { text: `${chart.title}<br><sub>${chart.subject}</sub>` }, margin: { ...chart.layout.margin, t: 72 } } }, { ...FILE, format, filename: chart.id });
     },
   };
 }

@@ -116,6 +116,7 @@ class Chart(Answer):
 
     id: str
     title: str
+    subject: str = Field(description="scene and values")
     caption: str
     data: tuple[dict[str, Any], ...]
     layout: dict[str, Any]
