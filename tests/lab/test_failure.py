@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from deltaq.errors import RequestError
-from deltaq.lab.experiments.stability import region, run, stiffness_of
+from deltaq.lab.experiments.stability import run, stiffness_of
 from deltaq.lab.failure import failure, growth_in_a_step
+from deltaq.lab.region import region
 from deltaq.lab.rest import at_rest
 from deltaq.mechanics.library import load_scene
 from deltaq.simulation.library import get_method, method_ids

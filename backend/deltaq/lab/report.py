@@ -20,6 +20,12 @@ class Report:
     result: Document
 
 
+def appended(result: Document, key: str, *items: object) -> Document:
+    """The result with more at the end of one of its lists."""
+    before = result[key]
+    return result | {key: [*(before if isinstance(before, list) else []), *items]}
+
+
 def significant(number: float, digits: int = 4) -> float:
     """A number for people: a few significant digits."""
     return float(f"{number:.{digits - 1}e}")

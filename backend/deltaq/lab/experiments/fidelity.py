@@ -24,7 +24,7 @@ from ..ladder.distance import Yardstick
 from ..ladder.findings import Finding, Growth, Ladder, Least, Measured, Rung
 from ..ladder.measurement import ride, yardstick
 from ..measurement import Point, Setting, too_slow, warm
-from ..report import Document, Report, machine, rounded, significant
+from ..report import Document, Report, appended, machine, rounded, significant
 from ..subject import Subject, subject_of
 from ..sweep import settings_of
 
@@ -47,7 +47,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
         done, result = done + 1, _with(result, finding)
         yield Report(min(done, total), total, result)
     for points in _methods(subject):
-        done, result = done + 1, result | {"points": [*_listed(result, "points"), *points]}
+        done, result = done + 1, appended(result, "points", *points)
         yield Report(min(done, total), total, result)
 
 
@@ -58,16 +58,11 @@ def _with(result: Document, finding: Finding) -> Document:
             told = {"rungs": [_rung(rung) for rung in finding.rungs], "amplitudes": list(finding.amplitudes)}
             return result | told | {"centre": dict(finding.centre)}
         case Measured():
-            return result | {"measured": [*_listed(result, "measured"), _measured(finding)]}
+            return appended(result, "measured", _measured(finding))
         case Growth():
-            return result | {"growth": [*_listed(result, "growth"), _growth(finding)]}
+            return appended(result, "growth", _growth(finding))
         case Least():
             return result | {"least": finding.rung}
-
-
-def _listed(result: Document, key: str) -> list[object]:
-    found = result[key]
-    return found if isinstance(found, list) else []
 
 
 def _rung(rung: Rung) -> Document:

@@ -11,9 +11,6 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-import numpy as np
-from contourpy import contour_generator
-
 from ...language.tree import Name
 from ...mechanics.loads.spring import Spring
 from ...mechanics.scene import Scene
@@ -21,21 +18,20 @@ from ...simulation.driver import simulate
 from ...simulation.library import get_method
 from ...simulation.method import Method
 from ...simulation.problem import Problem
-from ...simulation.stability import Complexes, growth
+from ...simulation.stability import Complexes
 from ...simulation.stiffness import eigenvalues
 from ..bounds import AT
 from ..charts.stability import charts
 from ..experiment import Experiment
 from ..failure import failure
-from ..report import Document, Report, rounded, significant
+from ..region import region
+from ..report import Document, Report, appended, significant
 from ..rest import at_rest
 from ..subject import Subject, bounded, methods_of, parameter_of, subject_of
 
 STIFFENED = ("rk4", "dop853", "stormer-verlet", "newmark", "radau-5")
 FACTORS = tuple(10.0 ** (k / 2) for k in range(11))  # of the stiffness: 1 to 10⁵
 TOLERANCE, STEP_LIMIT = 1e-4, 300_000
-REAL, IMAGINARY, FINE = (-8.0, 4.0), 6.5, 240  # the window of the regions
-ASIDE = 1e-7 * (1 + 1j)  # a grid that misses the poles
 
 
 def run(document: Mapping[str, object]) -> Iterator[Report]:
@@ -50,25 +46,28 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     problem = bounded(subject, STEP_LIMIT)
     problem = at_rest(problem, "/at") if at == "rest" else problem
     found = eigenvalues(problem, 0.0, problem.state[: 2 * problem.degrees])
-    series = [(factor, name) for factor in FACTORS for name in STIFFENED] if stiffness else []
-    total, done = 2 * len(methods) + len(series), 0
+    total = len(methods) + (len(FACTORS) * len(STIFFENED) if stiffness else 0)
     result = subject.described | _spectrum(found) | {"at": at, "methods": [], "stiffness": stiffness, "series": []}
-    for method in methods:
-        done, result = done + 2, result | {"methods": [*_listed(result, "methods"), _row(problem, method, found)]}
+    for done, method in enumerate(methods, 1):
+        result = appended(result, "methods", _row(problem, method, found))
         yield Report(done, total, result)
-    failed: set[str] = set()  # what fails at one stiffness is not tried at a larger one
-    for factor, name in series:
-        done += 1
-        if name not in failed:
+    for done, one in enumerate(_series(subject, place) if stiffness else (), len(methods) + 1):
+        result = appended(result, "series", *one)
+        yield Report(done, total, result)
+
+
+def _series(subject: Subject, place: int) -> Iterator[list[Document]]:
+    """What a tolerance costs as the stiffness grows; where a method fails it is not asked for more."""
+    failed: set[str] = set()
+    for factor in FACTORS:
+        for name in STIFFENED:
+            if name in failed:
+                yield []
+                continue
             one = _stiffened(subject, place, factor, name)
-            failed |= {name} if one["status"] != "ok" else set()
-            result = result | {"series": [*_listed(result, "series"), one]}
-        yield Report(done, total, result)
-
-
-def _listed(result: Document, key: str) -> list[object]:
-    found = result[key]
-    return found if isinstance(found, list) else []
+            if one["status"] != "ok":
+                failed.add(name)
+            yield [one]
 
 
 def _spectrum(found: Complexes) -> Document:
@@ -102,17 +101,8 @@ def _finite(step: float) -> float | None:
     return significant(step) if math.isfinite(step) else None
 
 
-def region(method: Method) -> list[list[list[float]]]:
-    """The boundary |R(z)| = 1 as closed or open lines [[x, y], …], in the upper and lower half plane."""
-    x, y = np.linspace(*REAL, FINE + 1), np.linspace(-IMAGINARY, IMAGINARY, FINE + 1)
-    sizes = growth(method.tableau, x + 1j * y[:, None] + ASIDE)
-    lines = contour_generator(x, y, np.minimum(np.nan_to_num(sizes, nan=2.0, posinf=2.0), 2.0)).lines(1.0)
-    return [[rounded(point, 4) for point in np.asarray(line)] for line in lines if len(line) > 8]
-
-
 def _stiffened(subject: Subject, place: int, factor: float, name: str) -> Document:
     """What a tolerance costs with so many times the stiffness."""
-
     values = list(subject.problem.parameters)
     values[place] *= factor
     problem = replace(subject.problem, parameters=tuple(values), step_limit=STEP_LIMIT, samples=101)
