@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from deltaq.errors import RequestError
-from deltaq.lab.experiments.energy_drift import growth, run, sample_times
+from deltaq.lab.drift import Departure, sample_times
+from deltaq.lab.experiments.energy_drift import run
 from deltaq.simulation.library import get_method
 
 
@@ -47,11 +48,11 @@ def test_steps_are_variable_where_it_is_said(lines: dict[str, dict[str, object]]
 )
 def test_the_exponent_of_growth(power: float, expected: float) -> None:
     times = np.geomspace(1.0, 1e4, 200)
-    assert growth(times, 1e-6 * times**power) == pytest.approx(expected, abs=1e-6)
+    assert Departure(times, 1e-6 * times**power).growth == pytest.approx(expected, abs=1e-6)
 
 
 def test_rounding_has_no_growth() -> None:
-    assert growth(np.geomspace(1.0, 1e4, 200), np.full(200, 1e-17)) is None
+    assert Departure(np.geomspace(1.0, 1e4, 200), np.full(200, 1e-17)).growth is None
 
 
 def test_samples_stand_at_whole_steps_inside_the_span() -> None:
