@@ -8,6 +8,9 @@ from typing import Any
 from .chart import Chart, Result, Say, Trace, axis, chart, curve, name_of, short
 
 
+LOST = 0.3  # a departure this large leaves nothing of the energy's balance
+
+
 def charts(result: Result, say: Say) -> list[Chart]:
     """One chart; the legend tells how the departure grows."""
     told = {"step": short(result["step"]), "steps": result["steps"], "tolerance": short(result["tolerance"])}
@@ -29,6 +32,8 @@ def _traces(result: Result, say: Say) -> Iterator[Trace]:
 def _verdict(line: dict[str, Any], say: Say) -> str:
     if line["status"] != "ok":
         return say(f"labs.status.{line['status']}")
+    if max(line["error"], default=0.0) > LOST:
+        return say("labs.energy-drift.lost")
     growth = line["growth"]
     if growth is None:
         return say("labs.energy-drift.rounding")
