@@ -38,7 +38,7 @@ export function header(view) {
 
 /** The way to the start page. @param {Pick<Appearance, "state" | "t">} view */
 export function brand({ state, t }) {
-  return html`<a class="brand" href=${pageAddress("", state.place)} title=${t("tagline")} aria-label=${t("place.start")}><span class="delta">δ</span><span class="q">q</span></a>`;
+  return html`<a class="brand" href=${pageAddress("", state.place)} title=${t("tagline")} aria-label=${`δq · ${t("place.start")}`}><span class="delta">δ</span><span class="q">q</span></a>`;
 }
 
 /** What the buttons of the header do, where there is no room for them. @param {View} view */

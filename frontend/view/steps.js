@@ -102,7 +102,7 @@ export function pager(view) {
   const last = position >= total;
   return html`
     <footer class="pager">
-      <button class="quiet" ?disabled=${position <= 1} @click=${() => session.go(-1)}>${icon("previous")}<span>${t("step.previous")}</span></button>
+      <button class="quiet" aria-label=${t("step.previous")} ?disabled=${position <= 1} @click=${() => session.go(-1)}>${icon("previous")}<span>${t("step.previous")}</span></button>
       <div class="progress" aria-label=${t("step.progress", { position, total })} role="img">
         <span class="track"><span class="done" style="transform:scaleX(${total ? position / total : 0})"></span></span>
         <span class="count">${total ? `${position} / ${total}` : ""}</span>

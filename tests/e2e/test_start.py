@@ -30,7 +30,7 @@ def test_the_pendulum_moves_and_leads_to_its_scene(start: Lecture) -> None:
     before = bob.get_attribute("transform")
     start.page.wait_for_timeout(400)
     assert bob.get_attribute("transform") != before
-    start.page.locator(".hero").click()
+    start.page.locator(".hero a").click()
     expect(start.steps.first).to_be_visible()
 
 

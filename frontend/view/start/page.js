@@ -43,8 +43,9 @@ function opening({ state, t }) {
         <p>${t("start.lead")}</p>
         <p class="ways"><a class="way main" href=${first}>${t("start.begin")}${icon("next")}</a><a class="way" href="#scenes">${t("start.choose")}</a></p>
       </div>
-      <a class="hero" href=${scene} aria-label=${t("start.hero")}>
-        <div class="drawing waiting" data-scene=${HERO}><svg aria-hidden="true"></svg><div class="labels" aria-hidden="true"></div></div></a>
+      <div class="hero">
+        <div class="drawing waiting" data-scene=${HERO}><svg aria-hidden="true"></svg><div class="labels" aria-hidden="true"></div></div>
+        <a href=${scene} aria-label=${t("start.hero")}></a></div>
     </section>`;
 }
 

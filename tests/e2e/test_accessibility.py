@@ -1,0 +1,135 @@
+"""Every page against WCAG 2.2 AA as far as axe-core sees it: in both languages, in light and in dark."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+from tests.e2e.lecture import Lecture
+
+pytestmark = pytest.mark.e2e
+
+PATIENCE = 60_000.0  # the first proof of a server takes its time
+TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
+# Formulas on keys are symbols, not labels that could be spoken: understanding WCAG 2.5.3, "mathematical formulas".
+SYMBOLS = {"label-content-name-mismatch": ".key-cap"}
+AXE = """async ([tags, symbols]) => {
+    const { violations } = await axe.run(document, { runOnly: { type: 'tag', values: tags } });
+    const excused = (id, target) => symbols[id] && document.querySelector(target)?.matches(symbols[id]);
+    return violations.flatMap(({ id, nodes }) => nodes
+        .filter(({ target }) => !excused(id, target[0]))
+        .map(({ target, failureSummary }) => `${id} at ${target.join(' ')}: ${failureSummary}`));
+}"""
+
+
+def nothing(page: Page) -> None:
+    """The page as it opens."""
+
+
+def pressing(key: str) -> Callable[[Page], None]:
+    return lambda page: page.keyboard.press(key)
+
+
+def share(page: Page) -> None:
+    page.locator(".tools .tool").nth(1).click()
+    expect(page.locator("dialog.share")).to_be_visible()
+
+
+SCENE = "scene?scene=elastic-pendulum&step=generalized-forces"
+# Where, what must be there before it is looked at, and what is done first.
+PLACES = [
+    pytest.param("?", ".hero path.bob", nothing, id="start page"),
+    pytest.param(f"{SCENE}&n=0", ".plots.ready", nothing, id="scene"),
+    pytest.param(f"{SCENE}&view=lecture&part=1&beside=plots", ".slide .katex", nothing, id="lecture mode"),
+    pytest.param("scene?scene=pendulum&edit=form", ".editor .field .katex", nothing, id="editor"),
+    pytest.param("embed?scene=pendulum", ".steps .katex", nothing, id="frame"),
+    pytest.param("handout?scene=pendulum", ".paper .katex", nothing, id="handout"),
+    pytest.param("presenter?x=1", ".presenter .notice", nothing, id="presenter without lecture"),
+    pytest.param("variations?", ".steps .katex", nothing, id="variations"),
+    pytest.param("proof?", ".steps .katex", nothing, id="proof"),
+    pytest.param("labs?", "main", nothing, id="labs"),
+    pytest.param("homework?", "main .katex", nothing, id="homework"),
+]
+DIALOGS = [
+    pytest.param(SCENE, ".steps .katex", pressing("?"), id="help"),
+    pytest.param(SCENE, ".steps .katex", pressing("o"), id="overview"),
+    pytest.param(SCENE, ".steps .katex", pressing("g"), id="jump"),
+    pytest.param(SCENE, ".steps .katex", share, id="share"),
+]
+
+
+@pytest.fixture(scope="module")
+def axe(root: Path) -> str:
+    """The source of axe-core, which the build fetches with the tools of the front end."""
+    return (root / "frontend" / "node_modules" / "axe-core" / "axe.min.js").read_text(encoding="utf-8")
+
+
+def violations(page: Page, axe: str) -> list[Any]:
+    page.evaluate(axe)
+    found: list[Any] = page.evaluate(AXE, [TAGS, SYMBOLS])
+    return found
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize(("place", "ready", "first"), PLACES)
+def test_page(lecture: Lecture, axe: str, place: str, ready: str, first: Callable[[Page], None], theme: str) -> None:
+    page = lecture.page
+    page.emulate_media(reduced_motion="reduce")
+    for language in ("de", "en"):
+        page.goto(f"{lecture.address}{place}&lang={language}&theme={theme}")
+        page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
+        first(page)
+        assert page.locator("html").get_attribute("lang") == language
+        assert violations(page, axe) == []
+
+
+@pytest.mark.parametrize(("language", "theme"), [("de", "dark"), ("en", "light")])
+@pytest.mark.parametrize(("place", "ready", "first"), DIALOGS)
+def test_dialog(
+    lecture: Lecture, axe: str, place: str, ready: str, first: Callable[[Page], None], language: str, theme: str
+) -> None:
+    page = lecture.page
+    page.emulate_media(reduced_motion="reduce")
+    page.goto(f"{lecture.address}{place}&lang={language}&theme={theme}")
+    page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
+    first(page)
+    expect(page.locator("dialog[open]")).to_be_visible()
+    assert violations(page, axe) == []
+
+
+@pytest.mark.parametrize("place", ["?", "scene?scene=elastic-pendulum&view=", "homework?", "labs?"])
+def test_phone(lecture: Lecture, axe: str, place: str) -> None:
+    page = lecture.page
+    page.emulate_media(reduced_motion="reduce")
+    page.set_viewport_size({"width": 360, "height": 740})
+    page.goto(f"{lecture.address}{place}&lang=de")
+    page.locator("main").wait_for()
+    page.wait_for_load_state("networkidle")
+    assert violations(page, axe) == []
+
+
+def test_the_projector_theme_has_contrast(lecture: Lecture, axe: str) -> None:
+    lecture.open("?scene=elastic-pendulum&lang=en&theme=projector&step=virtual-work")
+    assert violations(lecture.page, axe) == []
+
+
+def test_a_presenter_that_leads_a_lecture(lecture: Lecture, axe: str) -> None:
+    page = lecture.page
+    page.goto(f"{lecture.address}scene?scene=pendulum&lang=en&view=lecture&theme=dark")
+    page.locator(".slide .katex").first.wait_for()
+    with page.context.expect_page() as opened:
+        page.keyboard.press("s")
+    opened.value.locator(".now .katex").first.wait_for()
+    assert violations(opened.value, axe) == []
+
+
+def test_axe_finds_what_is_wrong(lecture: Lecture, axe: str) -> None:
+    """A page with a known fault: the test above is able to fail."""
+    page = lecture.page
+    page.goto(f"{lecture.address}?lang=en")
+    page.locator("main").wait_for()
+    page.evaluate("document.querySelector('main').insertAdjacentHTML('beforeend', '<button></button>')")
+    assert [found.split(" at ")[0] for found in violations(page, axe)] == ["button-name"]
