@@ -7,7 +7,6 @@ from typing import Any
 
 from .chart import Chart, Result, Say, Trace, axis, chart, curve, name_of, short
 
-
 LOST = 0.3  # a departure this large leaves nothing of the energy's balance
 
 
