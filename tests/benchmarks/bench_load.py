@@ -1,59 +1,95 @@
 """Three hundred students who click at the very same moment: different simulations, seconds until each has its answer.
 
 Run it from the checkout: `python -m tests.benchmarks.bench_load`. Serves and asks on this machine only, in one process
-each; three rounds after one that warms. Prints; judges nothing.
+each; rounds after one that warms. The client only writes requests and reads answers, so that it takes no time from the
+service, whose processor seconds are told beside. Prints; judges nothing.
 """
 
 from __future__ import annotations
 
 import asyncio
+import json
 import os
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
 from time import perf_counter
 
-import httpx
 import numpy as np
 
-STUDENTS, ROUNDS, PATIENCE = 300, 4, 60.0
+STUDENTS, ROUNDS = 300, 4
 SCENES = ("pendulum", "elastic-pendulum", "double-pendulum", "cart-pendulum", "guided-pendulum", "spherical-pendulum")
+Connection = tuple[asyncio.StreamReader, asyncio.StreamWriter]
 
 
-async def click(client: httpx.AsyncClient, turn: int, student: int) -> tuple[int, float]:
-    """One simulation that nobody else asks for: the status and the seconds."""
-    request = {
+def request(turn: int, student: int) -> bytes:
+    """One simulation that nobody else asks for, in HTTP/1.1."""
+    question = {
         "scene": SCENES[student % len(SCENES)],
         "parameters": {"g": 9.0 + 1e-3 * student + 0.3 * turn},
         "t_end": 10.0,
         "samples": 301,
         "include": ["coordinates", "positions", "loads", "energy", "error"],
     }
+    body = json.dumps(question).encode()
+    lines = ("POST /api/v1/simulations HTTP/1.1", "Host: localhost", "Content-Type: application/json")
+    head = "\r\n".join((*lines, "Accept-Encoding: gzip", f"Content-Length: {len(body)}", "", ""))
+    return head.encode() + body
+
+
+async def click(connection: Connection, turn: int, student: int) -> tuple[int, float]:
+    """The status and the seconds."""
+    reader, writer = connection
     start = perf_counter()
-    response = await client.post("/api/v1/simulations", json=request)
-    return response.status_code, perf_counter() - start
+    writer.write(request(turn, student))
+    head = await reader.readuntil(b"\r\n\r\n")
+    length = re.search(rb"content-length: (\d+)", head, re.IGNORECASE)
+    await reader.readexactly(int(length[1]) if length else 0)
+    return int(head.split(b" ", 2)[1]), perf_counter() - start
 
 
-async def rounds(address: str) -> None:
-    limits = httpx.Limits(max_connections=STUDENTS, max_keepalive_connections=STUDENTS)
-    async with httpx.AsyncClient(base_url=address, timeout=PATIENCE, limits=limits) as client:
-        for turn in range(ROUNDS):
-            found = await asyncio.gather(*(click(client, turn, student) for student in range(STUDENTS)))
-            seconds = np.array([each for _, each in found])
-            failed = sum(status != 200 for status, _ in found)
-            p50, p95, p99 = np.percentile(seconds, (50, 95, 99))
-            label = "warming" if turn == 0 else f"round {turn}"
-            print(f"{label:10} p50 {p50:.2f} s   p95 {p95:.2f} s   p99 {p99:.2f} s   failed {failed}", flush=True)
+async def rounds(host: str, port: int, server: int) -> None:
+    connections = [await asyncio.open_connection(host, port) for _ in range(STUDENTS)]
+    for turn in range(ROUNDS):
+        before = processor_seconds(server)
+        found = await asyncio.gather(*(click(connections[each], turn, each) for each in range(STUDENTS)))
+        used, seconds = processor_seconds(server) - before, np.array([each for _, each in found])
+        failed = sum(status != 200 for status, _ in found)
+        p50, p95, p99 = np.percentile(seconds, (50, 95, 99))
+        label = "warming" if turn == 0 else f"round {turn}"
+        told = f"p50 {p50:.2f} s   p95 {p95:.2f} s   p99 {p99:.2f} s   failed {failed}   processor {used:.2f} s"
+        print(f"{label:10} {told}   load of the machine {os.getloadavg()[0]:.1f}", flush=True)
+
+
+def processor_seconds(process: int) -> float:
+    """What a process and all that it started have used; zero where the system does not tell."""
+    total = 0.0
+    with suppress(OSError):
+        for each in family(process):
+            fields = Path(f"/proc/{each}/stat").read_text().rpartition(")")[2].split()
+            total += (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    return total
+
+
+def family(process: int) -> Iterator[int]:
+    """A process and its descendants."""
+    yield process
+    for children in Path(f"/proc/{process}/task").glob("*/children"):
+        for child in children.read_text().split():
+            yield from family(int(child))
 
 
 def main() -> None:
     command = [sys.executable, "-m", "deltaq.cli", "serve", "--port", "0"]
     with subprocess.Popen(command, env=dict(os.environ), stdout=subprocess.PIPE, text=True) as server:
         assert server.stdout is not None
-        found = re.search(r"http://\S+", server.stdout.readline())
+        found = re.search(r"http://([^:/]+):(\d+)", server.stdout.readline())
         assert found is not None
         try:
-            asyncio.run(rounds(found[0]))
+            asyncio.run(rounds(found[1], int(found[2]), server.pid))
         finally:
             server.terminate()
 

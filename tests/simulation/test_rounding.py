@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deltaq.simulation.rounding import rounded, short
+from deltaq.simulation.rounding import rounded, significant
 
 
 @pytest.mark.parametrize(
@@ -30,5 +30,21 @@ def test_vectors_are_rounded_by_their_sample() -> None:
     assert rounded(values, errors).tolist() == [[1.2346, 2.0], [1.2345679, 2.0]]
 
 
-def test_short() -> None:
-    assert short(np.array([1.23456e-7, 0.0])) == [1.23e-7, 0.0]
+@pytest.mark.parametrize(
+    ("value", "digits", "expected"),
+    [
+        pytest.param(1.23456e-7, 3, 1.23e-7, id="small"),
+        pytest.param(0.0, 3, 0.0, id="zero"),
+        pytest.param(123456.0, 3, 123000.0, id="large"),
+        pytest.param(9.9999, 3, 10.0, id="a digit more"),
+        pytest.param(0.1 + 0.2, 15, 0.3, id="fifteen"),
+        pytest.param(1.23456e-25, 3, 1.23456e-25, id="too small for powers of ten"),
+    ],
+)
+def test_significant_digits(value: float, digits: int, expected: float) -> None:
+    assert significant(np.array([value, 1.0]), digits).tolist() == [expected, 1.0]
+
+
+def test_sample_times_are_the_shortest_decimals() -> None:
+    times = np.linspace(0.0, 10.0, 301)
+    assert significant(times, 15).tolist() == [float(f"{t:.15g}") for t in times]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from .columns import WRITERS, Column
 from .outcome import Outcome
 from .problem import Floats, Problem
 from .request import Request
-from .rounding import rounded, short
+from .rounding import rounded, significant
 from .stiffness import power
 from .trajectory import Trajectory
 
@@ -25,19 +25,12 @@ def answer(
 ) -> Document:
     """The answer to a request. Every number is finite; numbers are rounded to what the error estimate supports."""
     errors = trajectory.estimate.errors if trajectory.estimate else np.full(len(trajectory.times), UNKNOWN_ERROR)
-    free = problem.model.layout.free
-    order = [coordinate.name for coordinate in request.scene.coordinates]
-    values = dict(zip(free, trajectory.values.T, strict=True)) | dict(seen.values)
-    rates = dict(zip(free, trajectory.rates.T, strict=True)) | dict(seen.rates)
     column = WRITERS[request.columns]
-    parts: Document = {
-        "coordinates": {name: column(rounded(values[name], errors)) for name in order},
-        "rates": {name: column(rounded(rates[name], errors)) for name in order},
-        "positions": {name: column(rounded(each, errors)) for name, each in seen.positions.items()},
-        "loads": {name: column(rounded(each, errors)) for name, each in seen.arrows.items()},
-        "energy": _energy(problem, trajectory, seen, errors, column),
-        "error": _error(trajectory, request.tolerance),
-    }
+    parts: Document = _curves(request, problem, trajectory, seen, errors, column)
+    if "energy" in request.include:
+        parts["energy"] = _energy(problem, trajectory, seen, errors, column)
+    if "error" in request.include:
+        parts["error"] = _error(trajectory, request.tolerance)
     return {
         "status": trajectory.outcome.status,
         "reason": _told(trajectory.outcome),
@@ -45,13 +38,47 @@ def answer(
         "event": _event(request, trajectory),
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
-        "t": column(np.array([float(f"{t:.15g}") for t in trajectory.times])),
-        **{part: data for part, data in parts.items() if part in request.include},
+        "t": column(significant(trajectory.times, 15)),
+        **parts,
         "t_reached": trajectory.reached,
         "trusted_until": trajectory.trusted_until,
         "condition": 1.0 / trajectory.conditioning if trajectory.conditioning > 0 else None,
         "cost": _cost(trajectory, compile_time),
     }
+
+
+def _curves(
+    request: Request,
+    problem: Problem,
+    trajectory: Trajectory,
+    seen: Observation,
+    errors: Floats,
+    column: Callable[[Floats], Column],
+) -> Document:
+    """What was asked for of coordinates, rates, positions and loads, all rounded together."""
+    free = problem.model.layout.free
+    order = [coordinate.name for coordinate in request.scene.coordinates]
+    values = dict(zip(free, trajectory.values.T, strict=True)) | dict(seen.values)
+    rates = dict(zip(free, trajectory.rates.T, strict=True)) | dict(seen.rates)
+    curves: dict[str, Mapping[str, Floats]] = {
+        "coordinates": {name: values[name] for name in order},
+        "rates": {name: rates[name] for name in order},
+        "positions": seen.positions,
+        "loads": seen.arrows,
+    }
+    wanted = {part: curves[part] for part in curves if part in request.include}
+    shorter = iter(_together([each for part in wanted.values() for each in part.values()], errors))
+    return {part: {name: column(next(shorter)) for name in wanted[part]} for part in wanted}
+
+
+def _together(arrays: list[Floats], errors: Floats) -> list[Floats]:
+    """Each array rounded to the errors of its samples."""
+    if not arrays:
+        return []
+    table = rounded(np.column_stack(arrays), errors)
+    ends = np.cumsum([each[0].size if len(each) else 1 for each in arrays])
+    pieces = np.split(table, ends[:-1], axis=1)
+    return [piece.reshape(each.shape) for piece, each in zip(pieces, arrays, strict=True)]
 
 
 def _told(outcome: Outcome) -> Document:
@@ -78,12 +105,11 @@ def _energy(
     scale = float(np.max(np.abs(seen.kinetic) + np.abs(seen.potential), initial=0.0))
     # Second order in the error where the energy is flat, hence more digits than the error itself supports.
     doubt = np.maximum(1e-3 * errors, 1e-14) * max(scale, 1e-300)
+    watts = power(problem, trajectory.times, states)
+    energies = _together([seen.kinetic, seen.potential, watts, trajectory.work, balance], doubt)
+    named = zip(("kinetic", "potential", "power", "work", "balance"), energies, strict=True)
     return {
-        "kinetic": column(rounded(seen.kinetic, doubt)),
-        "potential": column(rounded(seen.potential, doubt)),
-        "power": column(rounded(power(problem, trajectory.times, states), doubt)),
-        "work": column(rounded(trajectory.work, doubt)),
-        "balance": column(rounded(balance, doubt)),
+        **{name: column(energy) for name, energy in named},
         "drift": float(f"{np.max(np.abs(balance - balance[:1]), initial=0.0):.3g}"),  # no sample where it cannot start
     }
 
@@ -91,7 +117,7 @@ def _energy(
 def _error(trajectory: Trajectory, tolerance: float | None) -> Document:
     found = trajectory.estimate
     return {
-        "estimate": short(found.errors) if found else [None] * len(trajectory.times),
+        "estimate": significant(found.errors, 3).tolist() if found else [None] * len(trajectory.times),
         "horizon": found.horizon if found else None,
         "worst": float(f"{found.worst:.3g}") if found else None,
         "tolerance": tolerance,

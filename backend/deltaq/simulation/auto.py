@@ -14,7 +14,7 @@ from .choice import AUTO, Choice
 from .library import get_method
 from .problem import Problem
 from .run import Steps, run
-from .stiffness import Spectrum, spectrum
+from .stiffness import Spectrum, spectra
 
 KINKED = frozenset({"abs", "sign"})
 LEAST_STEPS = 140.0  # of any run, since no step may be longer than a part of the span
@@ -60,8 +60,8 @@ def choose(wanted: str, scene: Scene, problem: Problem, step: float | None, tole
         return Choice(get_method(wanted))
     if step is not None:
         return Choice(get_method("rk4"), "auto_fixed_step")
-    spectra = tuple(_spectra(problem))
-    size, lasting = max(each.size for each in spectra), max(each.lasting for each in spectra)
+    found = _spectra(problem)
+    size, lasting = max(each.size for each in found), max(each.lasting for each in found)
 
     def effort(candidate: Candidate) -> float:
         return candidate.effort(problem.t_end, tolerance or LOOSE, lasting, size)
@@ -70,12 +70,14 @@ def choose(wanted: str, scene: Scene, problem: Problem, step: float | None, tole
     return Choice(get_method(best.id), best.reason)
 
 
-def _spectra(problem: Problem) -> Iterator[Spectrum]:
-    yield spectrum(problem, 0.0, problem.state)
+def _spectra(problem: Problem) -> list[Spectrum]:
+    """At the start, and shortly after."""
     times = np.linspace(0.0, SHORT * problem.t_end, 5)
     short = replace(problem, t_end=float(times[-1]), step_limit=SHORT_STEPS)
     found = run(short, get_method("dop853"), times, np.zeros(1, dtype=np.int64), Steps(short.t_end, 1e-3))
-    yield from (spectrum(problem, time, state) for time, state in zip(found.times[1:], found.states[1:], strict=True))
+    if not len(found.times):
+        return spectra(problem, np.zeros(1), problem.state[None, :])
+    return spectra(problem, found.times, found.states)
 
 
 def _has_kinks(scene: Scene) -> bool:

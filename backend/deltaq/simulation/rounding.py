@@ -8,6 +8,7 @@ from .problem import Floats
 
 GUARD_DIGITS = 3  # below the first digit in doubt
 MOST_DIGITS = 15
+EXACT = 22  # powers of ten up to this one are doubles
 
 
 def rounded(values: Floats, errors: Floats) -> Floats:
@@ -26,6 +27,12 @@ def _decimals(errors: Floats) -> Floats:
     return np.asarray(np.clip(places, 0, MOST_DIGITS))
 
 
-def short(values: Floats) -> list[float]:
-    """Three digits of each, for estimates."""
-    return [float(f"{value:.3g}") for value in values]
+def significant(values: Floats, digits: int) -> Floats:
+    """So many digits of each value; zero as it is, and as many as there are where a power of ten is not exact."""
+    sizes = np.abs(values)
+    leading = np.floor(np.log10(sizes, out=np.zeros(len(sizes)), where=sizes > 0.0))
+    found = np.array(values, dtype=np.float64)
+    for place in np.unique(leading):
+        chosen, decimals = leading == place, digits - 1 - int(place)
+        found[chosen] = np.round(found[chosen], decimals) if decimals <= EXACT else found[chosen]
+    return found

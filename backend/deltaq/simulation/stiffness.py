@@ -9,6 +9,7 @@ import numpy as np
 from .problem import Floats, Problem
 
 NUDGE = 1e-6
+SMALLEST = 1e-14  # eigenvalue of M over its largest, below which M has no inverse
 DEAD = 50.0  # what shrinks by this power of 1/e or more is not worth following
 
 
@@ -22,22 +23,34 @@ class Spectrum:
 
 def spectrum(problem: Problem, time: float, state: Floats) -> Spectrum:
     """The spectrum at one state (q, q̇); zero where it cannot be had."""
-    found = eigenvalues(problem, time, state[: 2 * problem.degrees])
-    sizes = np.abs(found)
-    lasts = -found.real * problem.t_end < DEAD
-    return Spectrum(float(sizes.max()), float(np.max(sizes, where=lasts, initial=0.0)))
+    return spectra(problem, np.array([time]), state[None, :])[0]
+
+
+def spectra(problem: Problem, times: Floats, states: Floats) -> list[Spectrum]:
+    """The spectra at several states, one row each."""
+    jacobians = _jacobians(problem, times, states[:, : 2 * problem.degrees])
+    known = np.isfinite(jacobians).all(axis=(1, 2))
+    found = np.zeros(jacobians.shape[:2], dtype=complex)
+    found[known] = np.linalg.eigvals(jacobians[known])
+    sizes, lasts = np.abs(found), -found.real * problem.t_end < DEAD
+    lasting = np.max(sizes, axis=1, where=lasts, initial=0.0)
+    return [Spectrum(float(size), float(slow)) for size, slow in zip(sizes.max(axis=1), lasting, strict=True)]
 
 
 def eigenvalues(problem: Problem, time: float, state: Floats) -> np.ndarray:
     """Eigenvalues of ẏ = f(y) linearized at a state (q, q̇); a single zero where it has no value."""
-    width = state.size
-    nudges = NUDGE * np.maximum(1.0, np.abs(state)) * np.eye(width)
-    rows = np.vstack([state + nudges, state - nudges])
-    slopes = _slopes(problem, np.full(2 * width, time), rows)
-    if not np.isfinite(slopes).all():
-        return np.zeros(1, dtype=complex)
-    jacobian = (slopes[:width] - slopes[width:]).T / (2.0 * nudges.diagonal())
-    return np.asarray(np.linalg.eigvals(jacobian))
+    (jacobian,) = _jacobians(problem, np.array([time]), state[None, :])
+    return np.asarray(np.linalg.eigvals(jacobian)) if np.isfinite(jacobian).all() else np.zeros(1, dtype=complex)
+
+
+def _jacobians(problem: Problem, times: Floats, states: Floats) -> Floats:
+    """∂f/∂y at each row of states, by central differences."""
+    count, width = states.shape
+    nudges = NUDGE * np.maximum(1.0, np.abs(states))
+    steps = nudges[:, :, None] * np.eye(width)
+    rows = np.concatenate([states[:, None, :] + steps, states[:, None, :] - steps]).reshape(-1, width)
+    slopes = _slopes(problem, np.tile(np.repeat(times, width), 2), rows).reshape(2, count, width, width)
+    return np.asarray((slopes[0] - slopes[1]).transpose(0, 2, 1) / (2.0 * nudges[:, None, :]))
 
 
 def _slopes(problem: Problem, times: Floats, states: Floats) -> Floats:
@@ -62,7 +75,8 @@ def accelerations(problem: Problem, times: Floats, states: Floats) -> Floats:
     matrices[:, lower[0], lower[1]] = matrices[:, lower[1], lower[0]] = table[:, : len(lower[0])]
     forcing = table[:, len(lower[0]) : len(lower[0]) + n]
     sound = np.flatnonzero(np.isfinite(table).all(axis=1))
-    sound = sound[np.linalg.cond(matrices[sound]) < 1e14]
+    sizes = np.linalg.eigvalsh(matrices[sound])
+    sound = sound[sizes[:, 0] > SMALLEST * sizes[:, -1]]
     result = np.zeros((len(times), n))
     result[sound] = np.linalg.solve(matrices[sound], forcing[sound][..., None])[..., 0]
     return result
