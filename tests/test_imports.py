@@ -95,6 +95,19 @@ def test_library_is_used_only_where_it_belongs(library: str) -> None:
     assert users & FORBIDDEN[library] == set()
 
 
+def test_nothing_calls_out() -> None:
+    """Connections are taken by the command line, and made to no more than the Redis that a setting names."""
+    network = {"socket", "ssl", "http", "urllib.request", "ftplib", "smtplib", "requests", "httpx", "aiohttp", "redis"}
+    used = {
+        (str(file.relative_to(PACKAGE)), library)
+        for file in FILES
+        for name in imports_of(file)
+        for library in network
+        if f"{name}.".startswith(f"{library}.")
+    }
+    assert used == {("commands/serve.py", "socket"), ("api/stores/shared.py", "redis")}
+
+
 def test_every_package_has_its_rule() -> None:
     packages = {folder.name for folder in PACKAGE.iterdir() if any(folder.glob("*.py"))}
     assert packages <= set(MAY_KNOW)
