@@ -51,7 +51,7 @@ function view() {
   const section = (/** @type {string} */ name) => /** @type {Record<string, unknown>} */ (state.catalog[name] ?? {});
   const methods = translator(section("methods"));
   return {
-    state, session, clock, togglePlay: motion.play, scrub: motion.scrub, instruments: motion.instruments, fullscreen, enterLecture,
+    state, session, clock, togglePlay: motion.play, scrub: motion.scrub, instruments: motion.instruments, why: motion.instruments?.why, fullscreen, enterLecture,
     editor: aside.editor.part, lecture: aside.lecturing(), overlays: aside.overlays(),
     t: translator({ ...section("page"), ...section("editor"), ...section("lecture"), ...section("figure") }),
     methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,

@@ -90,7 +90,7 @@ export function tracesOf(rows, trajectory, palette) {
       const axis = { xaxis: "x", yaxis: r === 0 ? "y" : `y${r + 1}` };
       const color = palette.of(curve.className);
       const trace = {
-        type: "scatter", mode: "lines", x: curve.beside ?? trajectory.t, y: curve.values, name: curve.key, hoverinfo: "skip",
+        type: "scatter", mode: "lines", x: curve.beside ?? trajectory.t, y: curve.values, name: curve.key, className: curve.className, hoverinfo: "skip",
         line: { color, width: curve.dash === "solid" ? 2 : 1.6, dash: curve.dash, simplify: false }, ...axis,
       };
       return curve.band ? [...bandOf(curve, trajectory, color, axis), trace] : [trace];
@@ -111,7 +111,7 @@ function bandOf(curve, trajectory, color, axis) {
   const x = [...trajectory.t, ...[...trajectory.t].reverse()];
   const y = [...wide(1), ...wide(-1).reverse()];
   const line = { width: 0 };
-  return [{ type: "scatter", mode: "lines", x, y, fill: "toself", fillcolor: color, opacity: 0.18, line, hoverinfo: "skip", ...axis }];
+  return [{ type: "scatter", mode: "lines", x, y, fill: "toself", fillcolor: color, opacity: 0.18, line, className: curve.className, hoverinfo: "skip", ...axis }];
 }
 
 /** Margins of the plots in pixels; the style sheet places cursor and names by the same. @param {number} em */

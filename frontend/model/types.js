@@ -56,6 +56,6 @@
  * @typedef {"" | "figure" | "derivation"} Shown  what a frame of another page shows; "" for both
  * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, n: number, formulation: string,
  *   duration: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside,
- *   vary: string, set: string, at: number, with: string, runs: string, show: Shown}} Place  what the address says
+ *   vary: string, set: string, at: number, with: string, runs: string, show: Shown, why: string}} Place  what the address says
  */
 export {};

@@ -3,7 +3,7 @@
 /** @typedef {import("./types.js").Place} Place */
 
 /** @type {Place} */
-export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "", vary: "", set: "", at: 0, with: "", runs: "", show: "" };
+export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "", vary: "", set: "", at: 0, with: "", runs: "", show: "", why: "" };
 
 const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
@@ -45,6 +45,7 @@ export function readPlace(query) {
     with: slug(given.get("with")),
     runs: slug(given.get("runs")),
     show: /** @type {import("./types.js").Shown} */ (oneOf(SHOWN, given.get("show"), HOME.show)),
+    why: slug(given.get("why")),
   };
 }
 

@@ -19,11 +19,12 @@ function quantitiesAt(element) {
 /** @param {HTMLElement} root */
 export function linkHighlights(root) {
   let lit = "";
-  root.addEventListener("pointerover", ({ target }) => {
+  const light = (/** @type {Event} */ { target }) => {
     const names = quantitiesAt(target instanceof Element ? target : null).map((name) => `.${CSS.escape(name)}`).join();
     if (names === lit) return;
     lit = names;
     root.querySelectorAll(".lit").forEach((element) => element.classList.remove("lit"));
     if (names) root.querySelectorAll(names).forEach((element) => element.classList.add("lit"));
-  });
+  };
+  for (const event of ["pointerover", "focusin"]) root.addEventListener(event, light);
 }

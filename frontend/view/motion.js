@@ -8,7 +8,7 @@ import { createTransport } from "./player.js";
 import { createPlots } from "./plots.js";
 import { createReadouts } from "./readouts.js";
 
-/** Milliseconds until the instruments come without a hand near them. */
+/** Milliseconds until the instruments come without a hand at the page. */
 const PATIENCE = 8000;
 
 /**
@@ -32,8 +32,7 @@ export function createMotion({ root, state, clock, session, still, update }) {
       readouts: createReadouts(find(".readouts")), transport: createTransport(find(".player")),
     };
     new ResizeObserver(() => made.drawing.resize(clock.time)).observe(find(".drawing"));
-    const near = (/** @type {Event} */ { target }) => target instanceof Element && target.closest(".figure") && void instruments.want();
-    for (const event of ["pointerover", "focusin"]) root.addEventListener(event, near);
+    for (const event of ["pointerover", "focusin", "keydown"]) document.addEventListener(event, instruments.want, { once: true });
     setTimeout(instruments.want, PATIENCE);
     return made;
   }
@@ -88,7 +87,7 @@ export function createMotion({ root, state, clock, session, still, update }) {
       // The first step is to be read before the plots cost anything.
       const readable = lines.length > 0 || failures.derivation;
       parts.plots.show(readable && scene && trajectory ? { scene, trajectory, runs, duration: place.duration, lang: place.lang, theme } : null);
-      if (place.vary || place.with || place.runs) void instruments.want();
+      if (place.vary || place.with || place.runs || place.why) void instruments.want();
       instruments.part?.show();
       begin();
       move(clock.time);

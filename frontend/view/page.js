@@ -25,6 +25,7 @@ import { FORMULATIONS } from "../model/url.js";
  * @property {() => void} fullscreen
  * @property {() => void} reload
  * @property {((view: View) => unknown) | undefined} overlays  once one has been asked for
+ * @property {ReturnType<typeof import("./figure/why.js").createWhy>} [why]  with the instruments
  * @property {import("./figure/open.js").Instruments | null} instruments  once they have been fetched
  * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
  * @property {() => void} enterLecture

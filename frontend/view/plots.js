@@ -69,9 +69,11 @@ export function createPlots(root, { seek }) {
     const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
     const rows = rowsOf(scene, trajectory, runs.map((run) => run.trajectory));
     const layout = { ...layoutOf(rows, duration, palette, lang, root.clientHeight, em), width: root.clientWidth, height: root.clientHeight };
-    await globalThis.Plotly.react(canvas, tracesOf(rows, trajectory, palette), layout, { staticPlot: true, displayModeBar: false });
+    const traces = tracesOf(rows, trajectory, palette);
+    await globalThis.Plotly.react(canvas, traces, layout, { staticPlot: true, displayModeBar: false });
     scale = timeScale(root.clientWidth, duration, em);
     label(rows, em);
+    name(traces);
     const end = endOf(trajectory);
     beyond.style.insetInlineStart = `${scale.pixel(end)}px`;
     beyond.hidden = end >= duration * 0.999;
@@ -83,6 +85,11 @@ export function createPlots(root, { seek }) {
     const { t, b } = marginsOf(em);
     const tops = domainsOf(rows.length, root.clientHeight, em).map(([, top]) => (1 - top) * (root.clientHeight - t - b));
     rowsLayer.replaceChildren(...rows.map((row, r) => legend(row, tops[r])));
+  }
+
+  /** Curves carry the class of their quantity, so that pointing at it lights them up. @param {{className: string}[]} traces */
+  function name(traces) {
+    canvas.querySelectorAll(".scatterlayer .trace").forEach((curve, i) => curve.classList.add(traces[i]?.className));
   }
 
   function schedule() {

@@ -10,7 +10,7 @@ import { indexOf } from "../model/reveal.js";
 /** @typedef {import("../model/reveal.js").Line} Line */
 /** @typedef {{state: Pick<import("./page.js").View["state"], "place" | "lines" | "derivation">,
  *   session: Pick<import("./page.js").View["session"], "go" | "goTo">,
- *   link: (patch: {step: string}) => string, follow: import("./page.js").View["follow"], t: import("./page.js").View["t"]}} View  what steps need of a page */
+ *   why?: ReturnType<typeof import("./figure/why.js").createWhy>, link: (patch: {step: string}) => string, follow: import("./page.js").View["follow"], t: import("./page.js").View["t"]}} View  what steps need of a page */
 
 /** @param {View} view */
 export function steps(view) {
@@ -26,7 +26,7 @@ export function steps(view) {
 
 const skeleton = () => [62, 88, 74].map((width) => html`<div class="bone" style="width:${width}%"></div>`);
 
-/** @param {Line} line @param {boolean} current @param {Pick<View, "link" | "follow" | "session" | "t">} view */
+/** @param {Line} line @param {boolean} current @param {Pick<View, "link" | "follow" | "session" | "t" | "why">} view */
 export function step(line, current, view) {
   const opens = line.number.endsWith(".1");
   const { step: content, number } = line;
@@ -37,18 +37,20 @@ export function step(line, current, view) {
         <a class="number" href=${view.link({ step: content.id })} title=${view.t("step.link")}
           @click=${(/** @type {Event} */ event) => view.follow(event, () => view.session.goTo(content.id))}>${number}</a>
         <span>${prose(content.title)}</span>
-        ${verdict(content, view)}
+        ${verdict(content, view)}${view.why?.button(content, /** @type {any} */ (view))}
       </h3>
+      ${view.why?.panel(content, /** @type {any} */ (view))}
       ${content.text ? html`<p class="prose">${prose(content.text)}</p>` : nothing}
-      ${formulaOf(content)}
+      ${formulaOf(content, view)}
       ${content.substeps.length ? substeps(content, view) : nothing}
     </li>
   `;
 }
 
-/** The marked form carries the colours; some steps are words only. @param {Step} content */
-function formulaOf({ marked, latex }) {
-  return marked || latex ? displayed(marked || latex) : nothing;
+/** The marked form carries the colours; some steps are words only. @param {Step} content @param {Pick<View, "why">} view */
+function formulaOf(content, { why }) {
+  const latex = why?.formula(content) ?? (content.marked || content.latex);
+  return latex ? displayed(latex) : nothing;
 }
 
 /** @param {Step} content @param {Pick<View, "t">} view */
@@ -58,7 +60,7 @@ function verdict(content, { t }) {
     : html`<span class="verdict doubtful" title=${t("step.unverified-why")}><span>${t("step.unverified")}</span></span>`;
 }
 
-/** @param {Step} content @param {Pick<View, "t">} view @returns {import("lit-html").TemplateResult} */
+/** @param {Step} content @param {Pick<View, "t" | "why">} view @returns {import("lit-html").TemplateResult} */
 function substeps(content, view) {
   const count = content.substeps.length;
   return html`
@@ -68,7 +70,7 @@ function substeps(content, view) {
         ${content.substeps.map((part) => html`
           <li>
             <p class="prose">${part.title ? html`<b>${prose(part.title)}</b>` : nothing} ${prose(part.text)}</p>
-            ${formulaOf(part)}
+            ${formulaOf(part, view)}
             ${part.substeps?.length ? substeps(part, view) : nothing}
           </li>`)}
       </ol>

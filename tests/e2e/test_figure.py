@@ -160,3 +160,55 @@ def test_energy_bars_paths_and_the_phase_portrait(lecture: Lecture) -> None:
     assert after is not None
     assert abs(after["x"] + after["width"] / 2 - curve["x"]) < 8
     expect(page).to_have_url(re.compile(r"at=\d"))
+
+
+def test_why_opens_the_law_and_what_changed(lecture: Lecture) -> None:
+    """The law with its source, in both languages; sources light up when focused; changed terms are marked."""
+    page = open_at_rest(lecture, "?scene=elastic-pendulum&lang=en&step=equation:phi")
+    current = page.locator(".step[aria-current]")
+    expect(current.locator(".formula .term-turned").first).to_be_attached()
+    expect(current.locator(".substeps .term-gone")).to_have_count(2)
+    current.locator(".why").click()
+    law = current.locator(".law")
+    expect(law).to_contain_text("Lagrange’s equation of the second kind")
+    expect(law.locator(".source")).to_contain_text("Goldstein")
+    expect(law.locator(".changes")).to_contain_text("cancels")
+    law.get_by_role("button", name="external force").focus()
+    expect(page.locator(".drawing .arrow.load-drive.lit")).to_be_attached()
+    expect(current.locator(".formula .load-drive.lit").first).to_be_attached()
+    expect(page).to_have_url(re.compile("why=equation:phi"))
+    page.locator(".segments [lang=de]").click()
+    expect(law).to_contain_text("Lagrangesche Gleichung zweiter Art")
+
+
+def test_pointing_works_both_ways(lecture: Lecture) -> None:
+    """A body in the drawing lights up its terms; a coordinate in a formula lights up its curve and its slider."""
+    page = open_at_rest(lecture, "?scene=elastic-pendulum&lang=en&step=equation:phi&with=bars")
+    page.locator(".plots.ready").wait_for()
+    lecture.bob.dispatch_event("pointerover")
+    expect(page.locator(".step[aria-current] .formula .body-bob.lit").first).to_be_attached()
+    page.locator(".step[aria-current] .formula .katex-html .q-1").first.dispatch_event("pointerover")
+    expect(page.locator(".plots .trace.q-1.lit")).to_have_count(1)
+    expect(page.locator(".row.q-1.lit").first).to_be_attached()
+    page.locator(".energies .energy-kinetic").dispatch_event("pointerover")
+    expect(page.locator(".plots .trace.energy-kinetic.lit")).to_have_count(1)
+
+
+def test_nothing_shifts_while_the_figure_is_used(lecture: Lecture) -> None:
+    """Steps with their marks, the instruments that come, a variation: none of them moves what was there."""
+    lecture.page.emulate_media(reduced_motion="reduce")
+    lecture.open("?scene=elastic-pendulum&lang=en")
+    page = lecture.page
+    page.locator(".plots.ready").wait_for()
+    page.evaluate(
+        "window.shift = 0; new PerformanceObserver(list => list.getEntries().forEach(e => window.shift += e.value))"
+        ".observe({type: 'layout-shift'})"
+    )
+    page.locator(".drawing").hover(position={"x": 5, "y": 5})
+    page.locator(".figure-tools button").first.wait_for()
+    for _ in range(26):
+        page.keyboard.press("ArrowRight")
+        page.wait_for_timeout(30)
+    page.locator(".figure-tools button").first.click()
+    page.wait_for_timeout(300)
+    assert page.evaluate("window.shift") < 0.02

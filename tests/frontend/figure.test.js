@@ -1,10 +1,17 @@
 import { strict as assert } from "node:assert";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { test } from "node:test";
+import { originsOf } from "../../frontend/model/figure/origins.js";
 import { portraitsOf } from "../../frontend/model/figure/phase.js";
 import { differences, keyOf, readRuns, withoutRun, withRun } from "../../frontend/model/figure/runs.js";
+import { sidesOf, withTerms } from "../../frontend/model/figure/terms.js";
+import { linesOf } from "../../frontend/model/reveal.js";
 import { rowsOf, tracesOf } from "../../frontend/model/plots.js";
 import { readChanges } from "../../frontend/model/values.js";
 import { scene, trajectory } from "./fixtures.js";
+
+const katex = createRequire(new URL("../../frontend/package.json", import.meta.url))("katex");
 
 const asked = (/** @type {string} */ text, method = "") => ({ changes: readChanges(text), method });
 
@@ -46,4 +53,44 @@ test("a phase portrait of a harmonic motion is an ellipse, and knows the moment 
   assert.ok(Math.abs(moment.t - 2.013) < 0.03 && moment.far < 3);
   assert.ok(portrait.columns.length >= 2 && portrait.rows.length >= 2);
   assert.doesNotMatch(portrait.paths[0], /NaN/);
+});
+
+for (const lang of ["de", "en"]) {
+  test(`the laws can be typeset: ${lang}`, () => {
+    const laws = JSON.parse(readFileSync(new URL(`../../backend/deltaq/narration/locales/${lang}/laws.json`, import.meta.url), "utf8"));
+    for (const [rule, { law }] of Object.entries(laws)) {
+      law.split("$").forEach((/** @type {string} */ part, /** @type {number} */ i) => i % 2 && assert.doesNotThrow(() => katex.renderToString(part, { strict: "error" }), rule));
+    }
+  });
+}
+
+/** @param {string} id @param {string} latex @param {import("../../frontend/model/types.js").Step[]} substeps */
+const step = (id, latex, substeps = []) => ({ id, rule: id, title: id, text: "", latex, marked: latex, verified: true, sources: [], substeps });
+const aligned = (/** @type {string[]} */ ...lines) => `\\begin{aligned}${lines.join(" \\\\[0.4em] ")}\\end{aligned}`;
+
+test("a formula is put together again as it was, and its terms are those outside of brackets", () => {
+  const latex = aligned("L &= E - V", " &= \\frac{1}{2} m \\left(a - b\\right) + \\htmlClass{load-w}{k (x + 1)} - c", "& \\begin{bmatrix} a - b \\\\ c \\end{bmatrix} \\neq 0");
+  assert.equal(withTerms(latex, (side) => side.map(() => null)), latex);
+  const sides = sidesOf(latex).map((side) => side.map(({ sign, bare }) => `${sign > 0 ? "+" : "-"}${bare}`));
+  assert.deepEqual(sides, [["+L"], ["+E", "-V"], ["+\\frac12m(a-b)", "+k(x+1)", "-c"], ["+\\beginbmatrixa-b\\\\c\\endbmatrix"], ["+0"]]);
+});
+
+test("terms are carried over, turned, new or cancelled, whatever their classes", () => {
+  const chapters = [{ id: "a", title: "", steps: [
+    step("energy", aligned("V &= k x^2 - m g x")),
+    step("equation", aligned("& m \\ddot{x} - k x^2 + \\htmlClass{load-w}{m g x} - c \\dot{x} = 0"), [
+      step("rate", aligned("p &= m \\ddot{x} + b \\dot{x} x")), step("slope", aligned("s &= c \\dot{x} + b \\dot{x} x")),
+    ]),
+  ] }];
+  const { formulas, from } = originsOf(linesOf(chapters), 1);
+  const [equation, rate] = [chapters[0].steps[1], chapters[0].steps[1].substeps[0]];
+  const marks = [...(formulas.get(equation) ?? "").matchAll(/term-(\w+)\}\{((?:[^{}]|\{[^{}]*\})*)\}/g)].map(([, change, text]) => `${change} ${text}`);
+  assert.deepEqual(marks, ["kept m \\ddot{x}", "turned k x^2", "turned \\htmlClass{load-w}{m g x}", "turned c \\dot{x}"]);
+  assert.match(formulas.get(rate) ?? "", /\\htmlClass\{term-gone\}\{b \\dot\{x\} x\}/);
+  assert.deepEqual(from, { kept: ["1.2"], turned: ["1.1", "1.2"], new: [], gone: ["1.2"] });
+});
+
+test("where nothing is known before, nothing is marked", () => {
+  const { formulas } = originsOf(linesOf([{ id: "a", title: "", steps: [step("energy", "a b + c d")] }]), 0);
+  assert.equal([...formulas.values()][0], "a b + c d");
 });

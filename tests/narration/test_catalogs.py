@@ -72,6 +72,18 @@ def test_every_step_has_its_texts(language: str, identifier: str) -> None:
         assert sentence.endswith(".")
 
 
+@pytest.mark.parametrize("formulation", ["dalembert-lagrange", "hamilton"])
+@pytest.mark.parametrize(
+    "identifier", ["elastic-pendulum", "guided-pendulum", "heavy-top", "wind-on-rod", "quarter-car"]
+)
+def test_every_step_has_a_law_and_its_source(identifier: str, formulation: str) -> None:
+    _, derivation = derive(load_scene(identifier), formulation)
+    rules = {step.rule for chapter in derivation.chapters for step in chapter.steps}
+    laws = catalog("en")["laws"]
+    assert isinstance(laws, Mapping)
+    assert sorted(rules - laws.keys()) == []
+
+
 def test_every_rule_states_its_law_and_source() -> None:
     rules = modules_of("deltaq.derivation.rules")
     assert len(rules) >= 15

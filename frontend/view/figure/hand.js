@@ -132,7 +132,7 @@ export function createHand(bench, virtual) {
     /** For those who use keys: a button at each place. @param {import("../page.js").View} view */
     handles({ state, t }) {
       const name = (/** @type {string} */ place) => inLanguage(state.scene?.labels?.[place], state.place.lang) || place;
-      render(places().map((place) => html`<button class="handle" data-place=${place} aria-label=${t("hand.handle", { place: name(place) })}
+      render(places().map((place) => html`<button class="handle ${state.scene?.bodies.some((body) => body.name === place) ? `body-${place}` : ""}" data-place=${place} aria-label=${t("hand.handle", { place: name(place) })}
         @keydown=${(/** @type {KeyboardEvent} */ event) => press(event, place)}></button>`), handles);
     },
     move() {

@@ -12,6 +12,7 @@ import { createPhase } from "./phase.js";
 import { createRuns } from "./runs.js";
 import { createVirtual } from "./virtual.js";
 import { tools } from "./tools.js";
+import { createWhy } from "./why.js";
 
 /** @typedef {import("../page.js").View} View */
 /** @typedef {import("../../model/state.js").State} State */
@@ -69,6 +70,7 @@ export function open(around) {
   void session.need("figure");
   return {
     panel: virtual.panel,
+    why: createWhy(state),
     /** @param {View} view */
     tools(view) {
       hand.handles(view);

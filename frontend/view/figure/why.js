@@ -1,0 +1,74 @@
+/** Why a step is allowed, and what it changes: its law with the source, what it comes from, and its terms compared with those before. */
+
+import { html, nothing } from "lit-html";
+import { prose } from "../formula.js";
+import { inLanguage } from "../../model/catalog.js";
+import { originsOf } from "../../model/figure/origins.js";
+
+/** @typedef {import("../page.js").View} View */
+/** @typedef {import("../../model/types.js").Step} Step */
+/** @typedef {import("../../model/figure/origins.js").Origins} Origins */
+
+const CHANGES = /** @type {const} */ (["kept", "turned", "new", "gone"]);
+
+/** @param {() => import("../../model/state.js").State} state */
+export function createWhy(state) {
+  /** @type {WeakMap<Step, Origins>} */
+  const found = new WeakMap();
+  /** @type {WeakMap<Step, string>} */
+  const formulas = new WeakMap();
+
+  /** A step is compared when it becomes the current one. @param {Step} step */
+  function compare(step) {
+    const { lines, place } = state();
+    const index = lines.findIndex((line) => line.step === step);
+    if (index < 0 || found.has(step) || step.id !== (place.step || lines[0]?.step.id)) return;
+    const origins = originsOf(lines, index);
+    found.set(step, origins);
+    origins.formulas.forEach((latex, part) => formulas.set(part, latex));
+  }
+
+  return {
+    /** The formula of a step with its terms marked, once it has been compared. @param {Step} step */
+    formula(step) {
+      compare(step);
+      return formulas.get(step);
+    },
+    /** @param {Step} step @param {View} view */
+    button: (step, { state, session, t }) => html`
+      <button class="why quiet small" aria-expanded=${String(state.place.why === step.id)} @click=${() => session.move({ why: state.place.why === step.id ? "" : step.id })}>${t("why")}</button>`,
+    /** @param {Step} step @param {View} view */
+    panel(step, view) {
+      if (view.state.place.why !== step.id) return nothing;
+      view.session.need("laws");
+      const laws = /** @type {Record<string, {law: string, source: string}>} */ (view.state.catalog.laws ?? {});
+      const { law, source } = laws[step.rule] ?? { law: "", source: "" };
+      return html`
+        <div class="law" role="note">
+          <p>${prose(law)}</p>
+          <p class="source">${source}</p>
+          ${step.sources.length ? html`<p class="sources">${view.t("why.sources")} ${step.sources.map((name) => chip(name, view))}</p>` : nothing}
+          ${changes(found.get(step), view.state.lines.find((line) => line.step === step)?.number, view)}
+        </div>`;
+    },
+  };
+}
+
+/** A body or load by name; pointed at or focused, it lights up everywhere. @param {string} name "load:weight" @param {View} view */
+function chip(name, { state }) {
+  const [kind, id] = name.split(":");
+  return html`<button class="source-chip quiet small ${kind}-${id}">${inLanguage(state.scene?.labels?.[id], state.place.lang) || id}</button>`;
+}
+
+/** What the marks on the terms mean, and from which steps they come. @param {Origins | undefined} origins @param {string | undefined} own number of the step @param {View} view */
+function changes(origins, own, { t, link, follow, session, state }) {
+  const shown = CHANGES.filter((change) => origins?.from[change].length);
+  if (!shown.length) return nothing;
+  const step = (/** @type {string} */ number) => {
+    if (number === own) return html`(${t("why.within")}) `;
+    const id = state.lines.find((line) => line.number === number)?.step.id ?? "";
+    return html`<a href=${link({ step: id })} @click=${(/** @type {Event} */ event) => follow(event, () => session.goTo(id))}>${number}</a> `;
+  };
+  return html`<ul class="changes">${shown.map((change) => html`
+    <li><span class="term-${change}">${t(`why.${change}`)}</span> ${change === "kept" || change === "turned" ? origins?.from[change].map(step) : nothing}</li>`)}</ul>`;
+}
