@@ -22,6 +22,7 @@ from .watch import Watch
 
 NUDGE = 1e-4
 PASSES, CLOSE = 12, 1e-9
+LONGEST_MOVE = 0.5  # in one pass
 NOT_PERIODIC = 100
 
 
@@ -107,8 +108,12 @@ def periodic(flow: Flow, state: Floats, matrix: Floats, desk: Desk) -> int:
         if not decompose(desk.system, desk.places):
             return NOT_PERIODIC
         substitute(desk.system, desk.places, desk.gap)
+        longest = LONGEST_MOVE
         for d in range(state.size):
-            state[d] += desk.gap[d]
+            longest = max(longest, abs(desk.gap[d]))
+        part = LONGEST_MOVE / longest  # to the motion nearby, not to one far off
+        for d in range(state.size):
+            state[d] += part * desk.gap[d]
     return NOT_PERIODIC
 
 
