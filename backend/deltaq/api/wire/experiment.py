@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import ConfigDict, Field
 
 from ...lab.bounds import (
+    APART,
     AT,
     CHAOS_LONGEST,
     CHAOS_SPAN,
@@ -95,7 +96,7 @@ class ChaosRequest(ExperimentRequest):
     """Twin runs, Lyapunov exponent, horizon against tolerance, and a map of flips."""
 
     t_end: float = Field(CHAOS_SPAN, gt=0, le=CHAOS_LONGEST, description="seconds of motion")
-    apart: float | None = Field(None, gt=0, le=1.0, description="how far the twins are apart at first")
+    apart: float | None = Field(None, ge=APART[0], le=APART[1], description="how far the twins are apart at first")
     map: bool = Field(default=False, description="whether to map the times at which angles turn over")
     count: int = Field(USUAL_FLIPS, ge=FLIP_POINTS[0], le=FLIP_POINTS[1], description="points on a side of the map")
 

@@ -16,6 +16,7 @@ from ...errors import SceneError
 from ...mechanics.requests import inside
 from ...simulation.problem import Floats, Problem
 from ...simulation.reference import Reference, reference
+from ..bounds import APART as APART_BOUNDS
 from ..bounds import CHAOS_LONGEST, CHAOS_SPAN, FLIP_POINTS, USUAL_FLIPS
 from ..charts.chaos import charts
 from ..divergence import APART, Exponent, exponents, solved, twins
@@ -35,7 +36,7 @@ STRETCH = 0.4  # seconds, of scenes that nothing drives
 def run(document: Mapping[str, object]) -> Iterator[Report]:
     """Further fields: apart (first distance of the twins), map (whether), count (points on a side of the map)."""
     subject = subject_of(document, SAMPLES, CHAOS_SPAN)
-    apart = subject.request.number("apart", 0.0, 1.0) or APART
+    apart = subject.request.number("apart", *APART_BOUNDS, closed=True) or APART
     with_map, count = subject.request.flag("map"), subject.request.whole("count", *FLIP_POINTS, USUAL_FLIPS)
     subject.request.number("t_end", 0.0, CHAOS_LONGEST)
     subject.finish("apart", "map", "count")
