@@ -72,6 +72,21 @@ def test_a_formula_is_typed_and_keyed(lecture: Lecture) -> None:
     expect(page.locator(".verdict-card.stale")).to_have_count(0)
 
 
+@pytest.mark.parametrize(
+    ("task", "typed"),
+    [
+        pytest.param("kinetic-energy", "T = 1/2 m (l phi' )^2", id="fraction, bracket, exponent"),
+        pytest.param("equation:phi", "phi'' = - g/l sinphi", id="out of a fraction"),
+        pytest.param("eigenfrequencies", "omega = sqrt g/l", id="into a root"),
+    ],
+)
+def test_blanks_between_factors_do_no_harm(lecture: Lecture, task: str, typed: str) -> None:
+    page = _open(lecture, f"scene=pendulum&task={task}&lang=en")
+    _math_field(page)
+    page.keyboard.type(typed, delay=30)
+    _check(page, "correct")
+
+
 def test_reload_and_language_keep_everything(lecture: Lecture) -> None:
     page = _open(lecture)
     _answer_as_text(page, FALLING)

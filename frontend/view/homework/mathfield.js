@@ -65,6 +65,7 @@ class MathField extends Directive {
     field.addEventListener("input", () => this.wiring?.change((this.held = field.getValue("latex-without-placeholders"))));
     field.addEventListener("keydown", (event) => {
       if (event.key === "Enter") this.wiring?.enter();
+      if (event.key === " " && !event.ctrlKey) blank(field, event);
     }, { capture: true });
     field.addEventListener("focusin", () => {
       if (coarse.matches) setTimeout(() => field.scrollIntoView({ block: "start" }), RISE);
@@ -73,6 +74,18 @@ class MathField extends Directive {
     field.mathVirtualKeyboardPolicy = coarse.matches ? "auto" : "manual";
     requestAnimationFrame(() => (field.menuItems = []));
   }
+}
+
+/** What a blank does not lead out of: brackets, and what is still empty. */
+const HELD = /^\\left|\\placeholder/;
+
+/** A blank leads out of a fraction or an exponent, and is nothing else: people write it between factors. @param {import("mathlive").MathfieldElement} field @param {Event} event */
+function blank(field, event) {
+  event.preventDefault();
+  event.stopImmediatePropagation();
+  const { selection } = field;
+  field.executeCommand("moveAfterParent");
+  if (HELD.test(field.getElementInfo(field.position)?.latex ?? "")) field.selection = selection;
 }
 
 const wired = directive(MathField);
