@@ -1,9 +1,13 @@
 /** What most readers never need, fetched when it is first wanted: the editor, lecture mode, overlays, sharing. */
 
+import { translator } from "../model/catalog.js";
 import { createLater } from "../model/later.js";
 import { keepDraft, readDraft } from "../model/own.js";
 
 /** @typedef {import("./page.js").View} View */
+/** Milliseconds after which a motion is told: not while a slider moves. */
+const REST = 1200;
+
 /** @typedef {ReturnType<typeof import("../model/store.js").createStore<import("../model/state.js").State>>} Store */
 
 /**
@@ -29,6 +33,25 @@ export function createAside({ root, store, api, session, send, changed, play }) 
     return (/** @type {View} */ view) => share(view, take);
   }, changed);
 
+  /** @type {import("../model/types.js").Trajectory | null} */
+  let told = null;
+  let telling = 0;
+
+  /** The motion in words, once it is settled. */
+  function tell() {
+    const { trajectory } = get();
+    if (trajectory === told) return;
+    told = trajectory;
+    clearTimeout(telling);
+    telling = window.setTimeout(async () => {
+      const { summary } = await import("./summary.js");
+      const { scene, trajectory: settled, catalog, place } = get();
+      const words = translator(/** @type {Record<string, unknown>} */ (catalog.page ?? {}));
+      const element = root.querySelector("#motion");
+      if (element && scene && settled?.t.length) element.textContent = summary(scene, settled, words, place.lang);
+    }, REST);
+  }
+
   const framed = location.pathname === "/embed" ? import("./embed.js").then(({ embed }) => embed(root, () => get().place, whole)) : null;
   const whole = () => location.href.replace("/embed", "/scene");
 
@@ -51,6 +74,7 @@ export function createAside({ root, store, api, session, send, changed, play }) 
       if (place.edit) void editor.want();
       if (place.view) void lecture.want();
       lecture.part?.update();
+      tell();
     },
   };
 }

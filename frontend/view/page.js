@@ -122,10 +122,11 @@ function drawing(view) {
   const waiting = !state.trajectory && !state.failures.simulation;
   return html`
     <div class="drawing ${waiting ? "waiting" : ""}">
-      <svg role="img" aria-label=${t("drawing.description", { title, summary })}></svg>
+      <svg role="img" aria-label=${t("drawing.description", { title, summary })} aria-describedby="motion"></svg>
       <div class="labels" aria-hidden="true"></div>
       <div class="readouts" aria-hidden="true"></div>
       <div class="figure-tools">${instruments?.tools(view)}</div>
+      <p class="unseen" id="motion" role="status"></p>
       ${waiting ? html`<p class="patience" role="status">${t("drawing.loading")}</p>` : nothing}
       ${state.failures.simulation && !state.failures.scene ? failure(state.failures.simulation, t("failure.simulation"), () => session.resimulate({}), t) : nothing}
     </div>

@@ -126,6 +126,18 @@ def test_a_presenter_that_leads_a_lecture(lecture: Lecture, axe: str) -> None:
     assert violations(opened.value, axe) == []
 
 
+def test_the_motion_is_told_in_words_and_anew_when_it_changes(lecture: Lecture) -> None:
+    lecture.open("?scene=pendulum&lang=en")
+    told = lecture.page.locator("#motion[role=status]")
+    expect(told).to_contain_text("phi swings between")
+    expect(told).to_contain_text("the energy stays the same")
+    before = told.text_content() or ""
+    slider = lecture.page.locator("[data-slider=parameter-l-value] input[type=number]")
+    slider.fill("0.5")
+    slider.press("Tab")
+    expect(told).not_to_have_text(before)
+
+
 def test_axe_finds_what_is_wrong(lecture: Lecture, axe: str) -> None:
     """A page with a known fault: the test above is able to fail."""
     page = lecture.page
