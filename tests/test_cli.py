@@ -29,7 +29,7 @@ def command(*arguments: str, **environment: str) -> subprocess.CompletedProcess[
         capture_output=True,
         text=True,
         check=False,
-        timeout=60,
+        timeout=300,
     )
 
 
@@ -175,3 +175,61 @@ def test_lab_takes_a_scene_of_ones_own(tmp_path: Path, root: Path) -> None:
 def test_lab_says_what_is_wrong(arguments: list[str], message: str) -> None:
     ended = command("lab", *arguments)
     assert (ended.returncode, ended.stderr) == (2, message)
+
+
+def test_scenes_are_listed_with_their_degrees_of_freedom() -> None:
+    ended = command("scenes", "--lang", "de")
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert re.search(r"^double-pendulum +2  Doppelpendel$", ended.stdout, re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    ("form", "beginning", "inside"),
+    [
+        pytest.param("markdown", "# ", "$$", id="markdown"),
+        pytest.param("latex", "\\documentclass", "\\varphi", id="latex"),
+        pytest.param("python", "# ", "solve_ivp", id="python"),
+        pytest.param("json", "{", '"chapters"', id="json"),
+    ],
+)
+def test_a_derivation_in_each_form(form: str, beginning: str, inside: str) -> None:
+    ended = command("derive", "pendulum", "--format", form)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert ended.stdout.startswith(beginning)
+    assert inside in ended.stdout
+
+
+def test_a_notebook_holds_the_derivation_and_a_program_that_runs(tmp_path: Path) -> None:
+    output = tmp_path / "pendulum.ipynb"
+    ended = command("derive", "pendulum", "--format", "notebook", "--output", str(output))
+    assert (ended.returncode, ended.stdout) == (0, f"→ {output}\n")
+    notebook = json.loads(output.read_text(encoding="utf-8"))
+    kinds = [cell["cell_type"] for cell in notebook["cells"]]
+    assert (notebook["nbformat"], kinds[-1], set(kinds[:-1])) == (4, "code", {"markdown"})
+    compile("".join(notebook["cells"][-1]["source"]), "cell", "exec")
+
+
+def test_a_motion_as_a_table() -> None:
+    ended = command("simulate", "pendulum", "--t-end", "1", "--samples", "3", "--set", "tolerance=1e-9")
+    assert ended.returncode == 0
+    assert re.fullmatch(r"deltaq: \S+, \d+ steps\n", ended.stderr)
+    rows = [line.split(",") for line in ended.stdout.splitlines()]
+    assert rows[0] == ["t", "phi", "dot(phi)", "error"]
+    assert [float(row[0]) for row in rows[1:]] == [0.0, 0.5, 1.0]
+    assert all(float(row[3]) < 1e-9 for row in rows[1:])
+
+
+def test_a_motion_that_fails_gives_its_good_part_and_the_reason() -> None:
+    euler = ["--set", "method=explicit-euler", "--set", "step=5", "--t-end", "5000"]
+    ended = command("simulate", "elastic-pendulum", *euler)
+    assert ended.returncode == 2
+    assert ended.stdout.startswith("t,")
+    assert ended.stderr.startswith("deltaq: ")
+    assert "smaller step" in ended.stderr
+
+
+@pytest.mark.parametrize("name", ["derive", "simulate"])
+def test_a_scene_that_does_not_exist_is_told_with_the_nearest(name: str) -> None:
+    ended = command(name, "double-pendulun")
+    assert (ended.returncode, ended.stdout) == (2, "")
+    assert "double-pendulum" in ended.stderr

@@ -21,7 +21,7 @@ MAY_KNOW = {
     "lab": {"language", "mechanics", "model", "simulation"},
     "homework": {"language", "mechanics", "derivation", "narration"},
     "handout": {"language", "mechanics", "derivation", "narration"},
-    "commands": {"language", "mechanics", "narration", "model", "simulation", "lab", "homework", "api"},
+    "commands": {"mechanics", "narration", "simulation", "lab", "homework", "handout", "api"},
     "api": {"language", "mechanics", "derivation", "narration", "model", "simulation", "lab", "homework", "handout"},
 }
 # Who may know the modules beside the packages.

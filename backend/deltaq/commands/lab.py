@@ -10,6 +10,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ._common import field_argument, language_argument, question_of, scene_argument
+
 if TYPE_CHECKING:
     from ..lab.report import Report
 
@@ -25,16 +27,8 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "experiment", help="work-precision, convergence, energy-drift, stability, stability-map, chaos or fidelity"
     )
-    parser.add_argument("scene", help="id of a built-in scene, or a TOML file")
-    parser.add_argument(
-        "--set",
-        dest="fields",
-        action="append",
-        default=[],
-        type=_field,
-        metavar="FIELD=VALUE",
-        help='a field of the request, its value as JSON: t_end=20, methods=["rk4"], parameters={"k":100}',
-    )
+    scene_argument(parser)
+    field_argument(parser)
     parser.add_argument(
         "--output",
         type=Path,
@@ -42,17 +36,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="a file, by its suffix .json, .csv or .html; several may be given (default: .json and .html here)",
     )
-    parser.add_argument("--lang", choices=("en", "de"), default="en", help="language (default: %(default)s)")
-
-
-def _field(text: str) -> tuple[str, Any]:
-    name, sign, value = text.partition("=")
-    if not sign:
-        raise argparse.ArgumentTypeError(f"FIELD=VALUE is needed, not {text}")
-    try:
-        return name, json.loads(value)
-    except json.JSONDecodeError:
-        return name, value  # a word without its quotes
+    language_argument(parser)
 
 
 def run(options: argparse.Namespace) -> None:
@@ -61,24 +45,14 @@ def run(options: argparse.Namespace) -> None:
     from ..narration.catalog import text
 
     experiment = get_experiment(options.experiment)
-    question = {**dict(options.fields), "scene": _scene(options.scene), "lang": options.lang}
     result: dict[str, Any] = {}
-    for report in _with_progress(experiment.run(question)):
+    for report in _with_progress(experiment.run(question_of(options))):
         result = report.result
     charts = drawn(experiment, result, partial(text, options.lang), options.lang)
     outputs = options.output or [Path(f"{experiment.id}-{result['scene']}{suffix}") for suffix in (".json", ".html")]
     for output in outputs:
         output.write_text(_file(output.suffix, {**result, "charts": charts}, options.lang), encoding="utf-8")
         print(f"→ {output}")
-
-
-def _scene(given: str) -> object:
-    """A built-in scene by its id, or the document in a file."""
-    if not given.endswith(".toml"):
-        return given
-    from ..mechanics.toml import read_toml
-
-    return read_toml(Path(given).read_text(encoding="utf-8"))
 
 
 def _with_progress(reports: Iterator[Report]) -> Iterator[Report]:
