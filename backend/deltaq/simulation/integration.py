@@ -12,10 +12,11 @@ from .kernels.explicit_runge_kutta import Result, integrate
 from .kernels.implicit_room import make_implicit_room
 from .kernels.implicit_runge_kutta import integrate_implicit
 from .kernels.motion import Motion
-from .kernels.newmark import NewmarkWeights, integrate_newmark, make_newmark_room
-from .kernels.newton import ImplicitWeights
+from .kernels.newmark import integrate_newmark
+from .kernels.newmark_step import NewmarkWeights, make_newmark_room
 from .kernels.phase import Phase
 from .kernels.splitting import SplitWeights, integrate_split, make_split_room
+from .kernels.stages import ImplicitWeights
 from .kernels.step import Weights, make_room
 from .kernels.step_control import Control
 from .kernels.watch import Watch, make_watch, unwatched

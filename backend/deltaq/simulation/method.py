@@ -82,7 +82,7 @@ class Partitioned:
 
 @dataclass(frozen=True)
 class Newmark:
-    """Newmark's method with its two parameters (see `kernels.newmark`)."""
+    """Newmark's method with its two parameters (see `kernels.newmark_step`)."""
 
     beta: Fraction
     gamma: Fraction

@@ -5,8 +5,8 @@ from __future__ import annotations
 from .compiler import inner
 from .implicit_room import ImplicitRoom
 from .motion import Floats
-from .newton import ImplicitWeights
 from .phase import Phase, velocity
+from .stages import ImplicitWeights
 
 
 @inner

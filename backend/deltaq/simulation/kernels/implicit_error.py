@@ -10,7 +10,7 @@ import numpy as np
 from .compiler import inner
 from .implicit_room import ImplicitRoom
 from .linear import decompose, substitute
-from .newton import ImplicitWeights
+from .stages import ImplicitWeights
 
 
 @inner

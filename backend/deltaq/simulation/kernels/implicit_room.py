@@ -10,7 +10,7 @@ from .compiler import inner
 from .hermite import Ends, make_ends
 from .linear import Places
 from .motion import Floats
-from .newton import Stages, make_stages
+from .stages import Stages, make_stages
 
 
 class ImplicitRoom(NamedTuple):

@@ -12,8 +12,8 @@ from .hermite import sample_between
 from .implicit_room import ImplicitRoom, take
 from .implicit_step import attempt_implicit, begin, differentiate, prepare
 from .motion import FINE, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion
-from .newton import ImplicitWeights, predict
 from .phase import Phase, momenta
+from .stages import ImplicitWeights, predict
 from .step_control import Control, grown, shrunk
 from .watch import Watch, look_at, seen
 

@@ -8,8 +8,9 @@ from .compiler import inner
 from .implicit_error import error_of, prepare_error
 from .implicit_room import ImplicitRoom, add
 from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Floats, Motion, slope
-from .newton import ImplicitWeights, Start, assemble, middle, newton
+from .newton import assemble, newton
 from .phase import Phase, linearize, momenta, velocity
+from .stages import ImplicitWeights, Start, middle
 from .step import LARGEST_VALUE
 
 
