@@ -48,3 +48,8 @@ def test_what_is_solved_for_is_not_given(task: str, answer: str, unknown: set[st
 )
 def test_states_are_told_in_symbols_and_the_languages_numbers(language: str, told: str) -> None:
     assert told in verdict("elastic-pendulum", "position:bob", "[1, 2]", language)["feedback"]
+
+
+def test_the_acceleration_that_differs_is_named() -> None:
+    answer = "(M + m)*ddot(x) + m*l*cos(phi)*ddot(phi) - m*l*sin(phi)*dot(phi)^2 = 0; l*ddot(phi) + g*sin(phi) = 0"
+    assert r"your answer gives $\ddot{x} = 0.4462$" in verdict("cart-pendulum", "equations", answer)["feedback"]

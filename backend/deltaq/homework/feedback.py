@@ -69,7 +69,8 @@ def _sentences(verdict: Verdict, scene: Scene, language: str) -> list[str]:
 
 def _told(example: Counterexample, scene: Scene, language: str) -> str:
     state = ", ".join(f"${_typeset(name, scene)} = {_number(v, language)}$" for name, v in example.state.items())
-    yours, right = (f"${_number(value, language)}$" for value in (example.yours, example.right))
+    what = f"{_typeset(example.of, scene)} = " if example.of and not example.of.isdecimal() else ""
+    yours, right = (f"${what}{_number(value, language)}$" for value in (example.yours, example.right))
     return text(language, "homework.feedback.counterexample", state=state, yours=yours, right=right)
 
 

@@ -58,7 +58,7 @@ export function createExercise(store, api, progress, answering) {
     const other = entry?.key !== before?.key;
     ask({ task: entry?.id ?? "" });
     set({ entry, ...(other ? FRESH : {}), ...(entry && other ? { draft: progress.draft(entry.key) } : {}) });
-    if (elsewhere) set({ right: null, guides: [], lines: progress.lines(workingKey()), marked: null });
+    if (elsewhere) set({ right: null, still: false, guides: [], lines: progress.lines(workingKey()), marked: null });
     answering.arrive();
     if (!entry) return;
     if (elsewhere) void animate(entry);
@@ -73,7 +73,7 @@ export function createExercise(store, api, progress, answering) {
     const [right, written] = await Promise.all([simulated, typeset]);
     if (get().entry?.group !== entry.group) return;
     const latex = (written?.expressions ?? []).map((one) => one.latex);
-    set({ right, guides: latex.flatMap((left, i) => (i % 2 ? [] : [`${left} = ${latex[i + 1]}`])) });
+    set({ right, still: !right, guides: latex.flatMap((left, i) => (i % 2 ? [] : [`${left} = ${latex[i + 1]}`])) });
   }
 
   async function solve() {
@@ -137,6 +137,12 @@ export function createExercise(store, api, progress, answering) {
         const own = await api.simulate({ scene, ...MOTION, lang: lang() });
         if (get().entry?.key === entry.key) set({ own });
       });
+    },
+    /** The motion of the scene, asked for once more. */
+    again() {
+      const { entry } = get();
+      set({ still: false });
+      if (entry) void animate(entry);
     },
     /** The motion of the answer is no longer wanted. */
     part: () => set({ own: null }),

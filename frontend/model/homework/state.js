@@ -25,6 +25,7 @@ import { BLANK } from "./progress.js";
  * @property {string} notice  the key of a sentence
  * @property {Solution | null} solution
  * @property {Trajectory | null} right
+ * @property {boolean} still  there is no motion of the scene, for the server did not compute one
  * @property {Trajectory | null} own  as the answer says
  * @property {import("./progress.js").Line[]} lines  the whole working
  * @property {Marked | null} marked
@@ -37,7 +38,7 @@ export const FRESH = { reading: null, busy: "", trouble: null, notice: "", solut
 /** @param {import("./place.js").Asked} asked @returns {State} */
 export const begin = (asked) => ({
   asked, catalog: {}, scenes: [], assignment: null, sheet: null, failure: null, entry: null, guides: [], draft: BLANK, ...FRESH,
-  right: null, lines: [], marked: null, kept: true,
+  right: null, still: false, lines: [], marked: null, kept: true,
 });
 
 /** @typedef {ReturnType<typeof import("../store.js").createStore<State>>} Store */

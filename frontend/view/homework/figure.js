@@ -20,6 +20,7 @@ export function figure(view) {
     <div class="stage">
       <div class="drawing right"><svg role="img" aria-label=${t("drawing.description", { title, summary })}></svg><div class="labels" aria-hidden="true"></div></div>
       <div class="drawing yours" ?hidden=${!own}><svg aria-hidden="true"></svg><div class="labels" hidden></div></div>
+      ${state.still ? html`<div class="patience" role="status">${t("failure.simulation")}<button type="button" class="quiet framed small" @click=${() => view.exercise.again()}>${t("retry")}</button></div>` : nothing}
       ${own ? legend(view) : nothing}
     </div>
     ${player({ state: { trajectory: right, place }, clock, t, togglePlay, scrub })}

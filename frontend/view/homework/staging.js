@@ -39,6 +39,7 @@ export function createStaging(root, clock) {
     if (!begins) return;
     clock.seek(0);
     if (!still) clock.play(true);
+    root.querySelector(".stage")?.scrollIntoView({ block: "nearest", behavior: still ? "instant" : "smooth" });
   }
 
   return {

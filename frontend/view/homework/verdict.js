@@ -40,7 +40,7 @@ export function verdict(view) {
 function onward({ state, t, draftOf, exercise }) {
   const entries = state.sheet?.entries ?? [];
   const next = entries.slice(entries.findIndex(({ key }) => key === state.entry?.key) + 1).find(({ key }) => !draftOf(key).solved);
-  return next ? html`<p class="acts"><button type="button" class="quiet framed" @click=${() => exercise.show(next)}>${t("homework.next-task")}: ${prose(next.task.title)}${icon("next")}</button></p>` : nothing;
+  return next ? html`<p class="acts"><button type="button" class="quiet framed" @click=${() => exercise.show(next)}><span>${t("homework.next-task")}: ${prose(next.task.title)}</span>${icon("next")}</button></p>` : nothing;
 }
 
 /** @param {HomeworkView} view @param {Verdict} found */
