@@ -20,7 +20,7 @@ from ..simulation.reference import Reference
 from ..simulation.run import Run, Steps, run
 from .report import Document, rounded, significant
 
-SLOW = 0.15  # seconds of a run, beyond which a finer one is not tried
+SLOW = 0.3  # seconds of the fastest run, beyond which a finer one is not tried
 REPEATS, BRIEF = 7, 0.01  # short runs are repeated so often, long ones less
 
 
@@ -53,7 +53,7 @@ class Point:
 
     @property
     def is_slow(self) -> bool:
-        return self.time > SLOW
+        return min(self.seconds, default=0.0) > SLOW
 
     @property
     def described(self) -> Document:
@@ -100,7 +100,8 @@ def measure(problem: Problem, method: Method, reference: Reference, setting: Set
 def repeated(again: Callable[[], float], first: float, repeats: int) -> tuple[float, ...]:
     """The seconds of runs; the first one alone where it was long, and left out (it warms up) where it was short."""
     if first > BRIEF or repeats == 1:
-        return (first, *(again() for _ in range(min(2, repeats - 1))))
+        more = 1 if first > SLOW else min(2, repeats - 1)  # what seems slow may have been interrupted
+        return (first, *(again() for _ in range(more)))
     return tuple(again() for _ in range(repeats))
 
 
