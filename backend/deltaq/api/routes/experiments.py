@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine
 from dataclasses import replace
-from json import dumps, loads
+from json import loads
 from typing import Any
 
 from fastapi import APIRouter, Request, Response
@@ -73,9 +73,10 @@ async def _answer(service: Service, key: str, question: dict[str, Any], hear: Ca
 
 async def _exported(service: Service, media_type: str, answer: bytes, language: str) -> Response:
     """The charts as a page that needs nothing else, or their numbers as a table."""
-    document = {"charts": loads(answer)["charts"], "form": FILES[media_type], "lang": language}
-    found = loads(await service.run(EXPORT, loads(dumps(document))))
-    name = f"{loads(answer)['experiment']}-{loads(answer)['scene']}.{FILES[media_type]}"
+    result = loads(answer)
+    document = {"charts": result["charts"], "form": FILES[media_type], "lang": language}
+    found = loads(await service.run(EXPORT, document))
+    name = f"{result['experiment']}-{result['scene']}.{FILES[media_type]}"
     headers = {"Content-Disposition": f'attachment; filename="{name}"'}
     return Response(found["text"], media_type=media_type, headers=headers)
 
