@@ -8,11 +8,11 @@
  * @typedef {{name: string, position: string[]}} Point
  * @typedef {{name: string, kind: string, mass?: string, position: string[]}} Body
  * @typedef {{kind: string, name: string, at?: string, latex?: string, acceleration?: string[],
- *   from?: string, to?: string}} Load
+ *   from?: string, to?: string, moment?: string}} Load
  * @typedef {{coordinate: string, value: string}} Guide
  * @typedef {{name: string, value: string, at?: string}} SceneEvent
  * @typedef {{kind: string, at?: string, from?: string, to?: string, load?: string, coordinate?: string,
- *   direction?: string, radius?: number | string, width?: number, height?: number, label?: string}} Element
+ *   direction?: string, radius?: number | string, width?: number, height?: number, offset?: number, label?: string}} Element
  * @typedef {{vertical?: "up" | "down", view?: number[] | null, elements?: Element[]}} Drawing
  * @typedef {Record<string, string>} Texts  text by language
  * @typedef {{id: string, title: Texts, summary?: Texts, degrees_of_freedom: number, family?: Family}} SceneEntry

@@ -113,3 +113,19 @@ const FORCES = [["F", "\\mathbf{F}"], ["F0", "\\mathbf{F}_{0}"], ["F_1", "\\math
 for (const [name, latex] of FORCES) {
   test(`the symbol of a force named ${name}`, () => assert.equal(forceLatex({ kind: "force", name }), latex));
 }
+
+test("a dashpot keeps its cup and moves its piston; beside a spring it stands aside", () => {
+  const drawn = (/** @type {number} */ t, offset = 0) => figureAt(t, { ...scene, drawing: { ...scene.drawing, elements: [{ kind: "damper", from: "pivot", to: "bob", offset }] } });
+  const numbers = (/** @type {string | undefined} */ d) => (d ?? "").match(/-?[\d.]+/g)?.map(Number) ?? [];
+  const [early, late] = [drawn(0), drawn(4)].map((figure) => numbers(shape(figure, "damper0-cup")?.d));
+  assert.deepEqual(early.slice(0, 2), late.slice(0, 2), "it hangs at its first end");
+  const [x] = numbers(shape(drawn(0, 0.3), "damper0")?.d);
+  assert.ok(Math.abs(Math.abs(x - numbers(shape(drawn(0), "damper0")?.d)[0]) - 30) < 1e-6);
+});
+
+test("a moment goes round its place with its symbol, in the colour of its load", () => {
+  const turned = { ...scene, parameters: [...scene.parameters, { name: "M", latex: "M_0", unit: "N*m", value: 1 }], loads: [...scene.loads, { kind: "moment", name: "drive", moment: "M" }], drawing: { ...scene.drawing, elements: [{ kind: "moment", at: "pivot", load: "drive" }] } };
+  const { shapes, labels } = figureAt(1, turned);
+  assert.deepEqual(shapes.map(({ className }) => className), ["arrow load load-drive", "head load load-drive"]);
+  assert.equal(labels[0].latex, "M_0");
+});

@@ -17,12 +17,14 @@ ELEMENTS: dict[str, tuple[str, ...]] = {
     "block": ("at",),
     "bob": ("at",),
     "cart": ("at",),
+    "damper": ("from", "to"),
     "dimension": ("from", "to"),
     "disc": ("at",),
     "force": (),
     "ground": ("at",),
     "guide": ("at",),
     "hoop": ("at",),
+    "moment": ("at",),
     "pivot": ("at",),
     "rod": ("from", "to"),
     "spring": ("from", "to"),
@@ -31,7 +33,7 @@ ELEMENTS: dict[str, tuple[str, ...]] = {
     "weight": ("at",),
 }
 TEXTS = ("load", "coordinate", "direction", "label")
-SIZES = ("radius", "width", "height")  # a number, or the name of a parameter
+SIZES = ("radius", "width", "height", "offset")  # a number, or the name of a parameter
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,8 @@
 
 import { circle } from "./geometry.js";
 import { ground, guide, pivot, wall } from "./supports.js";
-import { bob, cart, disc, hoop, rod, spring, trail } from "./members.js";
-import { angle, dimension, force, weight } from "./marks.js";
+import { bob, cart, damper, disc, hoop, rod, spring, trail } from "./members.js";
+import { angle, dimension, force, moment, weight } from "./marks.js";
 import { sketchOf, verticalOf } from "./sketch.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
@@ -12,7 +12,7 @@ import { sketchOf, verticalOf } from "./sketch.js";
 
 /** Kinds of elements, undermost first. */
 export const KINDS = {
-  ground, wall, trail, dimension, angle, guide, spring, hoop, rod, cart, block: cart, disc, weight, force, pivot, bob,
+  ground, wall, trail, dimension, angle, guide, damper, spring, hoop, rod, cart, block: cart, disc, moment, weight, force, pivot, bob,
 };
 const ORDER = Object.keys(KINDS);
 

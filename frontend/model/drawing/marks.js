@@ -1,6 +1,6 @@
 /** What is written into a drawing: forces, weights, angles, dimensions. */
 
-import { add, arcFromDown, arrowHead, fromDown, lengthOf, line, normal, scaled, subtract, unit, wrapped } from "./geometry.js";
+import { add, arcFromDown, arrowHead, at as pixel, fromDown, lengthOf, line, normal, scaled, subtract, unit, wrapped } from "./geometry.js";
 import { coordinateClass, latexOf, placeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
@@ -88,6 +88,33 @@ function weightLatex(element, stage, load) {
   const names = [body?.mass, acceleration].map((name) => stage.scene.parameters.find((p) => p.name === name)?.latex || name);
   const plain = names.every((name) => name && /^[A-Za-z]\w*$|^\\?\w+(_\{?\w+\}?)?$/.test(name));
   return plain ? names.join("\\,") : "\\mathbf{G}";
+}
+
+/** Radians that the arrow of a moment goes round. */
+const ROUND = 4.2;
+
+/**
+ * A moment as an arrow round its place, in the sense in which its angle grows.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function moment(element, stage, now, key) {
+  const load = stage.scene.loads.find((candidate) => candidate.name === element.load);
+  const centre = placeOf(stage, now, element.at ?? "");
+  const radius = stage.unit * 2.3;
+  const at = (/** @type {number} */ turn) => add(centre, scaled(fromDown(turn), radius));
+  const [from, to] = [-ROUND / 2, ROUND / 2].map((turn) => turn + 0.6);
+  const back = to - 0.25;
+  const className = `load load-${element.load}`;
+  const arc = `M${pixel(at(from))}A${radius} ${radius} 0 1 0 ${pixel(at(back))}`;
+  const symbol = latexOf(stage.scene, load?.moment) || "M";
+  return {
+    shapes: [
+      { key: `${key}-arc`, d: arc, className: `arrow ${className}` },
+      { key: `${key}-head`, d: arrowHead(at(to), scaled(normal(fromDown(to - 0.12)), -1), stage.unit), className: `head ${className}` },
+    ],
+    labels: [{ key, latex: symbol, at: add(centre, scaled(fromDown(from + 0.5), radius + stage.unit)), className }],
+  };
 }
 
 /**

@@ -1,11 +1,12 @@
 /** What a system is made of: rod, spring, bob, cart, block, disc, hoop, and the trail a place leaves. */
 
-import { circle, coil, lengthOf, line, polygon, polyline, subtract } from "./geometry.js";
+import { add, circle, coil, lengthOf, line, normal, polygon, polyline, scaled, subtract, unit } from "./geometry.js";
 import { placeOf } from "./stage.js";
 import { trailOf } from "../trajectory.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
+/** @typedef {import("../types.js").Pixel} Pixel */
 /** @typedef {import("./stage.js").Stage} Stage */
 /** @typedef {import("../types.js").Snapshot} Snapshot */
 
@@ -24,8 +25,43 @@ export function spring(element, stage, now, key) {
   const [from, to] = [element.from ?? "", element.to ?? ""];
   const first = [from, to].map((place) => stage.project(stage.trajectory.positions[place]?.[0] ?? [0, 0]));
   const coils = Math.max(4, Math.min(12, Math.round(lengthOf(subtract(first[1], first[0])) / (stage.unit * 0.85))));
-  const d = coil(placeOf(stage, now, from), placeOf(stage, now, to), stage.unit * 0.72, coils);
+  const d = coil(...beside(element, stage, now), stage.unit * 0.72, coils);
   return { shapes: [{ key, d, className: `ink spring ${element.load ? `load-${element.load}` : ""}` }], labels: [] };
+}
+
+/**
+ * Both ends of an element, moved aside where another lies on the same line.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now
+ * @returns {[Pixel, Pixel]}
+ */
+function beside({ from = "", to = "", offset = 0 }, stage, now) {
+  const [a, b] = [placeOf(stage, now, from), placeOf(stage, now, to)];
+  const aside = scaled(normal(unit(subtract(b, a))), offset * stage.scale);
+  return [add(a, aside), add(b, aside)];
+}
+
+/**
+ * A dashpot: a cup at the first end, a piston that slides in it at the second.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function damper(element, stage, now, key) {
+  const [from, to] = beside(element, stage, now);
+  const first = ["from", "to"].map((end) => stage.project(stage.trajectory.positions[element[/** @type {"from" | "to"} */ (end)] ?? ""]?.[0] ?? [0, 0]));
+  const depth = lengthOf(subtract(first[1], first[0])) * 0.34;
+  const along = unit(subtract(to, from));
+  const wide = scaled(normal(along), stage.unit * 0.7);
+  const [bottom, rim] = [scaled(along, depth * 0.7), scaled(along, depth * 1.7)].map((reach) => add(from, reach));
+  const piston = subtract(to, scaled(along, depth * 1.4));
+  const narrow = scaled(wide, 0.8);
+  const className = `ink ${element.load ? `load-${element.load}` : ""}`;
+  return {
+    shapes: [
+      { key: `${key}-cup`, d: line(from, bottom) + polyline([add(rim, wide), add(bottom, wide), subtract(bottom, wide), subtract(rim, wide)]), className },
+      { key, d: line(to, piston) + line(add(piston, narrow), subtract(piston, narrow)), className: `${className} thick` },
+    ],
+    labels: [],
+  };
 }
 
 /** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
@@ -66,7 +102,9 @@ export function hoop(element, stage, now, key) {
     const offset = centre.length < 3 ? [across, along] : [across * Math.cos(turn), across * Math.sin(turn), along];
     return stage.project(centre.map((x, c) => x + offset[c]));
   });
-  return { shapes: [{ key, d: polyline(ring), className: `ink body-${element.at}` }], labels: [] };
+  const upright = [-1.2, 1.2].map((reach) => stage.project(centre.map((x, c) => (c === 2 ? x + reach * radius : x))));
+  const axis = centre.length < 3 ? [] : [{ key: `${key}-axis`, d: line(upright[0], upright[1]), className: "axis" }];
+  return { shapes: [...axis, { key, d: polyline(ring), className: `ink body-${element.at}` }], labels: [] };
 }
 
 /** A length given as a number or as the name of a parameter. @param {number | string | undefined} given @param {Stage} stage */

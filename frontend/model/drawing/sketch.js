@@ -18,7 +18,7 @@ export function sketchOf(scene, trajectory) {
   const paths = pathsOf(trajectory);
   const size = sizeOf(paths);
   const rods = rodsOf(scene, paths, size * EQUAL);
-  const coils = scene.loads.filter(joins).map((load) => ({ kind: "spring", from: load.from, to: load.to, load: load.name }));
+  const coils = scene.loads.filter(joins).map((load) => ({ kind: load.kind, from: load.from, to: load.to, load: load.name }));
   const held = [...new Set([...rods, ...coils].flatMap(({ from, to }) => [from ?? "", to ?? ""]))].filter((place) => isPoint(scene, place));
   return [
     ...held.flatMap((place) => support(place, paths[place] ?? [], size * EQUAL)),

@@ -31,7 +31,7 @@ export function ground(element, stage, now, key) {
 }
 
 /**
- * A fixed line, hatched on its right-hand side as seen from its start: a floor, where it goes to the left.
+ * A fixed line, hatched on its right-hand side as seen from its start: a floor, where it goes to the right.
  * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
  * @returns {Figure}
  */

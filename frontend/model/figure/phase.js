@@ -74,13 +74,22 @@ function portrait({ name, latex, unit }, className, trajectories, { left, width,
   };
 }
 
+/** Pixels from one number on an axis to the next, at least. */
+const APART = 48;
+
+/** The smallest of 1, 2, 5 times a power of ten that is not below x. @param {number} x */
+function niceCeil(x) {
+  const below = niceFloor(x);
+  return below >= 0.999 * x ? below : niceFloor(2.6 * below);
+}
+
 /** @param {number[]} values @param {number} from @param {number} to in pixels */
 function scaleOf(values, from, to) {
   const [low, high] = [Math.min(...values), Math.max(...values)];
   const room = 0.08 * Math.max(high - low, 1e-6 * Math.abs(high), 1e-9);
   const [a, b] = [low - room, high + room];
   const pixel = (/** @type {number} */ value) => from + ((value - a) / (b - a)) * (to - from);
-  const step = niceFloor((b - a) / 3);
+  const step = niceCeil(((b - a) * APART) / Math.abs(to - from));
   const first = Math.ceil(a / step);
   const ticks = Array.from({ length: Math.max(0, Math.floor(b / step) - first + 1) }, (_, i) => ({ value: Number(((first + i) * step).toPrecision(6)), position: pixel((first + i) * step) }));
   return { pixel, ticks };

@@ -10,7 +10,7 @@ import { arrow } from "../drawing/marks.js";
 /** @typedef {import("../drawing/stage.js").Stage} Stage */
 
 /** Only what moves has a ghost; what is written into a drawing has none. */
-const MEMBERS = /^(rod|spring|bob|cart|block|disc|hoop|pivot|guide)(?!\d*-(hatch|rail|triangle))/;
+const MEMBERS = /^(rod|spring|damper|bob|cart|block|disc|hoop|pivot|guide)(?!\d*-(hatch|rail|triangle))/;
 /** Arrows below this many units are too short for a head. */
 const SHORTEST = 0.5;
 
