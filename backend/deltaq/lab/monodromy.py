@@ -8,11 +8,9 @@ Source: Floquet (1883); Landau, Lifshitz, Mechanics, §27 and §30; Seydel, Prac
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,12 +28,13 @@ from ..simulation.problem import Floats
 from ..simulation.problem import Problem as InitialValueProblem
 from ..simulation.service import problem_of
 from ..simulation.stability import real_stability
+from .engine import engine
 
 METHOD = "dop853"
 TOLERANCE = 1e-12
 STEP_LIMIT = 20_000  # in one period
 ROUNDING = 1e-6  # of |μ|: central differences leave that much
-CHUNK = 256  # points that a thread takes at once
+CHUNK = 256  # points that are worked out at a time
 PROBES = 16  # points that are looked at first
 
 
@@ -77,20 +76,18 @@ class Plane:
     def map(self, cancelled: Flag | None = None) -> StabilityMap:
         """Every point, on all processors."""
         flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-        found, count = self._room, self._table.periods.size
-        spans = [(start, min(start + CHUNK, count)) for start in range(0, count, CHUNK)]
-        start = self._nearest(found, flag)
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
-            list(pool.map(lambda span: self._fill(span, start, found, flag), spans))
-        return self._read(found)
+        start = self._nearest(flag)
+        parts = [self._part(slice(first, first + CHUNK)) for first in range(0, self.periods.size, CHUNK)]
+        with engine() as executor:
+            found = list(executor.map(partial(surveyed, self.problem, start, flag), parts))
+        return self._read(Found(*map(np.concatenate, zip(*found, strict=True))))
 
-    def _nearest(self, found: Found, cancelled: Flag) -> Floats:
+    def _nearest(self, cancelled: Flag) -> Floats:
         """Of the periodic states at a few points, the one nearest to the problem's own state, so that all follow it."""
         own = self.problem.state[: 2 * self.problem.degrees]
-        places = np.unique(np.linspace(0, len(found.outcomes) - 1, PROBES).astype(int))
-        for place in places:
-            self._fill((int(place), int(place) + 1), own, found, cancelled)
-        good = found.states[places][found.outcomes[places] == FINE]
+        places = np.unique(np.linspace(0, self.periods.size - 1, PROBES).astype(int))
+        found = surveyed(self.problem, own, cancelled, self._part(places))
+        good = found.states[found.outcomes == FINE]
         return good[np.argmin(np.linalg.norm(good - own, axis=1))] if len(good) else own
 
     def refined(self, cancelled: Flag | None = None, coarsest: int = 8) -> Iterator[StabilityMap]:
@@ -108,28 +105,14 @@ class Plane:
             self._input(self.first), self._input(self.second), grid, np.ascontiguousarray(self.periods).ravel()
         )
 
+    def _part(self, places: slice | NDArray[np.int_]) -> Survey:
+        """Some rows of the table."""
+        values, periods = self._table.values[places], self._table.periods[places]
+        return self._table._replace(values=np.ascontiguousarray(values), periods=np.ascontiguousarray(periods))
+
     def _input(self, axis: Axis) -> int:
         """The place of the parameter among the inputs of the model."""
         return 2 * self.problem.degrees + 1 + self.problem.model.layout.parameters.index(axis.parameter)
-
-    @property
-    def _room(self) -> Found:
-        count, width = self.periods.size, 2 * self.problem.degrees
-        outcomes = np.full(count, CANCELLED, dtype=np.int64)
-        return Found(np.zeros((count, width)), np.zeros((count, width, width)), outcomes)
-
-    def _fill(self, span: tuple[int, int], start: Floats, found: Found, cancelled: Flag) -> None:
-        """Some points of the table; each thread has its own arrays."""
-        scheme = get_method(METHOD).tableau
-        if not isinstance(scheme, Tableau):
-            raise TypeError("the survey steps by an explicit Runge–Kutta method")
-        weights, width = explicit_weights(scheme), 2 * self.problem.degrees
-        motion = motion_of(self.problem)._replace(is_powered=False)
-        longest = float(self.periods.max())
-        control = Control(TOLERANCE, longest, longest, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme))
-        room = make_room(start.copy(), weights)
-        flow = Flow(motion, weights, control, unwatched(cancelled), room, np.zeros(2), np.zeros((2, width)))
-        survey(flow, start, self._table, span, found, make_desk(width))
 
     def _read(self, found: Found) -> StabilityMap:
         matrices = np.where(found.outcomes[:, None, None] == FINE, found.matrices, 0.0)
@@ -138,6 +121,22 @@ class Plane:
         shape, width = self.periods.shape, 2 * self.problem.degrees
         states, roots = found.states.reshape(*shape, width), multipliers.reshape(*shape, width)
         return StabilityMap(self.first, self.second, growth.reshape(shape), states, roots)
+
+
+def surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table: Survey) -> Found:
+    """Periodic states and monodromy matrices for the rows of a table, each looked for from the state `start`."""
+    scheme = get_method(METHOD).tableau
+    if not isinstance(scheme, Tableau):
+        raise TypeError("the survey steps by an explicit Runge–Kutta method")
+    weights, width, count = explicit_weights(scheme), 2 * problem.degrees, table.periods.size
+    longest = float(table.periods.max())
+    control = Control(TOLERANCE, longest, longest, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme))
+    motion, room = motion_of(problem)._replace(is_powered=False), make_room(start.copy(), weights)
+    flow = Flow(motion, weights, control, unwatched(cancelled), room, np.zeros(2), np.zeros((2, width)))
+    outcomes = np.full(count, CANCELLED, dtype=np.int64)
+    found = Found(np.zeros((count, width)), np.zeros((count, width, width)), outcomes)
+    survey(flow, start, table, (0, count), found, make_desk(width))
+    return found
 
 
 def warm() -> None:
