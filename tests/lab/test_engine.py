@@ -85,6 +85,5 @@ def test_nothing_is_missing_when_a_worker_is_lost_in_the_middle(cluster: list[su
         found = [first, *results]
     assert cluster[1].poll() is None
     expected = [work(part) for part in parts]
-    assert [np.array_equal(one.matrices, other.matrices) for one, other in zip(found, expected, strict=True)] == [
-        True
-    ] * 90
+    pairs = zip(found, expected, strict=True)
+    assert all(np.array_equal(one.matrices, other.matrices) for one, other in pairs)
