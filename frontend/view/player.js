@@ -9,7 +9,7 @@ import { fixed } from "../model/numbers.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
-/** @param {{state: Pick<View["state"], "trajectory" | "place">} & Pick<View, "clock" | "t" | "togglePlay" | "scrub">} view */
+/** @param {{state: Pick<View["state"], "trajectory" | "place">} & Pick<View, "clock" | "t" | "togglePlay" | "scrub"> & Partial<Pick<View, "instruments">>} view */
 export function player(view) {
   const { state, clock, t } = view;
   const label = clock.playing ? t("player.pause") : t("player.play");
@@ -18,6 +18,7 @@ export function player(view) {
     <div class="player" role="group" aria-label=${t("player")}>
       <button class="round" title=${label} aria-label=${label} ?disabled=${!state.trajectory} @click=${view.togglePlay}>
         ${icon(clock.playing ? "pause" : "play")}</button>
+      ${view.instruments?.steppers(view)}
       <span class="timeline"><span class="past"></span><span class="present"></span>
         <input class="scrub" type="range" min="0" max=${clock.end || 1} step="any" aria-label=${t("player.time")}
           ?disabled=${!state.trajectory} @input=${(/** @type {Event} */ e) => view.scrub(valueOf(e))}></span>

@@ -212,3 +212,14 @@ def test_nothing_shifts_while_the_figure_is_used(lecture: Lecture) -> None:
     page.locator(".figure-tools button").first.click()
     page.wait_for_timeout(300)
     assert page.evaluate("window.shift") < 0.02
+
+
+def test_one_picture_at_a_time(lecture: Lecture) -> None:
+    """Steps go on and back by a twenty-fifth of a second, and stop the motion."""
+    page = open_at_rest(lecture, "?scene=pendulum&lang=en&at=1")
+    page.get_by_role("button", name="One picture on").click()
+    expect(page.locator(".time")).to_have_text("1.04 s")
+    for _ in range(2):
+        page.get_by_role("button", name="One picture back").click()
+    expect(page.locator(".time")).to_have_text("0.96 s")
+    expect(page).to_have_url(re.compile("at=0.96"))

@@ -11,7 +11,7 @@ import { createPaths } from "./paths.js";
 import { createPhase } from "./phase.js";
 import { createRuns } from "./runs.js";
 import { createVirtual } from "./virtual.js";
-import { tools } from "./tools.js";
+import { steppers, tools } from "./tools.js";
 import { createWhy } from "./why.js";
 
 /** @typedef {import("../page.js").View} View */
@@ -70,6 +70,7 @@ export function open(around) {
   void session.need("figure");
   return {
     panel: virtual.panel,
+    steppers,
     why: createWhy(state),
     /** @param {View} view */
     tools(view) {

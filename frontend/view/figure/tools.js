@@ -1,6 +1,7 @@
 /** The buttons above the drawing. */
 
 import { html, svg } from "lit-html";
+import { icon } from "../icons.js";
 
 /** @typedef {import("../page.js").View} View */
 
@@ -13,6 +14,16 @@ const PATHS = {
 
 /** @param {keyof typeof PATHS} name */
 const picture = (name) => html`<svg class="icon" viewBox="0 0 20 20" aria-hidden="true">${svg`<path d=${PATHS[name]} />`}</svg>`;
+
+/** Seconds of the viewer's time that a step takes. */
+const STEP = 0.04;
+
+/** One picture back or on. @param {Pick<View, "clock" | "t" | "scrub">} view */
+export function steppers({ clock, t, scrub }) {
+  const button = (/** @type {"previous" | "next"} */ name, /** @type {1 | -1} */ by) => html`
+    <button class="tool" title=${t(`player.${name}`)} aria-label=${t(`player.${name}`)} @click=${() => scrub(clock.time + by * STEP * clock.speed)}>${icon(name)}</button>`;
+  return html`<span class="steppers">${button("previous", -1)}${button("next", 1)}</span>`;
+}
 
 /** @param {View} view @param {{keep: () => void}} actions */
 export function tools({ state, session, clock, t }, { keep }) {
