@@ -228,6 +228,14 @@ def test_a_motion_that_fails_gives_its_good_part_and_the_reason() -> None:
     assert "smaller step" in ended.stderr
 
 
+def test_an_event_is_said_in_words() -> None:
+    ended = command("simulate", "string-pendulum", "--t-end", "2", "--samples", "3", "--lang", "de")
+    assert ended.returncode == 2
+    assert ended.stdout.splitlines()[-1].startswith("0.70772")
+    assert "t = 0.707723 s" in ended.stderr
+    assert "Der Faden wird schlaff" in ended.stderr
+
+
 @pytest.mark.parametrize("name", ["derive", "simulate"])
 def test_a_scene_that_does_not_exist_is_told_with_the_nearest(name: str) -> None:
     ended = command(name, "double-pendulun")

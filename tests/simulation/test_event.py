@@ -11,6 +11,7 @@ from scipy.special import ellipkinc
 from tests.simulation.scenes import oscillator
 
 from deltaq.errors import Problem, SceneError
+from deltaq.mechanics.changes import change
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
@@ -136,6 +137,24 @@ def test_a_value_may_depend_on_all_that_moves(value: str, time: float, method: s
     assert found.outcome.code in TIMED
     assert (found.outcome.code == "event_timed") == (found.event.error > 1e-5 * found.event.time)
     assert abs(found.event.time - time) <= found.event.error <= 1e-3
+
+
+@pytest.mark.parametrize("method", ["dormand-prince-54", "radau-5", "implicit-midpoint", "newmark"])
+@pytest.mark.parametrize(
+    ("value", "time"),
+    [
+        pytest.param("0.05 - y", np.pi / 6, id="a guided coordinate"),
+        pytest.param("dot(y) - 0.05", np.pi / 3, id="its rate"),
+    ],
+)
+def test_a_value_may_depend_on_what_is_guided(value: str, time: float, method: str) -> None:
+    """y = 0.1 sin t feeds power in, so that the work is among the states."""
+    document = {**write_scene(load_scene("base-pendulum")), "events": [{"name": "met", "value": value}]}
+    scene = change(read_scene(document), guides=[{"coordinate": "y", "value": "0.1*sin(t)"}])
+    found = simulate(problem_of(scene, 3.0), get_method(method), tolerance=1e-5)
+    assert found.outcome.status == "event"
+    assert abs(found.event.time - time) <= found.event.error <= 1e-4
+    assert len(found.work) == len(found.times)
 
 
 @pytest.mark.parametrize("samples", [2, 7, 501, 5001])

@@ -11,6 +11,7 @@ from typing import Any
 from ..mechanics.document import examine
 from ..mechanics.toml import read_toml
 from ..narration.catalog import text
+from ..narration.outcome import explained
 from .problems import describe
 from .workers.kernels import mark_as_compiled
 
@@ -40,17 +41,6 @@ def simulate(document: Document) -> Document:
     """A trajectory; why it ended, and what to do about it, said in the language asked for."""
     answer: Document = import_module("deltaq.simulation.service").run(document["request"])
     return answer | explained(answer, document["request"]["lang"])
-
-
-def explained(answer: Document, language: str) -> Document:
-    """`reason`, `remedy` and why the method was chosen as sentences, from the codes that the simulation gave."""
-    code, event = answer["reason"]["code"], answer.get("event")
-    title = event and event["title"].get(language, event["name"])
-    parameters = answer["reason"]["parameters"] | ({"title": title} if event else {})
-    told = {part: text(language, f"statuses.{code}.{part}", **parameters) for part in ("reason", "remedy")}
-    choice = answer["choice"]
-    why = choice and text(language, f"statuses.{choice['code']}.reason", **choice["parameters"])
-    return {**told, "choice": why, **({"event": {**event, "title": title}} if event else {})}
 
 
 def validate(document: Document) -> Document:

@@ -52,10 +52,7 @@ def _table(answer: dict[str, Any]) -> str:
 
 
 def _reason(answer: dict[str, Any], language: str) -> str:
-    from ..narration.catalog import text
+    from ..narration.outcome import explained
 
-    reason = answer["reason"]
-    told = (
-        text(language, f"statuses.{reason['code']}.{part}", **reason["parameters"]) for part in ("reason", "remedy")
-    )
-    return " ".join(told)
+    told = explained(answer, language)
+    return f"{told['reason']} {told['remedy']}"

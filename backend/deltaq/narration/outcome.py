@@ -1,0 +1,21 @@
+"""How a simulation ended, in sentences."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .catalog import text
+
+Document = dict[str, Any]
+
+
+def explained(answer: Document, language: str) -> Document:
+    """`reason`, `remedy`, the event and why the method was chosen in words, from what the simulation gave."""
+    code, parameters, event = answer["reason"]["code"], answer["reason"]["parameters"], answer["event"]
+    if event:
+        event = {**event, "title": event["title"].get(language, event["name"])}
+        parameters = {**parameters, "title": event["title"]}
+    told = {part: text(language, f"statuses.{code}.{part}", **parameters) for part in ("reason", "remedy")}
+    choice = answer["choice"]
+    why = choice and text(language, f"statuses.{choice['code']}.reason", **choice["parameters"])
+    return {**told, "choice": why, "event": event}
