@@ -98,6 +98,7 @@ def test_every_page_is_two_clicks_from_every_page(lecture: Lecture, width: int) 
         shown = [str(link.get_attribute("href")) for link in page.locator(".places a").all()]
         assert [urlsplit(link).path for link in shown] == [urlsplit(link).path for link in pages]
         assert page.evaluate("document.documentElement.scrollWidth") == width
+        page.wait_for_load_state("networkidle")
         page.locator(".brand").click(force=True)
         expect(page.locator(".opening")).to_be_visible()
     page.goto(f"{lecture.address}docs")
