@@ -10,10 +10,11 @@ import { createConversion } from "./model/homework/conversion.js";
 import { createExercise } from "./model/homework/exercise.js";
 import { keyboardOf, shortcutsOf } from "./model/homework/keys.js";
 import { patient } from "./model/homework/patience.js";
-import { readAsked, writeAsked } from "./model/homework/place.js";
+import { readAsked, stepAddress, writeAsked } from "./model/homework/place.js";
 import { createProgress } from "./model/homework/progress.js";
 import { begin } from "./model/homework/state.js";
 import { createWorking } from "./model/homework/working.js";
+import { documentIn, OWN } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { startLanguage } from "./model/url.js";
 import { linkHighlights } from "./view/highlight.js";
@@ -105,7 +106,8 @@ function view() {
     keys: offered.keys, shortcuts: offered.shortcuts,
     t: translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.exercises) }),
     draftOf: (key) => (key === entry?.key ? state.draft : progress.draft(key)),
-    link: (patch) => location.pathname + writeAsked({ ...state.asked, ...patch }) + (state.assignment ? fragment : ""),
+    ownStep: (step) => (state.own ? stepAddress(OWN, step, state.asked.place) + fragment : ""),
+    link: (patch) => location.pathname + writeAsked({ ...state.asked, ...patch }) + (state.assignment || state.own ? fragment : ""),
     follow(event, go) {
       const { ctrlKey, metaKey, shiftKey } = /** @type {MouseEvent} */ (event);
       if (ctrlKey || metaKey || shiftKey) return;
@@ -120,10 +122,17 @@ function address(wanted) {
   if (wanted !== location.pathname + location.search + location.hash) history.replaceState(null, "", wanted);
 }
 
+/** The tasks on the page as questions of STACK. @param {object} reference */
+async function questions(reference) {
+  const body = JSON.stringify({ ...reference, lang: get().asked.place.lang });
+  const response = await fetch("/api/v1/tasks/stack", { method: "POST", headers: { "content-type": "application/json" }, body }).catch(() => null);
+  return response?.ok ? response.text() : null;
+}
+
 async function openClassroom() {
   if (classroom) return;
   const { open } = await import("./view/homework/open-classroom.js");
-  classroom = open({ api, state: get, changed: update, say: (key) => view().t(key) });
+  classroom = open({ api, state: get, changed: update, say: (key) => view().t(key), questions });
   update();
 }
 
@@ -167,7 +176,7 @@ requestAnimationFrame(tick);
 
 async function start() {
   fragment = location.hash;
-  const assignment = await assignmentIn(location.hash, "", api, get().asked.place.lang);
-  await Promise.all([speak(get().asked.place.lang), exercise.start(get().asked, assignment)]);
+  const [assignment, own] = await Promise.all([assignmentIn(location.hash, "", api, get().asked.place.lang), documentIn(location.hash)]);
+  await Promise.all([speak(get().asked.place.lang), exercise.start(get().asked, assignment, own)]);
 }
 void start();

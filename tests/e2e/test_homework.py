@@ -220,6 +220,42 @@ def test_the_answers_of_a_class_are_graded_and_their_mistakes_counted(lecture: L
     ]
 
 
+def test_a_teacher_gets_an_assignment_to_begin_with_and_questions_for_moodle(lecture: Lecture) -> None:
+    page = _open(lecture, "scene=pendulum&side=class&lang=en")
+    page.locator(".task").first.wait_for(timeout=PATIENCE)
+    with page.expect_download() as sheet:
+        page.get_by_role("button", name="Assignment of these tasks").click()
+    document = json.loads(sheet.value.path().read_text(encoding="utf-8"))
+    assert document["tasks"][0] == {"scene": "pendulum", "task": "position:bob", "points": 1}
+    with page.expect_download(timeout=PATIENCE) as questions:
+        page.get_by_role("button", name="Questions for Moodle").click()
+    assert questions.value.path().read_text(encoding="utf-8").count('type="stack"') == len(document["tasks"])
+
+
+OWN = {
+    "format": 1,
+    "id": "slider",
+    "title": {"en": "Slider", "de": "Gleiter"},
+    "coordinates": [{"name": "x", "unit": "m", "value": 1.0}],
+    "parameters": [{"name": "m", "unit": "kg", "value": 1.0}, {"name": "k", "unit": "N/m", "value": 4.0}],
+    "bodies": [{"name": "mass", "kind": "particle", "mass": "m", "position": ["x", "0"]}],
+    "loads": [{"kind": "potential", "name": "elastic", "energy": "k*x^2/2"}],
+}
+
+
+def test_a_scene_that_the_address_brings_along_has_tasks_too(lecture: Lecture) -> None:
+    page = _open(lecture)
+    fragment = page.evaluate("scene => import('/model/own.js').then(own => own.fragmentOf(scene))", OWN)
+    page.goto("about:blank")
+    page.goto(f"{lecture.address}homework?lang=en&task=equation:x{fragment}")
+    expect(page.locator("h1")).to_contain_text("Slider", timeout=PATIENCE)
+    _answer_as_text(page, "m*ddot(x) + k*x = 0")
+    _check(page, "correct")
+    page.get_by_role("button", name="Show the solution").click()
+    page.get_by_role("link", name="See this step").click(timeout=PATIENCE)
+    expect(page.locator("[data-step='equation:x'][aria-current]")).to_be_visible(timeout=PATIENCE)
+
+
 @pytest.mark.parametrize("language", ["de", "en"])
 def test_on_a_phone(lecture: Lecture, language: str) -> None:
     lecture.page.set_viewport_size({"width": 360, "height": 740})

@@ -11,7 +11,7 @@ import { patient } from "../../frontend/model/homework/patience.js";
 import { framed, parting } from "../../frontend/model/homework/motions.js";
 import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homework/place.js";
 import { BLANK, createProgress, draftOf } from "../../frontend/model/homework/progress.js";
-import { groupOf, pointsOf, referenceIn, sheetOfScene } from "../../frontend/model/homework/sheet.js";
+import { assignmentOf, groupOf, pointsOf, referenceIn, sheetOfScene } from "../../frontend/model/homework/sheet.js";
 import { begin } from "../../frontend/model/homework/state.js";
 import { readTable, writeTable } from "../../frontend/model/homework/table.js";
 import { ApiError } from "../../frontend/model/api.js";
@@ -275,7 +275,7 @@ const serverOf = (sent) => async (/** @type {string} */ path, /** @type {any} */
 test("a class: one bad answer, an unknown task or scene spoils no other", async () => {
   const sent = /** @type {any[]} */ ([]);
   const state = /** @type {any} */ ({ asked: { place: { lang: "en" } }, assignment: null, sheet: null, entry: null });
-  const session = createClassroom({ api: /** @type {any} */ ({ post: serverOf(sent) }), state: () => state, say: (key) => key });
+  const session = createClassroom({ api: /** @type {any} */ ({ post: serverOf(sent) }), state: () => state, say: (key) => key, questions: async () => null });
   await session.grade("class.csv", "student,scene,task,answer\na,pendulum,lagrangian,1\nb,pendulum,lagrangian,bad\nc,pendulum,other,1\nd,nowhere,lagrangian,1\n");
   const { results, done, running } = session.get();
   assert.deepEqual(results.map(({ outcome, points, of, feedback }) => [outcome, points, of, feedback]), [
@@ -295,4 +295,9 @@ test("a busy server is asked again, any other failure is not", async () => {
   assert.equal(await failing(503, 429)(), "answer");
   await assert.rejects(failing(422)(), ApiError);
   await assert.rejects(failing(503, 503, 503, 503, 503)(), ApiError);
+});
+
+test("an assignment of all tasks, without anybody's own values", () => {
+  const sheet = sheetOfScene({ scene: "swing", seed: "ada" }, /** @type {any} */ ({ scene, symbols, tasks: [task] }));
+  assert.deepEqual(assignmentOf(sheet, { en: "Swing" }), { format: 1, title: { en: "Swing" }, individual: false, follow_through: 0.5, tasks: [{ scene: "swing", task: "equation:phi", points: 3 }] });
 });

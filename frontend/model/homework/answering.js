@@ -111,7 +111,7 @@ export function createAnswering(store, api, progress) {
       if (!entry) return;
       const parts = partsIn(entry, draft);
       if (!isComplete(parts, entry.task.form)) return set({ notice: isEmpty(parts) ? "homework.empty" : "homework.incomplete" });
-      set({ notice: "", own: null });
+      set({ notice: "", answered: null });
       await verdict(entry, draft.syntax, valueOf(entry, draft), 1);
     },
     hint() {

@@ -15,8 +15,8 @@ const AT_ONCE = 12;
 /** @type {Class} */
 const EMPTY = { name: "", total: 0, done: 0, running: false, notice: "", column: "", results: [] };
 
-/** @param {{api: Pick<import("./state.js").Api, "post">, state: () => Pick<import("./state.js").State, "asked" | "assignment" | "sheet" | "entry">, say: (key: string) => string}} around  `say` finds a sentence */
-export function createClassroom({ api, state, say }) {
+/** @param {{api: Pick<import("./state.js").Api, "post">, state: () => Pick<import("./state.js").State, "asked" | "assignment" | "sheet" | "entry">, say: (key: string) => string, questions: (reference: object) => Promise<string | null>}} around  `say` finds a sentence, `questions` makes a file for STACK */
+export function createClassroom({ api, state, say, questions }) {
   const store = createStore(EMPTY);
   const { get, set } = store;
   let turn = 0;
@@ -70,6 +70,13 @@ export function createClassroom({ api, state, say }) {
     get,
     subscribe: store.subscribe,
     grade,
+    /** The tasks of the scene on the page as questions for Moodle; null if the server made none. */
+    async stack() {
+      const { seed: _, ...reference } = state().entry?.reference ?? {};
+      const file = await questions(reference);
+      set({ notice: file ? "" : "homework.class-no-questions", column: "" });
+      return file;
+    },
     stop() {
       turn += 1;
       set({ running: false });

@@ -30,13 +30,13 @@ export function createExercise(store, api, progress, answering) {
 
   /** The sheet that is asked for, in the language of the page. */
   async function fetchSheet() {
-    const { asked, assignment } = get();
+    const { asked, assignment, own } = get();
     if (assignment) {
       const { seed } = asked;
       const answer = await api.post("/assignments", { assignment, ...(seed ? { seed } : {}), lang: lang() });
       return sheetOfAssignment(assignment, seed, answer);
     }
-    const reference = referenceOf(asked.place.scene || FIRST_SCENE, asked.seed);
+    const reference = referenceOf(own ?? (asked.place.scene || FIRST_SCENE), asked.seed);
     return sheetOfScene(reference, await api.post("/tasks", { ...reference, lang: lang() }));
   }
 
@@ -99,16 +99,16 @@ export function createExercise(store, api, progress, answering) {
     load,
     solve,
     show,
-    /** @param {Asked} asked @param {Assignment | null} assignment */
-    async start(asked, assignment) {
-      set({ asked, assignment });
+    /** @param {Asked} asked @param {Assignment | null} assignment @param {import("../own.js").SceneDocument | null} own  a scene that the address brings along */
+    async start(asked, assignment, own) {
+      set({ asked, assignment, own });
       const listed = api.scenes().then(({ scenes }) => set({ scenes })).catch(() => {});
       await Promise.all([listed, load()]);
     },
     /** Another scene; what was typed for this one is kept. @param {string} scene */
     choose(scene) {
       ask({ task: "", place: { ...get().asked.place, scene } });
-      set({ assignment: null, sheet: null, entry: null });
+      set({ assignment: null, own: null, sheet: null, entry: null });
       return load();
     },
     /** @param {string} seed */
@@ -119,7 +119,7 @@ export function createExercise(store, api, progress, answering) {
     /** @param {Assignment} assignment */
     assign(assignment) {
       ask({ task: "" });
-      set({ assignment, sheet: null, entry: null });
+      set({ assignment, own: null, sheet: null, entry: null });
       return load();
     },
     /** @param {Partial<Asked["place"]>} patch */
@@ -134,8 +134,8 @@ export function createExercise(store, api, progress, answering) {
       await attempt(store, "trouble", "moving", async () => {
         const answer = { syntax: checked.syntax, value: checked.value };
         const { scene } = await api.post("/checks/motion", { ...entry.reference, task: entry.task.id, answer, lang: lang() });
-        const own = await api.simulate({ scene, ...MOTION, lang: lang() });
-        if (get().entry?.key === entry.key) set({ own });
+        const answered = await api.simulate({ scene, ...MOTION, lang: lang() });
+        if (get().entry?.key === entry.key) set({ answered });
       });
     },
     /** The motion of the scene, asked for once more. */
@@ -145,7 +145,7 @@ export function createExercise(store, api, progress, answering) {
       if (entry) void animate(entry);
     },
     /** The motion of the answer is no longer wanted. */
-    part: () => set({ own: null }),
+    part: () => set({ answered: null }),
     /** @param {import("./progress.js").Line[]} lines */
     write(lines) {
       set({ lines, kept: progress.write(workingKey(), lines) });

@@ -37,7 +37,7 @@ export function groupOf({ scene, seed, ...changes }) {
   return [name, ...(Object.keys(changes).length ? [digest(changes)] : []), ...(seed ? [String(seed)] : [])].join("@");
 }
 
-/** @param {string} scene @param {string} seed @returns {Reference} */
+/** @param {string | object} scene  by its id, or as a document @param {string} seed @returns {Reference} */
 export const referenceOf = (scene, seed) => (seed ? { scene, seed } : { scene });
 
 /** @param {Reference} reference @param {{scene: Scene, symbols: TaskSymbol[], tasks: Task[]}} answer @returns {Sheet} */
@@ -65,6 +65,15 @@ export function referenceIn(assignment, index, seed) {
   const given = assignment.tasks[index];
   const own = Object.fromEntries(CHANGES.filter((name) => name in given).map((name) => [name, given[name]]));
   return assignment.individual && seed ? { ...own, seed } : own;
+}
+
+/**
+ * An assignment of all tasks on a sheet, to begin one's own with.
+ * @param {Sheet} sheet @param {Record<string, string>} title @returns {Assignment}
+ */
+export function assignmentOf({ entries, followThrough }, title) {
+  const tasks = entries.map(({ reference: { seed: _, ...scene }, task }) => ({ ...scene, task: task.id, points: task.points }));
+  return /** @type {Assignment} */ ({ format: 1, title, individual: false, follow_through: followThrough, tasks });
 }
 
 /** Whether it is the library's scene as it is, so that its own page shows the same. @param {Reference} reference */

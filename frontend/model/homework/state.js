@@ -14,6 +14,7 @@ import { BLANK } from "./progress.js";
  * @property {import("../types.js").Catalog} catalog
  * @property {import("../types.js").SceneEntry[]} scenes
  * @property {import("./sheet.js").Assignment | null} assignment
+ * @property {import("../own.js").SceneDocument | null} own  a scene that the address brings along
  * @property {import("./sheet.js").Sheet | null} sheet
  * @property {Failure | null} failure  why there is no sheet
  * @property {import("./sheet.js").Entry | null} entry  the task on the page
@@ -26,18 +27,18 @@ import { BLANK } from "./progress.js";
  * @property {Solution | null} solution
  * @property {Trajectory | null} right
  * @property {boolean} still  there is no motion of the scene, for the server did not compute one
- * @property {Trajectory | null} own  as the answer says
+ * @property {Trajectory | null} answered  as the answer says
  * @property {import("./progress.js").Line[]} lines  the whole working
  * @property {Marked | null} marked
  * @property {boolean} kept  whether the browser keeps what is typed
  */
 
-/** What belongs to one task. @type {Pick<State, "reading" | "busy" | "trouble" | "notice" | "solution" | "own">} */
-export const FRESH = { reading: null, busy: "", trouble: null, notice: "", solution: null, own: null };
+/** What belongs to one task. @type {Pick<State, "reading" | "busy" | "trouble" | "notice" | "solution" | "answered">} */
+export const FRESH = { reading: null, busy: "", trouble: null, notice: "", solution: null, answered: null };
 
 /** @param {import("./place.js").Asked} asked @returns {State} */
 export const begin = (asked) => ({
-  asked, catalog: {}, scenes: [], assignment: null, sheet: null, failure: null, entry: null, guides: [], draft: BLANK, ...FRESH,
+  asked, catalog: {}, scenes: [], assignment: null, own: null, sheet: null, failure: null, entry: null, guides: [], draft: BLANK, ...FRESH,
   right: null, still: false, lines: [], marked: null, kept: true,
 });
 

@@ -3,6 +3,7 @@
 import { html, nothing } from "lit-html";
 import { prose } from "../formula.js";
 import { COLUMNS, SLIPS, summaryOf } from "../../model/homework/grading.js";
+import { assignmentOf } from "../../model/homework/sheet.js";
 import { writeTable } from "../../model/homework/table.js";
 import { offer } from "./files.js";
 
@@ -28,12 +29,26 @@ export function classroom(view, session) {
     <p class="prose">${t(state.assignment ? "homework.class-help-assignment" : "homework.class-help")}</p>
     <p class="acts"><label class="pick"><input class="unseen" type="file" accept=".csv,.tsv,.txt,text/csv" @change=${take}>${t("homework.class-open")}</label>
       <button type="button" class="quiet" @click=${() => offer("answers.csv", SAMPLE, "text/csv")}>${t("homework.class-sample")}</button></p>
+    ${state.entry ? preparing(view, session) : nothing}
     ${notice ? html`<p class="wrong" role="alert">${t(notice, { name: column })}</p>` : nothing}
     ${total && !notice ? html`<div class="grading"><progress max=${total} value=${done} aria-label=${t("homework.class-progress", { done, total })}></progress>
       <p role="status">${name}: ${t("homework.class-progress", { done, total })}</p>
       ${running ? html`<button type="button" class="quiet small" @click=${session.stop}>${t("homework.class-stop")}</button>` : nothing}</div>` : nothing}
     ${results.length ? outcome(view, session) : nothing}
   </section>`;
+}
+
+/** What a teacher begins with: an assignment of these tasks to be cut down, and the tasks as questions for Moodle. @param {HomeworkView} view @param {Classroom} session */
+function preparing({ state, t }, session) {
+  const { sheet, entry } = state;
+  const stack = async () => {
+    const file = await session.stack();
+    if (file) offer(`${entry?.scene.id}-stack.xml`, file, "application/xml");
+  };
+  const begin = () => sheet && offer(`${entry?.scene.id}-assignment.json`, JSON.stringify(assignmentOf(sheet, sheet.title ?? entry?.scene.title ?? {}), null, 1), "application/json");
+  return html`<p class="acts"><button type="button" class="quiet framed" @click=${begin}>${t("homework.class-assignment")}</button>
+    <button type="button" class="quiet framed" @click=${stack}>${t("homework.class-stack")}</button></p>
+    <p class="so">${t("homework.class-link")}</p>`;
 }
 
 /** @param {HomeworkView} view @param {Classroom} session */

@@ -12,16 +12,16 @@ import { player } from "../player.js";
 /** @param {HomeworkView} view */
 export function figure(view) {
   const { state, t, clock, togglePlay, scrub } = view;
-  const { entry, own, right } = state;
+  const { entry, answered, right } = state;
   const { place } = state.asked;
   const title = inLanguage(entry?.scene.title, place.lang);
   const summary = inLanguage(entry?.scene.summary, place.lang);
   return html`<section class="beside" aria-label=${t("drawing")}>
     <div class="stage">
       <div class="drawing right"><svg role="img" aria-label=${t("drawing.description", { title, summary })}></svg><div class="labels" aria-hidden="true"></div></div>
-      <div class="drawing yours" ?hidden=${!own}><svg aria-hidden="true"></svg><div class="labels" hidden></div></div>
+      <div class="drawing yours" ?hidden=${!answered}><svg aria-hidden="true"></svg><div class="labels" hidden></div></div>
       ${state.still ? html`<div class="patience" role="status">${t("failure.simulation")}<button type="button" class="quiet framed small" @click=${() => view.exercise.again()}>${t("retry")}</button></div>` : nothing}
-      ${own ? legend(view) : nothing}
+      ${answered ? legend(view) : nothing}
     </div>
     ${player({ state: { trajectory: right, place }, clock, t, togglePlay, scrub })}
     ${entry ? given(view) : nothing}
@@ -30,14 +30,14 @@ export function figure(view) {
 
 /** @param {HomeworkView} view */
 function legend({ state, t, exercise }) {
-  const { own, right, asked } = state;
-  if (!own || !right) return nothing;
-  const apart = parting(own, right);
+  const { answered, right, asked } = state;
+  if (!answered || !right) return nothing;
+  const apart = parting(answered, right);
   const { lang } = asked.place;
-  const ended = own.status !== "ok" && own.t.length < right.t.length;
+  const ended = answered.status !== "ok" && answered.t.length < right.t.length;
   return html`<div class="motions" role="status">
     <span class="key yours"><i></i>${t("homework.motion-yours")}</span><span class="key right"><i></i>${t("homework.motion-right")}</span>
-    <span class="apart">${ended ? own.reason : apart === null ? t("homework.motion-same") : t("homework.motion-apart", { time: fixed(apart, 2, lang) })}</span>
+    <span class="apart">${ended ? answered.reason : apart === null ? t("homework.motion-same") : t("homework.motion-apart", { time: fixed(apart, 2, lang) })}</span>
     <button type="button" class="quiet framed small" @click=${() => exercise.part()}>${t("homework.motion-close")}</button></div>`;
 }
 

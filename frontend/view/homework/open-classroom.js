@@ -3,9 +3,9 @@
 import { createClassroom } from "../../model/homework/classroom.js";
 import { classroom } from "./classroom.js";
 
-/** @param {{api: import("../../model/homework/state.js").Api, state: () => import("../../model/homework/state.js").State, changed: () => void, say: (key: string) => string}} around */
-export function open({ api, state, changed, say }) {
-  const session = createClassroom({ api, state, say });
+/** @param {{api: import("../../model/homework/state.js").Api, state: () => import("../../model/homework/state.js").State, changed: () => void, say: (key: string) => string, questions: (reference: object) => Promise<string | null>}} around */
+export function open({ api, state, changed, say, questions }) {
+  const session = createClassroom({ api, state, say, questions });
   session.subscribe(changed);
   return (/** @type {import("./page.js").HomeworkView} */ view) => classroom(view, session);
 }

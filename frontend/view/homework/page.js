@@ -31,6 +31,7 @@ import { working } from "./working.js";
  * @property {() => void} togglePlay
  * @property {(t: number) => void} scrub
  * @property {(patch: Partial<import("../../model/homework/place.js").Asked>) => string} link
+ * @property {(step: string) => string} ownStep  where the derivation of a scene from the address shows a step; "" if there is none
  * @property {import("../page.js").View["follow"]} follow
  * @property {() => void} download  the student's work as a file
  * @property {(file: File) => Promise<void>} upload  such a file, or an assignment
@@ -64,7 +65,7 @@ function heading({ state, t, exercise }) {
   const { place } = state.asked;
   const { lang } = place;
   const { scenes, sheet, assignment, entry } = state;
-  const chosen = entry?.scene.id ?? place.scene;
+  const chosen = state.own ? "" : (entry?.scene.id ?? place.scene);
   if (assignment) {
     const leave = () => void exercise.choose(typeof entry?.reference.scene === "string" ? entry.reference.scene : "");
     return html`<div class="scene"><h1>${inLanguage(sheet?.title ?? assignment.title, lang) || t("homework.assignment")}</h1>
@@ -72,8 +73,8 @@ function heading({ state, t, exercise }) {
   }
   return html`<div class="scene"><h1><label class="choice"><span class="unseen">${t("scene.choose")}</span>
       <select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => void exercise.choose(/** @type {HTMLSelectElement} */ (e.target).value)}>
-        ${scenes.some(({ id }) => id === chosen) ? nothing : html`<option value=${chosen} selected>${t("scene.choose")}</option>`}
-        ${scenes.map(({ id, title }) => html`<option value=${id} ?selected=${id === chosen}>${inLanguage(title, lang)}</option>`)}
+        ${scenes.some(({ id }) => id === chosen) && !state.own ? nothing : html`<option value=${chosen} selected>${inLanguage(entry?.scene.title, lang) || t("scene.choose")}</option>`}
+        ${scenes.map(({ id, title }) => html`<option value=${id} ?selected=${id === chosen && !state.own}>${inLanguage(title, lang)}</option>`)}
       </select>${icon("chevron")}</label></h1>
     <p class="summary">${entry ? inLanguage(entry.scene.summary, lang) : ""}</p></div>`;
 }

@@ -11,8 +11,8 @@ import { createTransport } from "../player.js";
 export function createStaging(root, clock) {
   /** @type {{right: ReturnType<typeof createDrawing>, yours: ReturnType<typeof createDrawing>, transport: ReturnType<typeof createTransport>} | null} */
   let parts = null;
-  /** @type {{entry: unknown, right: State["right"], own: State["own"], scene: import("../../model/types.js").Scene | null}} */
-  let staged = { entry: null, right: null, own: null, scene: null };
+  /** @type {{entry: unknown, right: State["right"], answered: State["answered"], scene: import("../../model/types.js").Scene | null}} */
+  let staged = { entry: null, right: null, answered: null, scene: null };
   let lang = "en";
 
   function assemble() {
@@ -25,16 +25,16 @@ export function createStaging(root, clock) {
   /** @param {number} t */
   function move(t) {
     parts?.right.draw(t);
-    if (staged.own) parts?.yours.draw(t);
+    if (staged.answered) parts?.yours.draw(t);
     parts?.transport.move(t, clock, lang);
   }
 
-  /** What is on the stage has changed: both motions get one frame, and the answer's own begins by itself. @param {State} state @param {boolean} still */
-  function set({ entry, right, own }, still) {
+  /** What is on the stage has changed: both motions get one frame, and that of the answer begins by itself. @param {State} state @param {boolean} still */
+  function set({ entry, right, answered }, still) {
     const scene = entry?.scene ?? null;
-    const begins = own !== null && own !== staged.own;
+    const begins = answered !== null && answered !== staged.answered;
     const renewed = right !== staged.right;
-    staged = { entry, right, own, scene: scene && right && own ? framed(scene, [right, own]) : scene };
+    staged = { entry, right, answered, scene: scene && right && answered ? framed(scene, [right, answered]) : scene };
     if (renewed) clock.setEnd(endOf(right));
     if (!begins) return;
     clock.seek(0);
@@ -48,9 +48,9 @@ export function createStaging(root, clock) {
     show(state, still) {
       parts ??= assemble();
       lang = state.asked.place.lang;
-      if (staged.entry !== state.entry || staged.right !== state.right || staged.own !== state.own) set(state, still);
+      if (staged.entry !== state.entry || staged.right !== state.right || staged.answered !== state.answered) set(state, still);
       parts.right.show(staged.scene, state.right, clock.time);
-      parts.yours.show(staged.scene, state.own, clock.time);
+      parts.yours.show(staged.scene, state.answered, clock.time);
       move(clock.time);
     },
   };

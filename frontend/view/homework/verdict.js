@@ -71,7 +71,7 @@ function example({ state, t }, { values, latex = {}, of, yours, right }) {
 /** @param {HomeworkView} view @param {Verdict} found */
 function comparing({ state, t, exercise }, { outcome }) {
   const offered = ["wrong", "follow_through", "undecided"].includes(outcome) && MOVING.includes(state.entry?.task.kind ?? "");
-  if (!offered || state.own) return nothing;
+  if (!offered || state.answered) return nothing;
   return html`<p class="acts"><button type="button" class="quiet framed" ?disabled=${state.busy === "moving"} @click=${exercise.compare}>${icon("play")}${t(state.busy === "moving" ? "homework.moving" : "homework.compare")}</button></p>`;
 }
 
@@ -91,11 +91,12 @@ export function solution(view) {
   if (!state.solution) return html`<p class="acts solving"><button type="button" class="quiet framed" ?disabled=${state.busy === "solving"} @click=${exercise.solve}>${t("homework.solution")}</button>
     ${draft.solved ? nothing : html`<span class="so">${t("homework.solution-costs")}</span>`}</p>`;
   const { latex, step } = state.solution;
+  const address = step && (isPlain(entry.reference) ? stepAddress(String(entry.reference.scene), step.id, state.asked.place) : view.ownStep(step.id));
   return html`<section class="worked" aria-label=${t("homework.solution")}>
     <h3>${t("homework.worked")}</h3>
     <div class="model-answer">${latex.map((one) => displayed(one))}</div>
     ${step ? html`<div class="shown-step"><h4>${prose(step.title)}</h4>${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
       ${step.marked || step.latex ? displayed(step.marked || step.latex) : nothing}
-      ${isPlain(entry.reference) ? html`<p><a href=${stepAddress(String(entry.reference.scene), step.id, state.asked.place)}>${t("homework.to-step")}</a></p>` : nothing}</div>` : nothing}
+      ${address ? html`<p><a href=${address}>${t("homework.to-step")}</a></p>` : nothing}</div>` : nothing}
   </section>`;
 }
