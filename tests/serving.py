@@ -12,6 +12,9 @@ from dataclasses import dataclass
 
 import httpx
 
+# The first simulations on a machine wait for a compiler.
+PATIENT = {"simulation_deadline": 300, "queue_patience": 300}
+
 
 @dataclass(frozen=True)
 class Served:

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx
-from tests.serving import Served, served
+from tests.serving import PATIENT, Served, served
 
 API = "api/v1"
 CLIENTS, PAUSE = 6, 0.1  # seconds between two kills
@@ -121,8 +121,10 @@ async def come_and_go(socket: Path) -> None:
 async def torment(service: Served, folder: Path, kills: int) -> Tally:
     """All of it, with the answers of quieter times to compare with, before and after."""
     tally = Tally()
-    async with httpx.AsyncClient(base_url=service.address, timeout=120) as client:
-        expected = [answer for _, answer in [await ask(client, question) for question in QUESTIONS]]
+    async with httpx.AsyncClient(base_url=service.address, timeout=300) as client:
+        before = [await ask(client, question) for question in QUESTIONS]
+        assert {status for status, _ in before} == {200}
+        expected = [answer for _, answer in before]
         others = [use(client, expected, tally) for _ in range(CLIENTS)]
         others += [damage(folder, tally), come_and_go(folder / "redis.socket")]
         running = [asyncio.create_task(one) for one in others]
@@ -142,7 +144,7 @@ def run(kills: int) -> Tally:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         settings = {"workers": 3, "cache_size": 0, "cache_folder": folder, "redis": f"unix://{folder}/redis.socket"}
-        with served(**settings) as service:
+        with served(**settings, **PATIENT) as service:
             return asyncio.run(torment(service, folder, kills))
 
 

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.serving import served
+from tests.serving import PATIENT, served
 
 # What the document allows may still be refused for its meaning: a scene with an unknown name, say.
 TOO_STRICT = "positive_data_acceptance"
@@ -23,12 +23,13 @@ def drive(address: str, folder: Path, examples: int, *options: str) -> subproces
     """Run schemathesis over the whole document; it ends with 0 if nothing was found."""
     command = [sys.executable, "-m", "schemathesis.cli", "run", f"{address}api/v1/openapi.json", "--no-color"]
     chosen = ["--checks", "all", "--exclude-checks", TOO_STRICT, "--exclude-path-regex", LEFT_OUT]
-    effort = ["--max-examples", str(examples), "--seed", "1", "--continue-on-failure", *options]
+    patience = ["--request-timeout", "300"]
+    effort = ["--max-examples", str(examples), "--seed", "1", "--continue-on-failure", *patience, *options]
     return subprocess.run([*command, *chosen, *effort], cwd=folder, capture_output=True, text=True, check=False)
 
 
 if __name__ == "__main__":
-    with served() as service, tempfile.TemporaryDirectory() as name:
+    with served(**PATIENT) as service, tempfile.TemporaryDirectory() as name:
         found = drive(service.address, Path(name), int(sys.argv[1]), "--phases", "examples,coverage,fuzzing")
     print(found.stdout)
     sys.exit(found.returncode)

@@ -12,7 +12,7 @@ from contextlib import suppress
 
 import httpx
 import pytest
-from tests.serving import Served, served
+from tests.serving import PATIENT, Served, served
 
 HEAVY = {"scene": "chain-pendulum", "method": "radau-5", "t_end": 1e4, "tolerance": 1e-12}  # many seconds of work
 
@@ -131,15 +131,15 @@ def test_work_goes_on_while_anybody_waits_for_it() -> None:
 
 
 def test_requests_under_way_are_answered_when_the_service_ends() -> None:
-    with served(workers=1, drain_timeout=60) as service:
+    with served(workers=1, drain_timeout=300, **PATIENT) as service:
         assert within(60.0, service, 0)
         answers: list[httpx.Response] = []
         address, question = f"{service.address}api/v1/simulations", HEAVY | {"t_end": 300.0}
-        asking = threading.Thread(target=lambda: answers.append(httpx.post(address, json=question, timeout=60)))
+        asking = threading.Thread(target=lambda: answers.append(httpx.post(address, json=question, timeout=300)))
         asking.start()
         assert within(20.0, service, 1)
         service.process.send_signal(signal.SIGTERM)
-        asking.join(60.0)
+        asking.join(300.0)
         assert [answer.status_code for answer in answers] == [200]
         service.process.communicate(timeout=30)
         with pytest.raises(httpx.ConnectError):

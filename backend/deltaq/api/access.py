@@ -51,7 +51,8 @@ class Access:
             seconds = perf_counter() - start
             facts = {"method": method_of(scope), "route": route_of(scope), "status": str(status)}
             self.metrics.latencies.labels(**facts).observe(seconds)
-            LOGGER.info("answered", extra={"facts": facts | {"bytes": size, "ms": round(1000 * seconds, 1)}})
+            if LOGGER.isEnabledFor(logging.INFO):
+                LOGGER.info("answered", extra={"facts": facts | {"bytes": size, "ms": round(1000 * seconds, 1)}})
             REQUEST_ID.reset(named)
 
 
