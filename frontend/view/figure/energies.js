@@ -11,6 +11,8 @@ export function createEnergies({ frame, state, now }) {
   box.className = "energies";
   box.setAttribute("aria-hidden", "true");
   let largest = 1;
+  /** @type {HTMLElement[]} */
+  let fills = [];
   /** @type {unknown} */
   let shownFor = null;
 
@@ -26,12 +28,13 @@ export function createEnergies({ frame, state, now }) {
       largest = high - low || 1;
       render(KINDS.map(([key, latex]) => html`
         <span class="column energy-${key}"><span class="rail"><i class="zero" style="top:${(100 * high) / largest}%"></i><i class="fill" style="top:${(100 * high) / largest}%"></i></span>${inline(latex)}</span>`), box);
+      fills = [...box.querySelectorAll(".fill")].map((fill) => /** @type {HTMLElement} */ (fill));
     },
     move() {
       const energy = box.isConnected ? now()?.energy : null;
       if (!energy) return;
-      box.querySelectorAll(".fill").forEach((fill, i) => {
-        /** @type {HTMLElement} */ (fill).style.transform = `scaleY(${-energy[KINDS[i][0]] / largest})`;
+      fills.forEach((fill, i) => {
+        fill.style.transform = `scaleY(${-energy[KINDS[i][0]] / largest})`;
       });
     },
   };

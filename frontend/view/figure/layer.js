@@ -11,5 +11,14 @@ export function layerIn(frame, name) {
   labels.className = "labels";
   for (const part of [svg, labels]) part.setAttribute("aria-hidden", "true");
   frame.append(svg, labels);
-  return { svg, draw: createSheet(svg, labels) };
+  const sheet = createSheet(svg, labels);
+  let fitted = "";
+  return {
+    /** @param {import("../../model/types.js").Figure} figure @param {{width: number, height: number}} [size] of the drawing */
+    draw(figure, size) {
+      const box = size ? `0 0 ${size.width} ${size.height}` : fitted;
+      if (box !== fitted) svg.setAttribute("viewBox", (fitted = box));
+      sheet(figure);
+    },
+  };
 }

@@ -6,7 +6,7 @@ import { polyline } from "../../model/drawing/geometry.js";
 const POINTS = 1500;
 
 /** @param {import("./open.js").Bench} bench @param {ReturnType<typeof import("./layer.js").layerIn>} layer */
-export function createPaths({ parts: { drawing }, state }, { svg, draw }) {
+export function createPaths({ parts: { drawing }, state }, { draw }) {
   /** @type {unknown[]} */
   let drawnFor = [];
 
@@ -21,8 +21,7 @@ export function createPaths({ parts: { drawing }, state }, { svg, draw }) {
       if (!on) return draw({ shapes: [], labels: [] });
       const stride = Math.ceil(trajectory.t.length / POINTS);
       const path = (/** @type {string} */ name) => polyline((trajectory.positions[name] ?? []).filter((_, i) => i % stride === 0).map(stage.project));
-      svg.setAttribute("viewBox", `0 0 ${stage.size.width} ${stage.size.height}`);
-      draw({ shapes: scene.bodies.map(({ name }) => ({ key: name, d: path(name), className: `path body-${name}` })), labels: [] });
+      draw({ shapes: scene.bodies.map(({ name }) => ({ key: name, d: path(name), className: `path body-${name}` })), labels: [] }, stage.size);
     },
   };
 }

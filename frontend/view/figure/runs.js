@@ -1,7 +1,6 @@
 /** Runs beside the present one: drawn as outlines, dashed in the plots, named in a legend. */
 
 import { html } from "lit-html";
-import { createSheet } from "../drawing.js";
 import { inline } from "../formula.js";
 import { icon } from "../icons.js";
 import { DASHES, differences, keyOf, readRuns, withoutRun, withRun } from "../../model/figure/runs.js";
@@ -11,8 +10,8 @@ import { keeper } from "../../model/drawing/stage.js";
 
 /** @typedef {import("../../model/figure/runs.js").Run} Run */
 
-/** @param {import("./open.js").Bench} bench @param {{svg: SVGSVGElement, draw: ReturnType<typeof createSheet>}} layer */
-export function createRuns({ parts: { drawing }, state, session, clock }, { svg, draw }) {
+/** @param {import("./open.js").Bench} bench @param {ReturnType<typeof import("./layer.js").layerIn>} layer */
+export function createRuns({ parts: { drawing }, state, session, clock }, { draw }) {
   let asked = "";
   /** @type {WeakMap<object, import("../../model/drawing/stage.js").Stage>} */
   const stages = new WeakMap();
@@ -52,8 +51,7 @@ export function createRuns({ parts: { drawing }, state, session, clock }, { svg,
       const { runs } = state();
       if (!stage || (!runs.length && !drawn)) return;
       drawn = runs.length > 0;
-      svg.setAttribute("viewBox", `0 0 ${stage.size.width} ${stage.size.height}`);
-      draw({ shapes: runs.flatMap((run, i) => outline(stageOf(run, stage), snapshotAt(run.trajectory, clock.time), `run-${i}`)), labels: [] });
+      draw({ shapes: runs.flatMap((run, i) => outline(stageOf(run, stage), snapshotAt(run.trajectory, clock.time), `run-${i}`)), labels: [] }, stage.size);
     },
     /** @param {import("../page.js").View} view */
     legend({ state, session, t, methodTitle }) {

@@ -48,11 +48,9 @@ export function createVirtual(bench) {
     if (!stage || !found) return clear();
     shown = true;
     frame.classList.add("varied");
-    const { width, height } = stage.size;
     const figure = virtualFigure(stage, found);
-    for (const { svg } of [under, over]) svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    under.draw(figure.under);
-    over.draw(figure.over);
+    under.draw(figure.under, stage.size);
+    over.draw(figure.over, stage.size);
     weigh(found);
   }
 
