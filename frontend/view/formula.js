@@ -40,7 +40,9 @@ function fit(element) {
   const source = sources.get(element);
   if (source?.broken) whole(element, source.latex);
   const part = shrink(element, width);
-  if (part < SMALLEST && source) void goOnBelow(element, source.latex, part / COMFORTABLE);
+  // A lecture would rather have more lines than smaller ones.
+  const bearable = part < 1 ? Number(getComputedStyle(element).getPropertyValue("--bearable")) || SMALLEST : SMALLEST;
+  if (part < bearable && source) void goOnBelow(element, source.latex, part / Math.max(bearable, COMFORTABLE));
 }
 
 /** @param {HTMLElement} element @param {number} width @returns {number} the size at which it would fit */

@@ -70,7 +70,7 @@ function bar(view, { go, present, leave, spot, spotted }) {
   const tool = (/** @type {Parameters<typeof icon>[0]} */ name, /** @type {string} */ label, /** @type {() => void} */ press, /** @type {boolean | null} */ pressed = null) => html`
     <button class="tool" title=${label} aria-label=${label} aria-pressed=${pressed === null ? nothing : String(pressed)} @click=${press}>${icon(name)}</button>`;
   return html`
-    <footer class="pager bar">
+    <footer class="pager lecturing">
       ${tool("previous", t("lecture.back"), () => go(-1))}
       ${tool("next", t("lecture.on"), () => go(1))}
       <div class="progress" aria-label=${t("step.progress", { position, total })} role="img">
