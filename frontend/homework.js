@@ -136,6 +136,12 @@ async function openClassroom() {
   update();
 }
 
+/** @param {() => void} task */
+function whenIdle(task) {
+  if (window.requestIdleCallback) window.requestIdleCallback(task, { timeout: 500 });
+  else task();
+}
+
 async function fetchFormulas() {
   formulas = await fetchMathLive();
   offerKeys(offered.keys, "δq");
@@ -157,7 +163,7 @@ function update() {
   if (side === "class") void openClassroom();
   if (!entry || wanted) return;
   wanted = true;
-  void fetchFormulas();
+  whenIdle(() => void fetchFormulas());
 }
 
 store.subscribe(update);

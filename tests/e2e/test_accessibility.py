@@ -38,6 +38,18 @@ def share(page: Page) -> None:
     expect(page.locator("dialog.share")).to_be_visible()
 
 
+def answer(page: Page) -> None:
+    """A wrong answer with its verdict, a hint, both motions and the solution."""
+    page.locator(".answer-head .segments button").nth(1).click()
+    page.locator("textarea.entry").fill("l*ddot(phi) = g*sin(phi)")
+    page.locator(".answering button.main").click()
+    page.locator(".verdict-card .acts button").click(timeout=PATIENCE)
+    page.locator(".answering .acts .quiet").click()
+    page.locator(".solving button, .worked").first.click(timeout=PATIENCE)
+    expect(page.locator(".motions")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".worked")).to_be_visible(timeout=PATIENCE)
+
+
 SCENE = "scene?scene=elastic-pendulum&step=generalized-forces"
 # Where, what must be there before it is looked at, and what is done first.
 PLACES = [
@@ -52,6 +64,8 @@ PLACES = [
     pytest.param("proof?", ".steps .katex", nothing, id="proof"),
     pytest.param("labs?", "main", nothing, id="labs"),
     pytest.param("homework?", "main .katex", nothing, id="homework"),
+    pytest.param("homework?scene=pendulum&task=equation:phi", ".question h2", answer, id="homework, answered"),
+    pytest.param("homework?scene=pendulum&side=class", ".classroom .pick", nothing, id="homework of a class"),
 ]
 DIALOGS = [
     pytest.param(SCENE, ".steps .katex", pressing("?"), id="help"),
