@@ -33,6 +33,11 @@ def pressing(key: str) -> Callable[[Page], None]:
     return lambda page: page.keyboard.press(key)
 
 
+def measure(page: Page) -> None:
+    page.locator("form.question button.main").click()
+    page.locator("p.files").wait_for(timeout=3 * PATIENCE)
+
+
 def share(page: Page) -> None:
     page.locator(".tools .tool").nth(1).click()
     expect(page.locator("dialog.share")).to_be_visible()
@@ -63,6 +68,10 @@ PLACES = [
     pytest.param("variations?", ".steps .katex", nothing, id="variations"),
     pytest.param("proof?", ".steps .katex", nothing, id="proof"),
     pytest.param("labs?", "main", nothing, id="labs"),
+    pytest.param("labs?lab=convergence&scene=pendulum&t=1", "button.main:enabled", measure, id="labs, measured"),
+    pytest.param(
+        "labs?lab=stability&scene=two-mass-oscillator&t=1", "button.main:enabled", measure, id="labs, a table"
+    ),
     pytest.param("homework?", "main .katex", nothing, id="homework"),
     pytest.param("homework?scene=pendulum&task=equation:phi", ".question h2", answer, id="homework, answered"),
     pytest.param("homework?scene=pendulum&side=class", ".classroom .pick", nothing, id="homework of a class"),
