@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import plotly.graph_objects as go
 import pytest
 
-from deltaq.lab.charts.chart import look, short
+from deltaq.lab.charts.chart import look
+from deltaq.lab.charts.words import spoken, words
 from deltaq.lab.experiment import drawn, get_experiment
 from deltaq.lab.experiments import chaos, energy_drift, fidelity, stability
 from deltaq.lab.export import page, table
@@ -30,12 +30,12 @@ QUESTIONS: dict[str, dict[str, Any]] = {
 @pytest.mark.parametrize("name", QUESTIONS)
 @pytest.mark.parametrize("lang", ["de", "en"])
 def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str) -> None:
-    experiment, say = get_experiment(name), partial(text, lang)
+    experiment, say = get_experiment(name), words(text, lang)
     reports = list(experiment.run(QUESTIONS[name]))
     for report in (reports[0], reports[len(reports) // 2], reports[-1]):
         for chart in experiment.charts(report.result, say):
             go.Figure({"data": chart["data"], "layout": chart["layout"]})  # Plotly refuses what it does not know
-    charts = drawn(experiment, reports[-1].result, say, lang)
+    charts = drawn(experiment, reports[-1].result, text, lang)
     assert all(chart["subject"].startswith(reports[-1].result["title"][lang]) for chart in charts)  # type: ignore[index]
     assert table(charts).count("\n") > 10
     assert page(charts, lang).count("<figure>") == len(charts)
@@ -56,10 +56,19 @@ def test_every_way_to_end_has_its_words(lang: str) -> None:
 
 @pytest.mark.parametrize(
     ("number", "expected"),
-    [(None, "–"), (0.0, "0"), (1.5, "1.5"), (1e-14, "1·10⁻¹⁴"), (12345.0, "1.23·10⁴"), (-2e-7, "-2·10⁻⁷")],
+    [
+        pytest.param(None, "–", id="none"),
+        pytest.param(0.0, "0", id="zero"),
+        pytest.param(1.5, "1,5", id="comma"),
+        pytest.param(7, 7, id="whole"),
+        pytest.param("dop853", "dop853", id="word"),
+        pytest.param(1e-14, "1·10⁻¹⁴", id="small"),
+        pytest.param(12345.0, "1,23·10⁴", id="large"),
+        pytest.param(-2e-7, "−2·10⁻⁷", id="negative"),
+    ],
 )
-def test_numbers_are_written_as_they_are_printed(number: float | None, expected: str) -> None:
-    assert short(number) == expected
+def test_numbers_are_written_as_they_are_printed(number: object, expected: object) -> None:
+    assert spoken(number, "de") == expected
 
 
 def test_one_experiment_is_one_file() -> None:

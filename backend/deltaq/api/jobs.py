@@ -139,7 +139,7 @@ def experiment(document: Document) -> Iterator[Document]:
     given = {key: value for key, value in document.items() if key != "experiment" and value is not None}
     module, lang = import_module("deltaq.lab.experiment"), document["lang"]
     found, shown, result = module.get_experiment(document["experiment"]), 0.0, {}
-    drawn = partial(module.drawn, found, say=partial(text, lang), language=lang)
+    drawn = partial(module.drawn, found, text=text, language=lang)
     for report in found.run(given):
         result = report.result
         if monotonic() - shown > PART_PAUSE:

@@ -6,7 +6,6 @@ import argparse
 import json
 import sys
 from collections.abc import Iterator
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -48,7 +47,7 @@ def run(options: argparse.Namespace) -> None:
     result: dict[str, Any] = {}
     for report in _with_progress(experiment.run(question_of(options))):
         result = report.result
-    charts = drawn(experiment, result, partial(text, options.lang), options.lang)
+    charts = drawn(experiment, result, text, options.lang)
     outputs = options.output or [Path(f"{experiment.id}-{result['scene']}{suffix}") for suffix in (".json", ".html")]
     for output in outputs:
         output.write_text(_file(output.suffix, {**result, "charts": charts}, options.lang), encoding="utf-8")

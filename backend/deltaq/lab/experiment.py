@@ -10,7 +10,8 @@ from typing import Any
 
 from ..errors import Problem, UnknownNameError
 from ..packages import modules_of
-from .charts.chart import Chart, Say, short
+from .charts.chart import Chart
+from .charts.words import Say, spoken, words
 from .report import Document, Report
 
 
@@ -27,16 +28,19 @@ class Experiment:
     charts: Callable[[Document, Say], list[Chart]]
 
 
-def drawn(experiment: Experiment, result: Document, say: Say, language: str) -> list[Chart]:
-    """The charts of a result; each says which scene with which values it is about."""
+def drawn(experiment: Experiment, result: Document, text: Callable[..., str], language: str) -> list[Chart]:
+    """The charts of a result; each says which scene with which values it is about.
+
+    `text(language, key, **parameters)` has the words.
+    """
     subject = _subject(result, language)
-    return [{**chart, "subject": subject} for chart in experiment.charts(result, say)]
+    return [{**chart, "subject": subject} for chart in experiment.charts(result, words(text, language))]
 
 
 def _subject(result: Mapping[str, Any], language: str) -> str:
     titles, values = result["title"], dict(result["parameters"])
     values |= {f"{name}(0)": start["value"] for name, start in result["initial"].items()}
-    told = ", ".join(f"{name} = {short(value)}" for name, value in values.items())
+    told = ", ".join(f"{name} = {spoken(value, language)}" for name, value in values.items())
     return f"{titles.get(language) or next(iter(titles.values()), result['scene'])}: {told}"
 
 

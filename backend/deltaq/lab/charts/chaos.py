@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from .chart import PALETTE, Chart, Result, Say, Trace, axis, chart, short
+from .chart import PALETTE, Chart, Result, Trace, axis, chart
+from .words import Say
 
 SCALE = [[0.0, "#fde725"], [0.35, "#35b779"], [0.7, "#31688e"], [1.0, "#440154"]]
 
@@ -34,7 +35,7 @@ def _twins(result: Result, say: Say) -> Chart:
         ends = [result["apart"], result["apart"] * math.exp(rate * until)]
         traces.append(_line([0.0, until], ends, 1, "e<sup>λt</sup>") | {"line": {"color": PALETTE[1], "dash": "dash"}})
     axes = {"xaxis": axis(say("labs.axis.t")), "yaxis": axis(say("labs.chaos.distance-axis"), log=True)}
-    caption = say("labs.chaos.twins-caption", apart=short(result["apart"]))
+    caption = say("labs.chaos.twins-caption", apart=result["apart"])
     return chart("chaos-twins", say("labs.chaos.twins"), caption, traces, **axes)
 
 
@@ -42,7 +43,7 @@ def _exponent(result: Result, say: Say) -> Chart:
     told = result["exponent"]
     traces = [_line(told["t"], told["values"], 2, "λ(t)")]
     axes = {"xaxis": axis(say("labs.axis.t")), "yaxis": axis("λ / s⁻¹", rangemode="tozero")}
-    caption = say("labs.chaos.exponent-caption", last=short(told["last"]), spread=short(told["spread"]))
+    caption = say("labs.chaos.exponent-caption", last=told["last"], spread=told["spread"])
     if "horizon" in result and not _can_be_drawn(result, "horizon"):
         caption += " " + say("labs.chaos.no-horizon")
     return chart("chaos-exponent", say("labs.chaos.exponent"), caption, traces, showlegend=False, **axes)
@@ -59,7 +60,7 @@ def _horizon(result: Result, say: Say) -> Chart:
         traces.append(_line(x, fitted, 1, ""))
     rate = result.get("exponent", {}).get("last", 0.0)
     theory = math.log(10.0) / rate if rate > 1e-3 else None
-    caption = say("labs.chaos.horizon-caption", measured=short(told["per_digit"]), theory=short(theory))
+    caption = say("labs.chaos.horizon-caption", measured=told["per_digit"], theory=theory)
     axes = {
         "xaxis": axis(say("labs.axis.tolerance"), log=True, autorange="reversed"),
         "yaxis": axis(say("labs.chaos.horizon-axis"), rangemode="tozero"),
@@ -87,5 +88,5 @@ def _map(result: Result, say: Say) -> Chart:
         "xaxis": axis(f"{x['coordinate']}(0) / rad", constrain="domain"),
         "yaxis": axis(f"{y['coordinate']}(0) / rad", scaleanchor="x", constrain="domain"),
     }
-    caption = say("labs.chaos.map-caption", t_end=short(told["t_end"]), count=len(x["values"]))
+    caption = say("labs.chaos.map-caption", t_end=told["t_end"], count=len(x["values"]))
     return chart("chaos-map", say("labs.chaos.map"), caption, [heat], **axes)

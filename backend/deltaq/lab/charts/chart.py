@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 from ...simulation.library import method_ids
+from .words import Say
 
 Chart = dict[str, Any]
 Trace = dict[str, Any]
@@ -23,13 +24,6 @@ PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6
 SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "star", "hexagon")
 DASHES = ("solid", "dash", "dot")
 FAILED = "x-thin-open"
-SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-class Say(Protocol):
-    """The text under a key of the catalogs, its placeholders filled."""
-
-    def __call__(self, key: str, **parameters: object) -> str: ...
 
 
 def chart(identifier: str, title: str, caption: str, traces: Iterable[Trace], **layout: Any) -> Chart:
@@ -98,14 +92,6 @@ def numbers(values: Iterable[float]) -> dict[str, str]:
     """Many numbers as Plotly reads them without parsing: base64 of single precision, which charts do not outdo."""
     array = np.asarray(list(values), dtype="<f4")
     return {"dtype": "f4", "bdata": base64.b64encode(array.tobytes()).decode()}
-
-
-def short(number: float | None) -> str:
-    """A number in a text: three digits, and powers of ten as they are printed."""
-    if number is None:
-        return "–"
-    digits, _, power = f"{number:.3g}".partition("e")
-    return f"{digits}·10{str(int(power)).translate(SUPERSCRIPTS)}" if power else digits
 
 
 def joined(methods: Iterable[str], say: Say) -> str:

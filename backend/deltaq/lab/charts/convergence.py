@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from .chart import Chart, Result, Say, Trace, axis, chart, curve, grouped, joined, look, name_of, short
+from .chart import Chart, Result, Trace, axis, chart, curve, grouped, joined, look, name_of
+from .words import Say
 
 RANGE = [-15.5, 2.0]
 
@@ -14,8 +15,8 @@ RANGE = [-15.5, 2.0]
 def charts(result: Result, say: Say) -> list[Chart]:
     """One chart; the legend tells the measured slope and the order."""
     reference = result["reference"]
-    told = {"methods": joined(reference["methods"], say), "error": short(reference["error"])}
-    caption = say("labs.convergence.caption", t_end=short(result["t_end"]), **told)
+    told = {"methods": joined(reference["methods"], say), "error": reference["error"]}
+    caption = say("labs.convergence.caption", t_end=result["t_end"], **told)
     x_axis = axis(say("labs.axis.step"), log=True)
     y_axis = axis(say("labs.axis.error"), log=True, range=RANGE, dtick=2)
     traces = [*_curves(result, say), *_triangles(result)]
@@ -26,16 +27,17 @@ def _curves(result: Result, say: Say) -> Iterator[Trace]:
     for method, points in grouped(result["points"]).items():
         good = [point for point in points if point["error"] is not None]
         name, order = name_of(method, say), result["orders"].get(method)
-        label = say("labs.convergence.with-order", name=name, measured=short(order["measured"])) if order else name
-        texts = [
-            f"<b>{name}</b><br>h = {short(p['step'])} s<br>{say('labs.hover.error', value=short(p['error']))}"
-            for p in good
-        ]
+        label = say("labs.convergence.with-order", name=name, measured=order["measured"]) if order else name
+        texts = [_hover(name, p["step"], say("labs.hover.error", value=p["error"]), say) for p in good]
         floor = [max(point["error"], 10 ** RANGE[0]) for point in good]
         yield curve(label, [p["step"] for p in good], floor, method, text=texts, hoverinfo="text")
         bad = [point for point in points if point["status"] not in ("ok", "too_slow")]
         if bad:
             yield _failed(bad, method, name, say)
+
+
+def _hover(name: str, step: float, outcome: str, say: Say) -> str:
+    return f"<b>{name}</b><br>{say('labs.hover.step', value=step)}<br>{outcome}"
 
 
 def _failed(bad: list[Mapping[str, Any]], method: str, name: str, say: Say) -> Trace:
@@ -44,7 +46,7 @@ def _failed(bad: list[Mapping[str, Any]], method: str, name: str, say: Say) -> T
         "mode": "markers",
         "x": [point["step"] for point in bad],
         "y": [30.0] * len(bad),
-        "text": [f"<b>{name}</b><br>h = {short(p['step'])} s<br>{say('labs.status.' + p['status'])}" for p in bad],
+        "text": [_hover(name, p["step"], say(f"labs.status.{p['status']}"), say) for p in bad],
         "hoverinfo": "text",
         "marker": {"symbol": "x-thin-open", "size": 9, "color": look(method)["color"], "line": {"width": 1.6}},
         "legendgroup": method,

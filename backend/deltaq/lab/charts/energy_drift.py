@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from .chart import Chart, Result, Say, Trace, axis, chart, curve, name_of, short
+from .chart import Chart, Result, Trace, axis, chart, curve, name_of
+from .words import Say
 
 LOST = 0.3  # a departure this large leaves nothing of the energy's balance
 
 
 def charts(result: Result, say: Say) -> list[Chart]:
     """One chart; the legend tells how the departure grows."""
-    told = {"step": short(result["step"]), "steps": result["steps"], "tolerance": short(result["tolerance"])}
-    caption = say("labs.energy-drift.caption", t_end=short(result["t_end"]), **told)
+    told = {"step": result["step"], "steps": result["steps"], "tolerance": result["tolerance"]}
+    caption = say("labs.energy-drift.caption", t_end=result["t_end"], **told)
     x_axis = axis(say("labs.axis.t"), log=True)
     y_axis = axis(say("labs.energy-drift.axis"), log=True, dtick=2)
     traces = list(_traces(result, say))
@@ -24,7 +25,7 @@ def _traces(result: Result, say: Say) -> Iterator[Trace]:
     for line in result["lines"]:
         name = name_of(line["method"], say)
         label = f"{name}: {_verdict(line, say)}"
-        texts = [f"<b>{name}</b><br>t = {short(t)} s" for t in line.get("t", ())]
+        texts = [f"<b>{name}</b><br>{say('labs.hover.t', value=t)}" for t in line.get("t", ())]
         yield curve(label, line.get("t", []), line.get("error", []), line["method"], mode="lines", text=texts)
 
 
@@ -36,7 +37,7 @@ def _verdict(line: dict[str, Any], say: Say) -> str:
     growth = line["growth"]
     if growth is None:
         return say("labs.energy-drift.rounding")
-    return say(f"labs.energy-drift.{_kind(growth)}", power=short(growth))
+    return say(f"labs.energy-drift.{_kind(growth)}", power=growth)
 
 
 def _kind(growth: float) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from .chart import INK, PALETTE, SYMBOLS, Chart, Result, Say, Trace, axis, chart, curve, grouped, name_of, short
+from .chart import INK, PALETTE, SYMBOLS, Chart, Result, Trace, axis, chart, curve, grouped, name_of
+from .words import Say
 
 RANGE = [-10.5, 1.0]
 
@@ -27,7 +28,7 @@ def _cost(result: Result, titles: Mapping[str, str], say: Say) -> Chart:
     traces = [*_methods(result, say), *_rungs(result, titles, say)]
     x_axis = axis(say("labs.axis.seconds"), log=True)
     y_axis = axis(say("labs.fidelity.error"), log=True, range=RANGE, dtick=2)
-    told = {"repeats": result["repeats"], "t_end": short(result["t_end"]), **result["machine"]}
+    told = {"repeats": result["repeats"], "t_end": result["t_end"], **result["machine"]}
     caption = say("labs.fidelity.cost-caption", **told) + " " + say("ladder.norm")
     return chart("fidelity-cost", say("labs.fidelity.cost"), caption, traces, xaxis=x_axis, yaxis=y_axis)
 
@@ -59,9 +60,9 @@ def _rungs(result: Result, titles: Mapping[str, str], say: Say) -> Iterator[Trac
 
 
 def _hover(one: Mapping[str, Any], title: str, degrees: int, say: Say) -> str:
-    cost = say("labs.hover.cost", evaluations=one["evaluations"], milliseconds=short(1e3 * one["time"][0]))
+    cost = say("labs.hover.cost", evaluations=one["evaluations"], milliseconds=1e3 * one["time"][0])
     count = say("labs.fidelity.hover", degrees=degrees, operations=one["operations"]["total"])
-    return f"<b>{title}</b><br>{count}<br>{say('labs.hover.error', value=short(one['error']))}<br>{cost}"
+    return f"<b>{title}</b><br>{count}<br>{say('labs.hover.error', value=one['error'])}<br>{cost}"
 
 
 def _methods(result: Result, say: Say) -> Iterator[Trace]:
@@ -85,9 +86,7 @@ def _amplitude(result: Result, titles: Mapping[str, str], say: Say) -> Chart:
 
 def _growth(one: Mapping[str, Any], amplitudes: list[float], titles: Mapping[str, str], place: int, say: Say) -> Trace:
     name = titles[one["rung"]]
-    label = (
-        name if one["slope"] is None else say("labs.work-precision.with-slope", name=name, slope=short(one["slope"]))
-    )
+    label = name if one["slope"] is None else say("labs.work-precision.with-slope", name=name, slope=one["slope"])
     color = PALETTE[place % len(PALETTE)]
     return {
         "type": "scatter",

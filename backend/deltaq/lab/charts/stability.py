@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from .chart import FAILED, Chart, Result, Say, Trace, axis, chart, curve, grouped, look, name_of, short
+from .chart import FAILED, Chart, Result, Trace, axis, chart, curve, grouped, look, name_of
+from .words import Say
 
 
 def charts(result: Result, say: Say) -> list[Chart]:
@@ -50,7 +51,7 @@ def _eigenvalues(result: Result, say: Say) -> Trace:
         "y": [z[1] for z in result["eigenvalues"]],
         "marker": {"symbol": "cross", "size": 11, "color": "#222222"},
         "meta": {"role": "eigenvalues"},
-        "text": [say("labs.stability.eigenvalue", re=short(z[0]), im=short(z[1])) for z in result["eigenvalues"]],
+        "text": [say("labs.stability.eigenvalue", re=z[0], im=z[1]) for z in result["eigenvalues"]],
         "hoverinfo": "text",
     }
 
@@ -59,7 +60,7 @@ def _stiffness(result: Result, say: Say) -> Chart:
     traces = [trace for method, rows in grouped(result["series"]).items() for trace in _cost(method, rows, say)]
     x_axis = axis(say("labs.stability.factor", parameter=result["stiffness"]), log=True)
     y_axis = axis(say("labs.axis.evaluations"), log=True)
-    caption = say("labs.stability.stiff-caption", parameter=result["stiffness"], t_end=short(result["t_end"]))
+    caption = say("labs.stability.stiff-caption", parameter=result["stiffness"], t_end=result["t_end"])
     return chart("stability-stiffness", say("labs.stability.stiff-title"), caption, traces, xaxis=x_axis, yaxis=y_axis)
 
 
@@ -87,8 +88,8 @@ def _cost(method: str, rows: list[Any], say: Say) -> Iterator[Trace]:
 def _hover(name: str, row: dict[str, Any], say: Say) -> str:
     lines = [
         f"<b>{name}</b>",
-        say("labs.hover.factor", value=short(row["factor"])),
-        say("labs.hover.error", value=short(row["error"])),
-        say("labs.hover.cost", evaluations=row["evaluations"], milliseconds=short(1e3 * row["time"])),
+        say("labs.hover.factor", value=row["factor"]),
+        say("labs.hover.error", value=row["error"]),
+        say("labs.hover.cost", evaluations=row["evaluations"], milliseconds=1e3 * row["time"]),
     ]
     return "<br>".join([*lines, say(f"labs.status.{row['status']}")] if row["status"] != "ok" else lines)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from .chart import Chart, Result, Say, axis, chart, short
+from .chart import Chart, Result, axis, chart
+from .words import Say
 
 SCALE = [[0.0, "#f4f1de"], [1e-6, "#fde0c5"], [0.25, "#f2a25c"], [0.6, "#c8452f"], [1.0, "#5a0f24"]]
 LARGEST = 1.0  # decades of |μ| that the colours tell apart
@@ -27,7 +28,7 @@ def charts(result: Result, say: Say) -> list[Chart]:
         "meta": {"role": "map", "x": x["parameter"], "y": y["parameter"]},
     }
     count, percent = f"{len(x['values'])} × {len(y['values'])}", f"{100 * result['stable']:.0f}"
-    caption = say("labs.stability-map.caption", count=count, seconds=short(result["time"]), percent=percent)
+    caption = say("labs.stability-map.caption", count=count, seconds=result["time"], percent=percent)
     axes = {"xaxis": axis(x["parameter"]), "yaxis": axis(y["parameter"])}
     return [chart("stability-map", say("labs.stability-map.title"), caption, [heat], **axes)]
 

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
-from .chart import FAILED, Chart, Result, Say, Trace, axis, chart, curve, grouped, joined, look, name_of, short
+from .chart import FAILED, Chart, Result, Trace, axis, chart, curve, grouped, joined, look, name_of
+from .words import Say
 
 CEILING = 30.0  # where runs without an error are marked
 RANGE = [-15.5, 2.0]  # decades of the error
@@ -16,9 +17,9 @@ def charts(result: Result, say: Say) -> list[Chart]:
     """Two charts: by time, and by right-hand sides."""
     reference, machine = result["reference"], result["machine"]
     told = {
-        "t_end": short(result["t_end"]),
+        "t_end": result["t_end"],
         "methods": joined(reference["methods"], say),
-        "error": short(reference["error"]),
+        "error": reference["error"],
         "repeats": result["repeats"],
         **machine,
     }
@@ -42,15 +43,16 @@ def _one(result: Result, say: Say, x: str, x_axis: dict[str, Any], caption: str)
 
 
 def _traces(result: Result, say: Say, x: str) -> Iterator[Trace]:
+    least = min((point[x] for point in result["points"] if point[x] > 0), default=1e-6)
     for method, points in grouped(result["points"]).items():
         good = [point for point in points if point["error"] is not None and point[x] > 0]
         name, order = name_of(method, say), result["orders"].get(method)
-        label = name if order is None else say("labs.work-precision.with-slope", name=name, slope=short(order))
+        label = name if order is None else say("labs.work-precision.with-slope", name=name, slope=order)
         texts = [_hover(point, name, say) for point in good]
         floor = [max(point["error"], 10 ** RANGE[0]) for point in good]
         more = _spread(good) if x == "time" else {}
         yield curve(label, [p[x] for p in good], floor, method, text=texts, hoverinfo="text", **more)
-        yield from _failures(points, method, x, say)
+        yield from _failures(points, method, x, least, say)
 
 
 def _spread(points: list[Mapping[str, Any]]) -> Trace:
@@ -69,13 +71,16 @@ def _spread(points: list[Mapping[str, Any]]) -> Trace:
     }
 
 
-def _failures(points: list[Mapping[str, Any]], method: str, x: str, say: Say) -> Iterator[Trace]:
-    """Runs that have no error: crosses at the top; what is too slow: an arrow at the last run before."""
+def _failures(points: list[Mapping[str, Any]], method: str, x: str, least: float, say: Say) -> Iterator[Trace]:
+    """Runs that have no error: crosses at the top; what is too slow: an arrow at the last run before.
+
+    What failed before anything was counted stands at the `least` of what was.
+    """
     name, style = name_of(method, say), look(method)
     bad = [point for point in points if point["error"] is None and point["status"] != "too_slow"]
     slow = [(a, b) for a, b in pairwise(points) if b["status"] == "too_slow"]
-    places = [(max(point[x], 1e-6), CEILING, point) for point in bad]
-    places += [(1.6 * max(a[x], 1e-6), a["error"] or CEILING, b) for a, b in slow]
+    places = [(point[x] or least, CEILING, point) for point in bad]
+    places += [(1.6 * (a[x] or least), a["error"] or CEILING, b) for a, b in slow]
     if not places:
         return
     yield {
@@ -100,11 +105,11 @@ def _hover(point: Mapping[str, Any], name: str, say: Say) -> str:
     kind = "tolerance" if "tolerance" in point else "step"
     lines = [
         f"<b>{name}</b>",
-        say(f"labs.hover.{kind}", value=short(point[kind])),
-        say("labs.hover.error", value=short(point["error"])),
+        say(f"labs.hover.{kind}", value=point[kind]),
+        say("labs.hover.error", value=point["error"]),
     ]
     if point["status"] != "ok":
         lines.append(say(f"labs.status.{point['status']}"))
     if point["evaluations"]:
-        lines.append(say("labs.hover.cost", evaluations=point["evaluations"], milliseconds=short(1e3 * point["time"])))
+        lines.append(say("labs.hover.cost", evaluations=point["evaluations"], milliseconds=1e3 * point["time"]))
     return "<br>".join(lines)

@@ -1,0 +1,37 @@
+"""Texts with numbers in them: how charts speak."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+COMMA = frozenset({"de"})  # languages with a decimal comma
+
+
+class Say(Protocol):
+    """The text under a key of the catalogs, its placeholders filled; numbers are written as the language has them."""
+
+    def __call__(self, key: str, **parameters: object) -> str: ...
+
+
+def words(text: Callable[..., str], language: str) -> Say:
+    """How to say things in a language, by its catalog: `text(language, key, **parameters)`."""
+
+    def say(key: str, **parameters: object) -> str:
+        return text(language, key, **{name: spoken(value, language) for name, value in parameters.items()})
+
+    return say
+
+
+def spoken(value: object, language: str) -> object:
+    """Numbers with three digits, powers of ten as they are printed; whole numbers and words as they are."""
+    if value is None:
+        return "–"
+    return _written(value, language) if isinstance(value, float) else value
+
+
+def _written(number: float, language: str) -> str:
+    digits, _, power = f"{number:.3g}".partition("e")
+    shown = digits.replace("-", "−").replace(".", "," if language in COMMA else ".")
+    return f"{shown}·10{str(int(power)).translate(SUPERSCRIPTS)}" if power else shown
