@@ -29,7 +29,7 @@ def test_work_and_precision_answers_while_the_wish_is_dragged(lecture: Lecture) 
     assert page.locator("figure .main-svg").count() >= 2
     answer = page.locator("output[for=tolerance]")
     before = answer.inner_text()
-    assert re.match(r"For an error of 1\.0·10⁻⁶ take .+: .+ ms \\(", before)
+    assert re.match(r"For an error of 1\.0·10⁻⁶ take .+: .+ ms \(", before)
     page.locator("#tolerance").focus()
     page.keyboard.press("End")
     expect(answer).not_to_have_text(before)
