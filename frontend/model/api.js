@@ -55,6 +55,8 @@ export function createApi(send, base = "/api/v1") {
     scenes: ({ summaries = false } = {}) => call(`/scenes?summaries=${summaries}`),
     /** @param {string} id @param {string} lang of what may go wrong @param {number} [n] members of a chain, 0 for the usual @returns {Promise<import("./types.js").Scene>} */
     scene: (id, lang, n = 0) => call(`/scenes/${encodeURIComponent(id)}?lang=${lang}${n ? `&n=${n}` : ""}`),
+    /** OpenAPI @returns {Promise<Record<string, any>>} */
+    description: () => call("/openapi.json"),
     /** @returns {Promise<{methods: import("./types.js").Method[]}>} */
     methods: () => call("/methods"),
     /** @param {string} lang @param {string[]} sections  besides those of every page @returns {Promise<import("./types.js").Catalog>} */

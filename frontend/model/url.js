@@ -68,7 +68,6 @@ const ABOUT_A_SCENE = ["scene", "labs", "homework"];
 
 /** A page in the same language and appearance, about the same scene. @param {string} name @param {Pick<Place, "lang" | "theme"> & Partial<Place>} reader */
 export function pageAddress(name, { lang, theme, scene = "" }) {
-  if (name === "docs") return "/docs";
   return `/${name}${writePlace({ ...HOME, lang, theme, scene: ABOUT_A_SCENE.includes(name) ? scene : "" })}`;
 }
 

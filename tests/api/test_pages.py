@@ -106,13 +106,13 @@ async def test_policy_allows_the_import_map_and_no_other_inline_script(browser: 
     )
 
 
-@pytest.mark.parametrize("path", ["/", "/app.js", "/icon.svg", "/api/v1/scenes", "/nothing", "/docs"])
+@pytest.mark.parametrize("path", ["/", "/app.js", "/icon.svg", "/api/v1/scenes", "/nothing", "/docs/try"])
 async def test_types_are_not_guessed(browser: httpx.AsyncClient, path: str) -> None:
     headers = (await browser.get(path)).headers
     assert headers["x-content-type-options"] == "nosniff"
 
 
-@pytest.mark.parametrize("path", ["/", "/docs", "/icon.svg"])
+@pytest.mark.parametrize("path", ["/", "/docs/try", "/icon.svg"])
 async def test_documents_have_a_policy(browser: httpx.AsyncClient, path: str) -> None:
     headers = (await browser.get(path)).headers
     assert headers["cross-origin-opener-policy"] == "same-origin"
@@ -213,7 +213,7 @@ async def test_no_page_at_all(tmp_path: Path) -> None:
 
 
 async def test_documentation_needs_nothing_from_elsewhere(client: httpx.AsyncClient) -> None:
-    page = await client.get("/docs")
+    page = await client.get("/docs/try")
     assert page.status_code == 200
     sources = re.findall(r'(?:src|href)="([^"]+)"', page.text)
     assert len(sources) >= 4

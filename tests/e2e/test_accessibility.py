@@ -75,6 +75,7 @@ PLACES = [
     pytest.param("homework?", "main .katex", nothing, id="homework"),
     pytest.param("homework?scene=pendulum&task=equation:phi", ".question h2", answer, id="homework, answered"),
     pytest.param("homework?scene=pendulum&side=class", ".classroom .pick", nothing, id="homework of a class"),
+    pytest.param("docs?", ".calls article", nothing, id="reference"),
 ]
 DIALOGS = [
     pytest.param(SCENE, ".steps .katex", pressing("?"), id="help"),

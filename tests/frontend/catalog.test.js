@@ -35,7 +35,7 @@ const source = [...readdirSync(FRONTEND).filter((f) => f.endsWith(".js")), ...["
 /** Nested texts by flat keys. @param {Record<string, any>} texts @param {string} prefix @returns {Record<string, string>} */
 const flat = (texts, prefix) => Object.assign({}, ...Object.entries(texts).map(([key, text]) => (typeof text === "string" ? { [`${prefix}${key}`]: text } : flat(text, `${prefix}${key}.`))));
 const read = (/** @type {string} */ lang, /** @type {string} */ section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"));
-const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture", "exercises", "figure"].map((section) => read(lang, section)), flat(read(lang, "labs"), "labs."), flat(read(lang, "ladder"), "ladder."))]));
+const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture", "reference", "exercises", "figure"].map((section) => read(lang, section)), flat(read(lang, "labs"), "labs."), flat(read(lang, "ladder"), "ladder."))]));
 
 test("both languages have the same texts with the same parameters", () => {
   const holes = (/** @type {string} */ text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort().join();

@@ -57,9 +57,9 @@ def embed(request: Request) -> Response:
     return _page(request, html.replace("</head>", '<link rel="stylesheet" href="/styles/embed.css"></head>'))
 
 
-@router.api_route("/docs", methods=["GET", "HEAD"])
+@router.api_route("/docs/try", methods=["GET", "HEAD"])
 def documentation(request: Request) -> Response:
-    """The API, to be read and tried."""
+    """The API, to be tried: its page to be read is one of the front end."""
     html = _documentation("index.html").replace("{version}", service_of(request).assets.version)
     return _text(request, html, "text/html")
 

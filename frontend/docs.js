@@ -1,0 +1,55 @@
+/** The driver of the reference of the API. */
+
+import { render } from "lit-html";
+import { ApiError, createApi } from "./model/api.js";
+import { translator } from "./model/catalog.js";
+import { groupsOf } from "./model/reference.js";
+import { createSpeech } from "./model/speech.js";
+import { createStore } from "./model/store.js";
+import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { page } from "./view/reference/page.js";
+
+const root = /** @type {HTMLElement} */ (document.getElementById("page"));
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const asked = readPlace(location.search);
+const store = createStore({
+  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
+  groups: /** @type {import("./model/reference.js").Group[]} */ ([]), version: "", text: "",
+  failure: /** @type {import("./model/types.js").Failure | null} */ (null),
+});
+const { get, set } = store;
+const api = createApi(fetch.bind(globalThis));
+const speech = createSpeech(store, api, (task) => task().catch(() => {}), ["reference"]);
+
+async function load() {
+  try {
+    const document = await api.description();
+    set({ groups: groupsOf(document), version: document.info.version, text: document.info.description, failure: null });
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    set({ failure: error.failure });
+  }
+}
+
+let arrived = false;
+function update() {
+  const { place, catalog, groups } = get();
+  if (!catalog.page) return;
+  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.reference) });
+  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
+  document.documentElement.lang = place.lang;
+  document.title = `δq · ${t("place.docs")}`;
+  const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
+  render(page({ ...get(), state: { place }, session, t, reload: load, origin: location.origin }), root);
+  history.replaceState(null, "", location.pathname + writePlace(place) + location.hash);
+  if (groups.length && !arrived) {
+    arrived = true;
+    if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
+  }
+}
+
+store.subscribe(update);
+dark.addEventListener("change", update);
+void load();
+void speech.speak(get().place.lang);

@@ -1,0 +1,64 @@
+/** The description of the API as a page can show it: calls by subject, each with its fields, an example and its answers. */
+
+/** @typedef {Record<string, any>} Json */
+/** @typedef {{name: string, kind: string, text: string, required: boolean}} Field */
+/** @typedef {{id: string, method: string, path: string, text: string, fields: Field[], example: string, answers: {status: string, text: string}[]}} Call */
+/** @typedef {{subject: string, calls: Call[]}} Group */
+
+/** @param {Json} description  OpenAPI 3.1 @returns {Group[]} */
+export function groupsOf(description) {
+  /** @type {Map<string, Call[]>} */
+  const groups = new Map();
+  for (const [path, methods] of Object.entries(description.paths)) {
+    for (const [method, operation] of Object.entries(/** @type {Json} */ (methods))) {
+      const subject = operation.tags?.[0] ?? "";
+      groups.set(subject, [...(groups.get(subject) ?? []), callOf(description, method, path, operation)]);
+    }
+  }
+  return [...groups].map(([subject, calls]) => ({ subject, calls }));
+}
+
+/** @param {Json} description @param {string} method @param {string} path @param {Json} operation @returns {Call} */
+function callOf(description, method, path, operation) {
+  const [type, body] = Object.entries(operation.requestBody?.content ?? {})[0] ?? ["", null];
+  const schema = body ? resolved(description, body.schema) : null;
+  const given = (operation.parameters ?? []).map((/** @type {Json} */ one) => field(description, one.name, one.schema, one.required === true, one.description));
+  return {
+    id: operation.operationId, method: method.toUpperCase(), path, text: operation.description || operation.summary || "",
+    fields: [...given, ...fieldsOf(description, schema)],
+    example: exampleOf(method, path, type, schema?.examples?.[0] ?? null),
+    answers: Object.entries(operation.responses ?? {}).map(([status, answer]) => ({ status, text: answer.description ?? "" })),
+  };
+}
+
+/** @param {Json} description @param {Json} schema @returns {Json} */
+function resolved(description, schema) {
+  const name = schema?.$ref?.split("/").at(-1);
+  return name ? description.components.schemas[name] : (schema ?? {});
+}
+
+/** @param {Json} description @param {Json | null} schema @returns {Field[]} */
+function fieldsOf(description, schema) {
+  const needed = new Set(schema?.required ?? []);
+  return Object.entries(schema?.properties ?? {}).map(([name, one]) => field(description, name, one, needed.has(name), one.description));
+}
+
+/** @param {Json} description @param {string} name @param {Json} schema @param {boolean} required @param {string} [text] @returns {Field} */
+const field = (description, name, schema, required, text = "") => ({ name, kind: kindOf(description, schema), text, required });
+
+/** @param {Json} description @param {Json} schema @returns {string} */
+function kindOf(description, schema) {
+  const { type, anyOf, enum: values, items, $ref } = schema ?? {};
+  if ($ref) return kindOf(description, resolved(description, schema));
+  if (anyOf) return [...new Set(anyOf.map((/** @type {Json} */ one) => kindOf(description, one)))].filter((kind) => kind !== "null").join(" | ");
+  if (values) return values.join(" | ");
+  return type === "array" ? `[${items ? kindOf(description, items) : ""}]` : type ?? "any";
+}
+
+/** A line for a shell. @param {string} method @param {string} path @param {string} type @param {unknown} body */
+function exampleOf(method, path, type, body) {
+  const address = `"$DELTAQ${path}"`;
+  if (method !== "post") return `curl ${address}`;
+  const data = body === null ? "@file" : `'${JSON.stringify(body).replaceAll("'", "'\\''")}'`;
+  return `curl ${address} -H 'content-type: ${type}' \\\n  -d ${data}`;
+}

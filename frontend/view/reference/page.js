@@ -1,0 +1,47 @@
+/** The API to be read: calls by subject. Its words are English, as the API describes itself. */
+
+import { html, nothing } from "lit-html";
+import { failure } from "../failure.js";
+import { appearance, brand, language, places } from "../header.js";
+
+/** @typedef {import("../../model/reference.js").Call} Call */
+/**
+ * @typedef {import("../header.js").Appearance & {groups: import("../../model/reference.js").Group[], version: string, text: string,
+ *   failure: import("../../model/types.js").Failure | null, reload: () => void, origin: string}} ReferenceView
+ */
+
+/** @param {ReferenceView} view */
+export function page(view) {
+  const { groups, t } = view;
+  return html`
+    <a class="skip" href="#reference">${t("skip")}</a>
+    <header class="top">
+      ${brand(view)}<div class="scene"><h1>${t("place.docs")}</h1><p class="summary">${t("reference.subtitle", { version: view.version })}</p></div>
+      ${places(view, "docs")}<div class="tools">${language(view)}${appearance(view)}</div>
+    </header>
+    <main class="reference" id="reference" tabindex="-1">
+      ${view.failure ? failure(view.failure, t("failure.page"), view.reload, t) : nothing}
+      <nav aria-label=${t("reference.subjects")}><ul>${groups.map(({ subject }) => html`<li><a href=${`#${subject}`}>${subject}</a></li>`)}</ul>
+        <p><a href="/docs/try">${t("reference.try")}</a></p><p><a href="/api/v1/openapi.json">${t("reference.openapi")}</a></p></nav>
+      <div class="calls">
+        <p lang="en">${view.text}</p>
+        <pre tabindex="0"><code>DELTAQ=${view.origin}</code></pre>
+        ${groups.map(({ subject, calls }) => html`<section id=${subject} lang="en"><h2>${subject}</h2>${calls.map((call) => article(call, view))}</section>`)}
+      </div>
+    </main>`;
+}
+
+/** @param {Call} call @param {ReferenceView} view */
+function article({ id, method, path, text, fields, example, answers }, { t, state }) {
+  return html`
+    <article id=${id}>
+      <h3><span class="method">${method}</span> <code>${path}</code></h3>
+      <p>${text}</p>
+      ${fields.length ? html`
+        <dl>${fields.map(({ name, kind, text: meaning, required }) => html`
+          <div><dt><code>${name}</code>${required ? html` <span lang=${state.place.lang}>${t("reference.required")}</span>` : nothing}</dt>
+            <dd><span class="kind">${kind}</span> ${meaning}</dd></div>`)}</dl>` : nothing}
+      <pre tabindex="0"><code>${example}</code></pre>
+      <p class="answers">${answers.map(({ status, text: meaning }) => html`<span><b>${status}</b> ${meaning}</span>`)}</p>
+    </article>`;
+}

@@ -1,0 +1,34 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { groupsOf } from "../../frontend/model/reference.js";
+
+const text = { type: "string" };
+const DOCUMENT = {
+  paths: {
+    "/api/v1/things": {
+      get: { tags: ["things"], operationId: "list", description: "All things.", parameters: [{ name: "lang", in: "query", required: false, schema: { anyOf: [{ enum: ["de", "en"] }, { type: "null" }] } }], responses: { 200: { description: "fine" } } },
+      post: { tags: ["things"], operationId: "make", summary: "Make", requestBody: { content: { "application/json": { schema: { $ref: "#/components/schemas/Thing" } } } }, responses: {} },
+    },
+  },
+  components: {
+    schemas: {
+      Thing: { required: ["name"], properties: { name: { ...text, description: "its name" }, parts: { type: "array", items: { $ref: "#/components/schemas/Part" } } }, examples: [{ name: "it's" }] },
+      Part: { type: "object" },
+    },
+  },
+};
+
+test("calls stand by subject, with their fields, kinds and answers", () => {
+  const [{ subject, calls }] = groupsOf(DOCUMENT);
+  assert.equal(subject, "things");
+  assert.deepEqual(calls.map(({ method, path, text }) => [method, path, text]), [["GET", "/api/v1/things", "All things."], ["POST", "/api/v1/things", "Make"]]);
+  assert.deepEqual(calls[0].fields, [{ name: "lang", kind: "de | en", text: "", required: false }]);
+  assert.deepEqual(calls[0].answers, [{ status: "200", text: "fine" }]);
+  assert.deepEqual(calls[1].fields, [{ name: "name", kind: "string", text: "its name", required: true }, { name: "parts", kind: "[object]", text: "", required: false }]);
+});
+
+test("an example is a line for a shell, whatever it holds", () => {
+  const [{ calls }] = groupsOf(DOCUMENT);
+  assert.equal(calls[0].example, 'curl "$DELTAQ/api/v1/things"');
+  assert.equal(calls[1].example, `curl "$DELTAQ/api/v1/things" -H 'content-type: application/json' \\\n  -d '{"name":"it'\\''s"}'`);
+});
