@@ -14,7 +14,7 @@ import { readAsked, stepAddress, writeAsked } from "./model/homework/place.js";
 import { createProgress } from "./model/homework/progress.js";
 import { begin } from "./model/homework/state.js";
 import { createWorking } from "./model/homework/working.js";
-import { documentIn, OWN } from "./model/own.js";
+import { documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { startLanguage } from "./model/url.js";
 import { linkHighlights } from "./view/highlight.js";
@@ -181,8 +181,11 @@ function tick(now) {
 requestAnimationFrame(tick);
 
 async function start() {
-  fragment = location.hash;
-  const [assignment, own] = await Promise.all([assignmentIn(location.hash, "", api, get().asked.place.lang), documentIn(location.hash)]);
-  await Promise.all([speak(get().asked.place.lang), exercise.start(get().asked, assignment, own)]);
+  const { asked } = get();
+  const [assignment, sent] = await Promise.all([assignmentIn(location.hash, "", api, asked.place.lang), documentIn(location.hash)]);
+  const own = sent ?? (asked.place.scene === OWN && !assignment ? (readDraft(localStorage)?.document ?? null) : null);
+  fragment = own ? await fragmentOf(own) : location.hash;
+  const scene = own ? OWN : asked.place.scene === OWN ? "" : asked.place.scene;
+  await Promise.all([speak(asked.place.lang), exercise.start({ ...asked, place: { ...asked.place, scene } }, assignment, own)]);
 }
 void start();

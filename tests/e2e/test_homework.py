@@ -256,6 +256,17 @@ def test_a_scene_that_the_address_brings_along_has_tasks_too(lecture: Lecture) -
     expect(page.locator("[data-step='equation:x'][aria-current]")).to_be_visible(timeout=PATIENCE)
 
 
+def test_one_comes_from_a_scene_to_its_tasks(lecture: Lecture) -> None:
+    page = lecture.page
+    page.goto(f"{lecture.address}scene?scene=atwood&lang=en")
+    lecture.steps.first.wait_for(timeout=PATIENCE)
+    if not page.locator(".places").is_visible():
+        page.locator(".top .menu").click()
+    page.locator(".places").get_by_role("link", name="Homework").click()
+    expect(page.locator("h1 option:checked")).to_have_text("Atwood’s machine", timeout=PATIENCE)
+    expect(page.locator(".task").first).to_be_visible()
+
+
 @pytest.mark.parametrize("language", ["de", "en"])
 def test_on_a_phone(lecture: Lecture, language: str) -> None:
     lecture.page.set_viewport_size({"width": 360, "height": 740})

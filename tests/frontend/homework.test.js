@@ -8,6 +8,7 @@ import { keyboardOf, shortcutsOf, written } from "../../frontend/model/homework/
 import { createClassroom } from "../../frontend/model/homework/classroom.js";
 import { checksOf, earned, onceEach, summaryOf, targetOf } from "../../frontend/model/homework/grading.js";
 import { patient } from "../../frontend/model/homework/patience.js";
+import { createExercise } from "../../frontend/model/homework/exercise.js";
 import { framed, parting } from "../../frontend/model/homework/motions.js";
 import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homework/place.js";
 import { BLANK, createProgress, draftOf } from "../../frontend/model/homework/progress.js";
@@ -300,4 +301,20 @@ test("a busy server is asked again, any other failure is not", async () => {
 test("an assignment of all tasks, without anybody's own values", () => {
   const sheet = sheetOfScene({ scene: "swing", seed: "ada" }, /** @type {any} */ ({ scene, symbols, tasks: [task] }));
   assert.deepEqual(assignmentOf(sheet, { en: "Swing" }), { format: 1, title: { en: "Swing" }, individual: false, follow_through: 0.5, tasks: [{ scene: "swing", task: "equation:phi", points: 3 }] });
+});
+
+test("a task chosen while others' values are fetched stays chosen", async () => {
+  const answer = (/** @type {string} */ seed) => ({ scene: { ...scene, id: "swing" }, symbols, tasks: ["lagrangian", "equation:phi"].map((id) => ({ ...task, id, title: seed })) });
+  let respond = /** @type {(answer: any) => void} */ (() => {});
+  const post = async (/** @type {string} */ path, /** @type {any} */ body) => (path === "/tasks" && body.seed ? new Promise((done) => { respond = done; }) : path === "/tasks" ? answer("") : null);
+  const api = /** @type {any} */ ({ post, scenes: async () => ({ scenes: [] }), simulate: async () => trajectory });
+  const store = createStore(begin(readAsked("?scene=swing&lang=en")));
+  const progress = createProgress(storage());
+  const exercise = createExercise(store, api, progress, createAnswering(store, api, progress));
+  await exercise.start(store.get().asked, null, null);
+  const loading = exercise.individual("ada");
+  exercise.show(/** @type {any} */ (store.get().sheet?.entries[1]));
+  respond(answer("ada"));
+  await loading;
+  assert.deepEqual([store.get().entry?.key, store.get().asked.task], ["swing@ada/equation:phi", "equation:phi"]);
 });

@@ -49,8 +49,7 @@ def grade(rows: Iterable[Mapping[str, str]], assignment: Assignment | None, lang
             yield what
             continue
         if index not in done:
-            members = [i for i, other in enumerate(posed) if isinstance(other, Posed) and what.same_working(other)]
-            members = sorted(members, key=lambda i: _number(table[i])) if "line" in table[index] else [index]
+            members = _working(what, posed, table) if "line" in table[index] else [index]
             graded = _marked([cast("Posed", posed[i]) for i in members], share, language)
             done.update(zip(members, graded, strict=True))
         yield done.pop(index)
@@ -84,6 +83,12 @@ def _posed(row: Mapping[str, str], assignment: Assignment | None) -> Posed:
     assigned = _assigned(assignment, number)
     seed = (seed or student) if assignment.individual else seed
     return Posed(student, assigned.scene, seed, Line(assigned.task, row["answer"], _syntax(row)), assigned.points)
+
+
+def _working(of: Posed, posed: Sequence[Posed | Graded], table: Sequence[Mapping[str, str]]) -> list[int]:
+    """The rows of one student on one scene, in the order of their lines."""
+    members = [index for index, other in enumerate(posed) if isinstance(other, Posed) and of.same_working(other)]
+    return sorted(members, key=lambda index: _number(table[index]))
 
 
 def _number(row: Mapping[str, str]) -> float:

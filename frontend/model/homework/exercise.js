@@ -47,7 +47,7 @@ export function createExercise(store, api, progress, answering) {
       if (!isSame(get().asked, wanted)) return;
       set({ sheet });
       const { entries } = sheet;
-      show(entries.find(({ key }) => key === get().entry?.key) ?? entries.find(({ id }) => id === wanted.task) ?? entries[0] ?? null);
+      show(entries.find(({ key }) => key === get().entry?.key) ?? entries.find(({ id }) => id === get().asked.task) ?? entries[0] ?? null);
     });
   }
 

@@ -55,7 +55,7 @@ class MathField extends Directive {
     const shortcuts = this.wiring?.shortcuts;
     this.wiring = wiring;
     if (first) this.connect(field);
-    if (shortcuts !== wiring.shortcuts) requestAnimationFrame(() => (field.inlineShortcuts = wiring.shortcuts));
+    if (shortcuts !== wiring.shortcuts) whenMounted(field, () => (field.inlineShortcuts = wiring.shortcuts));
     if (this.held !== wiring.value) field.setValue((this.held = wiring.value), { silenceNotifications: true });
     return nothing;
   }
@@ -72,8 +72,15 @@ class MathField extends Directive {
     });
     field.smartFence = true;
     field.mathVirtualKeyboardPolicy = coarse.matches ? "auto" : "manual";
-    requestAnimationFrame(() => (field.menuItems = []));
+    whenMounted(field, () => (field.menuItems = []));
   }
+}
+
+/** The field is alive one frame after it has come onto the page, if it is still there. @param {HTMLElement} field @param {() => void} task */
+function whenMounted(field, task) {
+  requestAnimationFrame(() => {
+    if (field.isConnected) task();
+  });
 }
 
 /** What a blank does not lead out of: brackets, and what is still empty. */
