@@ -50,6 +50,7 @@ def _warm_up(address: str, patience: float = 240.0) -> None:
 
 
 # Waiting costs nothing where all is well, and a busy machine is not an error.
+PATIENCE = 60_000.0
 expect.set_options(timeout=20_000)
 
 
@@ -73,6 +74,7 @@ def browser() -> Iterator[Browser]:
 @pytest.fixture
 def page(browser: Browser) -> Iterator[Page]:
     context = browser.new_context(viewport={"width": 1366, "height": 768}, locale="de-DE")
+    context.set_default_timeout(PATIENCE)
     yield context.new_page()
     context.close()
 
