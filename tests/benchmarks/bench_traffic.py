@@ -94,7 +94,8 @@ async def metric(client: httpx.AsyncClient, name: str) -> float:
 async def lecture(address: str, seconds: float, students: int) -> None:
     limits = httpx.Limits(max_connections=students, max_keepalive_connections=students)
     async with httpx.AsyncClient(base_url=address, timeout=60, limits=limits) as client:
-        await client.get("/api/v1/health")
+        while (await client.get("/api/v1/ready")).status_code != 200:
+            await asyncio.sleep(0.1)
         record, before = Record(), await metric(client, "process_resident_memory_bytes")
         end = monotonic() + seconds
         await asyncio.gather(*(study(client, random.Random(n), end, record) for n in range(students)))
