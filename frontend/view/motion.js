@@ -22,7 +22,8 @@ export function createMotion({ root, state, clock, session, still, update }) {
   let begun = false;
 
   const instruments = createLater(async () => {
-    const { open } = await import("./figure/open.js");
+    const { dress, open } = await import("./figure/open.js");
+    await dress();
     return open({ root, frame: find(".drawing"), parts: /** @type {NonNullable<typeof parts>} */ (parts), state, clock, session, seek: scrub });
   }, update);
 

@@ -18,7 +18,7 @@ export function player(view) {
     <div class="player" role="group" aria-label=${t("player")}>
       <button class="round" title=${label} aria-label=${label} ?disabled=${!state.trajectory} @click=${view.togglePlay}>
         ${icon(clock.playing ? "pause" : "play")}</button>
-      ${view.instruments?.steppers(view)}
+      <span class="steppers">${view.instruments?.steppers(view)}</span>
       <span class="timeline"><span class="past"></span><span class="present"></span>
         <input class="scrub" type="range" min="0" max=${clock.end || 1} step="any" aria-label=${t("player.time")}
           ?disabled=${!state.trajectory} @input=${(/** @type {Event} */ e) => view.scrub(valueOf(e))}></span>

@@ -56,6 +56,8 @@ export function createPlots(root, { seek }) {
   let scale = timeScale(1, 0, 16);
   let visible = false;
   let due = 0;
+  let now = 0;
+  const point = () => (cursor.style.transform = `translateX(${scale.pixel(now).toFixed(1)}px)`);
   /** @type {Promise<boolean> | null} */
   let plotly = null;
 
@@ -72,6 +74,7 @@ export function createPlots(root, { seek }) {
     const traces = tracesOf(rows, trajectory, palette);
     await globalThis.Plotly.react(canvas, traces, layout, { staticPlot: true, displayModeBar: false });
     scale = timeScale(root.clientWidth, duration, em);
+    point();
     label(rows, em);
     name(traces);
     const end = endOf(trajectory);
@@ -125,7 +128,8 @@ export function createPlots(root, { seek }) {
     },
     /** @param {number} t */
     move(t) {
-      cursor.style.transform = `translateX(${scale.pixel(t).toFixed(1)}px)`;
+      now = t;
+      point();
     },
   };
 }

@@ -217,6 +217,11 @@ def test_nothing_shifts_while_the_figure_is_used(lecture: Lecture) -> None:
 def test_one_picture_at_a_time(lecture: Lecture) -> None:
     """Steps go on and back by a twenty-fifth of a second, and stop the motion."""
     page = open_at_rest(lecture, "?scene=pendulum&lang=en&at=1")
+    page.locator(".plots.ready").wait_for()
+    cursor, plots = page.locator(".cursor").bounding_box(), page.locator(".plots").bounding_box()
+    assert cursor is not None
+    assert plots is not None
+    assert 0.1 < (cursor["x"] - plots["x"]) / plots["width"] < 0.2, "the plots show the moment too"
     page.get_by_role("button", name="One picture on").click()
     expect(page.locator(".time")).to_have_text("1.04 s")
     for _ in range(2):

@@ -22,7 +22,7 @@ const STEP = 0.04;
 export function steppers({ clock, t, scrub }) {
   const button = (/** @type {"previous" | "next"} */ name, /** @type {1 | -1} */ by) => html`
     <button class="tool" title=${t(`player.${name}`)} aria-label=${t(`player.${name}`)} @click=${() => scrub(clock.time + by * STEP * clock.speed)}>${icon(name)}</button>`;
-  return html`<span class="steppers">${button("previous", -1)}${button("next", 1)}</span>`;
+  return html`${button("previous", -1)}${button("next", 1)}`;
 }
 
 /** @param {View} view @param {{keep: () => void}} actions */

@@ -35,8 +35,11 @@ export function createWhy(state) {
       return formulas.get(step);
     },
     /** @param {Step} step @param {View} view */
-    button: (step, { state, session, t }) => html`
-      <button class="why quiet small" aria-expanded=${String(state.place.why === step.id)} @click=${() => session.move({ why: state.place.why === step.id ? "" : step.id })}>${t("why")}</button>`,
+    button(step, { state, session, t }) {
+      if (!state.catalog.figure) return nothing;
+      const shown = state.place.why === step.id;
+      return html`<button class="why quiet small" aria-expanded=${String(shown)} @click=${() => session.move({ why: shown ? "" : step.id })}>${t("why")}</button>`;
+    },
     /** @param {Step} step @param {View} view */
     panel(step, view) {
       if (view.state.place.why !== step.id) return nothing;
