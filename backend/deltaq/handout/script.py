@@ -13,6 +13,7 @@ from sympy.printing.numpy import NumPyPrinter
 from ..derivation.matrix_form import forcing, mass_matrix
 from ..derivation.system import System
 from ..language.functions import FUNCTIONS
+from ..mechanics.event import Event
 from ..mechanics.scene import Scene
 
 TEMPLATE = """\
@@ -49,19 +50,20 @@ def positions(t, q):
     return {positions}
 
 
-def right_hand_side(t, state):
+{events}def right_hand_side(t, state):
     q, v = np.split(state, 2)
     return np.concatenate([v, np.linalg.solve(mass_matrix(t, q), forcing(t, q, v))])
 
 
 def solve(t_end=T_END, samples=SAMPLES):
     times = np.linspace(0.0, t_end, samples)
+    start = np.array([*VALUES, *RATES])
     found = solve_ivp(
-        right_hand_side, (0.0, t_end), [*VALUES, *RATES], method="DOP853", t_eval=times, rtol=1e-11, atol=1e-12
+        right_hand_side, (0.0, t_end), start, method="DOP853", t_eval=times, rtol=1e-11, atol=1e-12{watched}
     )
     if not found.success:
         raise SystemExit(found.message)
-    return times, found.y[: len(VALUES)], found.y[len(VALUES) :]
+    return found.t, found.y[: len(VALUES)], found.y[len(VALUES) :]
 
 
 def draw(times, q):
@@ -83,8 +85,20 @@ if __name__ == "__main__":
         print(",".join(f"{{value:.10g}}" for value in (t, *row)))
     draw(times, q)
 """
+EVENT = """\
+def {name}(t, state):  # {title}
+    q, v = np.split(state, 2)
+    {unpack_values}
+    {unpack_rates}
+    return {value}
+
+
+{name}.terminal, {name}.direction = True, -1  # the motion is right as long as this is positive
+
+
+"""
 OWN = {"np", "solve_ivp", "mass_matrix", "forcing", "positions", "right_hand_side", "solve", "draw", "pyplot"}
-LOCAL = {"t", "q", "v", "state", "times", "found", "name", "curve", "row", "value", "t_end", "samples"}
+LOCAL = {"t", "q", "v", "state", "times", "found", "start", "name", "curve", "row", "value", "t_end", "samples"}
 CONSTANTS = {"COORDINATES", "VALUES", "RATES", "T_END", "SAMPLES"}
 OF_NUMPY = {"arcsin", "arccos", "arctan", "arctan2", "arcsinh", "arccosh", "arctanh", "pi"}
 TAKEN = frozenset({*OWN, *LOCAL, *CONSTANTS, *OF_NUMPY, *FUNCTIONS, *dir(builtins)})
@@ -96,7 +110,12 @@ def script(scene: Scene, language: str, t_end: float) -> str:
     system = System(scene)
     words = _Words(system)
     free = scene.free
-    content = {
+    unpacked = {
+        "unpack_values": f"[{', '.join(words.called(system.q(c.name).name) for c in free)}] = q",
+        "unpack_rates": f"[{', '.join(words.called(system.rate(c.name).name) for c in free)}] = v",
+    }
+    events = [_event(event, system, words, language, unpacked) for event in scene.events]
+    content = unpacked | {
         "title": comment(scene.title.get(language) or scene.id),
         "parameters": "\n".join(_parameters(scene, words)) or "# This scene has no parameters.",
         "coordinates": repr([c.name for c in free]),
@@ -104,13 +123,27 @@ def script(scene: Scene, language: str, t_end: float) -> str:
         "rates": repr([float(c.rate) for c in free]),
         "t_end": repr(float(t_end)),
         "samples": str(int(t_end * SAMPLES_PER_SECOND) + 1),
-        "unpack_values": f"[{', '.join(words.called(system.q(c.name).name) for c in free)}] = q",
-        "unpack_rates": f"[{', '.join(words.called(system.rate(c.name).name) for c in free)}] = v",
+        "events": "".join(events),
+        "watched": f", events=[{', '.join(words.called(_event_of(event.name)) for event in scene.events)}]"
+        if events
+        else "",
         "mass_matrix": words.matrix(mass_matrix(system)),
         "forcing": words.vector(forcing(system)),
         "positions": "{" + ", ".join(_positions(system, words)) + "}",
     }
     return TEMPLATE.format(functions=", ".join(words.functions), **content)
+
+
+def _event(event: Event, system: System, words: _Words, language: str, unpacked: Mapping[str, str]) -> str:
+    """A function that is positive until the event happens, and ends the integration there."""
+    value = words.text(system.guided(system.expression(event.value.tree)))
+    title = comment(event.title.get(language) or event.name)
+    return EVENT.format(name=words.called(_event_of(event.name)), title=title, value=value, **unpacked)
+
+
+def _event_of(name: str) -> str:
+    """An event among the names of symbols, none of which has a blank."""
+    return f"event {name}"
 
 
 def comment(text: str) -> str:
@@ -139,7 +172,8 @@ class _Words:
     def __init__(self, system: System) -> None:
         scene = system.scene
         plain = [*(p.name for p in scene.parameters), *(c.name for c in scene.coordinates)]
-        wanted = {name: name for name in plain} | {system.rate(c.name).name: f"{c.name}_dot" for c in scene.free}
+        wanted = {_event_of(event.name): f"event_{event.name}" for event in scene.events}
+        wanted |= {name: name for name in plain} | {system.rate(c.name).name: f"{c.name}_dot" for c in scene.free}
         self._known = {**_distinct(wanted), system.t.name: "t"}
         self._printer = NumPyPrinter({"fully_qualified_modules": False})
 
