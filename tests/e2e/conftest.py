@@ -54,7 +54,7 @@ PATIENCE = 60_000.0
 expect.set_options(timeout=20_000)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")  # its event loop must have ended before asynchronous tests begin in the same process
 def browser() -> Iterator[Browser]:
     path = chromium()
     if path is None:
