@@ -3,6 +3,7 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "./formula.js";
+import { settled } from "./settled.js";
 import { isChanged, slidersOf } from "../model/values.js";
 import { unitText } from "../model/numbers.js";
 
@@ -36,7 +37,7 @@ function size({ parameter, min, max, value }, { state, session, t }) {
       <span class="symbol">${inline(parameter)}</span>
       <input type="range" aria-label=${t("values.parameter", { name: parameter })} min=${min} max=${max} step="1"
         style="--filled:${(value - min) / (max - min)}" .value=${live(String(value))} @change=${chosen}>
-      <input type="number" aria-label=${parameter} min=${min} max=${max} .value=${live(String(value))} @change=${chosen}>
+      <input type="number" aria-label=${parameter} min=${min} max=${max} .value=${settled(String(value))} @change=${chosen}>
       <span class="unit"></span>
     </div>
   `;
@@ -54,7 +55,7 @@ function row(slider, { session, t }) {
       <input type="range" aria-label=${label} min=${slider.min} max=${slider.max} step=${slider.step}
         style="--filled:${filled}" .value=${live(String(slider.value))} @input=${moved}>
       <input type="number" aria-label=${`${label} (${unitText(slider.unit)})`} min=${slider.min} max=${slider.max} step="any"
-        .value=${live(String(Number(slider.value.toFixed(Math.max(slider.decimals, 2)))))} @change=${moved}>
+        .value=${settled(String(Number(slider.value.toFixed(Math.max(slider.decimals, 2)))))} @change=${moved}>
       <span class="unit">${unitText(slider.unit)}</span>
     </div>
   `;

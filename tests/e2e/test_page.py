@@ -106,6 +106,18 @@ def test_a_slider_changes_the_trajectory(lecture: Lecture) -> None:
     expect(lecture.bob).to_have_attribute("transform", f"translate({start[0]:.2f} {start[1]:.2f})")
 
 
+def test_a_number_that_is_being_typed_stays_whatever_comes_in_between(lecture: Lecture) -> None:
+    lecture.open("?scene=pendulum&lang=en")
+    field = lecture.page.locator("[data-slider=parameter-l-value] input[type=number]")
+    field.fill("0.5")
+    lecture.page.emulate_media(color_scheme="dark")  # the page is rendered anew
+    expect(lecture.page.locator("html")).to_have_attribute("data-theme", "dark")
+    expect(field).to_have_value("0.5")
+    with lecture.page.expect_response("**/api/v1/simulations") as answer:
+        field.press("Tab")
+    assert (answer.value.request.post_data_json or {})["parameters"] == {"l": 0.5}
+
+
 def test_a_deep_link_leads_to_the_same_place(lecture: Lecture) -> None:
     lecture.open("?scene=guided-pendulum&lang=en")
     for _ in range(4):

@@ -5,6 +5,7 @@ import { live } from "lit-html/directives/live.js";
 import { inLanguage } from "../../model/catalog.js";
 import { OWN } from "../../model/own.js";
 import { inline } from "../formula.js";
+import { settled } from "../settled.js";
 
 /** @typedef {import("./page.js").View} View */
 /** @typedef {import("../../model/types.js").Scene} Scene */
@@ -48,7 +49,7 @@ const field = ({ t }, label, control) => html`<label class="field"><span>${t(`la
 /** @param {number | ""} value @param {(value: number) => void} put @param {{min?: number, max?: number, step?: string, placeholder?: string}} [bounds] */
 function number(value, put, { min, max, step = "any", placeholder = "" } = {}) {
   const changed = (/** @type {Event} */ e) => textOf(e) !== "" && Number.isFinite(Number(textOf(e))) && put(Number(textOf(e)));
-  return html`<input type="number" inputmode="decimal" step=${step} min=${min ?? nothing} max=${max ?? nothing} placeholder=${placeholder} .value=${live(String(value))} @change=${changed}>`;
+  return html`<input type="number" inputmode="decimal" step=${step} min=${min ?? nothing} max=${max ?? nothing} placeholder=${placeholder} .value=${settled(String(value))} @change=${changed}>`;
 }
 
 /** @param {View} view */
