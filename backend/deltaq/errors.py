@@ -93,5 +93,5 @@ class UnknownNameError(InputError):
 
 
 def escaped(name: str) -> str:
-    """A name as part of a JSON pointer (RFC 6901)."""
-    return name[:40].replace("~", "~0").replace("/", "~1")
+    """A name as part of a JSON pointer (RFC 6901); bounded, for it may be the client's."""
+    return name[:64].replace("~", "~0").replace("/", "~1")

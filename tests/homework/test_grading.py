@@ -113,10 +113,10 @@ def test_assignment_names_tasks_by_number_and_counts_their_points(tmp_path: Path
         pytest.param([], [("", "request-not-object")], id="list"),
         pytest.param({"format": 1}, [("/tasks", "assignment-no-task")], id="no task"),
         pytest.param(
-            {"format": 2, "tasks": [{}], "extra": 1, "follow_through": 3},
+            {"format": 2, "tasks": [{}], "ex/tra": 1, "follow_through": 3},
             [
                 ("/format", "assignment-format"),
-                ("/extra", "unknown-field"),
+                ("/ex~1tra", "unknown-field"),
                 ("/follow_through", "assignment-share"),
                 ("/tasks/0/scene", "missing-field"),
                 ("/tasks/0/task", "missing-field"),

@@ -231,6 +231,7 @@ REFUSED = [
     ("\\frac{d^3 x}{dt^3}", "derivative-order", 0, 18, {"order": 3}),
     ("\\frac{d^2 x}{dt}", "derivative-order", 0, 16, {"order": 2}),
     ("\\frac{\\partial x}{\\partial (x+y)}", "derivative-variable", 27, 5, {"text": "(x+y)"}),
+    ("\\frac{\\partial x}{\\partial \\pi}", "derivative-variable", 27, 3, {"text": "\\pi"}),
     ("\\frac{\\partial}{\\partial m \\ell} x", "derivative-variable", 25, 6, {"text": "m \\ell"}),
     ("\\frac{\\delta x}{\\delta t}", "variation-of-constant", 16, 8, {"name": "t"}),
     ("\\partial x", "partial-derivative", 0, 8, {}),

@@ -40,6 +40,11 @@ REFUSED = [
         id="unknown parameter",
     ),
     pytest.param(
+        {"parameters": {"a/b": 1.0}},
+        Problem("unknown-parameter", "/parameters/a~1b", parameters={"name": "a/b", "known": "m, l, k, g"}),
+        id="pointer is escaped",
+    ),
+    pytest.param(
         {"parameters": {"m": 0.0}},
         Problem("not-positive", "/parameters/m", parameters={"name": "m", "value": 0.0}),
         id="mass of zero",

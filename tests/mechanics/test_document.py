@@ -214,6 +214,19 @@ WRONG = [
         Problem("unknown-field", "/bodys", parameters={"field": "bodys", "suggestion": "bodies"}),
         id="misspelt field",
     ),
+    *(
+        pytest.param(change, Problem(code, pointer, parameters=parameters), id=f"pointer is escaped: {pointer}")
+        for change, code, pointer, parameters in (
+            (
+                lambda d: d["bodies"][0].update({"a/b~c": 1}),
+                "unknown-field",
+                "/bodies/0/a~1b~0c",
+                {"field": "a/b~c", "suggestion": ""},
+            ),
+            (put("/labels", {"a/b": {"en": "bob"}}), "label-of-nothing", "/labels/a~1b", {"name": "a/b"}),
+            (put("/labels", {"a/b": 7}), "not-a-table", "/labels/a~1b", {}),
+        )
+    ),
     pytest.param(
         put("/drawing/elements/0/to", "bop"),
         Problem("unknown-place", "/drawing/elements/0/to", parameters={"name": "bop", "suggestion": "bob"}),
@@ -238,6 +251,17 @@ def test_wrong_documents(change: Callable[[dict], None], problem: Problem) -> No
     # Nothing else is complained about, unless an element of the wrong kind leaves its own fields unread.
     others = [other for other in caught.value.problems if other != problem and other.code != "unknown-field"]
     assert others == []
+
+
+def test_what_is_no_table_keeps_its_place_in_the_list() -> None:
+    document = copy.deepcopy(PENDULUM)
+    document["parameters"] = [{"name": "m"}, 7, {"name": "l"}, {"name": "g"}, {"name": "m"}]
+    with pytest.raises(SceneError) as caught:
+        read_scene(document)
+    assert caught.value.problems == (
+        Problem("duplicate-name", "/parameters/4/name", parameters={"name": "m"}),
+        Problem("not-a-table", "/parameters/1"),
+    )
 
 
 def test_a_scene_needs_a_body() -> None:

@@ -26,6 +26,7 @@ def test_a_scene_in_the_manner_of_the_files() -> None:
         ),
         pytest.param("a = " + "[" * 5000, Problem("toml-depth"), id="nested"),
         pytest.param("[x]\nday = 2026-11-21", Problem("toml-value", "/x/day"), id="date"),
+        pytest.param('["a/b~c"]\nday = 2026-11-21', Problem("toml-value", "/a~1b~0c/day"), id="pointer is escaped"),
         pytest.param('a = [1.0, inf]\n"b/c" = 1', Problem("toml-value", "/a/1"), id="infinite"),
     ],
 )

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from ..errors import Problem, RequestError
+from ..errors import Problem, RequestError, escaped
 
 LONGEST_NUMBER = 400
 DEEPEST = 64
@@ -74,8 +74,3 @@ def _children(pointer: str, part: Any) -> Iterator[tuple[str, Any]]:
     members: Iterable[tuple[Any, Any]] = part.items() if isinstance(part, dict) else enumerate(part)
     for name, value in members:
         yield f"{pointer}/{escaped(str(name))}", value
-
-
-def escaped(name: str) -> str:
-    """A name as part of a JSON pointer (RFC 6901); bounded, for it may be the client's."""
-    return name[:64].replace("~", "~0").replace("/", "~1")

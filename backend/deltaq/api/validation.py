@@ -7,8 +7,7 @@ from typing import Any
 
 from fastapi.exceptions import RequestValidationError
 
-from ..errors import Problem
-from .strict_json import escaped
+from ..errors import Problem, escaped
 
 _CODES = {
     "missing": "missing-field",

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-from ..errors import InputError, Problem, RequestError
+from ..errors import InputError, Problem, RequestError, escaped
 from .task import Task
 from .workbook import Workbook, workbook_of
 
@@ -83,7 +83,7 @@ def _problems(document: Mapping[str, object]) -> Iterator[Problem]:
     if document.get("format") != FORMAT:
         yield Problem("assignment-format", "/format", parameters={"format": FORMAT})
     for name in sorted(document.keys() - FIELDS):
-        yield Problem("unknown-field", f"/{name[:40]}", parameters={"field": name[:40]})
+        yield Problem("unknown-field", f"/{escaped(name)}", parameters={"field": name[:40]})
     if not isinstance(document.get("individual", False), bool):
         yield Problem("request-not-boolean", "/individual")
     if not _is_number(document.get("follow_through", 0.5), 1.0):
@@ -103,7 +103,7 @@ def _task_problems(entry: object, pointer: str) -> Iterator[Problem]:
         yield Problem("request-not-object", pointer)
         return
     for name in sorted(entry.keys() - TASK_FIELDS):
-        yield Problem("unknown-field", f"{pointer}/{name[:40]}", parameters={"field": name[:40]})
+        yield Problem("unknown-field", f"{pointer}/{escaped(name)}", parameters={"field": name[:40]})
     for name in ("scene", "task"):
         if name not in entry:
             yield Problem("missing-field", f"{pointer}/{name}", parameters={"field": name})

@@ -48,12 +48,15 @@ class Derivatives:
 
     def _derived(self, node: Node, variable: Node, span: Span) -> Node:
         """The derivative with respect to t is taken along the motion, any other is partial."""
-        match variable:
-            case Name("t"):
-                return self._grammar.operators.time_derivative(node, span)
-            case Name() | Rate():
-                return self._cursor.made(PartialDerivative(node, variable, span))
-        fail("derivative-variable", variable.span, text=self._cursor.slice(variable.span))
+        if variable == Name("t"):
+            return self._grammar.operators.time_derivative(node, span)
+        return self._partial(node, variable, span)
+
+    def _partial(self, operand: Node, variable: Node, span: Span) -> Node:
+        """∂/∂x for whatever may vary: π may not."""
+        if not isinstance(variable, (Name, Rate)) or variable == Name("pi"):
+            fail("derivative-variable", variable.span, text=self._cursor.slice(variable.span))
+        return self._cursor.made(PartialDerivative(operand, variable, span))
 
     def partial(self, token: Token) -> Node:
         """∂/∂x (…), or ∂(…)/∂x with the function on top."""
@@ -85,9 +88,7 @@ class Derivatives:
             if variable != Name("t"):
                 fail("total-derivative", variable.span, text=self._cursor.slice(variable.span))
             return self._grammar.operators.time_derivative(operand, span)
-        if not isinstance(variable, (Name, Rate)):
-            fail("derivative-variable", variable.span, text=self._cursor.slice(variable.span))
-        return self._cursor.made(PartialDerivative(operand, variable, span))
+        return self._partial(operand, variable, span)
 
     def _operand(self, token: Token) -> Node:
         """What d/dt applies to: brackets, or one factor if nothing follows that it could apply to as well."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ..errors import InputError, Problem, SceneError, UnknownNameError
+from ..errors import InputError, Problem, SceneError, UnknownNameError, escaped
 from ..language.expression import Expression
 from ..language.names import Symbol
 from ..language.parser import parse
@@ -41,14 +41,14 @@ def _with_parameters(scene: Scene, values: Mapping[str, float], *, may_add: bool
     for name, value in values.items():
         if name not in known and not may_add:
             parameters = {"name": name[:40], "known": ", ".join(known)}
-            raise UnknownNameError(Problem("unknown-parameter", f"/parameters/{name[:40]}", parameters=parameters))
+            raise UnknownNameError(Problem("unknown-parameter", f"/parameters/{escaped(name)}", parameters=parameters))
         known[name] = _set(known.get(name), name, value)
     return replace(scene, parameters=tuple(known.values()))
 
 
 def _set(parameter: Parameter | None, name: str, value: float) -> Parameter:
     """The parameter with its value; the slider's range gives way, the sign does not."""
-    pointer = f"/parameters/{name[:40]}"
+    pointer = f"/parameters/{escaped(name)}"
     if not math.isfinite(value):
         raise SceneError(Problem("not-finite", pointer))
     try:

@@ -103,7 +103,7 @@ def _names(root: Reader) -> Names:
     named = [
         (f"/{key}/{index}/name", Symbol(name, kind, _text(table, "latex"), _is_positive(kind, table)))
         for key, kind in KINDS.items()
-        for index, table in enumerate(_well_formed(root, key))
+        for index, table in _well_formed(root, key)
         if is_name(name := _text(table, "name"))
     ]
     try:
@@ -125,15 +125,16 @@ def _is_positive(kind: Kind, table: Mapping[str, object]) -> bool:
     return kind == "parameter" and table.get("positive", True) is True
 
 
-def _well_formed(root: Reader, key: str) -> tuple[Mapping[str, object], ...]:
-    """The tables of a list that are tables."""
+def _well_formed(root: Reader, key: str) -> tuple[tuple[int, Mapping[str, object]], ...]:
+    """The tables of a list that are tables, with their places in it."""
     value = root.table.get(key)
-    return tuple(table for table in value if isinstance(table, Mapping)) if isinstance(value, list | tuple) else ()
+    members = enumerate(value if isinstance(value, list | tuple) else ())
+    return tuple((index, table) for index, table in members if isinstance(table, Mapping))
 
 
 def _place_names(root: Reader) -> tuple[str, ...]:
     """Points and bodies; a continuum is no place, for it is everywhere."""
-    tables = (table for key in ("points", "bodies") for table in _well_formed(root, key))
+    tables = (table for key in ("points", "bodies") for _, table in _well_formed(root, key))
     return tuple(str(table.get("name", "")) for table in tables if "material" not in table)
 
 

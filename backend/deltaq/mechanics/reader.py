@@ -12,7 +12,7 @@ from difflib import get_close_matches
 from fractions import Fraction
 from typing import TypeVar, cast
 
-from ..errors import InputError, Parameter, Problem
+from ..errors import InputError, Parameter, Problem, escaped
 from ..language.expression import Expression
 from ..language.names import Names
 from ..language.parser import parse
@@ -60,10 +60,10 @@ class Reader:
         value = self.table.get(key)
         if value is None:
             if default is None:
-                self.complain("missing-field", key, field=key)
+                self.complain("missing-field", escaped(key), field=key)
             return default
         if not isinstance(value, kind) or isinstance(value, bool) is not (kind is bool):
-            self.complain(NOT_OF[kind[0] if isinstance(kind, tuple) else kind], key)
+            self.complain(NOT_OF[kind[0] if isinstance(kind, tuple) else kind], escaped(key))
             return default
         return value
 
@@ -184,9 +184,9 @@ class Reader:
             self.problems.extend(problem.below(self.pointer) for problem in error.problems)
             return
         yield made
-        for key in self.table.keys() - self.used:
+        for key in sorted(self.table.keys() - self.used):
             near = get_close_matches(key, self.used, n=1)
-            self.complain("unknown-field", key, field=key[:40], suggestion=near[0] if near else "")
+            self.complain("unknown-field", escaped(key), field=key[:40], suggestion=near[0] if near else "")
 
 
 def _numbered(kinds: list[str], index: int) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
 
-from ..errors import Problem
+from ..errors import Problem, escaped
 from ..language.expression import Expression
 from ..language.names import Names, Symbol
 from .bodies import Body
@@ -61,7 +61,7 @@ class Scene:
         yield from _repeated("/guides", [guide.coordinate for guide in self.guides])
         yield from _repeated("/events", [event.name for event in self.events])
         for name in sorted(self.labels.keys() - self.places.keys() - self._others):
-            yield Problem("label-of-nothing", f"/labels/{name}", parameters={"name": name[:40]})
+            yield Problem("label-of-nothing", f"/labels/{escaped(name)}", parameters={"name": name[:40]})
         for index, guide in enumerate(self.guides):
             yield from self._guide_problems(f"/guides/{index}", guide)
 

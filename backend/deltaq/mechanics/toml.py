@@ -7,7 +7,7 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 
-from ..errors import Problem, RequestError
+from ..errors import Problem, RequestError, escaped
 
 Document = dict[str, object]
 _PLACE = re.compile(r"^(.*?) \(at line (\d+), column (\d+)\)$", re.DOTALL)
@@ -40,7 +40,7 @@ def _strangers(value: object, pointer: str) -> Iterator[str]:
     match value:
         case Mapping():
             for key, one in value.items():
-                yield from _strangers(one, f"{pointer}/{str(key).replace('~', '~0').replace('/', '~1')}")
+                yield from _strangers(one, f"{pointer}/{escaped(str(key))}")
         case str() | bool() | int():
             return
         case Sequence():

@@ -12,7 +12,7 @@ from ..derivation.difference_quotient import SIZES, Quotients, compare
 from ..derivation.functional import Functional
 from ..derivation.functional_values import Motion, line_of
 from ..derivation.motion_curves import Curves, curves_of
-from ..errors import ExpressionError, Problem, RequestError
+from ..errors import ExpressionError, Problem, RequestError, escaped
 from ..language.names import Names
 from ..language.parser import parse
 from ..language.symbols import Symbols
@@ -52,7 +52,7 @@ def _motion(functional: Functional, numeric: Mapping[str, object]) -> Motion:
             for n in sorted(wanted - given.keys())
         ),
         *(
-            Problem("unknown-field", f"/numeric/parameters/{n}", parameters={"field": n})
+            Problem("unknown-field", f"/numeric/parameters/{escaped(n)}", parameters={"field": n[:40]})
             for n in sorted(given.keys() - wanted)
         ),
     ]
