@@ -46,8 +46,8 @@ class Settings:
     cache_folder_size: int = setting(1024 * MEBIBYTE, "bytes of answers kept in that folder")
     redis: str = setting("", "address of a Redis that replicas share, such as redis://host:6379/0")
     scheduler: str = setting("", "address of a Dask that works out maps, such as tcp://host:8786")  # read by deltaq.lab
-    client_share: float = setting(0.5, "part of the workers that one client gets for long; 0: all; on loopback too")
-    client_credit: float = setting(120.0, "seconds of workers that one client gets beyond that")
+    client_share: float = setting(0.5, "part of the processors that one client gets for long; 0: all; on loopback too")
+    client_credit: float = setting(120.0, "seconds of processor time that one client gets beyond that")
     largest_body: int = setting(MEBIBYTE, "bytes of a request's body")
     body_timeout: float = setting(10.0, "seconds within which a body must be complete")
     head_timeout: float = setting(10.0, "seconds within which the head of a request must be complete")

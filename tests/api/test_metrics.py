@@ -47,6 +47,7 @@ async def test_cache_and_workers_are_told(client: httpx.AsyncClient) -> None:
         "deltaq_workers_busy",
         "deltaq_queue_length",
         "deltaq_worker_kills_total",
+        "deltaq_processor_seconds_total",
         "deltaq_cache_bytes",
         "deltaq_cache_entries",
         "deltaq_compiled_kernels",

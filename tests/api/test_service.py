@@ -25,7 +25,7 @@ async def test_health(client: httpx.AsyncClient) -> None:
     await client.post(f"{API}/scenes/validate", json={})  # now a worker is up
     answer = (await client.get(f"{API}/health")).json()
     assert (answer["status"], answer["version"]) == ("ok", __version__)
-    assert answer["workers"].keys() == {"workers", "ready", "busy", "waiting", "kills"}
+    assert answer["workers"].keys() == {"workers", "ready", "busy", "waiting", "kills", "processor_seconds"}
     assert answer["workers"]["workers"] == 3  # one is kept for what is fast
     assert answer["cache"].keys() == {"entries", "bytes", "hits", "misses"}
 

@@ -24,6 +24,7 @@ _OF_POOLS = (
     (GaugeMetricFamily, "deltaq_workers_busy", "Worker processes at work", attrgetter("busy")),
     (GaugeMetricFamily, "deltaq_queue_length", "Jobs that wait for a worker", attrgetter("waiting")),
     (CounterMetricFamily, "deltaq_worker_kills", "Workers killed or dead", attrgetter("kills")),
+    (CounterMetricFamily, "deltaq_processor_seconds", "Processor time of jobs", attrgetter("processor_seconds")),
 )
 
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import hashlib
 import os
 import signal
 import struct
 import sys
+import threading
 import time
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -45,6 +47,23 @@ def sleep(document: Any) -> Any:
 def spin(document: Any) -> Any:
     """A computation that no Python signal handler can interrupt."""
     return 10 ** (10**9)
+
+
+def burn(document: Any) -> Any:
+    """So many seconds of processor time on each of some threads, and then some sleep."""
+
+    def work() -> None:
+        end = time.thread_time() + document["seconds"]
+        while time.thread_time() < end:
+            hashlib.sha256(bytes(2**20))  # leaves the interpreter to the others
+
+    threads = [threading.Thread(target=work) for _ in range(document.get("threads", 1))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    time.sleep(document.get("sleep", 0.0))
+    return document
 
 
 def ignore_signals(document: Any) -> Any:

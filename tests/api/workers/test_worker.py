@@ -7,6 +7,7 @@ import threading
 import pytest
 
 from deltaq.api.workers import lane as lane_module
+from deltaq.api.workers.job import Job
 from deltaq.api.workers.lane import Lane, Limits
 from deltaq.api.workers.queue import FairQueue
 from deltaq.api.workers.worker import Worker, start_worker
@@ -40,7 +41,7 @@ def test_lane_tries_again_until_a_worker_comes_up(monkeypatch: pytest.MonkeyPatc
     lane = Lane(FairQueue(10), LIMITS)
     worker = lane.ready_worker()
     assert worker is not None
-    assert worker.ask(b'["tests.api.workers.jobs:echo", 10, 5]', 10.0) == b"+5"
+    assert worker.ask(b'["tests.api.workers.jobs:echo", 10, 5]', Job("", 10.0)) == b"+5"
     assert len(attempts) == 3
     lane.drop_worker()
 

@@ -8,13 +8,14 @@ from .base import Answer
 
 
 class WorkerHealth(Answer):
-    """Worker processes: all, up, busy; tasks that wait; workers that had to be killed or died."""
+    """Worker processes: all, up, busy; tasks that wait; workers killed or dead; processor time that jobs have used."""
 
     workers: int
     ready: int
     busy: int
     waiting: int
     kills: int
+    processor_seconds: float
 
 
 class CacheHealth(Answer):

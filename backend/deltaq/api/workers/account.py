@@ -1,4 +1,4 @@
-"""What the jobs of each client have cost, in seconds of workers; a worker is one processor."""
+"""What the jobs of each client have cost, in seconds of processor time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class QuotaExceeded(JobError):
 class Ledger:
     """The debts of all clients: each may owe `credit` seconds, and pays `rate` seconds back per second.
 
-    So one client gets `rate` workers in the long run, and `credit` seconds of them at once. Used from many threads.
+    So one client gets `rate` processors in the long run, and `credit` seconds of them at once. Used from many threads.
     """
 
     def __init__(self, rate: float, credit: float, clock: Callable[[], float] = time.monotonic) -> None:
@@ -66,7 +66,7 @@ class Account:
             self.ledger.admit(self.client)
 
     def pay(self, seconds: float) -> None:
-        """Charge the time of a worker."""
+        """Charge processor time."""
         if self.ledger:
             self.ledger.charge(self.client, seconds)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -14,10 +15,12 @@ Pace = Literal["fast", "slow"]
 class Job:
     """A function named `package.module:function` that turns a JSON document into a JSON document.
 
-    `deadline` is the wall time in seconds after which the process that runs it is killed. A `pure` job has no effect
-    but its answer, so it may be run again when its worker was killed from outside. A function that returns an iterator
-    gives parts, the last of which is the answer. `threads` is how many of them the job may keep busy. A job whose
-    usual time is more than a moment is `slow`: one worker is never given such a job.
+    The process that runs it is killed `deadline` seconds after it began, or when it has used `processor` seconds of
+    processor time, whichever is first. The second bound is for what must be over in a moment: a busy machine lets a
+    process wait for longer than such a moment, and that is not the job's fault.
+    A `pure` job has no effect but its answer, so it may be run again when its worker was killed from outside. A
+    function that returns an iterator gives parts, the last of which is the answer. `threads` is how many of them the
+    job may keep busy. A job whose usual time is more than a moment is `slow`: one worker is never given such a job.
     """
 
     target: str
@@ -25,6 +28,12 @@ class Job:
     pure: bool = True
     threads: int = 1
     pace: Pace = "fast"
+    processor: float = math.inf
+
+    @property
+    def processor_time(self) -> float:
+        """All processor time that it may use: more than its threads could use before the deadline has no meaning."""
+        return min(self.processor, self.threads * self.deadline)
 
 
 class JobError(DeltaqError):
@@ -32,7 +41,7 @@ class JobError(DeltaqError):
 
 
 class DeadlineExceeded(JobError):
-    """The job took longer than its deadline; its process was killed."""
+    """The job took longer than it may, by the clock or of a processor; its process was killed."""
 
 
 class GivenUp(JobError):

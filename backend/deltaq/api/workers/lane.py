@@ -44,6 +44,7 @@ class Lane(Thread):
         self.worker: Worker | None = None
         self.served = 0
         self.kills = 0
+        self.processor_seconds = 0.0
         self.busy = False
         self.stopping = Event()
 
@@ -95,29 +96,32 @@ class Lane(Thread):
         self.ready_worker()
 
     def outcome(self, task: Task) -> bytes | DeltaqError:
-        """Run it; once more if it is pure and the worker was killed from outside. Its client pays for the time."""
+        """Run it; once more if it is pure and the worker was killed from outside."""
         if time.monotonic() - task.asked_at > self.limits.patience:
             return Overloaded("waited too long")
-        begin = time.monotonic()
         try:
             task.account.admit()  # others of its tasks may have used up the share meanwhile
             first = self.attempt(task)
             return self.attempt(task) if isinstance(first, WorkerKilled) and task.job.pure else first
         except QuotaExceeded as error:
             return error
-        finally:
-            task.account.pay(time.monotonic() - begin)
+
+    def pay(self, task: Task, seconds: float) -> None:
+        """Charge processor time to the client, and count it."""
+        task.account.pay(seconds)
+        self.processor_seconds += seconds
 
     def attempt(self, task: Task) -> bytes | DeltaqError:
-        """One try. A worker that failed otherwise than by wrong input is not trusted with another task."""
+        """One try, for which the client pays. A worker that failed otherwise than by wrong input gets no other task."""
         worker = self.ready_worker()
         if worker is None:
             return Overloaded("the service is stopping")
         try:
-            outcome = decode_reply(worker.ask(task.request, task.job.deadline, task.listener))
+            outcome = decode_reply(worker.ask(task.request, task.job, task.listener))
         except JobError as error:
             outcome = error
         self.served += 1
+        self.pay(task, worker.meter.seconds)
         if isinstance(outcome, JobError) and not isinstance(outcome, InputError):
             self.kills += not isinstance(outcome, GivenUp)
             self.drop_worker()

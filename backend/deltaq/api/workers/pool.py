@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from threading import Event
 from typing import Any
 
@@ -28,6 +28,7 @@ class PoolState:
     busy: int
     waiting: int
     kills: int
+    processor_seconds: float = field(default=0.0, compare=False)
 
 
 def _ignore(_part: bytes) -> None:
@@ -75,7 +76,7 @@ class Pool:
         account.admit()
         loop, gone = asyncio.get_running_loop(), Event()
         listener = Listener(lambda part: loop.call_soon_threadsafe(hear, part), gone.is_set)
-        task = Task(job, encode_request(job.target, job.threads * job.deadline, document), listener, account)
+        task = Task(job, encode_request(job.target, job.processor_time, document), listener, account)
         try:
             return await self._answer(task)
         finally:
@@ -98,6 +99,7 @@ class Pool:
             busy=sum(lane.busy for lane in self._lanes),
             waiting=len(self._tasks),
             kills=sum(lane.kills for lane in self._lanes),
+            processor_seconds=sum(lane.processor_seconds for lane in self._lanes),
         )
 
     @property

@@ -12,8 +12,9 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from threading import Lock
 
-from .job import DeadlineExceeded, GivenUp, WorkerDied, WorkerKilled
+from .job import DeadlineExceeded, GivenUp, Job, WorkerDied, WorkerKilled
 from .message import PART, READY
+from .meter import Meter, processor_clock
 from .runner import run
 
 _CONTEXT = get_context("forkserver")  # forks from a process of one thread; the web process has many
@@ -21,6 +22,7 @@ _PROCESSES = Lock()  # multiprocessing keeps a list of children that is not made
 _FORK_SERVER_GONE = 255  # who would have told the exit code; it takes its workers along
 _KILLED_FROM_OUTSIDE = frozenset({-signal.SIGKILL, -signal.SIGTERM, _FORK_SERVER_GONE})
 LOOK_UP = 0.2  # seconds between two looks at whether anybody still waits
+SHORTEST_LOOK = 0.01  # seconds; a process that gets no processor uses up its time slowly
 
 
 @dataclass(frozen=True)
@@ -36,27 +38,31 @@ NOBODY = Listener(lambda _part: None, lambda: False)
 
 @dataclass(frozen=True)
 class Worker:
-    """A running process and the pipe to it; used by one thread only."""
+    """A running process, the pipe to it, and what it has used; used by one thread only."""
 
     process: ForkServerProcess
     connection: Connection
+    meter: Meter
 
     @property
     def pid(self) -> int:
         return self.process.pid or 0
 
-    def ask(self, request: bytes, deadline: float, listener: Listener = NOBODY) -> bytes:
-        """The reply, within `deadline` seconds; its parts go to the listener.
+    def ask(self, request: bytes, job: Job, listener: Listener = NOBODY) -> bytes:
+        """The reply to the request of a job, within its bounds; its parts go to the listener.
 
         DeadlineExceeded, WorkerDied, or GivenUp when the listener has gone; after an error only kill the worker.
         """
-        end = time.monotonic() + deadline
+        end = time.monotonic() + job.deadline
+        self.meter.start()
         try:
             self.connection.send_bytes(request)
             while (left := end - time.monotonic()) > 0.0:
                 if listener.has_gone():
                     raise GivenUp("nobody waits for the answer")
-                if not self.connection.poll(min(left, LOOK_UP)):
+                if (unused := job.processor_time - self.meter.seconds) <= 0.0:
+                    raise DeadlineExceeded(f"no answer within {job.processor_time} s of a processor")
+                if not self.connection.poll(min(left, LOOK_UP, max(unused / job.threads, SHORTEST_LOOK))):
                     continue
                 reply = self.connection.recv_bytes()
                 if reply[:1] != PART:
@@ -64,7 +70,7 @@ class Worker:
                 listener.hear(reply[1:])
         except (EOFError, OSError):
             raise self.cause_of_death() from None
-        raise DeadlineExceeded(f"no answer within {deadline} s")
+        raise DeadlineExceeded(f"no answer within {job.deadline} s")
 
     def cause_of_death(self) -> WorkerDied | DeadlineExceeded:
         """Why the process is gone; its bound on processor time is a deadline too."""
@@ -92,7 +98,7 @@ def start_worker(memory: int, timeout: float) -> Worker:
     with _PROCESSES:
         process.start()
     theirs.close()
-    worker = Worker(process, ours)
+    worker = Worker(process, ours, Meter(processor_clock(process.pid or 0)))
     try:
         if not ours.poll(timeout):
             raise TimeoutError(f"the worker was not ready after {timeout} s")
