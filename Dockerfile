@@ -13,7 +13,7 @@ RUN python -m venv /opt/deltaq \
 
 # Compiled once, so that the first simulation does not wait for a compiler.
 ENV NUMBA_CACHE_DIR=/opt/kernels
-RUN /opt/deltaq/bin/python -c "from deltaq.api.jobs import warm; warm({})"
+RUN /opt/deltaq/bin/deltaq compile
 
 FROM python:3.11-slim-bookworm
 RUN useradd --system --no-create-home --shell /usr/sbin/nologin deltaq \

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
 from typing import Any
@@ -23,11 +22,7 @@ from .hosts import TrustedHosts
 from .routes import pages
 from .routes.common import PREFIX
 from .service import Service, make_ledger, make_service
-from .workers.job import Job, JobError
 
-LOGGER = logging.getLogger("deltaq.api")
-WARM = Job("deltaq.api.jobs:warm", deadline=300.0, pace="slow")
-WARM_LABORATORY = Job("deltaq.api.jobs:warm_laboratory", deadline=300.0, threads=8, pace="slow")
 # What pages of other origins may do, where the settings let them in; they never bring cookies, for there are none.
 CROSS_ORIGIN: Any = {
     "allow_methods": ["GET", "POST"],
@@ -88,21 +83,13 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     service: Service = app.state.service
     for pool in (service.pool, service.laboratory):
         pool.start()
-    warming = asyncio.create_task(_warm(service))
+    spare = max(1, service.settings.workers - 1)  # one worker at least answers meanwhile
+    compiling = asyncio.create_task(service.kernels.compile(service.pool, service.laboratory, spare))
     try:
         yield
     finally:
-        warming.cancel()
+        compiling.cancel()
         with suppress(asyncio.CancelledError):
-            await warming
+            await compiling
         for pool in (service.laboratory, service.pool):
             await asyncio.to_thread(pool.stop)
-
-
-async def _warm(service: Service) -> None:
-    """One worker compiles what is not compiled yet; the others answer meanwhile."""
-    try:
-        await service.pool.run(WARM, {})
-        await service.laboratory.run(WARM_LABORATORY, {})
-    except JobError as error:
-        LOGGER.warning("could not warm up: %s", error)

@@ -13,7 +13,6 @@ from ..mechanics.toml import read_toml
 from ..narration.catalog import text
 from ..narration.outcome import explained
 from .problems import describe
-from .workers.kernels import mark_as_compiled
 
 Document = dict[str, Any]
 PART_PAUSE = 0.4  # seconds between two parts of a stream
@@ -69,9 +68,8 @@ def typeset_all(document: Document) -> Document:
 
 
 def warm(document: Document) -> Document:
-    """Bring the compiled kernels to disk and into this worker, so that nobody waits for a compiler."""
-    import_module("deltaq.simulation.service").warm()
-    mark_as_compiled()
+    """Bring the compiled kernels of a family of methods to disk, so that nobody else waits for a compiler."""
+    import_module("deltaq.simulation.service").warm(document["family"])
     return document
 
 

@@ -18,6 +18,7 @@ from ..settings import Settings
 from .assets import Assets
 from .cache import Cache, content_hash
 from .clients import ACCOUNT
+from .kernels import Kernels
 from .metrics import Metrics, make_metrics
 from .stores.disk import Disk
 from .stores.memory import Memory
@@ -42,6 +43,7 @@ class Service:
     cache: Cache
     assets: Assets
     metrics: Metrics
+    kernels: Kernels
 
     async def answer(self, key: str, job: Job, document: Any) -> bytes:
         """The gzipped JSON of a pure job, from the cache if it is there."""
@@ -73,7 +75,7 @@ def make_service(settings: Settings) -> Service:
     laboratory = Pool(settings.experiment_workers, settings.experiment_queue, limits, (PRELOAD,))
     cache = Cache(Memory(settings.cache_size), *stores_of(settings))
     metrics = make_metrics({"requests": pool, "experiments": laboratory}, cache)
-    return Service(settings, pool, laboratory, cache, Assets(static_root(settings.static)), metrics)
+    return Service(settings, pool, laboratory, cache, Assets(static_root(settings.static)), metrics, Kernels())
 
 
 def stores_of(settings: Settings) -> Iterator[Store]:

@@ -21,6 +21,11 @@ def method_ids() -> tuple[str, ...]:
     return tuple(_methods())
 
 
+def families() -> tuple[str, ...]:
+    """The families of methods, explicit ones first; each has kernels of its own."""
+    return tuple(dict.fromkeys(method.family for method in _methods().values()))
+
+
 def get_method(identifier: str) -> Method:
     """The method of this id. Raises UnknownNameError if there is none."""
     if identifier not in _methods():

@@ -88,10 +88,14 @@ def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:
     )
 
 
-def warm() -> None:
-    """Compiles the kernels, or loads them from the cache on disk; a first run of each kind of method."""
-    for identifier in method_ids():
-        simulate(problem_of(load_scene("pendulum"), 0.1, 2), get_method(identifier), step=0.05)
+def warm(*chosen: str) -> None:
+    """Compiles the kernels of some families of methods, or loads them from the cache on disk; of all if none is named.
+
+    That is a first run with each method.
+    """
+    for method in map(get_method, method_ids()):
+        if not chosen or method.family in chosen:
+            simulate(problem_of(load_scene("pendulum"), 0.1, 2), method, step=0.05)
 
 
 def _finite(trajectory: Trajectory, seen: Observation) -> tuple[Trajectory, Observation]:

@@ -162,3 +162,13 @@ def birth(document: Any) -> Any:
         "threads": threads("self"),
         "loaded": sorted(libraries & sys.modules.keys()),
     }
+
+
+def compile_family(document: Any) -> Any:
+    """A moment for each family."""
+    time.sleep(0.05)
+    return document
+
+
+def compile_but_newmark(document: Any) -> Any:
+    return {} if document["family"] != "newmark" else 1 / 0

@@ -65,6 +65,7 @@ async def _answer(service: Service, key: str, question: dict[str, Any], hear: Ca
     kept = await service.cache.find(key)
     if kept is not None:
         return kept
+    await service.kernels.wait()
     job = replace(EXPERIMENT, deadline=service.settings.experiment_deadline)
     answer = pack(await service.laboratory.run(job, question, hear, ACCOUNT.get()))
     await service.cache.keep(key, answer)

@@ -23,5 +23,6 @@ async def simulate(request: Request, body: SimulationRequest) -> Response:
     service = service_of(request)
     question = question_of(request, body)
     key = service.key(SIMULATE.target, question)
+    await service.kernels.wait(body.method)
     job = replace(SIMULATE, deadline=service.settings.simulation_deadline)
     return packed(request, key, await service.answer(key, job, {"request": question}))

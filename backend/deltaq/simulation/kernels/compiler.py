@@ -30,6 +30,8 @@ def inner(function: F) -> F:
 
 def _compiled(function: F, *, forceinline: bool) -> F:
     options: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "_nrt": False}
+    if forceinline:  # Python never calls it, and wrappers for so many arrays take long to compile
+        options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, **options)(function)
     # Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
     compiled._cache._cache_file._source_stamp = source_stamp()  # noqa: SLF001
@@ -43,3 +45,9 @@ def source_stamp() -> str:
     for file in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(file.read_bytes())
     return digest.hexdigest()
+
+
+@inner
+def variable(number: int) -> int:
+    """The number, no longer a literal: Numba compiles a function once more for each literal it is called with."""
+    return int(number)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner, kernel
+from .compiler import inner, kernel, variable
 from .extension import sample, watch_extension
 from .motion import CANCELLED, FINE, NOT_FINITE, STEP_LIMIT, STEP_UNDERFLOW, Floats, Motion, slope
 from .step import Room, Weights, accept, attempt
@@ -69,8 +69,8 @@ def integrate(
         return Result(outcome, 1, 0, 0, 1, t)
     is_adaptive = control.tolerance > 0.0
     h = first_step(motion, control, t, room) if is_adaptive else control.step
-    filled, steps, rejected, evaluations, before, growth = 1, 0, 0, 1 + is_adaptive, 1e-4, LARGEST_GROWTH
-    held_back = 0
+    filled, steps, rejected, evaluations, before, growth = variable(1), 0, 0, 1 + is_adaptive, 1e-4, LARGEST_GROWTH
+    held_back = variable(0)
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps + rejected, watch)
         if outcome != FINE:

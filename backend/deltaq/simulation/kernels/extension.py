@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .compiler import inner
+from .compiler import inner, variable
 from .motion import FINE, Floats, Motion
 from .step import Room, Weights, stages
 from .watch import Watch, look_at, seen
@@ -65,5 +65,5 @@ def watch_extension(motion: Motion, weights: Weights, t: float, h: float, watch:
     if watch.functions == 0:
         return FINE, 0
     look_at(watch, t, h)
-    _, extra = sample(motion, weights, t, h, watch.times, watch.states, 0, room)
+    _, extra = sample(motion, weights, t, h, watch.times, watch.states, variable(0), room)
     return seen(watch, motion.degrees), extra

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner
+from .compiler import inner, variable
 from .motion import FINE, Floats, Motion, slope
 from .watch import Watch, look_at, seen
 
@@ -92,5 +92,5 @@ def watch_between(motion: Motion, t: float, h: float, watch: Watch, ends: Ends) 
     if watch.functions == 0:
         return FINE, 0
     look_at(watch, t, h)
-    _, extra = sample_between(motion, t, h, watch.times, watch.states, 0, ends)
+    _, extra = sample_between(motion, t, h, watch.times, watch.states, variable(0), ends)
     return seen(watch, motion.degrees), extra

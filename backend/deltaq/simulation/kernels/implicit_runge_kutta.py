@@ -6,7 +6,7 @@ Fixed steps stay what they are: the last one goes past the end if it must, and s
 from __future__ import annotations
 
 from .collocation import sample_stages
-from .compiler import inner, kernel
+from .compiler import inner, kernel, variable
 from .explicit_runge_kutta import Result, interruption
 from .hermite import sample_between
 from .implicit_room import ImplicitRoom, take
@@ -45,7 +45,7 @@ def watch_implicit(
     if watch.functions == 0:
         return FINE, 0
     look_at(watch, now[0], now[1])
-    _, extra = sample_implicit(motion, phase, weights, now, (watch.times, watch.states), 0, room)
+    _, extra = sample_implicit(motion, phase, weights, now, (watch.times, watch.states), variable(0), room)
     return seen(watch, motion.degrees), extra
 
 
@@ -91,7 +91,7 @@ def integrate_implicit(
     is_adaptive = control.tolerance > 0.0
     h = control.step * (0.01 if is_adaptive else 1.0)
     before_h, assembled_h, is_old, is_fresh = 0.0, 0.0, True, True
-    filled, steps, rejected, evaluations = 1, 0, 0, 2
+    filled, steps, rejected, evaluations = variable(1), 0, 0, 2
     q, v = room.ends.old[:n], room.ends.old[n : 2 * n]
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps + rejected, watch)

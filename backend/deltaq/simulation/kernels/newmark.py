@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .compiler import kernel
+from .compiler import kernel, variable
 from .explicit_runge_kutta import Result, interruption
 from .hermite import sample_between, watch_between
 from .motion import FINE, NOT_FINITE, Floats, Motion, slope
@@ -37,7 +37,7 @@ def integrate_newmark(
             outcome = NOT_FINITE
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
-    filled, steps, evaluations, needs_matrix = 1, 0, 1, True
+    filled, steps, evaluations, needs_matrix = variable(1), 0, 1, True
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps, watch)
         if outcome != FINE:

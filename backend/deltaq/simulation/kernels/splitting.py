@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner, kernel
+from .compiler import inner, kernel, variable
 from .explicit_runge_kutta import Result, interruption
 from .hermite import Ends, make_ends, sample_between, watch_between
 from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, factor, slope, solve
@@ -136,7 +136,7 @@ def integrate_split(
     for i in range(n * (n + 1) // 2):
         room.factors[i] = phase.outputs[i]
     factor(room.factors, n)
-    filled, steps, evaluations, is_known = 1, 0, 2, False
+    filled, steps, evaluations, is_known = variable(1), 0, 2, False
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps, watch)
         if outcome != FINE:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner
+from .compiler import inner, variable
 from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, slope
 
 LARGEST_VALUE = 1e15  # beyond, nothing in a mechanical scene has a meaning
@@ -84,7 +84,7 @@ def advance(b: Floats, h: float, room: Room) -> int:
 @inner
 def attempt(motion: Motion, weights: Weights, t: float, h: float, room: Room) -> int:
     """All stages of one step, the new state and the slope there; returns how it went."""
-    outcome = stages(motion, weights.a, weights.c, 1, t, h, room)
+    outcome = stages(motion, weights.a, weights.c, variable(1), t, h, room)
     if outcome == FINE:
         outcome = advance(weights.b, h, room)
     if outcome == FINE:

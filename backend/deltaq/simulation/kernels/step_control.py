@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner
+from .compiler import inner, variable
 from .motion import FINE, STIFF, Floats, Motion, slope
 from .step import Room
 
@@ -111,6 +111,6 @@ def is_held_back(control: Control, h: float, room: Room) -> bool:
 def patience(control: Control, held_back: int, steps: int, left: float, h: float, room: Room) -> tuple[int, int]:
     """How many steps were held back by stability, and STIFF if so many that the end cannot be reached."""
     if control.tolerance == 0.0:
-        return 0, FINE
+        return variable(0), FINE
     held_back = held_back + 1 if is_held_back(control, h, room) else max(held_back - 10, 0)
     return held_back, STIFF if held_back >= MANY and steps + left / h > control.step_limit else FINE

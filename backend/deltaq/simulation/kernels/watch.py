@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inner
+from .compiler import inner, variable
 from .motion import EVENT, FINE, Floats
 from .pointer import call
 
@@ -74,7 +74,7 @@ def seen(watch: Watch, degrees: int) -> int:
         call(watch.address, watch.data, watch.values[k], watch.inputs)
     outcome = FINE
     for j in range(watch.functions):
-        lowest = 0
+        lowest = variable(0)
         for k in range(1, watch.times.size):
             if watch.values[k, j] < watch.values[lowest, j]:
                 lowest = k

@@ -1,0 +1,71 @@
+"""Numerical kernels are compiled where the service first runs; simulations wait for them instead of compiling, too."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..simulation.choice import AUTO
+from ..simulation.library import families, get_method
+from .workers.job import Job, JobError, Overloaded
+from .workers.kernels import are_compiled, mark_as_compiled
+from .workers.pool import Pool
+
+LOGGER = logging.getLogger("deltaq.api")
+WARM = Job("deltaq.api.jobs:warm", deadline=300.0, pace="slow")
+WARM_LABORATORY = Job("deltaq.api.jobs:warm_laboratory", deadline=300.0, threads=8, pace="slow")
+USUAL = "dop853"  # what `auto` takes nearly always
+
+
+@dataclass(frozen=True)
+class Kernels:
+    """The kernels of each family of methods: compiled by the jobs named, waited for `patience` seconds at most."""
+
+    warm: Job = WARM
+    warm_laboratory: Job = WARM_LABORATORY
+    patience: float = 120.0
+    _compiled: dict[str, asyncio.Event] = field(default_factory=dict)  # of the families that are being compiled
+
+    async def compile(self, pool: Pool, laboratory: Pool, workers: int) -> None:
+        """Compile what is not compiled yet, each family in a worker of its own; so many at a time may be taken."""
+        if are_compiled():  # then every worker is born with them
+            return
+        self._compiled.update({family: asyncio.Event() for family in families()})
+        taken = asyncio.Semaphore(workers)
+        jobs = [self._compile(family, pool, taken) for family in families()]
+        if all(await asyncio.gather(*jobs)) and await _ran(laboratory, self.warm_laboratory, {}):
+            mark_as_compiled()
+
+    async def _compile(self, family: str, pool: Pool, taken: asyncio.Semaphore) -> bool:
+        """Whether it worked. Jobs go on in either case: they compile for themselves what is missing."""
+        try:
+            async with taken:
+                return await _ran(pool, self.warm, {"family": family})
+        finally:
+            self._compiled[family].set()
+
+    async def wait(self, *methods: str) -> None:
+        """Until the kernels of these methods are there, of all if none is named.
+
+        Raises Overloaded if that takes too long, UnknownNameError for a method that does not exist.
+        """
+        wanted = {get_method(USUAL if method == AUTO else method).family for method in methods}
+        try:
+            async with asyncio.timeout(self.patience):
+                for family in wanted or families():
+                    if family in self._compiled:
+                        await self._compiled[family].wait()
+        except TimeoutError:
+            raise Overloaded("the numerical kernels are still being compiled") from None
+
+
+async def _ran(pool: Pool, job: Job, document: dict[str, Any]) -> bool:
+    """Whether a job came to its end."""
+    try:
+        await pool.run(job, document)
+    except JobError as error:
+        LOGGER.warning("could not compile kernels %s: %s", document, error)
+        return False
+    return True

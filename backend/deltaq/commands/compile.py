@@ -1,0 +1,34 @@
+"""`deltaq compile`: the numerical kernels, before anybody asks for a motion."""
+
+from __future__ import annotations
+
+import argparse
+from time import perf_counter
+
+HELP = "compile the numerical kernels for this machine"
+DESCRIPTION = """Compiles the numerical kernels and keeps them on disk (NUMBA_CACHE_DIR). The service does so itself
+when it first runs on a machine; a deployment does it beforehand."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """It takes none."""
+
+
+def run(_options: argparse.Namespace) -> None:
+    """Each family of methods, then what only the lab needs."""
+    from ..api.workers.kernels import are_compiled, mark_as_compiled
+    from ..lab import monodromy
+    from ..simulation.library import families
+    from ..simulation.service import warm
+
+    if are_compiled():
+        print("all kernels are there")
+        return
+    for family in families():
+        start = perf_counter()
+        warm(family)
+        print(f"{family:22} {perf_counter() - start:5.1f} s", flush=True)
+    start = perf_counter()
+    monodromy.warm()
+    mark_as_compiled()
+    print(f"{'stability maps':22} {perf_counter() - start:5.1f} s")

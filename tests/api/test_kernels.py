@@ -1,0 +1,98 @@
+"""On a machine without compiled kernels simulations wait for them; nobody is turned away meanwhile."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Coroutine
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from deltaq.api.kernels import Kernels
+from deltaq.api.workers.job import Job, Overloaded
+from deltaq.api.workers.kernels import are_compiled
+from deltaq.errors import UnknownNameError
+
+from .workers.conftest import MakePool, make_pool
+
+__all__ = ["make_pool"]
+COMPILE = Job("tests.api.workers.jobs:compile_family", 30.0)
+SLEEP = Job("tests.api.workers.jobs:spin", 30.0)
+ALL_BUT_NEWMARK = Job("tests.api.workers.jobs:compile_but_newmark", 30.0)
+ECHO = Job("tests.api.workers.jobs:echo", 30.0)
+
+
+@pytest.fixture(autouse=True)
+def _new_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+
+
+async def in_order(**waits: Coroutine[Any, Any, None]) -> list[str]:
+    """The names of what is waited for, as it comes."""
+    come: list[str] = []
+
+    async def one(name: str, wait: Coroutine[Any, Any, None]) -> None:
+        await wait
+        come.append(name)
+
+    await asyncio.gather(*(one(name, wait) for name, wait in waits.items()))
+    return come
+
+
+@pytest.mark.anyio
+async def test_a_simulation_waits_for_the_kernels_of_its_method_only(make_pool: MakePool) -> None:
+    pool, kernels = make_pool(), Kernels(COMPILE, ECHO)
+    compiling = asyncio.create_task(kernels.compile(pool, pool, workers=1))
+    await asyncio.sleep(0)
+    come = await in_order(
+        experiment=kernels.wait(),
+        newmark=kernels.wait("newmark"),
+        radau=kernels.wait("radau-5"),
+        auto=kernels.wait("auto"),
+        rk4=kernels.wait("rk4"),
+    )
+    assert (set(come[:2]), come[2], set(come[3:])) == ({"auto", "rk4"}, "radau", {"newmark", "experiment"})
+    await compiling
+    assert are_compiled()
+
+
+@pytest.mark.anyio
+async def test_what_is_compiled_is_not_waited_for(make_pool: MakePool) -> None:
+    pool = make_pool()
+    await Kernels(COMPILE, ECHO).compile(pool, pool, workers=2)
+    later = Kernels(SLEEP, SLEEP)
+    await later.compile(pool, pool, workers=2)
+    await later.wait()
+
+
+@pytest.mark.anyio
+async def test_kernels_that_cannot_be_compiled_stop_nobody(
+    make_pool: MakePool, caplog: pytest.LogCaptureFixture
+) -> None:
+    pool, kernels = make_pool(), Kernels(ALL_BUT_NEWMARK, ECHO)
+    await kernels.compile(pool, pool, workers=2)
+    await kernels.wait()
+    assert not are_compiled()
+    assert [record.getMessage() for record in caplog.records if record.name == "deltaq.api"] == [
+        "could not compile kernels {'family': 'newmark'}: ZeroDivisionError: division by zero"
+    ]
+
+
+@pytest.mark.anyio
+async def test_patience_has_an_end(make_pool: MakePool) -> None:
+    pool, kernels = make_pool(), Kernels(SLEEP, ECHO, patience=0.05)
+    compiling = asyncio.create_task(kernels.compile(pool, pool, workers=1))
+    await asyncio.sleep(0)
+    with pytest.raises(Overloaded, match=r"^the numerical kernels are still being compiled$"):
+        await kernels.wait("gauss-4")
+    compiling.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await compiling
+
+
+@pytest.mark.anyio
+async def test_an_unknown_method_is_not_waited_for() -> None:
+    with pytest.raises(UnknownNameError) as caught:
+        await Kernels().wait("rk5")
+    assert caught.value.problems[0].parameters["suggestion"] == "rk4"
