@@ -2,7 +2,8 @@
 
 /** @typedef {Record<string, any>} Json */
 /** @typedef {{name: string, kind: string, text: string, required: boolean}} Field */
-/** @typedef {{id: string, method: string, path: string, text: string, fields: Field[], example: string, answers: {status: string, text: string}[]}} Call */
+/** @typedef {{name: string, place: string, text: string, required: boolean, choices: string[], example: string}} Input  a part of the address */
+/** @typedef {{id: string, method: string, path: string, text: string, fields: Field[], inputs: Input[], type: string, examples: string[], answers: {status: string, text: string}[]}} Call  type: of the body, "" without one */
 /** @typedef {{subject: string, calls: Call[]}} Group */
 
 /** @param {Json} description  OpenAPI 3.1 @returns {Group[]} */
@@ -22,13 +23,25 @@ export function groupsOf(description) {
 function callOf(description, method, path, operation) {
   const [type, body] = Object.entries(operation.requestBody?.content ?? {})[0] ?? ["", null];
   const schema = body ? resolved(description, body.schema) : null;
-  const given = (operation.parameters ?? []).map((/** @type {Json} */ one) => field(description, one.name, one.schema, one.required === true, one.description));
+  const parameters = operation.parameters ?? [];
+  const given = parameters.map((/** @type {Json} */ one) => field(description, one.name, one.schema, one.required === true, one.description));
   return {
     id: operation.operationId, method: method.toUpperCase(), path, text: operation.description || operation.summary || "",
-    fields: [...given, ...fieldsOf(description, schema)],
-    example: exampleOf(method, path, type, schema?.examples?.[0] ?? null),
+    fields: [...given, ...fieldsOf(description, schema)], inputs: parameters.map(inputOf),
+    type, examples: (schema?.examples ?? []).map(written),
     answers: Object.entries(operation.responses ?? {}).map(([status, answer]) => ({ status, text: answer.description ?? "" })),
   };
+}
+
+/** @param {unknown} example  a body, as it is written */
+const written = (example) => (typeof example === "string" ? example : JSON.stringify(example, null, 2));
+
+/** @param {Json} parameter @returns {Input} */
+function inputOf({ name, in: place, required = false, description: text = "", schema, example }) {
+  const kinds = [schema, ...(schema.anyOf ?? [])];
+  const choices = kinds.flatMap((kind) => kind.enum ?? (kind.type === "boolean" ? ["true", "false"] : []));
+  const shown = example ?? schema.examples?.[0] ?? (required ? choices[0] : undefined);
+  return { name, place, text, required, choices, example: String(shown ?? "") };
 }
 
 /** @param {Json} description @param {Json} schema @returns {Json} */
@@ -53,12 +66,4 @@ function kindOf(description, schema) {
   if (anyOf) return [...new Set(anyOf.map((/** @type {Json} */ one) => kindOf(description, one)))].filter((kind) => kind !== "null").join(" | ");
   if (values) return values.join(" | ");
   return type === "array" ? `[${items ? kindOf(description, items) : ""}]` : type ?? "any";
-}
-
-/** A line for a shell. @param {string} method @param {string} path @param {string} type @param {unknown} body */
-function exampleOf(method, path, type, body) {
-  const address = `"$DELTAQ${path}"`;
-  if (method !== "post") return `curl ${address}`;
-  const data = body === null ? "@file" : `'${JSON.stringify(body).replaceAll("'", "'\\''")}'`;
-  return `curl ${address} -H 'content-type: ${type}' \\\n  -d ${data}`;
 }

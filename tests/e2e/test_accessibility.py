@@ -43,6 +43,11 @@ def share(page: Page) -> None:
     expect(page.locator("dialog.share")).to_be_visible()
 
 
+def send(page: Page) -> None:
+    page.locator(".trial button.main").click()
+    expect(page.locator(".answer pre")).to_be_visible(timeout=PATIENCE)
+
+
 def answer(page: Page) -> None:
     """A wrong answer with its verdict, a hint, both motions and the solution."""
     page.locator(".answer-head .segments button").nth(1).click()
@@ -76,6 +81,7 @@ PLACES = [
     pytest.param("homework?scene=pendulum&task=equation:phi", ".question h2", answer, id="homework, answered"),
     pytest.param("homework?scene=pendulum&side=class", ".classroom .pick", nothing, id="homework of a class"),
     pytest.param("docs?", ".calls article", nothing, id="reference"),
+    pytest.param("docs/try?", ".trial textarea", send, id="trial of the API"),
 ]
 DIALOGS = [
     pytest.param(SCENE, ".steps .katex", pressing("?"), id="help"),

@@ -27,8 +27,9 @@ test("calls stand by subject, with their fields, kinds and answers", () => {
   assert.deepEqual(calls[1].fields, [{ name: "name", kind: "string", text: "its name", required: true }, { name: "parts", kind: "[object]", text: "", required: false }]);
 });
 
-test("an example is a line for a shell, whatever it holds", () => {
+test("a call says what is to be filled in, with its examples", () => {
   const [{ calls }] = groupsOf(DOCUMENT);
-  assert.equal(calls[0].example, 'curl "$DELTAQ/api/v1/things"');
-  assert.equal(calls[1].example, `curl "$DELTAQ/api/v1/things" -H 'content-type: application/json' \\\n  -d '{"name":"it'\\''s"}'`);
+  assert.deepEqual(calls[0].inputs, [{ name: "lang", place: "query", text: "", required: false, choices: ["de", "en"], example: "" }]);
+  assert.deepEqual([calls[0].type, calls[0].examples], ["", []]);
+  assert.deepEqual([calls[1].type, calls[1].examples], ["application/json", ['{\n  "name": "it\'s"\n}']]);
 });

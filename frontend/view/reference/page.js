@@ -3,12 +3,16 @@
 import { html, nothing } from "lit-html";
 import { failure } from "../failure.js";
 import { appearance, brand, language, places } from "../header.js";
+import { curlOf, draftOf } from "../../model/trial.js";
+import { pageAddress } from "../../model/url.js";
 
 /** @typedef {import("../../model/reference.js").Call} Call */
 /**
  * @typedef {import("../header.js").Appearance & {groups: import("../../model/reference.js").Group[], version: string, text: string,
  *   failure: import("../../model/types.js").Failure | null, reload: () => void, origin: string}} ReferenceView
  */
+
+const TRIAL = "docs/try";
 
 /** @param {ReferenceView} view */
 export function page(view) {
@@ -22,7 +26,7 @@ export function page(view) {
     <main class="reference" id="reference" tabindex="-1">
       ${view.failure ? failure(view.failure, t("failure.page"), view.reload, t) : nothing}
       <nav aria-label=${t("reference.subjects")}><ul>${groups.map(({ subject }) => html`<li><a href=${`#${subject}`}>${subject}</a></li>`)}</ul>
-        <p><a href="/docs/try">${t("reference.try")}</a></p><p><a href="/api/v1/openapi.json">${t("reference.openapi")}</a></p></nav>
+        <p><a href=${pageAddress(TRIAL, view.state.place)}>${t("reference.try")}</a></p><p><a href="/api/v1/openapi.json">${t("reference.openapi")}</a></p></nav>
       <div class="calls">
         <p lang="en">${view.text}</p>
         <pre tabindex="0"><code>DELTAQ=${view.origin}</code></pre>
@@ -31,17 +35,22 @@ export function page(view) {
     </main>`;
 }
 
+/** Names stand between backticks. @param {string} text */
+const described = (text) => text.split("`").map((part, i) => (i % 2 ? html`<code>${part}</code>` : part));
+
 /** @param {Call} call @param {ReferenceView} view */
-function article({ id, method, path, text, fields, example, answers }, { t, state }) {
+function article(call, { t, state }) {
+  const { id, method, path, text, fields, answers } = call;
   return html`
     <article id=${id}>
-      <h3><span class="method">${method}</span> <code>${path}</code></h3>
-      <p>${text}</p>
+      <h3><span class="method">${method}</span> <code>${path}</code>
+        <a class="try" lang=${state.place.lang} href=${`${pageAddress(TRIAL, state.place)}#${id}`} aria-label=${`${t("trial.try")}: ${method} ${path}`}>${t("trial.try")}</a></h3>
+      <p>${described(text)}</p>
       ${fields.length ? html`
         <dl>${fields.map(({ name, kind, text: meaning, required }) => html`
           <div><dt><code>${name}</code>${required ? html` <span lang=${state.place.lang}>${t("reference.required")}</span>` : nothing}</dt>
             <dd><span class="kind">${kind}</span> ${meaning}</dd></div>`)}</dl>` : nothing}
-      <pre tabindex="0"><code>${example}</code></pre>
+      <pre tabindex="0"><code>${curlOf(call, draftOf(call))}</code></pre>
       <p class="answers">${answers.map(({ status, text: meaning }) => html`<span><b>${status}</b> ${meaning}</span>`)}</p>
     </article>`;
 }

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Path, Request, Response
 
 from ...errors import Problem, UnknownNameError
 from ...narration.catalog import catalog
@@ -16,7 +16,7 @@ router = APIRouter(prefix="/catalogs", tags=["catalogs"])
 
 
 @router.get("/{lang}", response_model=dict[str, dict[str, Any]], responses=failures(404))
-def get_catalog(request: Request, lang: str, sections: str = "") -> Response:
+def get_catalog(request: Request, lang: Annotated[str, Path(examples=["en"])], sections: str = "") -> Response:
     """All sentences of a language: {rules, errors, statuses, page, methods}; or only those `sections`, by commas."""
     known = next((one for one in LANGUAGES if one == lang), None)
     if known is None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import Request
+from fastapi import Path, Request
 from pydantic import BaseModel
 
 from ...errors import UnknownNameError
@@ -13,6 +13,7 @@ from ..languages import language_of
 from ..wire.problem import ProblemDocument
 
 PREFIX = "/api/v1"
+SceneId = Annotated[str, Path(description="a built-in scene", examples=["pendulum"])]
 
 _MEANINGS = {
     400: "the body is not JSON",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Annotated
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Path, Request, Response
 from starlette.exceptions import HTTPException
 
 from ..body import StrictRoute
@@ -30,7 +31,9 @@ async def derive(request: Request, body: DerivationRequest) -> Response:
 
 
 @router.get("/{identifier}", response_model=DerivationAnswer, responses=failures(404))
-async def get_derivation(request: Request, identifier: str) -> Response:
+async def get_derivation(
+    request: Request, identifier: Annotated[str, Path(description="the id of an answer")]
+) -> Response:
     """A derivation that was asked for before. It never changes; one that is no longer kept must be asked for again."""
     answer = await service_of(request).cache.find(identifier)
     if answer is None:

@@ -30,7 +30,7 @@ from ..wire.homework import (
     VerdictAnswer,
 )
 from ..workers.job import Job
-from .common import failures, question_of
+from .common import SceneId, failures, question_of
 
 router = APIRouter(tags=["homework"], route_class=StrictRoute)
 XML: dict[int | str, dict[str, Any]] = {200: {"content": {"application/xml": {"schema": {"type": "string"}}}}}
@@ -48,7 +48,7 @@ BATCH = Job("deltaq.api.jobs:check_batch", deadline=60.0, pace="slow")
 @router.get("/scenes/{identifier}/tasks", response_model=TaskList, responses=failures(404, 503, 504))
 async def tasks_of_scene(
     request: Request,
-    identifier: str,
+    identifier: SceneId,
     *,
     seed: Annotated[str | None, Query(max_length=64, description="draws parameter values for one student")] = None,
 ) -> Response:

@@ -1,10 +1,8 @@
-"""The page, its files, and the documentation of the API; nothing comes from elsewhere."""
+"""The pages and their files; nothing comes from elsewhere."""
 
 from __future__ import annotations
 
 import hashlib
-from functools import cache
-from importlib.resources import files
 
 from fastapi import APIRouter, Request, Response
 from fastapi.routing import APIRoute
@@ -32,11 +30,6 @@ class PageRoute(APIRoute):
 router = APIRouter(include_in_schema=False, route_class=PageRoute)
 
 
-@cache
-def _documentation(name: str) -> str:
-    return (files("deltaq.api") / "docs" / name).read_text(encoding="utf-8")
-
-
 @router.api_route("/", methods=["GET", "HEAD"])
 def start(request: Request) -> Response:
     """The start page. Scenes were here once: an address that names one leads to where they are now."""
@@ -58,16 +51,12 @@ def embed(request: Request) -> Response:
 
 
 @router.api_route("/docs/try", methods=["GET", "HEAD"])
-def documentation(request: Request) -> Response:
-    """The API, to be tried: its page to be read is one of the front end."""
-    html = _documentation("index.html").replace("{version}", service_of(request).assets.version)
-    return _text(request, html, "text/html")
-
-
-@router.api_route("/docs/start.js", methods=["GET", "HEAD"])
-def documentation_script(request: Request) -> Response:
-    """What starts the documentation page."""
-    return _text(request, _documentation("start.js"), "text/javascript")
+def trial(request: Request) -> Response:
+    """The page where the API is tried, below the one where it is read."""
+    html = service_of(request).assets.page("trial")
+    if html is None:
+        raise HTTPException(404)
+    return _page(request, html)
 
 
 @router.api_route("/{path:path}", methods=["GET", "HEAD"])

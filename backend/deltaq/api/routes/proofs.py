@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter, Request, Response
+from typing import Annotated
+
+from fastapi import APIRouter, Path, Request, Response
 
 from ...narration.catalog import keys, text
 from ..body import StrictRoute
@@ -26,7 +28,11 @@ def list_proofs(request: Request) -> Response:
 
 
 @router.get("/{identifier}", response_model=ProofAnswer, responses=failures(404, 503, 504))
-async def get_proof(request: Request, identifier: str, lang: Language | None = None) -> Response:  # noqa: ARG001 - read by language_of
+async def get_proof(
+    request: Request,
+    identifier: Annotated[str, Path(examples=["dalembert-lagrange"])],
+    lang: Language | None = None,  # noqa: ARG001 - read by language_of
+) -> Response:
     """A proof by its id: `dalembert-lagrange` leads from d'Alembert's principle to Lagrange's equations."""
     service = service_of(request)
     question = {"id": identifier[:64], "lang": language_of(request)}

@@ -17,10 +17,16 @@ from ..responses import JSON, tagged
 from ..service import service_of
 from ..wire.scene import EXAMPLE, SceneDocument, SceneList, SceneText, SceneValidity
 from ..workers.job import Job
-from .common import failures
+from .common import SceneId, failures
 
 router = APIRouter(prefix="/scenes", tags=["scenes"], route_class=StrictRoute)
-TOML = {"requestBody": {"required": True, "content": {"application/toml": {"schema": {"type": "string"}}}}}
+TOML_EXAMPLE = 'format = 1\nid = "my-pendulum"\ntitle = { en = "My pendulum" }\n'
+TOML = {
+    "requestBody": {
+        "required": True,
+        "content": {"application/toml": {"schema": {"type": "string", "examples": [TOML_EXAMPLE]}}},
+    }
+}
 READ = Job("deltaq.api.jobs:read_scene_toml", deadline=2.0)
 VALIDATE = Job("deltaq.api.jobs:validate", deadline=2.0)
 
@@ -69,7 +75,7 @@ async def read_toml_scene(request: Request) -> Response:
 
 @router.get("/{identifier}", responses=failures(404, 422))
 def get_scene(
-    request: Request, identifier: str, n: Annotated[int | None, Query(description="members of a chain")] = None
+    request: Request, identifier: SceneId, n: Annotated[int | None, Query(description="members of a chain")] = None
 ) -> Response:
     """The document of a built-in scene, format 1; of a family the member with `n` links, or its usual one."""
     return tagged(request, write_scene(load_scene(identifier, n)))

@@ -14,6 +14,11 @@ class Request(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
 
 
+def examples(*bodies: dict[str, Any]) -> ConfigDict:
+    """Bodies that the description of the API shows and that answer with 200."""
+    return ConfigDict(json_schema_extra={"examples": list(bodies)})
+
+
 class Answer(BaseModel):
     """An answer body; later versions may add fields."""
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
 from ..languages import Language
-from .base import Answer, Guides, Names, Request, SceneReference, Values
+from .base import Answer, Guides, Names, Request, SceneReference, Values, examples
 
 Formulation = Literal["dalembert-lagrange", "hamilton"]
 
@@ -22,17 +22,13 @@ class DerivationRequest(Request):
     formulation: Formulation = "dalembert-lagrange"
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"scene": "elastic-pendulum", "lang": "de"},
-                {
-                    "scene": "base-pendulum",
-                    "guides": [{"coordinate": "y", "value": "y0*sin(omega*t)"}],
-                    "parameters": {"y0": 0.1, "omega": 12.0},
-                },
-            ]
-        }
+    model_config = examples(
+        {"scene": "elastic-pendulum", "lang": "de"},
+        {
+            "scene": "base-pendulum",
+            "guides": [{"coordinate": "y", "value": "y0*sin(omega*t)"}],
+            "parameters": {"y0": 0.1, "omega": 12.0},
+        },
     )
 
 

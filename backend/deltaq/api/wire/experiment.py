@@ -23,7 +23,7 @@ from ...lab.bounds import (
     USUAL_MAP,
 )
 from ..languages import Language
-from .base import Answer, Guides, Name, Names, Request, SceneReference, Values
+from .base import Answer, Guides, Name, Names, Request, SceneReference, Values, examples
 from .simulation import InitialValue
 
 
@@ -48,11 +48,15 @@ class WorkPrecisionRequest(ExperimentRequest):
     methods: MethodIds = ()
     peers: bool = Field(default=False, description="whether SciPy's integrators take part, where SciPy is installed")
 
+    model_config = examples({"scene": "pendulum", "methods": ["rk4", "dop853"], "t_end": 2.0})
+
 
 class ConvergenceRequest(ExperimentRequest):
     """Error against a fixed step."""
 
     methods: MethodIds = ()
+
+    model_config = examples({"scene": "pendulum", "methods": ["heun", "rk4"], "t_end": 2.0})
 
 
 class EnergyDriftRequest(ExperimentRequest):
@@ -65,6 +69,8 @@ class EnergyDriftRequest(ExperimentRequest):
         None, ge=LOCAL_TOLERANCES[0], le=LOCAL_TOLERANCES[1], description="local tolerance of variable steps"
     )
 
+    model_config = examples({"scene": "pendulum", "methods": ["rk4", "stormer-verlet"], "steps": 1000})
+
 
 class StabilityRequest(ExperimentRequest):
     """Regions of stability, steps of failure, and a series over a stiffness."""
@@ -72,6 +78,8 @@ class StabilityRequest(ExperimentRequest):
     methods: MethodIds = ()
     at: Literal["state", "rest"] = Field("state", description=f"where the scene is linearized: {' or '.join(AT)}")
     stiffness: str | None = Field(None, max_length=64, description="parameter that is made larger; a spring's if empty")
+
+    model_config = examples({"scene": "two-mass-oscillator", "methods": ["rk4"], "at": "rest", "t_end": 2.0})
 
 
 class MapAxis(Request):
@@ -91,6 +99,14 @@ class StabilityMapRequest(ExperimentRequest):
     x: MapAxis
     y: MapAxis
 
+    model_config = examples(
+        {
+            "scene": "kapitza",
+            "x": {"parameter": "omega", "from": 20.0, "to": 120.0, "count": 9},
+            "y": {"parameter": "y0", "from": 0.01, "to": 0.1, "count": 9},
+        }
+    )
+
 
 class ChaosRequest(ExperimentRequest):
     """Twin runs, Lyapunov exponent, horizon against tolerance, and a map of flips."""
@@ -99,6 +115,8 @@ class ChaosRequest(ExperimentRequest):
     apart: float | None = Field(None, ge=APART[0], le=APART[1], description="how far the twins are apart at first")
     map: bool = Field(default=False, description="whether to map the times at which angles turn over")
     count: int = Field(USUAL_FLIPS, ge=FLIP_POINTS[0], le=FLIP_POINTS[1], description="points on a side of the map")
+
+    model_config = examples({"scene": "double-pendulum", "t_end": 5.0})
 
 
 class FidelityRequest(ExperimentRequest):
@@ -110,6 +128,8 @@ class FidelityRequest(ExperimentRequest):
         le=TOLERANCES_OF_MODEL[1],
         description="relative error allowed of the least rung; 0.01 if empty",
     )
+
+    model_config = examples({"scene": "spring-pendulum", "t_end": 2.0, "tolerance": 0.05})
 
 
 class Chart(Answer):

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
 from ...simulation.request import LARGEST_SPAN
 from ..languages import Language
-from .base import Guides, Name, Names, Request, SceneReference, Values
+from .base import Guides, Name, Names, Request, SceneReference, Values, examples
 from .derivation import Formulation
 from .simulation import InitialValue
 
@@ -28,4 +28,4 @@ class ExportRequest(Request):
     substeps: bool = Field(default=True, description="whether a document tells the substeps, too")
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
-    model_config = ConfigDict(json_schema_extra={"examples": [{"scene": "elastic-pendulum", "lang": "de"}]})
+    model_config = examples({"scene": "elastic-pendulum", "lang": "de"})

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ..languages import Language
-from .base import Answer, Names, Request, SceneReference
+from .base import Answer, Names, Request, SceneReference, examples
 from .problem import ProblemEntry
 
 Text = Annotated[str, Field(min_length=1, max_length=4000)]
@@ -27,6 +27,8 @@ class ExpressionRequest(ExpressionText):
     scene: SceneReference
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
+    model_config = examples({"scene": "pendulum", "expression": "m*l^2*ddot(phi) + m*g*l*sin(phi)"})
+
 
 class ExpressionsRequest(Request):
     """Several texts that use the names of one scene."""
@@ -34,6 +36,13 @@ class ExpressionsRequest(Request):
     scene: SceneReference
     expressions: Annotated[tuple[ExpressionText, ...], Field(strict=False, max_length=500)]
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = examples(
+        {
+            "scene": "pendulum",
+            "expressions": [{"expression": "l*sin(phi)"}, {"expression": "\\dot\\varphi^2", "syntax": "latex"}],
+        }
+    )
 
 
 class ExpressionAnswer(Answer):

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
 from ..languages import Language
-from .base import Answer, Guides, Names, Request, SceneReference, Values
+from .base import Answer, Guides, Names, Request, SceneReference, Values, examples
 
 Seed = Annotated[str, Field(max_length=64, description="draws each student's own parameter values")]
 TaskId = Annotated[str, Field(min_length=1, max_length=80, examples=["equation:phi"])]
@@ -28,12 +28,16 @@ class TasksRequest(SceneWithChanges):
 
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
+    model_config = examples({"scene": "pendulum", "parameters": {"l": 0.8}})
+
 
 class StackRequest(SceneWithChanges):
     """Which tasks to export."""
 
     tasks: Annotated[tuple[TaskId, ...], Field(strict=False, max_length=32, description="all if empty")] = ()
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = examples({"scene": "pendulum", "tasks": ["equation:phi"]})
 
 
 class TaskSymbol(Answer):
@@ -80,6 +84,10 @@ class AssignmentRequest(Request):
     )
     seed: Seed | None = None
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = examples(
+        {"assignment": {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 3}]}}
+    )
 
 
 class AssignedTaskEntry(Answer):
@@ -130,11 +138,7 @@ class ReadingRequest(SceneWithChanges):
     answer: AnswerText
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"scene": "pendulum", "task": "equation:phi", "answer": {"value": "l*ddot(phi) = -g*phi"}}]
-        }
-    )
+    model_config = examples({"scene": "pendulum", "task": "equation:phi", "answer": {"value": "l*ddot(phi) = -g*phi"}})
 
 
 class SolutionRequest(SceneWithChanges):
@@ -142,6 +146,8 @@ class SolutionRequest(SceneWithChanges):
 
     task: TaskId
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = examples({"scene": "pendulum", "task": "equation:phi"})
 
 
 class PointScheme(Request):
@@ -158,17 +164,13 @@ class LinesRequest(SceneWithChanges):
     scheme: PointScheme = PointScheme()
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {
-                    "scene": "pendulum",
-                    "lines": [
-                        {"task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
-                        {"task": "equation:phi", "answer": {"value": "2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"}},
-                    ],
-                }
-            ]
+    model_config = examples(
+        {
+            "scene": "pendulum",
+            "lines": [
+                {"task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
+                {"task": "equation:phi", "answer": {"value": "2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"}},
+            ],
         }
     )
 
@@ -178,22 +180,18 @@ class CheckRequest(SingleCheck):
 
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"scene": "pendulum", "task": "equation:phi", "answer": {"value": "ddot(phi) = -g/l*sin(phi)"}},
-                {"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
-                {
-                    "scene": "elastic-pendulum",
-                    "task": "virtual-displacement:bob",
-                    "answer": {
-                        "syntax": "latex",
-                        "value": "\\begin{bmatrix} \\ell\\cos q_2\\,\\delta q_2 \\\\ "
-                        "\\delta q_1 - \\ell\\sin q_2\\,\\delta q_2\\end{bmatrix}",
-                    },
-                },
-            ]
-        }
+    model_config = examples(
+        {"scene": "pendulum", "task": "equation:phi", "answer": {"value": "ddot(phi) = -g/l*sin(phi)"}},
+        {"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
+        {
+            "scene": "elastic-pendulum",
+            "task": "virtual-displacement:bob",
+            "answer": {
+                "syntax": "latex",
+                "value": "\\begin{bmatrix} \\ell\\cos q_2\\,\\delta q_2 \\\\ "
+                "\\delta q_1 - \\ell\\sin q_2\\,\\delta q_2\\end{bmatrix}",
+            },
+        },
     )
 
 
@@ -202,6 +200,10 @@ class BatchRequest(Request):
 
     checks: Annotated[tuple[SingleCheck, ...], Field(strict=False, min_length=1, max_length=64)]
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+
+    model_config = examples(
+        {"checks": [{"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2/2"}}]}
+    )
 
 
 class VerdictProblem(Answer):

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from ...simulation.choice import AUTO
 from ...simulation.request import DEFAULT_SAMPLES, LARGEST_SPAN, PARTS, SAMPLES, TOLERANCES
 from ..languages import Language
-from .base import Answer, Guides, Name, Names, Request, SceneReference, Values
+from .base import Answer, Guides, Name, Names, Request, SceneReference, Values, examples
 
 
 class InitialValue(Request):
@@ -49,13 +49,9 @@ class SimulationRequest(Request):
     )
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"scene": "elastic-pendulum", "t_end": 10.0, "samples": 101, "tolerance": 1e-9},
-                {"scene": "pendulum", "t_end": 5.0, "method": "rk4", "step": 0.01, "initial": {"phi": {"value": 1.0}}},
-            ]
-        }
+    model_config = examples(
+        {"scene": "elastic-pendulum", "t_end": 10.0, "samples": 101, "tolerance": 1e-9},
+        {"scene": "pendulum", "t_end": 5.0, "method": "rk4", "step": 0.01, "initial": {"phi": {"value": 1.0}}},
     )
 
     @model_validator(mode="after")

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import ConfigDict, Field
 
 from ..languages import Language
-from .base import Answer, ExpressionText, Name, Names, Request, Values
+from .base import Answer, ExpressionText, Name, Names, Request, Values, examples
 from .derivation import Chapter
 
 
@@ -65,31 +65,27 @@ class VariationRequest(Request):
     numeric: Numeric | None = None
     lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"expression": "[l*sin(phi), y + l*cos(phi)]", "functions": ["y", "phi"], "parameters": ["l"]},
-                {
-                    "expression": "x",
-                    "functions": ["x"],
-                    "direction": ["v"],
-                    "parameters": ["t0"],
-                    "functional": {"kind": "value", "at": "t0"},
-                },
-                {
-                    "expression": "m*dot(x)^2/2 - k*x^2/2",
-                    "functions": ["x"],
-                    "parameters": ["m", "k", "T"],
-                    "functional": {"kind": "integral", "from": "0", "to": "T", "ends": "free"},
-                },
-                {
-                    "expression": "x^2*dot(x)",
-                    "functions": ["x"],
-                    "include": ["quotient"],
-                    "numeric": {"functions": {"x": "sin(t)"}, "direction": {"x": "t^2"}, "t": 0.7},
-                },
-            ]
-        }
+    model_config = examples(
+        {"expression": "[l*sin(phi), y + l*cos(phi)]", "functions": ["y", "phi"], "parameters": ["l"]},
+        {
+            "expression": "x",
+            "functions": ["x"],
+            "direction": ["v"],
+            "parameters": ["t0"],
+            "functional": {"kind": "value", "at": "t0"},
+        },
+        {
+            "expression": "m*dot(x)^2/2 - k*x^2/2",
+            "functions": ["x"],
+            "parameters": ["m", "k", "T"],
+            "functional": {"kind": "integral", "from": "0", "to": "T", "ends": "free"},
+        },
+        {
+            "expression": "x^2*dot(x)",
+            "functions": ["x"],
+            "include": ["quotient"],
+            "numeric": {"functions": {"x": "sin(t)"}, "direction": {"x": "t^2"}, "t": 0.7},
+        },
     )
 
 

@@ -1,9 +1,0 @@
-"use strict";
-
-SwaggerUIBundle({
-  url: "/api/v1/openapi.json",
-  dom_id: "#documentation",
-  deepLinking: true,
-  tryItOutEnabled: true,
-  validatorUrl: null,
-});
