@@ -115,6 +115,34 @@ def test_equal_expressions_have_the_same_canonical_form(left: str, right: str) -
         assert first == second
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param("exp(x*log(2))", id="power of a number with a name above"),
+        pytest.param("sqrt(10000000000037)*x", id="root of a number too large to be factored"),
+        pytest.param("sqrt(2000000000003*x + 3000000000013*y)", id="root of a sum with such a number"),
+        pytest.param("sqrt(-x)", id="root of what may be negative"),
+        pytest.param("exp(1/(x + 1))", id="exponential of a quotient"),
+        pytest.param("sin(1/(x + 1))", id="sine of a quotient"),
+    ],
+)
+def test_what_has_no_form_is_a_generator_of_its_own(text: str) -> None:
+    expr = read(text)
+    assert canonical(expr, SYMBOLS) == expr
+    assert zero_test(expr - canonical(expr, SYMBOLS), SYMBOLS).outcome is True
+
+
+def test_a_float_is_the_decimal_that_it_shows() -> None:
+    x = SYMBOLS.name("x")
+    assert canonical(sympy.Float(0.1) * x, SYMBOLS) == x / 10
+
+
+def test_entries_and_sides_have_forms_each() -> None:
+    square, one = read("sin(phi)^2 + cos(phi)^2"), sympy.S.One
+    assert canonical(sympy.ImmutableMatrix([square, square]), SYMBOLS) == sympy.ImmutableMatrix([one, one])
+    assert canonical(sympy.Eq(square, square * 2, evaluate=False), SYMBOLS) == sympy.Eq(one, 2 * one, evaluate=False)
+
+
 def test_matrix_is_zero_if_all_entries_are() -> None:
     zero, other = read("sin(phi)^2 + cos(phi)^2 - 1"), read("x")
     assert is_zero(sympy.Matrix([zero, zero]), SYMBOLS) is True

@@ -50,6 +50,7 @@ ROWS = [
     pytest.param("m*(log(m)*l*dot(phi)*sin(phi))^2 + m*(log(m)*l*cos(phi)*dot(phi) + dot(y))^2",
                  "m*(dot(y)^2 + 2*l*log(m)*cos(phi)*dot(y)*dot(phi) + l^2*log(m)^2*dot(phi)^2)", id="with a logarithm"),
     pytest.param("m*dot(x)^2/2 + m1*dot(x)^2/2", "(m + m1)*dot(x)^2/2", id="a half before a sum"),
+    pytest.param("m*g*x + m*k*x", "(k + g)*m*x", id="a common factor that leaves no sum"),
     pytest.param("m*l^2 + m1*l^2", "(m + m1)*l^2", id="equal factors"),
     pytest.param("m*g - m*g", "0", id="nothing left"),
     pytest.param("9.81*m*(1 + 1)", "19.62*m", id="decimal"),
@@ -92,11 +93,19 @@ def test_entries_and_sides_are_shown_each() -> None:
     assert column == sympy.ImmutableMatrix([1, SYMBOLS.name("x")])
     equation = display(read("sin(phi)^2 + cos(phi)^2 = x + x - x"), SYMBOLS)
     assert equation == sympy.Eq(sympy.Integer(1), SYMBOLS.name("x"), evaluate=False)
+    assert display(read("sin(phi)^2 + cos(phi)^2 = x; y = 0"), SYMBOLS).args[0] == equation
 
 
 def test_display_keeps_the_value_of_what_it_cannot_expand() -> None:
     expr = read("sqrt(sin(phi)^2 + cos(phi)^2 + x^2)*log(x^2 + 1) + abs(x)*atan2(y, x)")
     assert is_zero(display(expr, SYMBOLS) - expr, SYMBOLS) is True
+
+
+@pytest.mark.parametrize("power", [pytest.param(6, id="not shortened"), pytest.param(7, id="left as it is")])
+def test_what_nobody_reads_is_not_worked_on(power: int) -> None:
+    expr = read("x + y + m + l + g + k") ** power
+    assert len(sympy.Add.make_args(sympy.expand(expr))) > 400
+    assert display(expr, SYMBOLS) == expr
 
 
 def test_without_names_latin_coordinates_come_before_greek_ones() -> None:

@@ -163,10 +163,26 @@ ACCEPTED = [
     ("mg\\ell", "m*g*l"),
     ("\\text{arcsin}(x)", "asin(x)"),
     ("\\textstyle m", "m"),
+    ("{}x", "x"),
+    ("\\big|x\\big|", "abs(x)"),
+    ("x\u0307", "dot(x)"),
+    ("\\frac{d}{dt}^{2} x", "ddot(x)"),
+    ("\\frac{\\partial}{\\partial x}^2 (x^3)", "6*x"),
+    ("\\frac{\\partial^2 (x^2 y)}{\\partial x \\partial y}", "2*x"),
+    ("\\begin{bmatrix}{x}\\\\ y\\end{bmatrix}", "[x, y]"),
 ]
 
 # Text; code, offset and length of what is wrong; parameters of the message.
 REFUSED = [
+    ("\\frac{d}{dt}^{m} x", "derivative-order", 14, 1, {"order": "m"}),
+    ("\\frac\\right", "missing-argument", 0, 5, {"name": "\\frac"}),
+    ("\\begin x", "unclosed-environment", 0, 6, {"name": ""}),
+    ("\\frac{d}{\\partial x}", "operand-expected", 6, 1, {"operator": "d"}),
+    ("\\frac{d}{d}", "derivative-variable", 0, 11, {"text": ""}),
+    ("\\exponentialE x", "euler-number", 0, 14, {"name": "e"}),
+    ("2kg", "unit", 1, 2, {"name": "kg"}),
+    ("{xy}_1", "indexed-operator", 0, 4, {"name": "xy"}),
+    ("x\u0307\u0308", "derivative-order", 0, 3, {"order": 3}),
     ("\\dot{\\dot{q}}_2", "unknown-name", 5, 7, {"name": "q", "known": KNOWN}),
     ("\\left.\\begin{aligned}x&=0\\\\y&=1\\end{aligned}\\right\\}", "missing-argument", 0, 5, {"name": "\\left"}),
     ("\\frac{1}{2", "unclosed-group", 8, 1, {}),

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
 import sympy
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from tests.language.scene_names import NAMES, SYMBOLS, read
 
 from deltaq.errors import ExpressionError
-from deltaq.language.canonical import zero_test
+from deltaq.language.canonical import is_zero, zero_test
 from deltaq.language.latex_printer import Typography, latex
 from deltaq.language.order import Order
 from deltaq.language.parser import Syntax
@@ -92,3 +93,15 @@ def test_latex_is_read_back(expr: Any) -> None:
 def test_the_order_of_writing_does_not_depend_on_the_order_of_building(expr: Any) -> None:
     backwards = expr.func(*reversed(expr.args)) if expr.is_Add or expr.is_Mul else expr
     assert plain(backwards, Order(NAMES)) == plain(expr, Order(NAMES))
+
+
+@pytest.mark.parametrize(
+    ("expr", "text"),
+    [
+        pytest.param(sympy.Float(0.125), "1/8", id="float"),
+        pytest.param(sympy.Integer(2) ** sympy.Symbol("x", real=True), "exp(log(2)*x)", id="power with a name above"),
+    ],
+)
+def test_what_the_parser_never_makes_is_written_as_well(expr: Any, text: str) -> None:
+    assert plain(expr) == text
+    assert is_zero(read_back(text, "plain") - expr, SYMBOLS)

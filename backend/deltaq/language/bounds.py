@@ -28,9 +28,10 @@ def _check_equations(tree: Node) -> None:
     equations = [part for part in parts if isinstance(part, Equation)]
     if equations and len(equations) < len(parts):
         fail("misplaced-equation", equations[0].span)
-    below = [inner for part in (equations or parts) for inner in walk(part) if isinstance(inner, Equation)]
-    if len(below) > len(equations):
-        fail("misplaced-equation", next(inner for inner in below if inner not in equations).span)
+    below = (side for part in parts for side in (children(part) if isinstance(part, Equation) else (part,)))
+    inner = next((node for side in below for node in walk(side) if isinstance(node, Equation)), None)
+    if inner:
+        fail("misplaced-equation", inner.span)
 
 
 def shape_of(node: Node) -> Shape:

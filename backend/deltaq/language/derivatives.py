@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .tokens import Token, between, fail
-from .tree import Name, Node, PartialDerivative, Rate, Span
+from .tree import Name, Node, Number, PartialDerivative, Rate, Span
 
 if TYPE_CHECKING:
     from .grammar import Grammar
@@ -68,15 +68,21 @@ class Derivatives:
         return self._applied(token, "partial", variable, on_top)
 
     def derivative(self, token: Token) -> Node:
-        """Operator form from a fraction: (variable), then the operand."""
+        """Operator form from a fraction: (variable), perhaps a power of the operator, then the operand."""
         variable = self._grammar.atom()
-        order = 1
-        if self._cursor.takes("^"):
-            order = int(self._cursor.take().value)
+        order = self._order()
         node = self._applied(token, token.text, variable, None)
         for _ in range(order - 1):
             node = self._once(token.text, node, variable, node.span)
         return node
+
+    def _order(self) -> int:
+        if not self._cursor.takes("^"):
+            return 1
+        power = self._grammar.atom()
+        if not isinstance(power, Number) or power.value not in (1, 2):
+            fail("derivative-order", power.span, order=self._cursor.slice(power.span))
+        return int(power.value)
 
     def _applied(self, token: Token, kind: str, variable: Node, operand: Node | None) -> Node:
         if operand is None:

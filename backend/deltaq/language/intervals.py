@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Mapping
+from math import prod
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -18,12 +19,27 @@ ENOUGH_POINTS = 4
 # A value is called zero if all balls are this much smaller than the largest term: 2^-3000 is about 1e-903.
 _NEGLIGIBLE_BITS = 3000
 
+
+def _sum(*terms: Any) -> Any:
+    return sum(terms, flint.arb(0))
+
+
+def _product(*factors: Any) -> Any:
+    return prod(factors, start=flint.arb(1))
+
+
 _FUNCTIONS: Mapping[Any, Callable[..., Any]] = MappingProxyType(
     {
-        getattr(sympy, name): (lambda x, name=name: getattr(x, name)())
-        for name in FUNCTIONS.keys() - {"abs", "sign", "sqrt", "atan2"}
+        **{
+            getattr(sympy, name): (lambda x, name=name: getattr(x, name)())
+            for name in FUNCTIONS.keys() - {"abs", "sign", "sqrt", "atan2"}
+        },
+        sympy.Abs: abs,
+        sympy.sign: lambda x: x.sgn(),
+        sympy.atan2: flint.arb.atan2,
+        sympy.Add: _sum,
+        sympy.Mul: _product,
     }
-    | {sympy.Abs: abs, sympy.sign: lambda x: x.sgn(), sympy.atan2: flint.arb.atan2}
 )
 
 Sign = Literal["nonzero", "negligible", "unknown"]
@@ -59,8 +75,9 @@ def _points(symbols: list[Any]) -> Iterator[dict[Any, Any]]:
 def _sign(expr: Any, point: Mapping[Any, Any]) -> Sign:
     for bits in PRECISIONS:
         with flint.ctx.workprec(bits):
+            ball = _Ball(point)
             try:
-                terms = [_value(term, point) for term in sympy.Add.make_args(expr)]
+                terms = [ball.of(term) for term in sympy.Add.make_args(expr)]
             except (ValueError, ZeroDivisionError, OverflowError):
                 return "unknown"
             total = sum(terms, flint.arb(0))
@@ -68,40 +85,51 @@ def _sign(expr: Any, point: Mapping[Any, Any]) -> Sign:
                 continue
             if not total.contains(0):
                 return "nonzero"
-            scale = max((abs(t).upper() for t in terms), default=flint.arb(1))
-            if abs(total).upper() < scale * flint.arb(2) ** -_NEGLIGIBLE_BITS or not terms:
+            scale = max(abs(term).upper() for term in terms)
+            if abs(total).upper() <= scale * flint.arb(2) ** -_NEGLIGIBLE_BITS:
                 return "negligible"
     return "unknown"
 
 
-def _value(expr: Any, point: Mapping[Any, Any]) -> Any:  # noqa: PLR0911
-    if expr.is_Symbol:
-        return _value(point[expr], point)
-    if expr.is_Rational:
-        return flint.arb(flint.fmpq(int(expr.p), int(expr.q)))
-    if expr is sympy.pi:
-        return flint.arb.pi()
-    if expr is sympy.E:
-        return flint.arb(1).exp()
-    if expr.is_Add:
-        return sum((_value(a, point) for a in expr.args), flint.arb(0))
-    if expr.is_Mul:
-        product = flint.arb(1)
-        for factor in expr.args:
-            product *= _value(factor, point)
-        return product
-    if expr.is_Pow:
-        return _power(expr, point)
+class _Ball:
+    """The values of expressions at a point; a part that comes again is not worked out again."""
+
+    def __init__(self, point: Mapping[Any, Any]) -> None:
+        self._known = {symbol: _rational(value) for symbol, value in point.items()}
+
+    def of(self, expr: Any) -> Any:
+        """The value. ValueError if it has none or its function is not known here."""
+        known = self._known.get(expr)
+        if known is None:
+            known = self._known[expr] = self._value(expr)
+        return known
+
+    def _value(self, expr: Any) -> Any:
+        if expr.is_Rational:
+            return _rational(expr)
+        if expr is sympy.pi:
+            return flint.arb.pi()
+        if expr is sympy.E:
+            return flint.arb(1).exp()
+        if expr.is_Pow:
+            return self._power(expr)
+        return _function(expr)(*map(self.of, expr.args))
+
+    def _power(self, expr: Any) -> Any:
+        base, exponent = self.of(expr.base), expr.exp
+        if exponent.is_Integer:
+            return base ** int(exponent)
+        if exponent == sympy.Rational(1, 2):
+            return base.sqrt()
+        return base ** self.of(exponent)
+
+
+def _rational(value: Any) -> Any:
+    return flint.arb(flint.fmpq(int(value.p), int(value.q)))
+
+
+def _function(expr: Any) -> Callable[..., Any]:
     function = _FUNCTIONS.get(expr.func)
     if function is None:
         raise ValueError(type(expr).__name__)
-    return function(*(_value(a, point) for a in expr.args))
-
-
-def _power(expr: Any, point: Mapping[Any, Any]) -> Any:
-    base, exponent = _value(expr.base, point), expr.exp
-    if exponent.is_Integer:
-        return base ** int(exponent)
-    if exponent == sympy.Rational(1, 2):
-        return base.sqrt()
-    return base ** _value(exponent, point)
+    return function

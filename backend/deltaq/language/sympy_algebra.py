@@ -27,7 +27,9 @@ _FUNCTIONS: Mapping[str, Callable[..., Any]] = MappingProxyType(
     {name: getattr(sympy, name) for name in _SAME_NAME} | {"abs": sympy.Abs}
 )
 _UNDEFINED = (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo)
-_NOT_A_VALUE = (*_UNDEFINED, sympy.AccumBounds)
+_NOT_A_VALUE: Mapping[str, tuple[Any, ...]] = MappingProxyType(
+    {"not-real": (sympy.I,), "division-by-zero": (*_UNDEFINED, sympy.AccumBounds)}
+)
 
 
 def to_sympy(node: Node, symbols: Symbols) -> Value:
@@ -36,10 +38,9 @@ def to_sympy(node: Node, symbols: Symbols) -> Value:
     Raises ExpressionError `division-by-zero`, `not-real` or `not-differentiable` if the value does not exist.
     """
     value = fold(node, SympyAlgebra(symbols))
-    if value.has(sympy.I):
-        _refuse("not-real")
-    if value.has(*_NOT_A_VALUE):
-        _refuse("division-by-zero")
+    for code, strangers in _NOT_A_VALUE.items():
+        if value.has(*strangers):
+            _refuse(code)
     return value
 
 
@@ -105,15 +106,10 @@ class SympyAlgebra:
     def product(self, factors: tuple[Value, ...]) -> Value:
         scalar = sympy.Mul(*(f for f in factors if not isinstance(f, sympy.MatrixBase)))
         arrays = [f for f in factors if isinstance(f, sympy.MatrixBase)]
-        match arrays:
-            case []:
-                return scalar
-            case [array]:
-                return array * scalar
-            case [first, second]:
-                return first.dot(second) * scalar
-            case _:
-                _refuse("vector-product", first=str(arrays[0].shape), second=str(arrays[1].shape))
+        if len(arrays) < 2:
+            return scalar * (arrays[0] if arrays else 1)
+        first, second = arrays  # more are refused by the bounds
+        return first.dot(second) * scalar
 
     def quotient(self, numerator: Value, denominator: Value) -> Value:
         if denominator.is_zero:
@@ -124,8 +120,6 @@ class SympyAlgebra:
         return -operand
 
     def power(self, base: Value, exponent: Value) -> Value:
-        if not exponent.is_Rational or abs(exponent) > MAX_EXPONENT:
-            _refuse("exponent-too-large" if exponent.is_Rational else "symbolic-exponent", limit=MAX_EXPONENT)
         if base.is_zero and not exponent.is_positive:
             _refuse("division-by-zero")
         return base**exponent
