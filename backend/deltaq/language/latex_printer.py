@@ -120,6 +120,8 @@ class _Latex:
             return rf"\sqrt{{{self.text(base, 0)}}}"
         if _takes_power(base, exponent):
             return self.call(base, exponent)
+        if base.is_Symbol and split_symbol(base.name)[0] < 4:
+            return self._typography.power(base.name, self._exponent(exponent))
         return f"{self.text(base, ATOM)}^{{{self._exponent(exponent)}}}"
 
     def _exponent(self, exponent: sympy.Expr) -> str:

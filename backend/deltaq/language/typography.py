@@ -33,10 +33,16 @@ class Typography:
 
     def symbol(self, name: str) -> str:
         """LaTeX of a SymPy symbol by its plain name: "dot(phi)" → \\dot{\\varphi}."""
+        return self.mark(name, self._plain(name))
+
+    def power(self, name: str, exponent: str) -> str:
+        """A symbol and its exponent in one mark, so that the exponent stands above an index."""
+        return self.mark(name, f"{self._plain(name)}^{{{exponent}}}")
+
+    def _plain(self, name: str) -> str:
         kind, base = split_symbol(name)
         known = self.names.get(base)
-        letter = known.typeset if known else latex_of(base)
-        return self.mark(name, _decorated(kind, letter))
+        return _decorated(kind, known.typeset if known else latex_of(base))
 
 
 def _decorated(kind: int, letter: str) -> str:

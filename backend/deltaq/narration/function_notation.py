@@ -60,6 +60,9 @@ class FunctionTypography(Typography):
         text = self.mark(name, self._direction(function, kind - VARIATION)) if is_direction else super().symbol(name)
         return text + self.argument
 
+    def power(self, name: str, exponent: str) -> str:
+        return f"{self.symbol(name)}^{{{exponent}}}"  # behind the argument
+
     def _direction(self, function: str, order: int) -> str:
         named = self.directions[function]
         known = self.names.get(function)

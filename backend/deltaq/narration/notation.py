@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import groupby
@@ -37,6 +38,7 @@ from .marks import bare
 from .matrix_writing import write_matrix
 from .symbols import SymbolTable
 
+TALL = re.compile(r"\\(?:frac|begin)\b")
 SIGNS = {"=": "=", "≠": r"\neq", "≈": r"\approx", "⇔": r"\;\Longleftrightarrow\;"}
 
 
@@ -107,7 +109,10 @@ class Notation:
     def block(self, relations: tuple[Relation, ...]) -> str:
         """All lines of a step."""
         rows = [row for relation in relations for row in self.relation(relation)]
-        return r"\begin{aligned}" + r" \\[0.4em] ".join(rows) + r"\end{aligned}" if rows else ""
+        if not rows:
+            return ""
+        *upper, last = rows
+        return r"\begin{aligned}" + "".join(row + _gap_below(row) for row in upper) + last + r"\end{aligned}"
 
     def _partial(self, of: Formula, by: str) -> str:
         if isinstance(of, Named | Called):
@@ -183,3 +188,8 @@ class Notation:
 def _counts(term: Term) -> bool:
     """Whether a summand is worth writing: a zero is not."""
     return not (isinstance(term.formula, Explicit) and term.formula.value == 0)
+
+
+def _gap_below(row: str) -> str:
+    """The end of a row. TeX counts the gap from the line of writing, not from what hangs below it."""
+    return r" \\[0.85em] " if TALL.search(row) else r" \\[0.4em] "
