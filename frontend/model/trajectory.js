@@ -32,14 +32,16 @@ function intervalOf(times, t) {
   return low;
 }
 
-/** @param {readonly number[]} values @param {Blend} blend */
-export function scalarAt(values, { index, weight }) {
-  return index.reduce((sum, i, k) => sum + weight[k] * values[i], 0);
+/** Written out, because it is wanted a hundred times in a frame. @param {readonly number[]} values @param {Blend} blend */
+export function scalarAt(values, { index: [a, b, c, d], weight: [u, v, w, x] }) {
+  return u * values[a] + v * values[b] + w * values[c] + x * values[d];
 }
 
 /** @param {readonly number[][]} vectors @param {Blend} blend */
 export function vectorAt(vectors, { index, weight }) {
-  return vectors[0].map((_, c) => index.reduce((sum, i, k) => sum + weight[k] * vectors[i][c], 0));
+  const [a, b, c, d] = index.map((i) => vectors[i]);
+  const [u, v, w, x] = weight;
+  return vectors[0].map((_, k) => u * a[k] + v * b[k] + w * c[k] + x * d[k]);
 }
 
 /**
@@ -48,7 +50,10 @@ export function vectorAt(vectors, { index, weight }) {
  * @returns {Record<string, W>}
  */
 function mapped(record, change) {
-  return Object.fromEntries(Object.entries(record).map(([name, value]) => [name, change(value)]));
+  /** @type {Record<string, W>} */
+  const made = {};
+  for (const name of Object.keys(record)) made[name] = change(record[name]);
+  return made;
 }
 
 /**

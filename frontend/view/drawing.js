@@ -45,6 +45,7 @@ function pool(parent, make, update) {
     keys = order;
     for (const item of items) {
       const found = /** @type {{element: E, last: Partial<T>}} */ (kept.get(item.key));
+      if (found.last === item) continue;
       // Written only when it changes, so that a class added from outside (a highlight) stays.
       if (found.last.className !== item.className) found.element.setAttribute("class", item.className);
       update(found.element, item, found.last);

@@ -31,8 +31,10 @@ export function player(view) {
   `;
 }
 
+/** The slider's parts move by steps of this part of their way, about half a pixel: not every frame has one. */
+const STRIDES = 500;
 /** Milliseconds between two changes of the digits, and of the slider's value, while the motion runs. */
-const DIGITS = 60;
+const DIGITS = 100;
 const VALUE = 500;
 
 /**
@@ -44,16 +46,20 @@ export function createTransport(player) {
   const find = (/** @type {string} */ name) => /** @type {HTMLElement} */ (player.querySelector(`.${name}`));
   const [past, present, digits] = [find("past"), find("present"), digitsIn(find("time"))];
   const scrub = /** @type {HTMLInputElement} */ (find("scrub"));
+  let shown = -1;
   const [sayNow, setNow] = [atMost(DIGITS), atMost(VALUE)];
 
   return {
     scrub,
     /** @param {number} t @param {import("../model/clock.js").Clock} clock @param {string} lang */
     move(t, { end, playing }, lang) {
-      const part = end ? t / end : 0;
-      past.style.transform = `scaleX(${part})`;
-      present.style.transform = `translateX(${part * 100}%)`;
-      if (!playing || sayNow()) digits.textContent = `${fixed(t, 2, lang)} s`;
+      const part = end ? Math.round((t / end) * STRIDES) / STRIDES : 0;
+      if (part !== shown) {
+        past.style.transform = `scaleX(${part})`;
+        present.style.transform = `translateX(${part * 100}%)`;
+      }
+      shown = part;
+      if (!playing || sayNow()) digits.data = `${fixed(t, 2, lang)} s`;
       if (!playing || setNow()) scrub.value = String(t);
     },
   };

@@ -1,4 +1,4 @@
-/** The present values of coordinates and energies, in their colours; written directly, twenty times a second at most. */
+/** The present values of coordinates and energies, in their colours; written directly, ten times a second at most. */
 
 import { fixed, unitText } from "../model/numbers.js";
 import { atMost, digitsIn } from "./digits.js";
@@ -8,11 +8,11 @@ import { snapshotAt } from "../model/trajectory.js";
 /** @typedef {import("../model/types.js").Trajectory} Trajectory */
 
 /** Milliseconds between two changes: faster ones cannot be read. */
-const PAUSE = 50;
+const PAUSE = 100;
 
 /** @param {HTMLElement} root */
 export function createReadouts(root) {
-  /** @type {{trajectory: Trajectory, lang: string, write: ((t: number) => void)} | null} */
+  /** @type {{trajectory: Trajectory, lang: string, write: ((t: number) => string)} | null} */
   let shown = null;
   let due = atMost(PAUSE);
 
@@ -29,8 +29,7 @@ export function createReadouts(root) {
     },
     /** The same as a sentence's part. @param {number} t */
     text(t) {
-      shown?.write(t);
-      return root.dataset.spoken ?? "";
+      return shown?.write(t) ?? "";
     },
     /** @param {number} t */
     move(t) {
@@ -55,8 +54,8 @@ function fields(root, scene, trajectory, lang) {
   return (/** @type {number} */ t) => {
     const now = snapshotAt(trajectory, t);
     for (const { value, coordinate } of cells) {
-      value.textContent = `${fixed(now.coordinates[coordinate.name], 3, lang)} ${unitText(coordinate.unit)}`;
+      value.data = `${fixed(now.coordinates[coordinate.name], 3, lang)} ${unitText(coordinate.unit)}`;
     }
-    root.dataset.spoken = cells.map(({ value, coordinate }) => `${coordinate.name} = ${value.textContent}`).join(", ");
+    return cells.map(({ value, coordinate }) => `${coordinate.name} = ${value.data}`).join(", ");
   };
 }

@@ -83,6 +83,31 @@ def test_the_bob_moves_and_rests(lecture: Lecture) -> None:
     assert lecture.bob_position() == resting
 
 
+# What is written while the motion runs: classes and nodes outside the drawing would make the whole page find its styles anew.
+WRITTEN = """seconds => new Promise(done => {
+    const found = new Set();
+    const note = ({type, target, attributeName}) => {
+        const drawn = target.closest?.('.drawing > svg, .labels');
+        if (!drawn && (type === 'childList' || attributeName === 'class')) found.add(`${type} ${target.className}`);
+    };
+    const observer = new MutationObserver(records => records.forEach(note));
+    observer.observe(document.body, {subtree: true, childList: true, attributes: true});
+    setTimeout(() => { observer.disconnect(); done([...found]) }, 1000 * seconds);
+})"""
+
+
+def test_a_moving_picture_leaves_the_styles_of_the_page_alone(lecture: Lecture) -> None:
+    """With the plots and the instruments open, frames only move things, and write digits into texts that are there."""
+    lecture.open()
+    lecture.page.locator(".plots.ready").wait_for()
+    lecture.page.locator(".drawing").hover(position={"x": 5, "y": 5})
+    lecture.page.locator(".figure-tools button").first.wait_for()
+    before = lecture.bob_position()
+    # The page may still be finishing: what every frame writes is found again and again.
+    assert any(lecture.page.evaluate(WRITTEN, 0.4) == [] for _ in range(20))
+    assert lecture.bob_position() != before
+
+
 def test_reduced_motion_begins_at_rest(lecture: Lecture) -> None:
     lecture.page.emulate_media(reduced_motion="reduce")
     lecture.open()

@@ -50,6 +50,14 @@ test("bob above rod above ground, whatever the order in the scene", () => {
   assert.ok(keys.indexOf("ground4-line") < keys.indexOf("rod1") && keys.indexOf("rod1") < keys.indexOf("bob0"));
 });
 
+test("what does not move is made once; what moves is made anew", () => {
+  const guided = { ...scene, drawing: { ...scene.drawing, elements: [{ kind: "ground", at: "pivot" }, { kind: "wall", from: "pivot", to: "bob" }] } };
+  const stage = stageOf(guided, trajectory, square(400));
+  const [first, second] = [0, 2].map((t) => figureOf(stage, snapshotAt(trajectory, t)));
+  assert.equal(shape(first, "ground0-hatch"), shape(second, "ground0-hatch"));
+  assert.notEqual(shape(first, "wall1-hatch")?.d, shape(second, "wall1-hatch")?.d);
+});
+
 test("an angle carries the colour and the symbol of its coordinate", () => {
   const label = figureAt(4).labels.find((l) => l.key === "angle2");
   assert.equal(label?.latex, "q_2");

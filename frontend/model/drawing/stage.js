@@ -113,6 +113,18 @@ export function keeper() {
   };
 }
 
+/**
+ * Makes a thing anew only when what it depends on has changed.
+ * @template T
+ * @param {Stage} stage @param {string} key @param {string} on @param {() => T} make
+ * @returns {T}
+ */
+export function unlessMoved(stage, key, on, make) {
+  const kept = stage.once(`last ${key}`, () => ({ on, made: make() }));
+  if (kept.on !== on) Object.assign(kept, { on, made: make() });
+  return kept.made;
+}
+
 /** Where a point or body stands at a moment. @param {Stage} stage @param {Snapshot} now @param {string} place */
 export function placeOf(stage, now, place) {
   return stage.project(now.positions[place] ?? [0, 0, 0].slice(0, stage.scene.dimension));

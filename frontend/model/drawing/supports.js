@@ -1,7 +1,7 @@
 /** What holds a system: ground, pivot, guide. */
 
-import { add, circle, hatching, lengthOf, line, normal, polygon, scaled, subtract } from "./geometry.js";
-import { placeOf } from "./stage.js";
+import { add, at, circle, hatching, lengthOf, line, normal, polygon, scaled, subtract } from "./geometry.js";
+import { placeOf, unlessMoved } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
@@ -17,6 +17,11 @@ import { placeOf } from "./stage.js";
  */
 export function ground(element, stage, now, key) {
   const place = placeOf(stage, now, element.at ?? "");
+  return unlessMoved(stage, key, at(place), () => groundAt(place, element, stage, key));
+}
+
+/** @param {Pixel} place @param {Element} element @param {Stage} stage @param {string} key @returns {Figure} */
+function groundAt(place, element, stage, key) {
   const below = place[1] > stage.size.height * 0.6;
   const half = element.width ? (element.width * stage.scale) / 2 : stage.unit * 3;
   const away = /** @type {Pixel} */ ([0, below ? 1 : -1]);
@@ -38,6 +43,11 @@ export function ground(element, stage, now, key) {
 export function wall(element, stage, now, key) {
   const from = placeOf(stage, now, element.from ?? "");
   const to = placeOf(stage, now, element.to ?? "");
+  return unlessMoved(stage, key, at(from) + at(to), () => wallAlong(from, to, stage, key));
+}
+
+/** @param {Pixel} from @param {Pixel} to @param {Stage} stage @param {string} key @returns {Figure} */
+function wallAlong(from, to, stage, key) {
   const away = scaled(normal(subtract(to, from)), 1 / (lengthOf(subtract(to, from)) || 1));
   const shapes = [
     { key: `${key}-hatch`, d: hatching(from, to, away, stage.unit * 0.75), className: "hatch" },
@@ -79,9 +89,17 @@ export function guide(element, stage, now, key) {
   const along = /** @type {Pixel} */ (element.direction === "horizontal" ? [1, 0] : [0, 1]);
   const across = normal(along);
   const u = stage.unit;
-  const [first, last] = stage.once(`reach ${key}`, () => reachOf(stage, element.at ?? "", along));
   const middle = scaled(across, dot(place, across));
-  const rails = [1, -1].flatMap((side) => {
+  const rails = unlessMoved(stage, key, at(middle), () => railsAbout(middle, along, element, stage, key));
+  const block = { key: `${key}-block`, d: box(along, across, u * 1.05, u * 0.8), className: "ink steel", at: place };
+  return { shapes: [...rails, block], labels: [] };
+}
+
+/** @param {Pixel} middle @param {Pixel} along @param {Element} element @param {Stage} stage @param {string} key */
+function railsAbout(middle, along, element, stage, key) {
+  const [across, u] = [normal(along), stage.unit];
+  const [first, last] = stage.once(`reach ${key}`, () => reachOf(stage, element.at ?? "", along));
+  return [1, -1].flatMap((side) => {
     const offset = add(middle, scaled(across, side * u * 0.95));
     const from = add(offset, scaled(along, first - 1.5 * u));
     const to = add(offset, scaled(along, last + 1.5 * u));
@@ -90,8 +108,6 @@ export function guide(element, stage, now, key) {
       { key: `${key}-rail${side}`, d: line(from, to), className: "ink" },
     ];
   });
-  const block = { key: `${key}-block`, d: box(along, across, u * 1.05, u * 0.8), className: "ink steel", at: place };
-  return { shapes: [...rails, block], labels: [] };
 }
 
 /**

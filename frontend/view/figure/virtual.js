@@ -31,7 +31,8 @@ export function createVirtual(bench) {
   const choose = (next) => session.move({ vary: writeChoice(next) });
 
   function clear() {
-    if (shown) [under, over].forEach(({ draw }) => draw(NOTHING));
+    if (!shown) return;
+    [under, over].forEach(({ draw }) => draw(NOTHING));
     frame.classList.remove("varied");
     shown = false;
   }
