@@ -74,7 +74,8 @@ def test_marked_symbols_are_set_off_as_well() -> None:
     written = latex(read("sin(phi)*dot(y)", names=LECTURE), typography)
     assert written == r"\sin\htmlClass{phi}{q_2} \, \htmlClass{dot(y)}{\dot{q}_1}"
     power = latex(read("m*dot(y)^2", names=LECTURE), typography)
-    assert power == r"\htmlClass{m}{m} \htmlClass{dot(y)}{\dot{q}_1^{2}}"  # else the 2 would stand behind the index, not above it
+    # Else the 2 would stand behind the index, not above it.
+    assert power == r"\htmlClass{m}{m} \htmlClass{dot(y)}{\dot{q}_1^{2}}"
 
 
 def test_a_symbol_by_its_plain_name() -> None:
