@@ -83,7 +83,7 @@ def test_the_bob_moves_and_rests(lecture: Lecture) -> None:
     assert lecture.bob_position() == resting
 
 
-# What is written while the motion runs: classes and nodes outside the drawing would make the whole page find its styles anew.
+# Written while the motion runs: classes and nodes outside the drawing, for which the whole page finds its styles anew.
 WRITTEN = """seconds => new Promise(done => {
     const found = new Set();
     const note = ({type, target, attributeName}) => {
