@@ -15,7 +15,7 @@ const asked = readPlace(location.search);
 const store = createStore({
   place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
-  groups: /** @type {import("./model/reference.js").Group[]} */ ([]), version: "", text: "",
+  groups: /** @type {import("./model/reference.js").Group[]} */ ([]), version: "", text: "", sample: "Shell",
   failure: /** @type {import("./model/types.js").Failure | null} */ (null),
 });
 const { get, set } = store;
@@ -25,7 +25,7 @@ const speech = createSpeech(store, api, (task) => task().catch(() => {}), ["refe
 async function load() {
   try {
     const document = await api.description();
-    set({ groups: groupsOf(document), version: document.info.version, text: document.info.description, failure: null });
+    set({ groups: groupsOf(document, location.origin), version: document.info.version, text: document.info.description, failure: null });
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
     set({ failure: error.failure });
@@ -41,7 +41,8 @@ function update() {
   document.documentElement.lang = place.lang;
   document.title = `δq · ${t("place.docs")}`;
   const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
-  render(page({ ...get(), state: { place }, session, t, reload: load, origin: location.origin }), root);
+  const choose = (/** @type {string} */ sample) => set({ sample });
+  render(page({ ...get(), state: { place }, session, t, reload: load, choose }), root);
   history.replaceState(null, "", location.pathname + writePlace(place) + location.hash);
   if (groups.length && !arrived) {
     arrived = true;

@@ -34,7 +34,7 @@ function arrive() {
 
 async function load() {
   try {
-    set({ groups: groupsOf(await api.description()), failure: null });
+    set({ groups: groupsOf(await api.description(), location.origin), failure: null });
     arrive();
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;

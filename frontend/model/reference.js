@@ -2,25 +2,29 @@
 
 /** @typedef {Record<string, any>} Json */
 /** @typedef {{name: string, kind: string, text: string, required: boolean}} Field */
+/** @typedef {{lang: string, source: string}} Sample */
 /** @typedef {{name: string, place: string, text: string, required: boolean, choices: string[], example: string}} Input  a part of the address */
-/** @typedef {{id: string, method: string, path: string, text: string, fields: Field[], inputs: Input[], type: string, examples: string[], answers: {status: string, text: string}[]}} Call  type: of the body, "" without one */
-/** @typedef {{subject: string, calls: Call[]}} Group */
+/** @typedef {{id: string, method: string, path: string, text: string, fields: Field[], inputs: Input[], type: string, examples: string[], samples: Sample[],
+ *   answers: {status: string, text: string}[]}} Call  type: of the body, "" without one */
+/** @typedef {{subject: string, text: string, calls: Call[]}} Group */
 
-/** @param {Json} description  OpenAPI 3.1 @returns {Group[]} */
-export function groupsOf(description) {
+/** Where the samples of the description say the service is. */
+const ANYWHERE = "http://localhost:8000";
+
+/** @param {Json} description  OpenAPI 3.1 @param {string} origin where the service is @returns {Group[]} */
+export function groupsOf(description, origin) {
   /** @type {Map<string, Call[]>} */
-  const groups = new Map();
+  const groups = new Map(description.tags.map((/** @type {Json} */ { name }) => [name, []]));
   for (const [path, methods] of Object.entries(description.paths)) {
     for (const [method, operation] of Object.entries(/** @type {Json} */ (methods))) {
-      const subject = operation.tags?.[0] ?? "";
-      groups.set(subject, [...(groups.get(subject) ?? []), callOf(description, method, path, operation)]);
+      groups.get(operation.tags[0])?.push(callOf(description, method, path, operation, origin));
     }
   }
-  return [...groups].map(([subject, calls]) => ({ subject, calls }));
+  return description.tags.map((/** @type {Json} */ { name, description: text }) => ({ subject: name, text, calls: groups.get(name) }));
 }
 
-/** @param {Json} description @param {string} method @param {string} path @param {Json} operation @returns {Call} */
-function callOf(description, method, path, operation) {
+/** @param {Json} description @param {string} method @param {string} path @param {Json} operation @param {string} origin @returns {Call} */
+function callOf(description, method, path, operation, origin) {
   const [type, body] = Object.entries(operation.requestBody?.content ?? {})[0] ?? ["", null];
   const schema = body ? resolved(description, body.schema) : null;
   const parameters = operation.parameters ?? [];
@@ -29,6 +33,7 @@ function callOf(description, method, path, operation) {
     id: operation.operationId, method: method.toUpperCase(), path, text: operation.description || operation.summary || "",
     fields: [...given, ...fieldsOf(description, schema)], inputs: parameters.map(inputOf),
     type, examples: (schema?.examples ?? []).map(written),
+    samples: operation["x-codeSamples"].map((/** @type {Sample} */ { lang, source }) => ({ lang, source: source.replaceAll(ANYWHERE, origin) })),
     answers: Object.entries(operation.responses ?? {}).map(([status, answer]) => ({ status, text: answer.description ?? "" })),
   };
 }

@@ -34,7 +34,7 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
     chapters = [chapter.id for chapter in answer.chapters]
     assert chapters == CHAPTERS
     assert all(chapter.steps for chapter in answer.chapters)
-    assert answer.result.keys() == {
+    assert answer.result.model_dump().keys() == {
         "positions",
         "points",
         "virtual_displacements",

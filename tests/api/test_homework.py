@@ -5,7 +5,9 @@ from typing import Any
 import httpx
 import pytest
 
-from deltaq.api.wire.homework import CheckRequest, TaskList, VerdictAnswer
+from deltaq.api.wire.check import CheckRequest
+from deltaq.api.wire.task import TaskList
+from deltaq.api.wire.verdict import VerdictAnswer
 
 pytestmark = pytest.mark.anyio
 API = "/api/v1"

@@ -13,7 +13,7 @@ from fastapi import FastAPI
 from deltaq import __version__
 from deltaq.api.app import create_app
 from deltaq.api.service import source_digest
-from deltaq.api.wire.experiment import REQUESTS
+from deltaq.lab.experiment import experiment_ids
 from deltaq.settings import Settings
 from deltaq.simulation.library import method_ids
 
@@ -138,7 +138,7 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
         "POST /tasks/stack",
         "POST /assignments",
         "POST /exports/{form}",
-        *(f"POST /experiments/{name}" for name in REQUESTS),
+        *(f"POST /experiments/{name}" for name in experiment_ids()),
     }
     for path, methods in description["paths"].items():
         for method, call in methods.items():

@@ -17,6 +17,7 @@ from ..settings import Settings
 from . import problems
 from .access import Access
 from .clients import Clients
+from .description import DESCRIPTION, SUMMARY, DescribedAPI, operation_id, subjects
 from .headers import SecurityHeaders
 from .hosts import TrustedHosts
 from .routes import pages
@@ -30,17 +31,17 @@ CROSS_ORIGIN: Any = {
     "expose_headers": ["Content-Location", "ETag", "Retry-After", "X-Request-ID"],
     "max_age": 86400,
 }
-DESCRIPTION = """Derives Lagrange's equations of the second kind step by step, simulates the motion, and says how
-accurate the answer is. Every error is a problem document (RFC 9457)."""
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
     """A FastAPI application with its own workers and cache."""
     service = make_service(settings or Settings.from_environment())
-    app = FastAPI(
-        title="δq",
-        summary="Analytical mechanics, derived and simulated",
+    app = DescribedAPI(
+        title="deltaq",
+        summary=SUMMARY,
         description=DESCRIPTION,
+        openapi_tags=subjects(),
+        generate_unique_id_function=operation_id,
         version=__version__,
         openapi_url=f"{PREFIX}/openapi.json",
         docs_url=None,

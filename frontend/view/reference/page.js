@@ -3,13 +3,12 @@
 import { html, nothing } from "lit-html";
 import { failure } from "../failure.js";
 import { appearance, brand, language, places } from "../header.js";
-import { curlOf, draftOf } from "../../model/trial.js";
 import { pageAddress } from "../../model/url.js";
 
 /** @typedef {import("../../model/reference.js").Call} Call */
 /**
  * @typedef {import("../header.js").Appearance & {groups: import("../../model/reference.js").Group[], version: string, text: string,
- *   failure: import("../../model/types.js").Failure | null, reload: () => void, origin: string}} ReferenceView
+ *   failure: import("../../model/types.js").Failure | null, reload: () => void, sample: string, choose: (sample: string) => void}} ReferenceView
  */
 
 const TRIAL = "docs/try";
@@ -28,19 +27,25 @@ export function page(view) {
       <nav aria-label=${t("reference.subjects")}><ul>${groups.map(({ subject }) => html`<li><a href=${`#${subject}`}>${subject}</a></li>`)}</ul>
         <p><a href=${pageAddress(TRIAL, view.state.place)}>${t("reference.try")}</a></p><p><a href="/api/v1/openapi.json">${t("reference.openapi")}</a></p></nav>
       <div class="calls">
-        <p lang="en">${view.text}</p>
-        <pre tabindex="0"><code>DELTAQ=${view.origin}</code></pre>
-        ${groups.map(({ subject, calls }) => html`<section id=${subject} lang="en"><h2>${subject}</h2>${calls.map((call) => article(call, view))}</section>`)}
+        <p lang="en">${described(view.text)}</p>
+        ${languages(view)}
+        ${groups.map(({ subject, text, calls }) => html`<section id=${subject} lang="en"><h2>${subject}</h2><p>${text}</p>${calls.map((call) => article(call, view))}</section>`)}
       </div>
     </main>`;
+}
+
+/** In which language the samples are. @param {ReferenceView} view */
+function languages({ groups, sample, choose, t }) {
+  const known = groups.flatMap(({ calls }) => calls)[0]?.samples ?? [];
+  return html`<div class="segments" role="group" aria-label=${t("reference.samples")}>${known.map(({ lang }) => html`
+    <button type="button" aria-pressed=${lang === sample} @click=${() => choose(lang)}>${lang}</button>`)}</div>`;
 }
 
 /** Names stand between backticks. @param {string} text */
 const described = (text) => text.split("`").map((part, i) => (i % 2 ? html`<code>${part}</code>` : part));
 
 /** @param {Call} call @param {ReferenceView} view */
-function article(call, { t, state }) {
-  const { id, method, path, text, fields, answers } = call;
+function article({ id, method, path, text, fields, samples, answers }, { t, state, sample }) {
   return html`
     <article id=${id}>
       <h3><span class="method">${method}</span> <code>${path}</code>
@@ -50,7 +55,7 @@ function article(call, { t, state }) {
         <dl>${fields.map(({ name, kind, text: meaning, required }) => html`
           <div><dt><code>${name}</code>${required ? html` <span lang=${state.place.lang}>${t("reference.required")}</span>` : nothing}</dt>
             <dd><span class="kind">${kind}</span> ${meaning}</dd></div>`)}</dl>` : nothing}
-      <pre tabindex="0"><code>${curlOf(call, draftOf(call))}</code></pre>
+      ${samples.filter(({ lang }) => lang === sample).map(({ lang, source }) => html`<pre tabindex="0" aria-label=${lang}><code>${source}</code></pre>`)}
       <p class="answers">${answers.map(({ status, text: meaning }) => html`<span><b>${status}</b> ${meaning}</span>`)}</p>
     </article>`;
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Path, Request, Response
+from fastapi import APIRouter, Path, Query, Request, Response
 
 from ...errors import Problem, UnknownNameError
 from ...narration.catalog import catalog
@@ -15,9 +15,13 @@ from .common import failures
 router = APIRouter(prefix="/catalogs", tags=["catalogs"])
 
 
-@router.get("/{lang}", response_model=dict[str, dict[str, Any]], responses=failures(404))
-def get_catalog(request: Request, lang: Annotated[str, Path(examples=["en"])], sections: str = "") -> Response:
-    """All sentences of a language: {rules, errors, statuses, page, methods}; or only those `sections`, by commas."""
+@router.get("/{lang}", response_model=dict[str, dict[str, Any]], responses=failures(404, 422))
+def get_catalog(
+    request: Request,
+    lang: Annotated[str, Path(description=f"language: {' or '.join(LANGUAGES)}", examples=["en"])],
+    sections: Annotated[str, Query(description="only these, by commas", examples=["methods,statuses"])] = "",
+) -> Response:
+    """All sentences of a language by sections (rules, errors, statuses, page, methods …), or only some sections."""
     known = next((one for one in LANGUAGES if one == lang), None)
     if known is None:
         parameters = {"name": lang[:16], "known": ", ".join(LANGUAGES)}

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import Path, Request
+from fastapi import Depends, Path, Query, Request
 from pydantic import BaseModel
 
 from ...errors import UnknownNameError
 from ...mechanics.library import load_scene
-from ..languages import language_of
-from ..wire.problem import ProblemDocument
+from ..languages import Language, language_of
 
 PREFIX = "/api/v1"
 SceneId = Annotated[str, Path(description="a built-in scene", examples=["pendulum"])]
@@ -29,13 +28,22 @@ _MEANINGS = {
 def failures(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """OpenAPI of the problem documents that a route may answer; any other status is one, too."""
     content = {"application/problem+json": {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}}
-    of_computing = (429,) if 503 in statuses else ()
+    of_computing = (429,) if 504 in statuses else ()
     named = sorted((*statuses, *of_computing))
     meanings = {str(status): _MEANINGS[status] for status in named} | {"default": "any other failure"}
-    return {
-        status: {"model": ProblemDocument, "description": meaning, "content": content}
-        for status, meaning in meanings.items()
-    }
+    return {status: {"description": meaning, "content": content} for status, meaning in meanings.items()}
+
+
+COMPUTING = failures(400, 404, 413, 422, 503, 504)
+
+
+def _choose(
+    lang: Annotated[Language | None, Query(description="language of the texts; else Accept-Language decides")] = None,
+) -> Language | None:
+    return lang  # language_of reads it
+
+
+LANGUAGE = Depends(_choose)
 
 
 def question_of(request: Request, body: BaseModel) -> dict[str, Any]:

@@ -10,16 +10,17 @@ from starlette.exceptions import HTTPException
 
 from ..body import StrictRoute
 from ..responses import packed
+from ..samples import BY_ID
 from ..service import service_of
 from ..wire.derivation import DerivationAnswer, DerivationRequest
 from ..workers.job import Job
-from .common import PREFIX, failures, question_of
+from .common import COMPUTING, PREFIX, failures, question_of
 
 router = APIRouter(prefix="/derivations", tags=["derivations"], route_class=StrictRoute)
 DERIVE = Job("deltaq.api.jobs:derive", deadline=5.0)
 
 
-@router.post("", response_model=DerivationAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+@router.post("", response_model=DerivationAnswer, responses=COMPUTING)
 async def derive(request: Request, body: DerivationRequest) -> Response:
     """Derive the equations of motion of a scene, step by step."""
     service = service_of(request)
@@ -30,9 +31,9 @@ async def derive(request: Request, body: DerivationRequest) -> Response:
     return packed(request, key, answer, f"{PREFIX}/derivations/{key}")
 
 
-@router.get("/{identifier}", response_model=DerivationAnswer, responses=failures(404))
+@router.get("/{identifier}", response_model=DerivationAnswer, responses=failures(404), openapi_extra=BY_ID)
 async def get_derivation(
-    request: Request, identifier: Annotated[str, Path(description="the id of an answer")]
+    request: Request, identifier: Annotated[str, Path(description="the id that the derivation came with")]
 ) -> Response:
     """A derivation that was asked for before. It never changes; one that is no longer kept must be asked for again."""
     answer = await service_of(request).cache.find(identifier)

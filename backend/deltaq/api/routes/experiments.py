@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable
 from dataclasses import replace
 from json import loads
 from typing import Any
@@ -17,36 +17,83 @@ from ..problems import report_of
 from ..responses import packed
 from ..service import Service, pack, service_of, unpack
 from ..streams import MEDIA_TYPE, events
-from ..wire.experiment import REQUESTS, ExperimentAnswer
+from ..wire.experiment import (
+    ChaosRequest,
+    ConvergenceRequest,
+    EnergyDriftRequest,
+    ExperimentAnswer,
+    ExperimentRequest,
+    FidelityRequest,
+    StabilityMapRequest,
+    StabilityRequest,
+    WorkPrecisionRequest,
+)
 from ..workers.job import Job
-from .common import failures, question_of
+from .common import COMPUTING, question_of
 
 router = APIRouter(prefix="/experiments", tags=["experiments"], route_class=StrictRoute)
 EXPERIMENT = Job("deltaq.api.jobs:experiment", deadline=180.0, threads=8, pace="slow")
 EXPORT = Job("deltaq.api.jobs:export_charts", deadline=30.0, pace="slow")
 FILES = {"text/html": "html", "text/csv": "csv"}
-Endpoint = Callable[..., Coroutine[Any, Any, Response]]
+ANSWERS: dict[int | str, dict[str, Any]] = {
+    200: {"content": {kind: {"schema": {"type": "string"}} for kind in (MEDIA_TYPE, *FILES)}}
+}
 
 
-def _endpoint(name: str, model: type) -> Endpoint:
-    """The call of one experiment: `Accept` says in which form the answer is wanted."""
+@router.post("/work-precision", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS)
+async def work_precision(request: Request, body: WorkPrecisionRequest) -> Response:
+    """Speed against accuracy: the error of each method against time and right-hand sides."""
+    return await _measured(request, "work-precision", body)
 
-    async def experiment(request: Request, body: Any) -> Response:
-        service = service_of(request)
-        question = {"experiment": name, **question_of(request, body)}
-        key, accepted = service.key(EXPERIMENT.target, question), request.headers.get("accept", "")
-        if MEDIA_TYPE in accepted:
-            return _streamed(request, service, key, question)
-        answer = await _answer(service, key, question, lambda _: None)
-        wanted = next((kind for kind in FILES if kind in accepted), None)
-        if wanted is None:
-            return packed(request, key, answer)
-        return await _exported(service, wanted, unpack(answer), question["lang"])
 
-    experiment.__annotations__["body"] = model
-    experiment.__doc__ = model.__doc__
-    experiment.__name__ = name.replace("-", "_")
-    return experiment
+@router.post("/convergence", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS)
+async def convergence(request: Request, body: ConvergenceRequest) -> Response:
+    """Order of convergence: the error of each method against its step."""
+    return await _measured(request, "convergence", body)
+
+
+@router.post("/energy-drift", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS)
+async def energy_drift(request: Request, body: EnergyDriftRequest) -> Response:
+    """Departure of the energy balance over many steps, symplectic methods against others."""
+    return await _measured(request, "energy-drift", body)
+
+
+@router.post("/stability", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS)
+async def stability(request: Request, body: StabilityRequest) -> Response:
+    """Regions of stability with the eigenvalues of the scene, steps of failure, and a series over a stiffness."""
+    return await _measured(request, "stability", body)
+
+
+@router.post("/stability-map", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS)
+async def stability_map(request: Request, body: StabilityMapRequest) -> Response:
+    """Floquet multipliers over two parameters of a scene that something drives periodically."""
+    return await _measured(request, "stability-map", body)
+
+
+@router.post("/chaos", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS)
+async def chaos(request: Request, body: ChaosRequest) -> Response:
+    """Twin runs, Lyapunov exponent, and the horizon of prediction against the tolerance."""
+    return await _measured(request, "chaos", body)
+
+
+@router.post("/fidelity", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS)
+async def fidelity(request: Request, body: FidelityRequest) -> Response:
+    """The least model that will do: simpler models of the scene, each with its cost and its error."""
+    return await _measured(request, "fidelity", body)
+
+
+async def _measured(request: Request, experiment: str, body: ExperimentRequest) -> Response:
+    """What was found, in the form that `Accept` asks for."""
+    service = service_of(request)
+    question = {"experiment": experiment, **question_of(request, body)}
+    key, accepted = service.key(EXPERIMENT.target, question), request.headers.get("accept", "")
+    if MEDIA_TYPE in accepted:
+        return _streamed(request, service, key, question)
+    answer = await _answer(service, key, question, lambda _: None)
+    wanted = next((kind for kind in FILES if kind in accepted), None)
+    if wanted is None:
+        return packed(request, key, answer)
+    return await _exported(service, wanted, unpack(answer), question["lang"])
 
 
 def _streamed(request: Request, service: Service, key: str, question: dict[str, Any]) -> Response:
@@ -80,14 +127,3 @@ async def _exported(service: Service, media_type: str, answer: bytes, language: 
     name = f"{result['experiment']}-{result['scene']}.{FILES[media_type]}"
     headers = {"Content-Disposition": f'attachment; filename="{name}"'}
     return Response(found["text"], media_type=media_type, headers=headers)
-
-
-for _name, _model in REQUESTS.items():
-    router.add_api_route(
-        f"/{_name}",
-        _endpoint(_name, _model),
-        methods=["POST"],
-        response_model=ExperimentAnswer,
-        responses=failures(400, 404, 413, 422, 503, 504)
-        | {200: {"content": {MEDIA_TYPE: {}, **{kind: {} for kind in FILES}}}},
-    )

@@ -4,24 +4,28 @@ from __future__ import annotations
 
 from dataclasses import replace
 from json import loads
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Path, Request, Response
 
 from ..body import StrictRoute
 from ..service import service_of, unpack
 from ..wire.export import ExportRequest, Form
 from ..workers.job import Job
-from .common import failures, question_of
+from .common import COMPUTING, question_of
 
 router = APIRouter(prefix="/exports", tags=["exports"], route_class=StrictRoute)
 EXPORT = Job("deltaq.api.jobs:export_handout", deadline=5.0)
 MEDIA_TYPES = {"latex": "application/x-tex", "markdown": "text/markdown", "python": "text/x-python"}
-FILES: dict[int | str, dict[str, Any]] = {200: {"content": {media_type: {} for media_type in MEDIA_TYPES.values()}}}
+FILES: dict[int | str, dict[str, Any]] = {
+    200: {"content": {media_type: {"schema": {"type": "string"}} for media_type in MEDIA_TYPES.values()}}
+}
 
 
-@router.post("/{form}", response_class=Response, responses=failures(400, 404, 413, 422, 503, 504) | FILES)
-async def export(request: Request, form: Form, body: ExportRequest) -> Response:
+@router.post("/{form}", response_class=Response, responses=COMPUTING | FILES)
+async def export_derivation(
+    request: Request, form: Annotated[Form, Path(description="kind of file")], body: ExportRequest
+) -> Response:
     """The derivation as a LaTeX or Markdown file, or a Python program that computes the motion with SciPy."""
     service = service_of(request)
     question = {"form": form, **question_of(request, body)}

@@ -16,7 +16,7 @@ from ..responses import packed
 from ..service import service_of
 from ..wire.expression import ExpressionAnswer, ExpressionRequest, ExpressionsAnswer, ExpressionsRequest
 from ..workers.job import Job
-from .common import failures, question_of
+from .common import COMPUTING, question_of
 
 router = APIRouter(prefix="/expressions", tags=["expressions"], route_class=StrictRoute)
 READING = 0.2  # seconds of a processor for one text
@@ -24,13 +24,13 @@ ONE = Job("deltaq.api.jobs:typeset", deadline=2.0, processor=READING)
 ALL = Job("deltaq.api.jobs:typeset_all", deadline=4.0)
 
 
-@router.post("", response_model=ExpressionAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+@router.post("", response_model=ExpressionAnswer, responses=COMPUTING)
 async def typeset(request: Request, body: ExpressionRequest) -> Response:
     """What a text means: LaTeX, and plain text that can be read back."""
     return await _answer(request, body, ONE)
 
 
-@router.post("/batch", response_model=ExpressionsAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+@router.post("/batch", response_model=ExpressionsAnswer, responses=COMPUTING)
 async def typeset_all(request: Request, body: ExpressionsRequest) -> Response:
     """What each of several texts means; one that cannot be read says why and spoils no other."""
     return await _answer(request, body, replace(ALL, processor=READING * max(1, len(body.expressions))))

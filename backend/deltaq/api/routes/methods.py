@@ -11,12 +11,12 @@ from ...simulation.library import get_method, method_ids
 from ..languages import Language, language_of
 from ..responses import tagged
 from ..wire.method import MethodList
-from .common import failures
+from .common import LANGUAGE, failures
 
 router = APIRouter(prefix="/methods", tags=["methods"])
 
 
-@router.get("", response_model=MethodList, responses=failures())
+@router.get("", response_model=MethodList, responses=failures(422), dependencies=[LANGUAGE])
 def list_methods(request: Request) -> Response:
     """The integration methods by rising order, titles in the language asked for."""
     language = language_of(request)

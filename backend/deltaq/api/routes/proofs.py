@@ -8,18 +8,18 @@ from fastapi import APIRouter, Path, Request, Response
 
 from ...narration.catalog import keys, text
 from ..body import StrictRoute
-from ..languages import Language, language_of
+from ..languages import language_of
 from ..responses import packed, tagged
 from ..service import service_of
 from ..wire.proof import ProofAnswer, ProofList
 from ..workers.job import Job
-from .common import failures
+from .common import LANGUAGE, failures
 
 router = APIRouter(prefix="/proofs", tags=["proofs"], route_class=StrictRoute)
 PROVE = Job("deltaq.api.jobs:prove", deadline=60.0, pace="slow")
 
 
-@router.get("", response_model=ProofList, responses=failures())
+@router.get("", response_model=ProofList, responses=failures(422), dependencies=[LANGUAGE])
 def list_proofs(request: Request) -> Response:
     """The proofs there are, titles in the language asked for."""
     language = language_of(request)
@@ -27,11 +27,11 @@ def list_proofs(request: Request) -> Response:
     return tagged(request, {"proofs": entries})
 
 
-@router.get("/{identifier}", response_model=ProofAnswer, responses=failures(404, 503, 504))
+@router.get(
+    "/{identifier}", response_model=ProofAnswer, responses=failures(404, 422, 503, 504), dependencies=[LANGUAGE]
+)
 async def get_proof(
-    request: Request,
-    identifier: Annotated[str, Path(examples=["dalembert-lagrange"])],
-    lang: Language | None = None,  # noqa: ARG001 - read by language_of
+    request: Request, identifier: Annotated[str, Path(description="id of the proof", examples=["dalembert-lagrange"])]
 ) -> Response:
     """A proof by its id: `dalembert-lagrange` leads from d'Alembert's principle to Lagrange's equations."""
     service = service_of(request)

@@ -15,18 +15,13 @@ from ..body import StrictRoute
 from ..languages import language_of
 from ..responses import JSON, tagged
 from ..service import service_of
-from ..wire.scene import EXAMPLE, SceneDocument, SceneList, SceneText, SceneValidity
+from ..wire.scene import EXAMPLE, TOML_EXAMPLE, SceneDocument, SceneList, SceneText, SceneValidity
 from ..workers.job import Job
-from .common import SceneId, failures
+from .common import LANGUAGE, SceneId, failures
 
 router = APIRouter(prefix="/scenes", tags=["scenes"], route_class=StrictRoute)
-TOML_EXAMPLE = 'format = 1\nid = "my-pendulum"\ntitle = { en = "My pendulum" }\n'
-TOML = {
-    "requestBody": {
-        "required": True,
-        "content": {"application/toml": {"schema": {"type": "string", "examples": [TOML_EXAMPLE]}}},
-    }
-}
+TOML_BODY = {"schema": {"type": "string", "examples": [TOML_EXAMPLE]}}
+TOML = {"requestBody": {"required": True, "content": {"application/toml": TOML_BODY}}}
 READ = Job("deltaq.api.jobs:read_scene_toml", deadline=2.0)
 VALIDATE = Job("deltaq.api.jobs:validate", deadline=2.0)
 
@@ -47,7 +42,7 @@ def _entry(scene: Scene) -> dict[str, Any]:
     return entry | {"family": bounds}
 
 
-@router.get("", response_model=SceneList, responses=failures())
+@router.get("", response_model=SceneList, responses=failures(422))
 def list_scenes(
     request: Request, *, summaries: Annotated[bool, Query(description="whether to tell what each is about")] = True
 ) -> Response:
@@ -57,14 +52,25 @@ def list_scenes(
     return tagged(request, {"scenes": entries})
 
 
-@router.post("/validate", response_model=SceneValidity, responses=failures(400, 413, 422, 503, 504))
+@router.post(
+    "/validate",
+    response_model=SceneValidity,
+    responses=failures(400, 413, 422, 503, 504),
+    dependencies=[LANGUAGE],
+)
 async def validate_scene(request: Request, scene: Annotated[SceneDocument, Body(examples=[EXAMPLE])]) -> Response:
     """Whether a scene document describes a mechanical system, and all that is wrong with it."""
     document = {"scene": scene, "lang": language_of(request)}
     return Response(await service_of(request).run(VALIDATE, document), media_type=JSON)
 
 
-@router.post("/toml", response_model=SceneText, responses=failures(400, 413, 422, 503, 504), openapi_extra=TOML)
+@router.post(
+    "/toml",
+    response_model=SceneText,
+    responses=failures(400, 413, 422, 503, 504),
+    dependencies=[LANGUAGE],
+    openapi_extra=TOML,
+)
 async def read_toml_scene(request: Request) -> Response:
     """A scene document written in TOML, as JSON. Whether it describes a mechanical system, `/scenes/validate` says."""
     text = (await request.body()).decode("utf-8", errors="replace")
@@ -73,9 +79,11 @@ async def read_toml_scene(request: Request) -> Response:
     return Response(await service_of(request).run(READ, {"text": text, "lang": language_of(request)}), media_type=JSON)
 
 
-@router.get("/{identifier}", responses=failures(404, 422))
+@router.get("/{identifier}", response_model=SceneDocument, responses=failures(404, 422), dependencies=[LANGUAGE])
 def get_scene(
-    request: Request, identifier: SceneId, n: Annotated[int | None, Query(description="members of a chain")] = None
+    request: Request,
+    identifier: SceneId,
+    n: Annotated[int | None, Query(description="members of a chain")] = None,
 ) -> Response:
     """The document of a built-in scene, format 1; of a family the member with `n` links, or its usual one."""
     return tagged(request, write_scene(load_scene(identifier, n)))

@@ -11,13 +11,13 @@ from ..responses import packed
 from ..service import service_of
 from ..wire.simulation import SimulationAnswer, SimulationRequest
 from ..workers.job import Job
-from .common import failures, question_of
+from .common import COMPUTING, question_of
 
 router = APIRouter(prefix="/simulations", tags=["simulations"], route_class=StrictRoute)
 SIMULATE = Job("deltaq.api.jobs:simulate", deadline=20.0, pace="slow")
 
 
-@router.post("", response_model=SimulationAnswer, responses=failures(400, 404, 413, 422, 503, 504))
+@router.post("", response_model=SimulationAnswer, responses=COMPUTING)
 async def simulate(request: Request, body: SimulationRequest) -> Response:
     """Simulate a scene. A run that fails is an answer too: it says how far it came, why, and what to do."""
     service = service_of(request)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
 from pydantic_core import PydanticCustomError
+
+from ..languages import Language
 
 
 class Request(BaseModel):
@@ -51,10 +53,36 @@ ExpressionText = Annotated[str, Field(min_length=1, max_length=2000)]
 class GuideChange(Request):
     """A coordinate made a given function of time."""
 
-    coordinate: Name = Field(examples=["y"])
-    value: ExpressionText = Field(examples=["y0*sin(omega*t)"])
+    coordinate: Name = Field(description="which one", examples=["y"])
+    value: ExpressionText = Field(description="its function of time", examples=["y0*sin(omega*t)"])
 
 
-Guides = Annotated[tuple[GuideChange, ...], Field(strict=False, max_length=32)]
+class InitialValue(Request):
+    """Value and rate of a coordinate at t = 0; what is left out is the scene's own."""
+
+    value: float | None = Field(None, description="at t = 0", examples=[0.5])
+    rate: float | None = Field(None, description="its derivative at t = 0", examples=[0.0])
+
+
 Names = Annotated[tuple[Name, ...], Field(strict=False, max_length=32)]
-Values = Annotated[dict[Name, float], Field(max_length=256)]
+Guides = Annotated[
+    tuple[GuideChange, ...],
+    Field(strict=False, max_length=32, description="coordinates to be made functions of time"),
+]
+Frozen = Annotated[Names, Field(description="coordinates to be held constant", examples=[[]])]
+Values = Annotated[dict[Name, float], Field(max_length=256, description="values of parameters", examples=[{"l": 0.8}])]
+InitialValues = Annotated[
+    dict[Name, InitialValue],
+    Field(max_length=64, description="where the motion begins, by coordinate", examples=[{"phi": {"value": 0.5}}]),
+]
+Syntax = Annotated[Literal["plain", "latex"], Field(description="how it is written")]
+AskedLanguage = Annotated[Language | None, Field(description="language of the texts; else Accept-Language decides")]
+
+
+class SceneWithChanges(Request):
+    """A scene, and what is changed in it before it is used."""
+
+    scene: SceneReference
+    guides: Guides = ()
+    freeze: Frozen = ()
+    parameters: Values = Field({})

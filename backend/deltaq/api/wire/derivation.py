@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
-from ..languages import Language
-from .base import Answer, Guides, Names, Request, SceneReference, Values, examples
+from .base import Answer, AskedLanguage, SceneWithChanges, examples
+from .result import DerivationResult
 
 Formulation = Literal["dalembert-lagrange", "hamilton"]
+ROAD = "which road leads to the equations"
 
 
-class DerivationRequest(Request):
+class DerivationRequest(SceneWithChanges):
     """Which scene to derive, what to change before, and in which language."""
 
-    scene: SceneReference
-    guides: Guides = Field((), description="coordinates to be made functions of time")
-    freeze: Names = Field((), description="coordinates to be held constant", examples=[[]])
-    parameters: Values = Field({}, description="values of parameters", examples=[{"l": 0.8}])
-    formulation: Formulation = "dalembert-lagrange"
-    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+    formulation: Formulation = Field("dalembert-lagrange", description=ROAD)
+    lang: AskedLanguage = None
 
     model_config = examples(
-        {"scene": "elastic-pendulum", "lang": "de"},
+        {"scene": "elastic-pendulum"},
         {
             "scene": "base-pendulum",
             "guides": [{"coordinate": "y", "value": "y0*sin(omega*t)"}],
@@ -59,4 +56,4 @@ class DerivationAnswer(Answer):
 
     id: str = Field(description="content hash; GET /derivations/{id} answers the same", examples=["9f3c…"])
     chapters: tuple[Chapter, ...]
-    result: dict[str, Any]
+    result: DerivationResult

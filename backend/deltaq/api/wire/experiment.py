@@ -22,21 +22,15 @@ from ...lab.bounds import (
     USUAL_FLIPS,
     USUAL_MAP,
 )
-from ..languages import Language
-from .base import Answer, Guides, Name, Names, Request, SceneReference, Values, examples
-from .simulation import InitialValue
+from .base import Answer, AskedLanguage, InitialValues, Name, Names, Request, SceneWithChanges, examples
 
 
-class ExperimentRequest(Request):
+class ExperimentRequest(SceneWithChanges):
     """The scene to experiment on, with its changes and values."""
 
-    scene: SceneReference
-    guides: Guides = Field((), description="coordinates to be made functions of time")
-    freeze: Names = Field((), description="coordinates to be held constant", examples=[[]])
-    parameters: Values = Field({}, description="values of parameters", examples=[{"l": 0.8}])
-    initial: Annotated[dict[Name, InitialValue], Field(max_length=64)] = Field({}, examples=[{"phi": {"value": 0.5}}])
+    initial: InitialValues = Field({})
     t_end: float = Field(SPAN, gt=0, le=LONGEST, description="seconds of motion", examples=[10.0])
-    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+    lang: AskedLanguage = None
 
 
 MethodIds = Annotated[Names, Field(description="methods of GET /methods; all if empty", examples=[["rk4", "dop853"]])]
@@ -48,7 +42,7 @@ class WorkPrecisionRequest(ExperimentRequest):
     methods: MethodIds = ()
     peers: bool = Field(default=False, description="whether SciPy's integrators take part, where SciPy is installed")
 
-    model_config = examples({"scene": "pendulum", "methods": ["rk4", "dop853"], "t_end": 2.0})
+    model_config = examples({"scene": "pendulum", "t_end": 2.0, "methods": ["rk4", "dop853"]})
 
 
 class ConvergenceRequest(ExperimentRequest):
@@ -56,20 +50,20 @@ class ConvergenceRequest(ExperimentRequest):
 
     methods: MethodIds = ()
 
-    model_config = examples({"scene": "pendulum", "methods": ["heun", "rk4"], "t_end": 2.0})
+    model_config = examples({"scene": "pendulum", "t_end": 2.0, "methods": ["heun", "rk4"]})
 
 
 class EnergyDriftRequest(ExperimentRequest):
     """Departure of the energy balance over many steps; the span is their number times the step."""
 
     methods: MethodIds = ()
-    steps: int = Field(USUAL_DRIFT, ge=DRIFT_STEPS[0], le=DRIFT_STEPS[1])
+    steps: int = Field(USUAL_DRIFT, ge=DRIFT_STEPS[0], le=DRIFT_STEPS[1], description="how many")
     step: float | None = Field(None, gt=0, le=1e3, description="seconds; else a fortieth of the fastest period")
     tolerance: float | None = Field(
         None, ge=LOCAL_TOLERANCES[0], le=LOCAL_TOLERANCES[1], description="local tolerance of variable steps"
     )
 
-    model_config = examples({"scene": "pendulum", "methods": ["rk4", "stormer-verlet"], "steps": 1000})
+    model_config = examples({"scene": "pendulum", "methods": ["stormer-verlet", "rk4"], "steps": 2000})
 
 
 class StabilityRequest(ExperimentRequest):
@@ -79,15 +73,15 @@ class StabilityRequest(ExperimentRequest):
     at: Literal["state", "rest"] = Field("state", description=f"where the scene is linearized: {' or '.join(AT)}")
     stiffness: str | None = Field(None, max_length=64, description="parameter that is made larger; a spring's if empty")
 
-    model_config = examples({"scene": "two-mass-oscillator", "methods": ["rk4"], "at": "rest", "t_end": 2.0})
+    model_config = examples({"scene": "pendulum", "methods": ["rk4"], "at": "rest"})
 
 
 class MapAxis(Request):
     """A parameter and its range."""
 
-    parameter: Name = Field(examples=["omega"])
-    start: float = Field(alias="from", examples=[20.0])
-    to: float = Field(examples=[120.0])
+    parameter: Name = Field(description="of the scene", examples=["omega"])
+    start: float = Field(alias="from", description="its least value", examples=[20.0])
+    to: float = Field(description="its largest value", examples=[120.0])
     count: int = Field(USUAL_MAP, ge=MAP_POINTS[0], le=MAP_POINTS[1], description="points on this side")
 
     model_config = ConfigDict(serialize_by_alias=True)
@@ -96,14 +90,14 @@ class MapAxis(Request):
 class StabilityMapRequest(ExperimentRequest):
     """Floquet multipliers over two parameters of a scene that something drives periodically."""
 
-    x: MapAxis
-    y: MapAxis
+    x: MapAxis = Field(description="to the right")
+    y: MapAxis = Field(description="upwards")
 
     model_config = examples(
         {
             "scene": "kapitza",
-            "x": {"parameter": "omega", "from": 20.0, "to": 120.0, "count": 9},
-            "y": {"parameter": "y0", "from": 0.01, "to": 0.1, "count": 9},
+            "x": {"parameter": "omega", "from": 20.0, "to": 120.0, "count": 12},
+            "y": {"parameter": "y0", "from": 0.05, "to": 0.3, "count": 12},
         }
     )
 
@@ -116,7 +110,7 @@ class ChaosRequest(ExperimentRequest):
     map: bool = Field(default=False, description="whether to map the times at which angles turn over")
     count: int = Field(USUAL_FLIPS, ge=FLIP_POINTS[0], le=FLIP_POINTS[1], description="points on a side of the map")
 
-    model_config = examples({"scene": "double-pendulum", "t_end": 5.0})
+    model_config = examples({"scene": "double-pendulum", "t_end": 10.0})
 
 
 class FidelityRequest(ExperimentRequest):
@@ -129,7 +123,7 @@ class FidelityRequest(ExperimentRequest):
         description="relative error allowed of the least rung; 0.01 if empty",
     )
 
-    model_config = examples({"scene": "spring-pendulum", "t_end": 2.0, "tolerance": 0.05})
+    model_config = examples({"scene": "elastic-pendulum", "tolerance": 0.05})
 
 
 class Chart(Answer):
@@ -150,14 +144,3 @@ class ExperimentAnswer(Answer):
     scene: str
     t_end: float
     charts: tuple[Chart, ...]
-
-
-REQUESTS: dict[str, type[ExperimentRequest]] = {
-    "work-precision": WorkPrecisionRequest,
-    "convergence": ConvergenceRequest,
-    "energy-drift": EnergyDriftRequest,
-    "stability": StabilityRequest,
-    "stability-map": StabilityMapRequest,
-    "chaos": ChaosRequest,
-    "fidelity": FidelityRequest,
-}

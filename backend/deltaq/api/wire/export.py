@@ -2,30 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import Field
 
 from ...simulation.request import LARGEST_SPAN
-from ..languages import Language
-from .base import Guides, Name, Names, Request, SceneReference, Values, examples
-from .derivation import Formulation
-from .simulation import InitialValue
+from .base import AskedLanguage, InitialValues, SceneWithChanges, examples
+from .derivation import ROAD, Formulation
 
 Form = Literal["latex", "markdown", "python"]
 
 
-class ExportRequest(Request):
+class ExportRequest(SceneWithChanges):
     """Which scene to export, what to change before, and in which language."""
 
-    scene: SceneReference
-    guides: Guides = Field((), description="coordinates to be made functions of time")
-    freeze: Names = Field((), description="coordinates to be held constant", examples=[[]])
-    parameters: Values = Field({}, description="values of parameters", examples=[{"l": 0.8}])
-    initial: Annotated[dict[Name, InitialValue], Field(max_length=64)] = Field({}, examples=[{"phi": {"value": 0.5}}])
+    initial: InitialValues = Field({})
     t_end: float = Field(10.0, gt=0, le=LARGEST_SPAN, description="seconds that the program simulates")
-    formulation: Formulation = "dalembert-lagrange"
+    formulation: Formulation = Field("dalembert-lagrange", description=ROAD)
     substeps: bool = Field(default=True, description="whether a document tells the substeps, too")
-    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+    lang: AskedLanguage = None
 
-    model_config = examples({"scene": "elastic-pendulum", "lang": "de"})
+    model_config = examples({"scene": "elastic-pendulum"})

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field
 
-from ..languages import Language
-from .base import Answer, Names, Request, SceneReference, examples
+from .base import Answer, AskedLanguage, Names, Request, SceneReference, Syntax, examples
 from .problem import ProblemEntry
 
 Text = Annotated[str, Field(min_length=1, max_length=4000)]
@@ -16,8 +15,8 @@ Text = Annotated[str, Field(min_length=1, max_length=4000)]
 class ExpressionText(Request):
     """A text to be read."""
 
-    expression: Text = Field(examples=["l*sin(phi)"])
-    syntax: Literal["plain", "latex"] = "plain"
+    expression: Text = Field(description="the text", examples=["l*sin(phi)"])
+    syntax: Syntax = "plain"
     material: Names = Field((), description="material coordinates that may be used besides", examples=[[]])
 
 
@@ -25,23 +24,20 @@ class ExpressionRequest(ExpressionText):
     """A text, and the scene whose names it uses."""
 
     scene: SceneReference
-    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+    lang: AskedLanguage = None
 
-    model_config = examples({"scene": "pendulum", "expression": "m*l^2*ddot(phi) + m*g*l*sin(phi)"})
+    model_config = examples({"scene": "elastic-pendulum", "expression": "l*sin(phi)"})
 
 
 class ExpressionsRequest(Request):
     """Several texts that use the names of one scene."""
 
     scene: SceneReference
-    expressions: Annotated[tuple[ExpressionText, ...], Field(strict=False, max_length=500)]
-    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+    expressions: Annotated[tuple[ExpressionText, ...], Field(strict=False, max_length=500, description="the texts")]
+    lang: AskedLanguage = None
 
     model_config = examples(
-        {
-            "scene": "pendulum",
-            "expressions": [{"expression": "l*sin(phi)"}, {"expression": "\\dot\\varphi^2", "syntax": "latex"}],
-        }
+        {"scene": "pendulum", "expressions": [{"expression": "m*l^2*dot(phi)"}, {"expression": "l*sin(phi"}]}
     )
 
 

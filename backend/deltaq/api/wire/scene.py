@@ -65,6 +65,17 @@ EXAMPLE = {
     "loads": [{"name": "weight", "kind": "gravity", "acceleration": ["0", "g"]}],
 }
 
+TOML_EXAMPLE = """format = 1
+id = "slide"
+title = { de = "Perle auf dem Draht", en = "Bead on a wire" }
+summary = { de = "Eine Perle rutscht.", en = "A bead slides." }
+dimension = 2
+coordinates = [{ name = "s", unit = "m" }]
+parameters = [{ name = "m", unit = "kg" }, { name = "a" }, { name = "g", value = 9.81 }]
+bodies = [{ name = "bead", kind = "particle", mass = "m", position = ["s*cos(a)", "-s*sin(a)"] }]
+loads = [{ kind = "gravity", acceleration = ["0", "-g"] }]
+"""
+
 SceneDocument = Annotated[
     dict[str, Any],
     WithJsonSchema({"type": "object", "title": "Scene, format 1", "examples": [EXAMPLE]}),

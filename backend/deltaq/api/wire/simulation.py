@@ -2,32 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Literal, Self
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from ...simulation.choice import AUTO
 from ...simulation.request import DEFAULT_SAMPLES, LARGEST_SPAN, PARTS, SAMPLES, TOLERANCES
-from ..languages import Language
-from .base import Answer, Guides, Name, Names, Request, SceneReference, Values, examples
+from .base import Answer, AskedLanguage, InitialValues, Name, Names, SceneWithChanges, examples
 
 
-class InitialValue(Request):
-    """Value and rate of a coordinate at t = 0; what is left out is the scene's own."""
-
-    value: float | None = Field(None, examples=[0.5])
-    rate: float | None = Field(None, examples=[0.0])
-
-
-class SimulationRequest(Request):
+class SimulationRequest(SceneWithChanges):
     """What to simulate, how long, and how accurately."""
 
-    scene: SceneReference
-    guides: Guides = Field((), description="coordinates to be made functions of time")
-    freeze: Names = Field((), description="coordinates to be held constant", examples=[[]])
-    parameters: Values = Field({}, description="values of parameters", examples=[{"l": 0.8}])
-    initial: Annotated[dict[Name, InitialValue], Field(max_length=64)] = Field({}, examples=[{"phi": {"value": 0.5}}])
+    initial: InitialValues = Field({})
     t_end: float = Field(gt=0, le=LARGEST_SPAN, description="seconds", examples=[10.0])
     samples: int = Field(
         DEFAULT_SAMPLES,
@@ -47,7 +35,7 @@ class SimulationRequest(Request):
     columns: Literal["numbers", "base64"] = Field(
         "numbers", description="how arrays are written; base64: little-endian doubles, components of a vector together"
     )
-    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+    lang: AskedLanguage = None
 
     model_config = examples(
         {"scene": "elastic-pendulum", "t_end": 10.0, "samples": 101, "tolerance": 1e-9},

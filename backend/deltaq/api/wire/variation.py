@@ -6,16 +6,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from ..languages import Language
-from .base import Answer, ExpressionText, Name, Names, Request, Values, examples
+from .base import Answer, AskedLanguage, ExpressionText, Name, Names, Request, Syntax, Values, examples
 from .derivation import Chapter
+
+Latex = Annotated[str, Field(max_length=64, pattern=r"^(\\[A-Za-z]+|[A-Za-z])(_(\w|\{\w{1,16}\}))?$")]
 
 
 class NamedFunction(Request):
     """A function of time or a parameter, and how to write it."""
 
-    name: Name = Field(examples=["phi"])
-    latex: Annotated[str, Field(max_length=64, pattern=r"^(\\[A-Za-z]+|[A-Za-z])(_(\w|\{\w{1,16}\}))?$")] | None = None
+    name: Name = Field(description="its name in expressions", examples=["phi"])
+    latex: Latex | None = Field(None, description="how it is written; else by its name", examples=["\\varphi"])
 
 
 Texts = Annotated[dict[Name, ExpressionText], Field(max_length=8)]
@@ -26,16 +27,16 @@ Parameters = Annotated[tuple[Name | NamedFunction, ...], Field(strict=False, max
 class ValueFunctional(Request):
     """The functional that takes the value of the expression at an instant: I(x) = x(t₀)."""
 
-    kind: Literal["value"]
+    kind: Literal["value"] = Field(description="the value at an instant")
     at: ExpressionText = Field(description="a number or an expression of parameters", examples=["t0"])
 
 
 class IntegralFunctional(Request):
     """The functional that integrates the expression over the time: I(x) = ∫ F(x, ẋ, t) dt."""
 
-    kind: Literal["integral"]
+    kind: Literal["integral"] = Field(description="the integral over the time")
     start: ExpressionText = Field(alias="from", description="a number or an expression of parameters", examples=["0"])
-    to: ExpressionText = Field(examples=["T"])
+    to: ExpressionText = Field(description="likewise", examples=["T"])
     ends: Literal["fixed", "free", "fixed-free", "free-fixed"] = Field(
         "fixed", description="whether the functions are prescribed at both ends, or at the lower and at the upper one"
     )
@@ -49,21 +50,25 @@ class Numeric(Request):
     functions: Texts = Field(description="each function as an expression of t", examples=[{"x": "sin(t)"}])
     direction: Texts = Field(description="by function, its direction as an expression of t", examples=[{"x": "t^2"}])
     t: float = Field(0.0, description="the instant, unless the functional says where to look")
-    parameters: Values = Field({}, description="values of parameters", examples=[{"l": 0.8}])
+    parameters: Values = Field({})
 
 
 class VariationRequest(Request):
     """What to vary, and in which language."""
 
     expression: ExpressionText = Field(description="f, or the integrand F", examples=["l*sin(phi)"])
-    syntax: Literal["plain", "latex"] = "plain"
+    syntax: Syntax = "plain"
     functions: Functions = Field(description="the functions of time; their rates are dot(x), ddot(x)", examples=[["x"]])
     direction: Names = Field((), description="names of the directions v; δ of each function if empty", examples=[["v"]])
     parameters: Parameters = Field((), description="everything else that is constant", examples=[["l"]])
-    functional: ValueFunctional | IntegralFunctional | None = Field(None, discriminator="kind")
-    include: Annotated[tuple[Literal["quotient"], ...], Field(strict=False, max_length=1)] = ()
-    numeric: Numeric | None = None
-    lang: Language | None = Field(None, description="language of the texts; else Accept-Language decides")
+    functional: ValueFunctional | IntegralFunctional | None = Field(
+        None, discriminator="kind", description="what is made of the expression; the expression itself if empty"
+    )
+    include: Annotated[tuple[Literal["quotient"], ...], Field(strict=False, max_length=1)] = Field(
+        (), description="quotient: difference quotients of the concrete functions against the derivative"
+    )
+    numeric: Numeric | None = Field(None, description="the concrete functions")
+    lang: AskedLanguage = None
 
     model_config = examples(
         {"expression": "[l*sin(phi), y + l*cos(phi)]", "functions": ["y", "phi"], "parameters": ["l"]},

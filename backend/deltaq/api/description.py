@@ -1,0 +1,75 @@
+"""How the API describes itself: the OpenAPI document, made for clients that are generated and for people."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.routing import APIRoute
+
+from .samples import samples
+from .wire.problem import ProblemDocument
+
+SUMMARY = "Analytical mechanics, derived and simulated"
+DESCRIPTION = """Derives Lagrange's equations of the second kind step by step, simulates the motion, checks answers, and
+says how accurate each number is. Formulas come as LaTeX and as plain text that any program reads. Texts are in the
+language of `lang`, else of Accept-Language. Every failure is a problem document (RFC 9457) whose `problems` say where
+the mistake is and what to write instead; 429 and 503 come with Retry-After. The same question has the same answer, and
+its ETag."""
+# By subject, in the order in which one comes to need them.
+SUBJECTS = {
+    "scenes": "Mechanical systems as data: the built-in ones, and checking one's own.",
+    "derivations": "From a scene to its equations of motion, one verified step at a time.",
+    "simulations": "Motions, with an error estimate and an energy balance.",
+    "variations": "The first variation of what one writes, by its definition and by the chain rule.",
+    "proofs": "Derivations that hold for any scene.",
+    "homework": "Tasks, answers checked in any equivalent form, and what went wrong.",
+    "experiments": "Speed against accuracy, convergence, stability, chaos, and the least model that will do. "
+    "Accept: text/event-stream lets one watch; text/html and text/csv give the charts as files.",
+    "exports": "A derivation as a document, a motion as a program.",
+    "methods": "The time integrators.",
+    "expressions": "What a text means in the names of a scene.",
+    "catalogs": "The sentences of the page.",
+    "service": "How the service is doing.",
+}
+
+_FIRST_CLAUSE = re.compile(r"[^.:;]+")
+
+
+class DescribedAPI(FastAPI):
+    """An application whose document has summaries from the docstrings, and samples that run."""
+
+    def openapi(self) -> dict[str, Any]:
+        if self.openapi_schema is None:
+            self.openapi_schema = _completed(super().openapi())
+        return self.openapi_schema
+
+
+def operation_id(route: APIRoute) -> str:
+    """The name of the function, which generated clients take over."""
+    return route.name
+
+
+def subjects() -> list[dict[str, Any]]:
+    """The tags of the document."""
+    return [{"name": name, "description": text} for name, text in SUBJECTS.items()]
+
+
+def _completed(document: dict[str, Any]) -> dict[str, Any]:
+    components = document["components"]["schemas"]
+    reference = "#/components/schemas/{model}"
+    components[ProblemDocument.__name__] = ProblemDocument.model_json_schema(ref_template=reference)
+    components[ProblemDocument.__name__].pop("$defs")  # ProblemEntry, which answers hold, too
+    for path, methods in document["paths"].items():
+        for method, operation in methods.items():
+            operation["responses"]["200"]["description"] = "the answer"
+            operation["summary"] = _first_clause(operation["description"])
+            if "x-codeSamples" not in operation:
+                operation["x-codeSamples"] = samples(method, path, operation, components)
+    return document
+
+
+def _first_clause(text: str) -> str:
+    found = _FIRST_CLAUSE.match(text)
+    return found[0] if found else text

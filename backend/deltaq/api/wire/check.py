@@ -1,0 +1,114 @@
+"""Homework: answers that are to be checked or read."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from .base import AskedLanguage, Request, Syntax, examples
+from .task import TASK, SceneAskedAbout, TaskId
+
+ANSWER = Field(description="what was written")
+
+
+class AnswerText(Request):
+    """What a student wrote."""
+
+    syntax: Syntax = "plain"
+    value: Annotated[str, Field(max_length=2000)] = Field(
+        description="the answer", examples=["m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"]
+    )
+
+
+class AnsweredTask(Request):
+    """A line of a working: a task and what was answered."""
+
+    task: TaskId = TASK
+    answer: AnswerText = ANSWER
+
+
+Lines = Annotated[tuple[AnsweredTask, ...], Field(strict=False, max_length=24)]
+
+
+class SingleCheck(SceneAskedAbout):
+    """One answer to one task, in the light of the lines before it."""
+
+    task: TaskId = TASK
+    answer: AnswerText = ANSWER
+    previous: Lines = Field((), description="the student's own earlier lines: what follows from a wrong one is told")
+
+
+class ReadingRequest(SceneAskedAbout):
+    """An answer to be read, not checked."""
+
+    task: TaskId = TASK
+    answer: AnswerText = ANSWER
+    lang: AskedLanguage = None
+
+    model_config = examples({"scene": "pendulum", "task": "equation:phi", "answer": {"value": "l*ddot(phi) = -g*phi"}})
+
+
+class PointScheme(Request):
+    """How points are given."""
+
+    points: dict[TaskId, Annotated[float, Field(ge=0, le=1000)]] = Field({}, max_length=64, description="by task id")
+    follow_through: float = Field(0.5, ge=0, le=1, description="share of the points for a right consequence")
+
+
+class LinesRequest(SceneAskedAbout):
+    """A whole working."""
+
+    lines: Annotated[tuple[AnsweredTask, ...], Field(strict=False, min_length=1, max_length=24)] = Field(
+        description="tasks and answers, one after the other"
+    )
+    scheme: PointScheme = Field(PointScheme(), description="how points are given")
+    lang: AskedLanguage = None
+
+    model_config = examples(
+        {
+            "scene": "pendulum",
+            "lines": [
+                {"task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
+                {"task": "equation:phi", "answer": {"value": "2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"}},
+            ],
+        }
+    )
+
+
+class CheckRequest(SingleCheck):
+    """One answer to one task, and the language of the feedback."""
+
+    lang: AskedLanguage = None
+
+    model_config = examples(
+        {"scene": "pendulum", "task": "equation:phi", "answer": {"value": "ddot(phi) = -g/l*sin(phi)"}},
+        {"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
+        {
+            "scene": "elastic-pendulum",
+            "task": "virtual-displacement:bob",
+            "answer": {
+                "syntax": "latex",
+                "value": "\\begin{bmatrix} \\ell\\cos q_2\\,\\delta q_2 \\\\ "
+                "\\delta q_1 - \\ell\\sin q_2\\,\\delta q_2\\end{bmatrix}",
+            },
+        },
+    )
+
+
+class BatchRequest(Request):
+    """Several answers at once."""
+
+    checks: Annotated[tuple[SingleCheck, ...], Field(strict=False, min_length=1, max_length=64)] = Field(
+        description="one after the other, of the same or of different scenes"
+    )
+    lang: AskedLanguage = None
+
+    model_config = examples(
+        {
+            "checks": [
+                {"scene": "pendulum", "task": "equation:phi", "answer": {"value": "ddot(phi) = -g/l*sin(phi)"}},
+                {"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
+            ]
+        }
+    )

@@ -1,0 +1,122 @@
+"""Homework: the tasks of a scene, and assignments made of them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from .base import Answer, AskedLanguage, Request, SceneWithChanges, examples
+
+Seed = Annotated[str, Field(max_length=64)]
+SEED = Field(None, description="draws each student's own parameter values", examples=["student 7"])
+TaskId = Annotated[str, Field(min_length=1, max_length=80, examples=["equation:phi"])]
+TASK = Field(description="a task of the scene by its id", examples=["equation:phi"])
+
+
+class SceneAskedAbout(SceneWithChanges):
+    """A scene, and whose values it has."""
+
+    seed: Seed | None = SEED
+
+
+class TasksRequest(SceneAskedAbout):
+    """Which tasks a scene has."""
+
+    lang: AskedLanguage = None
+
+    model_config = examples({"scene": "elastic-pendulum", "freeze": ["y"]})
+
+
+class StackRequest(SceneAskedAbout):
+    """Which tasks to export."""
+
+    tasks: Annotated[tuple[TaskId, ...], Field(strict=False, max_length=32, description="all if empty")] = ()
+    lang: AskedLanguage = None
+
+    model_config = examples({"scene": "pendulum", "tasks": ["equation:phi"]})
+
+
+class TaskSymbol(Answer):
+    """A symbol that answers may hold."""
+
+    name: str
+    latex: str
+    kind: str
+    unit: str
+    value: float | None
+
+
+class TaskEntry(Answer):
+    """One task: what to answer, in which form, with hints in three levels."""
+
+    id: str = Field(examples=["equation:phi"])
+    kind: str
+    subject: str
+    title: str
+    statement: str
+    form: Literal["expression", "vector", "equation", "equations", "set"]
+    form_text: str
+    components: int | None = Field(description="of a vector")
+    points: float
+    needs: tuple[str, ...] = Field(description="the tasks whose answers this one is derived from")
+    hints: tuple[str, ...]
+    solution: dict[str, Any] = Field(description="the chapter of the derivation that answers it")
+
+
+class TaskList(Answer):
+    """The tasks of a scene, its document with the values asked about, and the symbols for a keyboard."""
+
+    scene: dict[str, Any]
+    symbols: tuple[TaskSymbol, ...]
+    tasks: tuple[TaskEntry, ...]
+
+
+class SolutionRequest(SceneAskedAbout):
+    """Which task to solve."""
+
+    task: TaskId = TASK
+    lang: AskedLanguage = None
+
+    model_config = examples({"scene": "pendulum", "task": "equation:phi"})
+
+
+class SolutionAnswer(Answer):
+    """The right answer, one text for each part."""
+
+    plain: tuple[str, ...]
+    latex: tuple[str, ...]
+
+
+class AssignmentRequest(Request):
+    """An assignment, and the student who opens it."""
+
+    assignment: dict[str, Any] = Field(
+        description="format 1: title, individual, follow_through, tasks with scene, task and points",
+        examples=[{"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 3}]}],
+    )
+    seed: Seed | None = SEED
+    lang: AskedLanguage = None
+
+    model_config = examples(
+        {
+            "assignment": {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 3}]},
+            "seed": "student 7",
+        }
+    )
+
+
+class AssignedTaskEntry(Answer):
+    """One task of an assignment, with its scene in the student's values."""
+
+    scene: dict[str, Any]
+    symbols: tuple[TaskSymbol, ...]
+    task: TaskEntry
+
+
+class AssignmentAnswer(Answer):
+    """An assignment, opened."""
+
+    title: dict[str, str]
+    follow_through: float
+    tasks: tuple[AssignedTaskEntry, ...]

@@ -1,0 +1,109 @@
+"""The OpenAPI document as a client reads it: names, subjects, examples and failures."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from deltaq.api.app import create_app
+from deltaq.api.description import SUBJECTS
+from deltaq.api.samples import SHOWN, literal
+from deltaq.settings import Settings
+
+Json = dict[str, Any]
+
+
+@pytest.fixture(scope="module")
+def document() -> Json:
+    return create_app(Settings(workers=1)).openapi()
+
+
+def operations(document: Json) -> Iterator[tuple[str, str, Json]]:
+    for path, methods in document["paths"].items():
+        for method, operation in methods.items():
+            yield method, path, operation
+
+
+def test_operations_have_short_names_of_their_own(document: Json) -> None:
+    names = [operation["operationId"] for _, _, operation in operations(document)]
+    assert len(names) == len(set(names))
+    assert [name for name in names if not re.fullmatch(r"[a-z]+(_[a-z]+){0,4}", name)] == []
+    assert set(SHOWN) <= set(names)
+
+
+def test_every_operation_belongs_to_one_subject_that_is_described(document: Json) -> None:
+    assert [tag["name"] for tag in document["tags"]] == list(SUBJECTS)
+    assert {subject for _, _, operation in operations(document) for subject in operation["tags"]} == set(SUBJECTS)
+    assert {len(operation["tags"]) for _, _, operation in operations(document)} == {1}
+
+
+def test_summaries_are_the_beginnings_of_the_descriptions(document: Json) -> None:
+    for _, _, operation in operations(document):
+        assert operation["description"].startswith(operation["summary"])
+        assert 10 < len(operation["summary"]) < 110
+
+
+def test_every_failure_is_a_problem_document_and_nothing_else(document: Json) -> None:
+    expected = {"application/problem+json": {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}}
+    for _, path, operation in operations(document):
+        failures = {status: answer for status, answer in operation["responses"].items() if status != "200"}
+        assert "default" in failures, path
+        assert [status for status, answer in failures.items() if answer["content"] != expected] == []
+
+
+def test_bodies_may_be_faulty_and_computations_too_large(document: Json) -> None:
+    for method, path, operation in operations(document):
+        statuses = set(operation["responses"])
+        if method == "post":
+            assert {"400", "413", "422", "429", "503", "504"} <= statuses, path
+        if operation.get("parameters", []) != [] and "{" not in path:
+            assert "422" in statuses, path
+
+
+def test_all_references_lead_somewhere(document: Json) -> None:
+    models = set(re.findall(r"#/components/schemas/(\w+)", str(document)))
+    assert models <= set(document["components"]["schemas"])
+
+
+def test_samples_hold_no_gap(document: Json) -> None:
+    for _, path, operation in operations(document):
+        assert [sample["lang"] for sample in operation["x-codeSamples"]] == ["Shell", "Python"]
+        shell, python = (sample["source"] for sample in operation["x-codeSamples"])
+        assert "{identifier}" not in shell + python, path
+        compile(python, path, "exec")
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        pytest.param({"a": [1, 2.5, None, True]}, '{"a": [1, 2.5, None, True]}', id="short"),
+        pytest.param("\\ell φ\n", '"\\\\ell φ\\n"', id="text"),
+        pytest.param({"a": "x" * 100}, '{\n    "a": "' + "x" * 100 + '",\n}', id="long"),
+        pytest.param([], "[]", id="nothing"),
+    ],
+)
+def test_values_as_python_writes_them(value: object, expected: str) -> None:
+    assert literal(value) == expected
+
+
+def test_everything_that_may_be_asked_is_described(document: Json) -> None:
+    models, asked = document["components"]["schemas"], set[str]()
+    for _, path, operation in operations(document):
+        assert [one["name"] for one in operation.get("parameters", []) if not one.get("description")] == [], path
+        asked |= models_in(operation.get("requestBody", {}), models)
+    fields = {(name, field): one for name in asked for field, one in models[name]["properties"].items()}
+    assert [place for place, field in fields.items() if not field.get("description")] == []
+
+
+def models_in(schema: object, models: Json) -> set[str]:
+    """The models that a schema leads to."""
+    found: set[str] = set()
+    waiting = set(re.findall(r"#/components/schemas/(\w+)", str(schema)))
+    while waiting:
+        name = waiting.pop()
+        found.add(name)
+        waiting |= set(re.findall(r"#/components/schemas/(\w+)", str(models[name]))) - found
+    return found
