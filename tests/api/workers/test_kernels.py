@@ -44,3 +44,19 @@ def test_kernels_of_another_source_do_not_count(tmp_path: Path, monkeypatch: pyt
     assert are_compiled()
     os.utime(source / "step.py", (1, 1))
     assert not are_compiled()
+
+
+def test_kernels_of_another_processor_do_not_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    one = tmp_path / "one"
+    one.write_text("model name : One\nbogomips : 1\nflags : fpu avx2\n")
+    monkeypatch.setattr(kernels, "PROCESSOR", one)
+    mark_as_compiled()
+    one.write_text("model name : One\nbogomips : 2\nflags : fpu avx2\n")
+    assert are_compiled()
+    one.write_text("model name : One\nbogomips : 1\nflags : fpu avx512f\n")
+    assert not are_compiled()
+    one.unlink()
+    assert not are_compiled()
+    mark_as_compiled()
+    assert are_compiled()

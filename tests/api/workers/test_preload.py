@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from deltaq.api.workers.kernels import are_compiled
 
 PROBE = """
 import asyncio, json
@@ -33,3 +36,28 @@ def test_workers_are_born_with_the_libraries_from_a_process_of_one_thread(root: 
         "threads": 1,
         "loaded": ["numba", "numpy", "symengine", "sympy"],
     }
+
+
+LOADED = """
+import json, sys
+import deltaq.api.workers.preload
+print(json.dumps(["deltaq.narration.derive" in sys.modules, "deltaq.simulation.kernels.compiler" in sys.modules]))
+"""
+
+
+@pytest.mark.parametrize(
+    "compiled",
+    [
+        pytest.param(False, id="nobody waits for the compiler"),
+        pytest.param(
+            True,
+            id="kernels are loaded",
+            marks=pytest.mark.skipif(not are_compiled(), reason="the kernels of this machine are not compiled yet"),
+        ),
+    ],
+)
+def test_what_is_loaded(tmp_path: Path, *, compiled: bool) -> None:
+    environment = os.environ | ({} if compiled else {"NUMBA_CACHE_DIR": str(tmp_path)})
+    probe = subprocess.run([sys.executable, "-c", LOADED], env=environment, capture_output=True, text=True, check=True)
+    assert json.loads(probe.stdout) == [True, True]
+    assert compiled or list(tmp_path.rglob("*.nbc")) == []

@@ -47,6 +47,14 @@ def test_slow_jobs_do_not_keep_fast_ones_waiting() -> None:
     assert taken(queue, 3) == "s1 s2 s3"
 
 
+def test_client_with_slow_jobs_alone_is_passed_over() -> None:
+    queue = FairQueue(10)
+    queue.put(task("s1", "patient", "slow"))
+    queue.put(task("f1", "hasty"))
+    assert taken(queue, 1, "fast") == "f1"
+    assert taken(queue, 1) == "s1"
+
+
 def test_full_queue() -> None:
     queue = FairQueue(2)
     for client in "ab":

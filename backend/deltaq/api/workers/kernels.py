@@ -9,6 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 
 KERNELS = Path(__file__).parents[2] / "simulation" / "kernels"
+PROCESSOR = Path("/proc/cpuinfo")
 
 
 def folder() -> Path:
@@ -43,6 +44,6 @@ def _mark() -> Path:
 
 def _processor() -> str:
     with suppress(OSError):
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+        lines = PROCESSOR.read_text(encoding="utf-8").splitlines()
         return "".join(sorted({line for line in lines if line.startswith(("model name", "flags", "Features"))}))
     return platform.processor()

@@ -1,0 +1,86 @@
+"""What a lane answers without a worker, and how the end of a worker is told."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+
+import pytest
+
+from deltaq.api.workers.account import Account, Ledger, QuotaExceeded
+from deltaq.api.workers.job import DeadlineExceeded, Job, Overloaded, WorkerDied, WorkerKilled
+from deltaq.api.workers.lane import Lane, Limits
+from deltaq.api.workers.message import encode_request
+from deltaq.api.workers.pool import Pool
+from deltaq.api.workers.queue import FairQueue
+from deltaq.api.workers.task import Task
+
+LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, patience=30.0)
+
+
+def task(name: str, document: object = None, account: Account | None = None) -> Task:
+    job = Job(f"tests.api.workers.jobs:{name}", 30.0, pure=False)
+    request = encode_request(job.target, 30.0, document)
+    return Task(job, request) if account is None else Task(job, request, account=account)
+
+
+def test_task_that_was_cancelled_is_not_begun() -> None:
+    lane, cancelled = Lane(FairQueue(1), LIMITS), task("echo")
+    cancelled.answer.cancel()
+    lane.serve(cancelled)
+    assert (lane.worker, lane.served) == (None, 0)
+
+
+def test_client_that_used_up_its_share_while_waiting_gets_no_worker() -> None:
+    lane, debtor = Lane(FairQueue(1), LIMITS), Account("one", Ledger(0.5, 10.0))
+    debtor.pay(100.0)
+    found = lane.outcome(task("echo", account=debtor))
+    assert isinstance(found, QuotaExceeded)
+    assert lane.worker is None
+
+
+def test_lane_that_stops_refuses() -> None:
+    lane = Lane(FairQueue(1), LIMITS)
+    lane.stop()
+    found = lane.attempt(task("echo"))
+    assert isinstance(found, Overloaded)
+    assert str(found) == "the service is stopping"
+
+
+@pytest.mark.parametrize(
+    ("number", "kind", "text"),
+    [
+        pytest.param(signal.SIGXCPU, DeadlineExceeded, "processor time used up", id="bound on processor time"),
+        pytest.param(signal.SIGKILL, WorkerKilled, "the worker process ended with exit code -9", id="killed"),
+        pytest.param(signal.SIGSEGV, WorkerDied, "the worker process ended with exit code -11", id="crashed"),
+    ],
+)
+def test_end_of_a_worker(number: signal.Signals, kind: type[Exception], text: str) -> None:
+    lane = Lane(FairQueue(1), LIMITS)
+    found = lane.attempt(task("end_by_signal", int(number)))
+    assert type(found) is kind
+    assert str(found) == text
+    assert lane.worker is None
+
+
+@pytest.mark.anyio
+async def test_pool_without_any_worker_refuses_in_the_end() -> None:
+    pool = Pool(1, 1, Limits(memory=2**31, jobs=1, start_timeout=1.0, patience=-4.9))
+    with pytest.raises(Overloaded, match="no worker came up"):
+        await pool.run(Job("tests.api.workers.jobs:echo", 0.0), None)
+    assert pool.state.waiting == 0
+
+
+@pytest.mark.anyio
+async def test_stop_passes_over_what_was_cancelled() -> None:
+    pool = Pool(1, 2, LIMITS)
+    waiting = [asyncio.create_task(pool._answer(task("echo"))) for _ in range(2)]
+    await asyncio.sleep(0)
+    waiting[0].cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await waiting[0]
+    await asyncio.sleep(0)
+    pool._lanes = ()  # none was started
+    pool.stop(0.0)
+    with pytest.raises(Overloaded, match="the service is stopping"):
+        await waiting[1]
