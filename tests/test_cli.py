@@ -168,7 +168,7 @@ def test_lab_takes_a_scene_of_ones_own(tmp_path: Path, root: Path) -> None:
             ["chaos", "pendulum", "--set", "speed=1"], "deltaq: /speed: There is no field “speed” here.\n", id="field"
         ),
         pytest.param(
-            ["chaos", "nowhere.toml"], "deltaq: [Errno 2] No such file or directory: 'nowhere.toml'\n", id="file"
+            ["chaos", "nowhere.toml"], "deltaq: nowhere.toml: No such file or directory\n", id="file"
         ),
     ],
 )

@@ -25,8 +25,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     try:
         return commands[options.command].run(options) or 0
-    except (CommandError, OSError, UnicodeDecodeError) as error:
+    except (CommandError, UnicodeDecodeError) as error:
         print(f"deltaq: {error}", file=sys.stderr)
+    except OSError as error:
+        print(f"deltaq: {error.filename}: {error.strerror}" if error.filename else f"deltaq: {error}", file=sys.stderr)
     except InputError as error:
         print(_told(error, getattr(options, "lang", "en")), file=sys.stderr)
     return MENDABLE

@@ -12,7 +12,9 @@ from deltaq.errors import InputError
 from deltaq.homework.assignment import load_assignment, read_assignment
 from deltaq.homework.command import check_file
 from deltaq.homework.grading import grade, read_answers
-from deltaq.homework.results import results_csv, summary
+from deltaq.homework.results import Graded, results_csv, summary
+from deltaq.homework.slips import KINDS
+from deltaq.narration.catalog import keys, text
 
 TABLE = """student;scene;task;answer;syntax
 ada;pendulum;kinetic-energy;m*l^2*dot(phi)^2/2;
@@ -38,7 +40,16 @@ def test_rows_are_graded_and_one_spoils_no_other() -> None:
 def test_summary_counts_misconceptions_by_task() -> None:
     told = summary(grade(read_answers(TABLE), None, "en"), "en")
     assert "pendulum  kinetic-energy: 2/3 right" in told
-    assert any(line.strip().startswith("half-in-kinetic-energy  █") for line in told.splitlines())
+    title = text("en", "homework.misconceptions.half-in-kinetic-energy.title")
+    assert any(line.strip().startswith(f"{title}  █") for line in told.splitlines())
+    assert any(line.strip().startswith("not readable  █") for line in told.splitlines())
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_every_mistake_has_a_name_in_the_summary(language: str) -> None:
+    kinds = [*keys(language, "homework.misconceptions"), *(f"slip:{kind}" for kind in KINDS), ""]
+    rows = [Graded("", "pendulum", "t", "wrong", kind, 0.0, 1.0, "", "") for kind in kinds]
+    assert len(summary(rows, language).splitlines()) == 1 + len(kinds)
 
 
 @pytest.mark.parametrize("separator", [",", ";", "\t"])

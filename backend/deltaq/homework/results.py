@@ -53,9 +53,7 @@ def summary(graded: Iterable[Graded], language: str) -> str:
         own = [each for each in rows if (each.scene, each.task) == (scene, task)]
         right = sum(each.outcome == "correct" for each in own)
         lines.append(f"{scene}  {task}: {right}/{len(own)} {text(language, 'homework.summary.correct')}")
-        counts = Counter(
-            each.misconception or text(language, "homework.summary.other") for each in own if _failed(each)
-        )
+        counts = Counter(_mistake(each, language) for each in own if _failed(each))
         widest = max((len(name) for name in counts), default=0)
         for name, count in counts.most_common():
             lines.append(f"  {name:<{widest}}  {'█' * max(1, round(BAR * count / len(own)))} {count}")
@@ -64,3 +62,14 @@ def summary(graded: Iterable[Graded], language: str) -> str:
 
 def _failed(each: Graded) -> bool:
     return each.outcome in ("wrong", "invalid", "undecided")
+
+
+def _mistake(each: Graded, language: str) -> str:
+    """The mistake in words; misconceptions have names, slips (`slip:sign`) have kinds."""
+    if each.outcome == "invalid":
+        return text(language, "homework.summary.invalid")
+    if not each.misconception:
+        return text(language, "homework.summary.other")
+    _, is_slip, kind = each.misconception.partition("slip:")
+    key = f"homework.summary.slips.{kind}" if is_slip else f"homework.misconceptions.{each.misconception}.title"
+    return text(language, key)
