@@ -167,9 +167,7 @@ def test_lab_takes_a_scene_of_ones_own(tmp_path: Path, root: Path) -> None:
         pytest.param(
             ["chaos", "pendulum", "--set", "speed=1"], "deltaq: /speed: There is no field “speed” here.\n", id="field"
         ),
-        pytest.param(
-            ["chaos", "nowhere.toml"], "deltaq: nowhere.toml: No such file or directory\n", id="file"
-        ),
+        pytest.param(["chaos", "nowhere.toml"], "deltaq: nowhere.toml: No such file or directory\n", id="file"),
     ],
 )
 def test_lab_says_what_is_wrong(arguments: list[str], message: str) -> None:
