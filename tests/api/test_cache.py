@@ -7,6 +7,7 @@ import pytest
 
 from deltaq.api import flights
 from deltaq.api.cache import Cache, content_hash
+from deltaq.api.flights import Hear
 from deltaq.api.stores.memory import Memory
 
 pytestmark = pytest.mark.anyio
@@ -22,8 +23,9 @@ class Counter:
         self.may_end = asyncio.Event()
         self.may_end.set()
 
-    async def __call__(self) -> bytes:
+    async def __call__(self, tell: Hear) -> bytes:
         self.runs += 1
+        tell(f"part of {self.runs}".encode())
         await self.may_end.wait()
         if self.error:
             raise self.error
@@ -100,6 +102,50 @@ async def test_who_asks_again_at_once_gets_the_computation_under_way(monkeypatch
     await asyncio.sleep(0.1)
     compute.may_end.set()
     assert await again == b"answer"
+    assert compute.runs == 1
+
+
+async def test_all_who_wait_hear_the_parts_and_who_comes_late_hears_the_newest() -> None:
+    cache = Cache(Memory(10_000))
+    may_go_on = [asyncio.Event() for _ in range(3)]
+
+    async def compute(tell: Hear) -> bytes:
+        for number, event in enumerate(may_go_on):
+            tell(b"%d" % number)
+            await event.wait()
+        return b"answer"
+
+    heard: list[list[bytes]] = [[], [], []]
+    early = asyncio.create_task(cache.get("k", compute, heard[0].append))
+    await asyncio.sleep(0.01)
+    may_go_on[0].set()
+    await asyncio.sleep(0.01)
+    late = asyncio.create_task(cache.get("k", compute, heard[1].append))
+    gone = asyncio.create_task(cache.get("k", compute, heard[2].append))
+    await asyncio.sleep(0.01)
+    gone.cancel()
+    await asyncio.sleep(0.01)
+    for event in may_go_on:
+        event.set()
+    assert await asyncio.gather(early, late) == [b"answer"] * 2
+    assert heard == [[b"0", b"1", b"2"], [b"1", b"2"], [b"1"]]
+
+
+async def test_renewed_answer_takes_the_place_of_the_kept_one() -> None:
+    store = Slow(10_000)
+    cache, old, new = Cache(Memory(10_000), store), Counter(b"old"), Counter(b"new")
+    await cache.get("k", old)
+    assert await cache.renew("k", new) == b"new"
+    assert [await cache.get("k", old), store.load("k"), old.runs, new.runs] == [b"new", b"new", 1, 1]
+
+
+async def test_one_under_way_is_new_enough() -> None:
+    cache, compute = Cache(Memory(10_000)), Counter()
+    compute.may_end.clear()
+    asking = [asyncio.create_task(ask("k", compute)) for ask in (cache.get, cache.renew, cache.renew)]
+    await asyncio.sleep(0.01)
+    compute.may_end.set()
+    assert await asyncio.gather(*asking) == [b"answer"] * 3
     assert compute.runs == 1
 
 

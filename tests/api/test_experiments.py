@@ -157,6 +157,36 @@ async def test_charts_as_a_page_that_needs_nothing_else(client: httpx.AsyncClien
     assert len(response.text) > 1_000_000  # Plotly is in it
 
 
+async def test_all_who_ask_for_the_same_share_one_experiment(client: httpx.AsyncClient, app: FastAPI) -> None:
+    question, streamed = SMALL["work-precision"] | {"t_end": 1.5}, {"Accept": "text/event-stream"}
+    cache, misses = app.state.service.cache, app.state.service.cache.misses
+    first = asyncio.create_task(client.post(address("work-precision"), json=question))
+    while not app.state.service.laboratory.state.busy:
+        await asyncio.sleep(0.01)
+    streams = [client.post(address("work-precision"), json=question, headers=streamed) for _ in range(30)]
+    others = [asyncio.create_task(one) for one in streams]
+    given_up = asyncio.create_task(client.post(address("work-precision"), json=question))
+    await asyncio.sleep(0.1)
+    given_up.cancel()
+    answer, *told = await asyncio.gather(first, *others)
+    results = [[event async for event in events_of(response)][-1] for response in told]
+    assert results == 30 * [("result", answer.json())]  # times and all
+    assert cache.misses == misses + 1
+
+
+async def test_measured_anew_on_demand_and_kept_then(client: httpx.AsyncClient, app: FastAPI) -> None:
+    question, cache = SMALL["work-precision"], app.state.service.cache
+    first = await client.post(address("work-precision"), json=question)
+    misses = cache.misses
+    again = await client.post(address("work-precision"), json=question)
+    assert (again.content, again.headers["etag"]) == (first.content, first.headers["etag"])
+    anew = await client.post(address("work-precision"), json=question, headers={"Cache-Control": "no-cache"})
+    assert anew.json() != first.json()  # its times differ
+    assert anew.headers["etag"] != first.headers["etag"]
+    assert cache.misses == misses + 1
+    assert (await client.post(address("work-precision"), json=question)).json() == anew.json()
+
+
 async def test_given_up_frees_the_bench_within_a_second(client: httpx.AsyncClient, app: FastAPI) -> None:
     pool = app.state.service.laboratory
     question = {"scene": "triple-pendulum", "t_end": 77.0, "peers": True}

@@ -29,6 +29,14 @@ test("an experiment lets hear its parts and ends with its result", async () => {
   assert.deepEqual([heard, found], [[{ done: 1 }], { experiment: "chaos" }]);
 });
 
+test("what was measured before is measured anew on demand alone", async () => {
+  /** @type {any[]} */
+  const asked = [];
+  const send = async (/** @type {any} */ _path, /** @type {any} */ { headers }) => { asked.push(headers["cache-control"]); return new Response(TEXT); };
+  for (const anew of [false, true]) await experiment(send, "chaos", {}, () => {}, signal, anew);
+  assert.deepEqual(asked, [undefined, "no-cache"]);
+});
+
 test("a problem in the stream, a refusal and a stream that breaks off are failures that can be shown", async () => {
   const problem = { status: 422, title: "no", detail: "because", problems: [] };
   const failing = (/** @type {any} */ send) => experiment(send, "chaos", {}, () => {}, signal).catch((error) => error.failure);
@@ -127,6 +135,20 @@ test("the bench shows parts, then the result; stopped, it keeps what was measure
   ends[1]();
   await second;
   assert.deepEqual([bench.get().running, bench.get().stopped, bench.get().charts.length, bench.get().result], [false, "stopped", 1, null]);
+});
+
+test("the same question is measured anew, another one is not", async () => {
+  /** @type {boolean[]} */
+  const asked = [];
+  const run = async (/** @type {any[]} */ ...[name, , , , anew]) => { asked.push(anew); return { experiment: name, charts: [] }; };
+  const bench = createBench(/** @type {any} */ ({ run, scene: async () => SCENE, document: (/** @type {string} */ id) => id, lang: () => "en" }), { ...NOTHING, scene: "pendulum" });
+  await bench.start();
+  await bench.start();
+  bench.edit({ duration: 3 });
+  await bench.start();
+  bench.open("convergence");
+  await bench.start();
+  assert.deepEqual(asked, [false, true, false, false]);
 });
 
 test("another lab keeps the scene, but for the map, which needs a driven one", async () => {

@@ -6,10 +6,10 @@ import asyncio
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Awaitable, Callable
+from functools import partial
 from typing import Any
 
-from .flights import Flights
+from .flights import Compute, Flights, Hear, ignore
 from .stores.memory import Memory
 from .stores.store import Store
 
@@ -37,20 +37,28 @@ class Cache:
             self.hits[self.memory.name] += 1
         return answer or await self._find_in_stores(key)
 
-    async def get(self, key: str, compute: Callable[[], Awaitable[bytes]]) -> bytes:
-        """The answer of this key, computed if need be. Errors reach all who wait, and are not kept."""
+    async def get(self, key: str, compute: Compute, hear: Hear = ignore) -> bytes:
+        """The answer of this key, computed if need be; `hear` gets its parts before. Errors reach all who wait, and are
+        not kept.
+        """
         answer = self.memory.load(key)
         if answer is not None:
             self.hits[self.memory.name] += 1
             return answer
-        return await self._flights.join(key, lambda: self._found_or_computed(key, compute))
+        return await self._flights.join(key, partial(self._found_or_computed, key, compute), hear)
 
-    async def _found_or_computed(self, key: str, compute: Callable[[], Awaitable[bytes]]) -> bytes:
+    async def renew(self, key: str, compute: Compute, hear: Hear = ignore) -> bytes:
+        """The answer of this key computed now, and kept instead of the one there was; one under way is new enough."""
+        return await self._flights.join(key, partial(self._computed, key, compute), hear)
+
+    async def _found_or_computed(self, key: str, compute: Compute, tell: Hear) -> bytes:
         answer = await self._find_in_stores(key)
-        if answer is None:
-            self.misses += 1
-            answer = await compute()
-            await self.keep(key, answer)
+        return await self._computed(key, compute, tell) if answer is None else answer
+
+    async def _computed(self, key: str, compute: Compute, tell: Hear) -> bytes:
+        self.misses += 1
+        answer = await compute(tell)
+        await self.keep(key, answer)
         return answer
 
     async def keep(self, key: str, answer: bytes) -> None:

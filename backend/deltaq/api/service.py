@@ -6,8 +6,9 @@ import asyncio
 import functools
 import gzip
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from ..settings import Settings
 from .assets import Assets
 from .cache import Cache, content_hash
 from .clients import ACCOUNT
+from .flights import Hear
 from .kernels import Kernels
 from .metrics import Metrics, make_metrics
 from .stores.disk import Disk
@@ -48,24 +50,39 @@ class Service:
     async def answer(self, key: str, job: Job, document: Any) -> bytes:
         """The gzipped JSON of a pure job, from the cache if it is there."""
 
-        async def compute() -> bytes:
+        async def compute(_tell: Hear) -> bytes:
             return await asyncio.to_thread(pack, await self.run(job, document))
 
-        try:
-            return await self.cache.get(key, compute)
-        except QuotaExceeded as error:
-            if error.client == ACCOUNT.get().client:
-                raise
-            return await self.cache.get(key, compute)  # who asked first has no share left, but we may have
+        return await _shared(partial(self.cache.get, key, compute))
 
-    async def run(self, job: Job, document: Any, hear: Callable[[bytes], object] = lambda _part: None) -> bytes:
-        """The JSON of a job's answer, at the expense of the client that asks; `hear` gets its parts before."""
-        return await self.pool.run(job, document, hear, ACCOUNT.get())
+    async def measurement(self, key: str, job: Job, document: Any, hear: Hear, *, anew: bool) -> bytes:
+        """The gzipped JSON of an experiment; `hear` gets its parts before. `anew` measures what is kept already."""
+
+        async def compute(tell: Hear) -> bytes:
+            await self.kernels.wait()
+            return await asyncio.to_thread(pack, await self.laboratory.run(job, document, tell, ACCOUNT.get()))
+
+        ask = self.cache.renew if anew else self.cache.get
+        return await _shared(partial(ask, key, compute, hear))
+
+    async def run(self, job: Job, document: Any) -> bytes:
+        """The JSON of a job's answer, at the expense of the client that asks."""
+        return await self.pool.run(job, document, account=ACCOUNT.get())
 
     @staticmethod
     def key(*question: Any) -> str:
         """The content hash of a question: another version of δq may answer it differently, so its code counts too."""
         return content_hash(source_digest(), *question)
+
+
+async def _shared(ask: Callable[[], Awaitable[bytes]]) -> bytes:
+    """What somebody else may have asked for at the same time, who then pays; and if he cannot, we may."""
+    try:
+        return await ask()
+    except QuotaExceeded as error:
+        if error.client == ACCOUNT.get().client:
+            raise
+        return await ask()
 
 
 def make_service(settings: Settings) -> Service:

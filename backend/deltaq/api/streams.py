@@ -20,10 +20,17 @@ async def events(
 ) -> AsyncIterator[bytes]:
     """`part` for each part that the work lets hear, then `result`, or `problem` with a problem document.
 
-    When the client goes away, the work is cancelled.
+    A part says all that those before it said, so a client that reads slowly gets the newest one only. When the client
+    goes away, the work is cancelled.
     """
     parts: asyncio.Queue[bytes | None] = asyncio.Queue()
-    task = asyncio.ensure_future(work(parts.put_nowait))
+
+    def hear(part: bytes) -> None:
+        if not parts.empty():
+            parts.get_nowait()
+        parts.put_nowait(part)
+
+    task = asyncio.ensure_future(work(hear))
     task.add_done_callback(lambda _: parts.put_nowait(None))
     try:
         while (part := await parts.get()) is not None:

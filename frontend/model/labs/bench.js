@@ -24,7 +24,7 @@ import { EXAMPLES, requestOf } from "./question.js";
 const EMPTY = { running: false, progress: 0, charts: [], result: null, failure: null, stopped: "" };
 
 /**
- * @param {{run: (name: string, body: object, hear: (part: Part) => void, signal: AbortSignal) => Promise<Result>,
+ * @param {{run: (name: string, body: object, hear: (part: Part) => void, signal: AbortSignal, anew: boolean) => Promise<Result>,
  *   scene: (id: string) => Promise<import("../types.js").Scene>, document: (id: string) => string | object, lang: () => string}} around
  * @param {Question} question
  */
@@ -32,6 +32,7 @@ export function createBench({ run, scene, document, lang }, question) {
   const store = createStore(/** @type {Bench} */ ({ question, scene: null, ...EMPTY }));
   const { get, set } = store;
   let control = new AbortController();
+  let answered = "";
 
   /** @param {unknown} error */
   const failureIn = (error) => (error instanceof ApiError ? error.failure : { title: "", detail: String(error), problems: [], status: 500 });
@@ -42,16 +43,20 @@ export function createBench({ run, scene, document, lang }, question) {
     if (get().running) set({ running: false, stopped: "stopped" });
   }
 
+  /** Measures; what has just been measured is measured anew, and what anybody measured before is there at once. */
   async function start() {
     stop();
     const { signal } = control;
-    const { question } = get();
+    const { question, result: before } = get();
     set({ ...EMPTY, running: true });
     const body = requestOf(question, document(question.scene), lang());
+    const asked = JSON.stringify([question.lab, body]);
     const hear = (/** @type {Part} */ { done, total, charts }) => signal.aborted || set({ progress: done / total, charts });
     try {
-      const result = await run(question.lab, body, hear, signal);
-      if (!signal.aborted) set({ running: false, progress: 1, result, charts: result.charts });
+      const result = await run(question.lab, body, hear, signal, before !== null && asked === answered);
+      if (signal.aborted) return;
+      answered = asked;
+      set({ running: false, progress: 1, result, charts: result.charts });
     } catch (error) {
       if (!signal.aborted) set({ running: false, failure: failureIn(error) });
     }

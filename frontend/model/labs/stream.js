@@ -28,13 +28,14 @@ function eventOf(block) {
 }
 
 /**
- * Runs an experiment; `hear` gets its parts. An ApiError where it is refused or breaks off.
+ * Runs an experiment, or with `anew` runs again what was measured before; `hear` gets its parts. An ApiError where it is
+ * refused or breaks off.
  * @param {typeof fetch} send @param {string} name @param {object} body
- * @param {(part: Part) => void} hear @param {AbortSignal} signal
+ * @param {(part: Part) => void} hear @param {AbortSignal} signal @param {boolean} [anew]
  * @returns {Promise<Result>}
  */
-export async function experiment(send, name, body, hear, signal) {
-  const response = await ask(send, name, body, "text/event-stream", signal);
+export async function experiment(send, name, body, hear, signal, anew = false) {
+  const response = await ask(send, name, body, { accept: "text/event-stream", ...(anew ? { "cache-control": "no-cache" } : {}) }, signal);
   const reader = response.body?.pipeThrough(new TextDecoderStream()).getReader();
   const read = eventReader();
   for (;;) {
@@ -52,11 +53,11 @@ export async function experiment(send, name, body, hear, signal) {
  * The result as a file: text/html or text/csv.
  * @param {typeof fetch} send @param {string} name @param {object} body @param {string} accept
  */
-export const file = async (send, name, body, accept) => (await ask(send, name, body, accept)).blob();
+export const file = async (send, name, body, accept) => (await ask(send, name, body, { accept })).blob();
 
-/** @param {typeof fetch} send @param {string} name @param {object} body @param {string} accept @param {AbortSignal} [signal] */
-async function ask(send, name, body, accept, signal) {
-  const headers = { "content-type": "application/json", accept };
+/** @param {typeof fetch} send @param {string} name @param {object} body @param {Record<string, string>} wanted  headers @param {AbortSignal} [signal] */
+async function ask(send, name, body, wanted, signal) {
+  const headers = { "content-type": "application/json", ...wanted };
   const response = await send(`/api/v1/experiments/${name}`, { method: "POST", headers, body: JSON.stringify(body), signal }).catch((error) => {
     if (error?.name === "AbortError") throw error;
     throw new ApiError(failureOf(0, null));

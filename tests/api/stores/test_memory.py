@@ -29,6 +29,15 @@ def test_answer_larger_than_all_the_room_is_not_kept() -> None:
     assert (memory.load("large"), memory.load("small")) == (None, b"answer")
 
 
+def test_answer_takes_the_place_of_the_one_before() -> None:
+    memory = Memory(1_000)
+    for answer in (b"first", b"second"):
+        memory.save("k", answer)
+    assert (memory.load("k"), memory.used) == (b"second", len(b"second") + OVERHEAD)
+    memory.save("k", b"x" * 2_000)
+    assert (memory.load("k"), memory.used) == (None, 0)
+
+
 def test_the_same_answer_counts_once() -> None:
     memory = Memory(10_000)
     for _ in range(2):

@@ -28,11 +28,16 @@ class Memory:
 
     def save(self, key: str, answer: bytes) -> None:
         """Keep an answer, unless it is larger than all the room there is."""
-        cost = len(answer) + OVERHEAD
-        if cost > self.size or key in self._entries:
+        if key in self._entries:
+            self.used -= _cost(self._entries.pop(key))
+        if _cost(answer) > self.size:
             return
         self._entries[key] = answer
-        self.used += cost
+        self.used += _cost(answer)
         while self.used > self.size:
             _, dropped = self._entries.popitem(last=False)
-            self.used -= len(dropped) + OVERHEAD
+            self.used -= _cost(dropped)
+
+
+def _cost(answer: bytes) -> int:
+    return len(answer) + OVERHEAD
