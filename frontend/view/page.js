@@ -127,7 +127,7 @@ function drawing(view) {
       <div class="readouts" aria-hidden="true"></div>
       <div class="figure-tools">${instruments?.tools(view)}</div>
       <p class="unseen" id="motion" role="status"></p>
-      ${waiting ? html`<p class="patience" role="status">${t("drawing.loading")}</p>` : nothing}
+      ${waiting ? html`<p class="patience" role="status">${t("drawing.loading")} <small>${t("drawing.first-start")}</small></p>` : nothing}
       ${state.failures.simulation && !state.failures.scene ? failure(state.failures.simulation, t("failure.simulation"), () => session.resimulate({}), t) : nothing}
     </div>
   `;

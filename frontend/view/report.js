@@ -39,9 +39,7 @@ function numerics({ state, session, t, methodTitle }) {
 function status(view) {
   const { state, t } = view;
   const { trajectory } = state;
-  if (!trajectory) {
-    return html`<p class="status">${state.simulating ? html`<span>${t("status.running")}</span><span class="late">${t("status.first-start")}</span>` : nothing}</p>`;
-  }
+  if (!trajectory) return html`<p class="status">${state.simulating ? t("status.running") : nothing}</p>`;
   return html`
     ${trajectory.status === "ok" ? nothing : warning(trajectory, view)}
     <p class="status ${state.simulating ? "busy" : ""}">${facts(trajectory, view).map((fact) => html`<span title=${fact.help ?? nothing}>${fact.text}</span>`)}</p>
