@@ -98,11 +98,18 @@ def measure(problem: Problem, method: Method, reference: Reference, setting: Set
 
 
 def repeated(again: Callable[[], float], first: float, repeats: int) -> tuple[float, ...]:
-    """The seconds of runs; the first one alone where it was long, and left out (it warms up) where it was short."""
-    if first > BRIEF or repeats == 1:
-        more = 1 if first > SLOW else min(2, repeats - 1)  # what seems slow may have been interrupted
-        return (first, *(again() for _ in range(more)))
-    return tuple(again() for _ in range(repeats))
+    """The seconds of runs: many where one is short (the first is left out, it warms up), else up to three.
+
+    Two are enough where both are slow; where the second is not, the first was interrupted.
+    """
+    if first <= BRIEF and repeats > 1:
+        return tuple(again() for _ in range(repeats))
+    seconds = [first]
+    while len(seconds) < min(3, repeats):
+        seconds.append(again())
+        if min(seconds) > max(SLOW, 0.5 * first):
+            break
+    return tuple(seconds)
 
 
 def error_of(values: Floats, reference: Reference) -> float | None:
