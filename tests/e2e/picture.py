@@ -1,4 +1,4 @@
-"""Makes the README's picture of the page: `python -m tests.e2e.picture http://127.0.0.1:8000/ frontend/picture.png`."""
+"""Makes the README's picture of the page: `python -m tests.e2e.picture http://127.0.0.1:8000/ .github/picture.png`."""
 
 from __future__ import annotations
 

@@ -37,7 +37,10 @@ def test_ids_by_rising_order() -> None:
         6: ("gauss-6",),
         8: ("dop853",),
     }
-    assert method_ids() == tuple(identifier for ids in by_order.values() for identifier in ids)
+    expected = [identifier for ids in by_order.values() for identifier in ids]
+    assert [identifier for identifier in method_ids() if identifier in expected] == expected
+    orders = [get_method(identifier).order for identifier in method_ids()]
+    assert orders == sorted(orders)
 
 
 def test_unknown_method_names_the_nearest() -> None:
