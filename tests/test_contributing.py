@@ -103,7 +103,7 @@ def test_the_api_knows_what_was_added(copy: Path, root: Path) -> None:
     assert steps["work-of-couple"]["verified"] is True
     assert derivation["result"]["virtual_work"]["terms"][-1]["plain"] == "F*l*delta(phi)"
     assert verdict["misconception"] == "energies-swapped"
-    assert verdict["feedback"] == "Which of the two energies is positive in L?"
+    assert verdict["feedback"] == "Not right yet. Which of the two energies is positive in L?"
 
 
 @pytest.mark.slow
