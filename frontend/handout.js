@@ -11,15 +11,18 @@ import { createDrawing } from "./view/drawing.js";
 import { page } from "./view/handout/page.js";
 
 const SUBSTEPS = "substeps";
+const PROVING = "proof";
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readPlace(location.search);
+const query = new URLSearchParams(location.search);
+const proof = query.get(PROVING) ?? "";
 /** @type {import("./model/handout.js").Sheet} */
 const START = {
-  place: { ...HOME, scene: asked.scene || "elastic-pendulum", n: asked.n, set: asked.set, formulation: asked.formulation, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  place: { ...HOME, scene: asked.scene || (proof ? "" : "elastic-pendulum"), n: asked.n, set: asked.set, formulation: asked.formulation, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
   catalog: {}, scene: null, lines: [], trajectory: null, failure: null,
-  substeps: new URLSearchParams(location.search).get(SUBSTEPS) !== "no",
+  proof, substeps: query.get(SUBSTEPS) !== "no",
 };
 const store = createStore(START);
 const session = createHandout(store, createApi(fetch.bind(globalThis)), await documentIn(location.hash));
@@ -34,9 +37,11 @@ function update() {
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture) });
   document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
   document.documentElement.lang = place.lang;
+  const own = [proof && `${PROVING}=${encodeURIComponent(proof)}`, substeps ? "" : `${SUBSTEPS}=no`].filter(Boolean);
   const shared = writePlace(place);
-  const address = `${location.pathname}${shared}${substeps ? "" : `${shared ? "&" : "?"}${SUBSTEPS}=no`}${location.hash}`;
-  render(page({ ...store.get(), state: { place }, session, t, print: () => window.print(), address: location.origin + address.replace("/handout", "/scene") }), root);
+  const address = `${location.pathname}${shared}${own.length ? `${shared ? "&" : "?"}${own.join("&")}` : ""}${location.hash}`;
+  const source = `${location.origin}${proof ? "/proof" : "/scene"}${shared}${location.hash}`;
+  render(page({ ...store.get(), state: { place }, session, t, print: () => window.print(), address: source }), root);
   const frame = /** @type {HTMLElement | null} */ (root.querySelector(".drawing"));
   if (frame && trajectory) (drawing ??= createDrawing(frame)).show(scene, trajectory, 0);
   document.title = `δq · ${root.querySelector("h1")?.textContent ?? ""}`;

@@ -3,27 +3,43 @@
 import { render } from "lit-html";
 import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
-import { createProof } from "./model/proof.js";
+import { createLater } from "./model/later.js";
+import { createProof, PROOF } from "./model/proof.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { listen } from "./view/keys.js";
-import { openDialog } from "./view/overlays.js";
+import { openDialog, overlays } from "./view/overlays.js";
 import { page } from "./view/proof.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const dark = matchMedia("(prefers-color-scheme: dark)");
-const asked = readPlace(location.search);
+const { step, theme, lang, view, part, pace } = readPlace(location.search);
 /** @type {import("./model/proof.js").Reading} */
 const START = {
-  place: { ...HOME, step: asked.step, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  place: { ...HOME, step, theme, view, part, pace, lang: startLanguage(lang, navigator.languages) },
   catalog: {}, derivation: null, lines: [], overlay: "", failure: null,
 };
 const store = createStore(START);
 const session = createProof(store, createApi(fetch.bind(globalThis)));
 const reach = createReach(root);
 
+/** @returns {import("./model/catalog.js").Translate} */
+function texts() {
+  const { page: everywhere = {}, lecture: here = {} } = store.get().catalog;
+  return translator({ .../** @type {object} */ (everywhere), .../** @type {object} */ (here) });
+}
+
+const lecture = createLater(async () => {
+  const { bringStyle, open } = await import("./view/lecture/open.js");
+  await bringStyle();
+  const about = () => ({ scene: PROOF, title: { [store.get().place.lang]: texts()("place.proof") } });
+  return open({ root, session, state: store.get, about, changed: update, play() {} });
+}, update);
+const sharing = createLater(() => import("./view/share.js"), update);
+
+const lecturing = () => (store.get().place.view ? lecture.part : null);
 const link = (/** @type {Partial<import("./model/types.js").Place>} */ patch) => location.pathname + writePlace({ ...store.get().place, ...patch });
 
 /** @param {Event} event @param {() => void} go */
@@ -38,15 +54,39 @@ function fullscreen() {
   void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.());
 }
 
+/** Into lecture mode, over the whole screen. */
+function enterLecture() {
+  session.move({ view: "lecture" });
+  void document.documentElement.requestFullscreen?.().catch(() => {});
+}
+
+/** The presenter's window belongs to a lecture. */
+async function present() {
+  session.move({ view: "lecture" });
+  (await lecture.want()).present();
+}
+
+/** What lies above the page. @param {import("./view/proof.js").ProofView} view */
+const above = (view) => (view.state.overlay === "share" ? sharing.part?.shareProof(view, PROOF) : overlays(view));
+
+/** What keys mean in a lecture; nothing stands beside a proof that D could change. */
+function more() {
+  const { d: _, ...keys } = lecturing()?.keys ?? /** @type {Record<string, () => void>} */ ({});
+  return keys;
+}
+
 function update() {
   const state = store.get();
-  const { place, catalog } = state;
+  const { place, catalog, overlay } = state;
   if (!catalog.page && !state.failure) return;
-  const t = translator({ .../** @type {object} */ (catalog.page ?? {}), .../** @type {object} */ (catalog.lecture ?? {}) });
+  const t = texts();
   document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
   document.documentElement.lang = place.lang;
   document.title = `δq · ${t("place.proof")}`;
-  render(page({ state, session, link, follow, t, fullscreen }), root);
+  render(page({ state, session, link, follow, t, fullscreen, enterLecture, lecture: lecturing(), above }), root);
+  if (overlay === "share") void sharing.want();
+  if (place.view) void lecture.want();
+  lecture.part?.update();
   openDialog(root);
   history.replaceState(null, "", link({}));
   if (reach(place.step, still.matches)) announce(state.lines, place.step, t);
@@ -55,9 +95,11 @@ function update() {
 store.subscribe(update);
 dark.addEventListener("change", update);
 listen(document, {
-  go: session.go, fullscreen, overlay: session.overlay, play() {},
+  go: (by) => (lecturing() ?? session).go(by), more, lecture: enterLecture, presenter: () => void present(),
+  fullscreen, overlay: session.overlay, play() {},
   covered: () => store.get().overlay !== "",
   uncover: () => session.overlay(""),
   substeps: () => toggleSubsteps(root, store.get().place.step),
 });
-void session.load();
+if (new URLSearchParams(location.search).get("view") === "print") location.replace(`/handout?proof=${PROOF}&lang=${store.get().place.lang}`);
+else void session.load();

@@ -16,6 +16,9 @@ import { createAside } from "./view/aside.js";
 import { createMotion } from "./view/motion.js";
 import { page } from "./view/page.js";
 
+/** Pixels across a printed page. */
+const SHEET = 640;
+
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -102,7 +105,16 @@ function tick(now) {
 }
 requestAnimationFrame(tick);
 
+/** On paper the drawing keeps the size for which its labels were placed, made smaller where a sheet is narrower. */
+window.addEventListener("beforeprint", () => {
+  const frame = /** @type {HTMLElement | null} */ (root.querySelector(".drawing"));
+  if (!frame) return;
+  const { clientWidth: width, clientHeight: height } = frame;
+  frame.style.cssText += `;--print-width:${width}px;--print-height:${height}px;--print-zoom:${Math.min(1, SHEET / width)}`;
+});
+
 async function start() {
+  if (new URLSearchParams(location.search).get("view") === "print") return location.replace(location.href.replace("/scene", "/handout"));
   const asked = readPlace(location.search);
   const sent = await documentIn(location.hash);
   const scene = sent || location.hash === "#edit" ? OWN : asked.scene;

@@ -1,4 +1,4 @@
-/** A handout: the whole derivation of a scene, with its values and one picture of it. */
+/** A handout: the whole derivation of a scene, with its values and one picture of it; or a general proof. */
 
 import { ApiError } from "./api.js";
 import { linesOf } from "./reveal.js";
@@ -13,6 +13,7 @@ import { readChanges } from "./values.js";
  * @property {import("./types.js").Scene | null} scene
  * @property {import("./reveal.js").Line[]} lines
  * @property {import("./types.js").Trajectory | null} trajectory
+ * @property {string} proof  the id of a general proof; "" for a scene
  * @property {boolean} substeps  whether they are told, too
  * @property {Failure | null} failure
  */
@@ -29,19 +30,33 @@ const SAMPLES = 61;
 export function createHandout({ get, set }, api, own) {
   const move = (/** @type {Partial<import("./types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } });
 
-  async function load() {
+  /** @returns {Promise<Partial<Sheet>>} */
+  async function proven() {
+    const { lang } = get().place;
+    const [catalog, { chapters }] = await Promise.all([api.catalog(lang, "lecture"), api.proof(get().proof, lang)]);
+    return { catalog, lines: linesOf(chapters), failure: null };
+  }
+
+  /** @returns {Promise<Partial<Sheet>>} */
+  async function derived() {
     const { lang, scene, n, formulation, set: changes } = get().place;
     const { parameters: values, initial } = readChanges(changes);
     const asked = scene === OWN ? own : scene;
     const parameters = n ? { n } : {};
+    const [catalog, { chapters }, document, trajectory] = await Promise.all([
+      api.catalog(lang, "lecture"),
+      api.derive({ scene: asked, lang, formulation, parameters }),
+      own && scene === OWN ? completed(own) : api.scene(scene, lang, n),
+      api.simulate({ scene: asked, parameters: { ...values, ...parameters }, initial, t_end: SECONDS, samples: SAMPLES, include: PARTS, lang }).catch(() => null),
+    ]);
+    return { catalog, lines: linesOf(chapters), scene: document, trajectory, failure: null };
+  }
+
+  async function load() {
+    const { lang } = get().place;
     try {
-      const [catalog, { chapters }, document, trajectory] = await Promise.all([
-        api.catalog(lang, "lecture"),
-        api.derive({ scene: asked, lang, formulation, parameters }),
-        own && scene === OWN ? completed(own) : api.scene(scene, lang, n),
-        api.simulate({ scene: asked, parameters: { ...values, ...parameters }, initial, t_end: SECONDS, samples: SAMPLES, include: PARTS, lang }).catch(() => null),
-      ]);
-      if (get().place.lang === lang) set({ catalog, lines: linesOf(chapters), scene: document, trajectory, failure: null });
+      const sheet = await (get().proof ? proven() : derived());
+      if (get().place.lang === lang) set(sheet);
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
       const catalog = await api.catalog(lang, "lecture").catch(() => ({}));

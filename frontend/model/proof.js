@@ -25,11 +25,16 @@ export function createProof({ get, set }, api) {
 
   async function load() {
     const { lang } = get().place;
+    const speaks = () => get().place.lang === lang;
+    const coming = api.proof(PROOF, lang);
+    coming.catch(() => {}); // what went wrong is met below
     try {
-      const [catalog, derivation] = await Promise.all([api.catalog(lang, "lecture"), api.proof(PROOF, lang)]);
-      if (get().place.lang !== lang) return;
+      const catalog = await api.catalog(lang, "lecture");
+      if (speaks()) set({ catalog });
+      const derivation = await coming;
+      if (!speaks()) return;
       const lines = linesOf(derivation.chapters);
-      set({ catalog, derivation, lines, failure: null });
+      set({ derivation, lines, failure: null });
       move({ step: lines[indexOf(lines, get().place.step)]?.step.id ?? "" });
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
@@ -41,10 +46,10 @@ export function createProof({ get, set }, api) {
     load,
     move,
     /** @param {number} by */
-    go: (by) => move({ step: moved(get().lines, get().place.step, by) }),
-    /** @param {string} step */
-    goTo(step) {
-      move({ step });
+    go: (by) => move({ step: moved(get().lines, get().place.step, by), part: 0 }),
+    /** @param {string} step @param {number} [part] */
+    goTo(step, part = 0) {
+      move({ step, part });
       set({ overlay: "" });
     },
     /** @param {string} lang */

@@ -25,7 +25,8 @@ export function createAside({ root, store, api, session, send, changed, play }) 
   const lecture = createLater(async () => {
     const { bringStyle, open } = await import("./lecture/open.js");
     await bringStyle();
-    return open({ root, session, state: get, changed, play });
+    const about = () => ({ scene: get().place.scene, title: get().scene?.title ?? {} });
+    return open({ root, session, state: get, about, changed, play });
   }, changed);
   const sharing = createLater(async () => {
     const [{ share }, { createExports }] = await Promise.all([import("./share.js"), import("../model/share.js"), above.want()]);

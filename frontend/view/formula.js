@@ -5,6 +5,8 @@ import { Directive, directive } from "lit-html/directive.js";
 
 /** Display formulas shrink to this part of their size before they scroll. */
 const SMALLEST = 0.66;
+/** Rows that would become smaller are rather broken, where that is not said otherwise. */
+const BEARABLE = 0.78;
 /** Broken rows are to fit at this size. */
 const COMFORTABLE = 0.85;
 
@@ -41,7 +43,7 @@ function fit(element) {
   if (source?.broken) whole(element, source.latex);
   const part = shrink(element, width);
   // A lecture would rather have more lines than smaller ones.
-  const bearable = part < 1 ? Number(getComputedStyle(element).getPropertyValue("--bearable")) || SMALLEST : SMALLEST;
+  const bearable = part < 1 ? Number(getComputedStyle(element).getPropertyValue("--bearable")) || BEARABLE : 0;
   if (part < bearable && source) void goOnBelow(element, source.latex, part / Math.max(bearable, COMFORTABLE));
 }
 
@@ -106,8 +108,20 @@ export const inline = (latex, className = "") => html`<span class="math ${classN
 /** A formula on a line of its own. @param {string} latex */
 export const displayed = (latex) => html`<div class="formula" tabindex="-1" ${typesetInto(latex, true)}></div>`;
 
+/** What closes a sentence or a bracket never begins a line; browsers would break there after a formula. */
+const CLOSING = /^[.,;:!?)]+/;
+/** Longer formulas may need the break within. */
+const SHORT = 40;
+
 /** A sentence with formulas between dollar signs. @param {string} text */
-export const prose = (text) => text.split("$").map((part, i) => (i % 2 ? inline(part) : part));
+export function prose(text) {
+  const parts = text.split("$");
+  const closing = parts.map((part, i) => (i && i % 2 === 0 && parts[i - 1].length <= SHORT && CLOSING.exec(part)?.[0]) || "");
+  return parts.map((part, i) => {
+    if (i % 2 === 0) return part.slice(closing[i].length);
+    return closing[i + 1] ? html`<span class="unbroken">${inline(part)}${closing[i + 1]}</span>` : inline(part);
+  });
+}
 
 /** A sentence without markup, for titles and screen readers. @param {string} text */
 export const plainly = (text) => text.replace(/\$[^$]*\$/g, (formula) => formula.slice(1, -1).replace(/\\(htmlClass\{[^}]*\}|[a-z]+)|[{}\\]/g, "$1"));

@@ -41,10 +41,15 @@ export function brand({ state, t }) {
   return html`<a class="brand" href=${pageAddress("", state.place)} title=${t("tagline")} aria-label=${`δq · ${t("place.start")}`}><span class="delta">δ</span><span class="q">q</span></a>`;
 }
 
-/** What the buttons of the header do, where there is no room for them. @param {View} view */
-function actions({ session, enterLecture, t }) {
-  const action = (/** @type {string} */ label, /** @type {() => void} */ press) => html`
-    <button class="action" popovertarget="places" popovertargetaction="hide" @click=${press}>${label}</button>`;
+/** An entry of the menu that does something. @param {string} label @param {() => void} press */
+const action = (label, press) => html`
+  <button class="action" popovertarget="places" popovertargetaction="hide" @click=${press}>${label}</button>`;
+
+/**
+ * What the buttons of the header do, where there is no room for them.
+ * @param {Pick<View, "enterLecture" | "t"> & {session: Pick<View["session"], "overlay">}} view
+ */
+export function actions({ session, enterLecture, t }) {
   return [
     action(t("tool.overview"), () => session.overlay("overview")), action(t("tool.share"), () => session.overlay("share")),
     action(t("tool.lecture"), enterLecture),

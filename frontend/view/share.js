@@ -16,19 +16,36 @@ const LONGEST = 1200;
 
 /** @typedef {(form: typeof FORMS[number]) => Promise<import("../model/share.js").File | null>} Take */
 
-/** @param {View} view @param {Take} take */
-export function share(view, take) {
-  const { state, link, t } = view;
+/** @typedef {import("./overlays.js").View & {link: (patch: Partial<import("../model/types.js").Place>) => string}} Shared  a page with an address */
+
+/** The address of what is shown, with its code, and what else there is to take away. @param {Shared} view @param {unknown} more */
+function sharing(view, more) {
+  const { link, t } = view;
   const address = location.origin + link({});
-  const title = inLanguage(state.scene?.title, state.place.lang);
   return dialog("share", html`
     <div class="sharing">
       <section><h3>${t("share.link")}</h3>${copied(address, t("share.link"), t)}</section>
       <section class="code">${address.length > LONGEST ? html`<p>${t("share.code-too-long")}</p>` : code(address, t)}</section>
+      ${more}
+    </div>`, view);
+}
+
+/** A proof has an address and a handout. @param {Shared} view @param {string} proof */
+export function shareProof(view, proof) {
+  const { lang, theme } = view.state.place;
+  const query = writePlace({ ...HOME, lang, theme });
+  return sharing(view, html`<section><h3>${view.t("share.files")}</h3>
+    <ul class="files"><li>${handoutLink(`/handout${query}${query ? "&" : "?"}proof=${proof}`, view.t)}</li></ul></section>`);
+}
+
+/** @param {View} view @param {Take} take */
+export function share(view, take) {
+  const { state, t } = view;
+  const title = inLanguage(state.scene?.title, state.place.lang);
+  return sharing(view, html`
       <section><h3>${t("share.frame")}</h3><p>${t("share.frame-help")}</p>
         ${SHOWN.map((shown) => html`<p class="kind">${t(`share.show-${shown || "both"}`)}</p>${copied(snippet(frameAddress(location.origin, state.place, shown, fragment(state)), shown, title), t(`share.show-${shown || "both"}`), t)}`)}</section>
-      <section><h3>${t("share.files")}</h3>${files(view, take)}</section>
-    </div>`, view);
+      <section><h3>${t("share.files")}</h3>${files(view, take)}</section>`);
 }
 
 /** @param {View["state"]} state */
@@ -64,13 +81,16 @@ function save(file) {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
+/** @param {string} address @param {View["t"]} t */
+const handoutLink = (address, t) => html`<a href=${address}>${icon("print")}<span>${t("share.handout")}</span></a>`;
+
 /** @param {View} view @param {Take} take */
 function files({ state, t }, take) {
   const { scene, lang, theme, formulation, n, set } = state.place;
   const handout = `/handout${writePlace({ ...HOME, scene, lang, theme, formulation, n, set })}${fragment(state)}`;
   return html`
     <ul class="files">
-      <li><a href=${handout}>${icon("print")}<span>${t("share.handout")}</span></a></li>
+      <li>${handoutLink(handout, t)}</li>
       ${FORMS.map((form) => html`<li><button class="quiet" @click=${() => void take(form).then(save)}>${icon("file")}<span>${t(`share.${form}`)}</span></button></li>`)}
     </ul>
     ${state.failures.export ? html`<p class="warning" role="alert">${state.failures.export.detail || t("failure.unreachable")}</p>` : nothing}`;

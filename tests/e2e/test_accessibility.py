@@ -43,6 +43,11 @@ def share(page: Page) -> None:
     expect(page.locator("dialog.share")).to_be_visible()
 
 
+def share_proof(page: Page) -> None:
+    page.locator(".tools .tool").first.click()
+    expect(page.locator("dialog.share")).to_be_visible()
+
+
 def send(page: Page) -> None:
     page.locator(".trial button.main").click()
     expect(page.locator(".answer pre")).to_be_visible(timeout=PATIENCE)
@@ -72,6 +77,8 @@ PLACES = [
     pytest.param("presenter?x=1", ".presenter .notice", nothing, id="presenter without lecture"),
     pytest.param("variations?", ".steps .katex", nothing, id="variations"),
     pytest.param("proof?", ".steps .katex", nothing, id="proof"),
+    pytest.param("proof?view=lecture", ".slide .katex", nothing, id="proof in lecture mode"),
+    pytest.param("handout?proof=dalembert-lagrange", ".paper .katex", nothing, id="handout of the proof"),
     pytest.param("labs?", "main", nothing, id="labs"),
     pytest.param("labs?lab=convergence&scene=pendulum&t=1", "button.main:enabled", measure, id="labs, measured"),
     pytest.param(
@@ -88,6 +95,7 @@ DIALOGS = [
     pytest.param(SCENE, ".steps .katex", pressing("o"), id="overview"),
     pytest.param(SCENE, ".steps .katex", pressing("g"), id="jump"),
     pytest.param(SCENE, ".steps .katex", share, id="share"),
+    pytest.param("proof?x=1", ".steps .katex", share_proof, id="share the proof"),
 ]
 
 

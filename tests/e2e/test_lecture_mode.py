@@ -64,6 +64,7 @@ def test_substeps_come_one_by_one_and_have_an_address(hall: Lecture) -> None:
     expect(page).to_have_url(re.compile("part=2"))
     page.reload()
     expect(page.locator(".slide .part")).to_have_count(2)
+    expect(page.locator(".slide .part").last).to_be_in_viewport(ratio=0.98)
     page.keyboard.press("e")
     expect(page.locator(".slide .part")).to_have_count(3)
     page.keyboard.press("e")
@@ -188,6 +189,41 @@ def test_the_presenter_sees_what_comes_and_leads(hall: Lecture) -> None:
     expect(page.locator(".slide .part")).to_have_count(1)
     page.keyboard.press("PageDown")
     expect(presenter.locator(".now .number")).to_have_text("2.2")
+
+
+def test_the_general_proof_is_lectured_the_same_way(lecture: Lecture) -> None:
+    page = lecture.page
+    page.goto(f"{lecture.address}proof?lang=en")
+    page.locator(".steps .katex").first.wait_for()  # the first proof of a server takes its time
+    page.keyboard.press("l")
+    expect(page.locator(".slide .number")).to_have_text("1.1")
+    expect(page.locator(".top")).to_be_hidden()
+    box = page.locator(".slide").bounding_box() or {}
+    assert (box["width"], box["height"]) == (1366, 768)
+    for key, number in (("PageDown", "1.2"), ("End", "7.2"), ("PageUp", "7.1"), ("Home", "1.1")):
+        page.keyboard.press(key)
+        expect(page.locator(".slide .number")).to_have_text(number)
+    page.keyboard.press("g")
+    page.locator("dialog.jump input").fill("4.1")
+    page.keyboard.press("Enter")
+    expect(page.locator(".slide .number")).to_have_text("4.1")
+    page.keyboard.press("b")
+    expect(page.locator(".black")).to_be_visible()
+    page.keyboard.press("b")
+    with page.context.expect_page() as opened:
+        page.keyboard.press("s")
+    presenter = opened.value
+    expect(presenter.get_by_role("heading", level=1)).to_have_text("General proof")
+    expect(presenter.locator(".now .number")).to_have_text("4.1")
+    presenter.locator("textarea").fill("Inner forces do no work.")
+    presenter.locator(".presenter .main").click()
+    expect(page.locator(".slide .number")).to_have_text("5.1")
+    page.reload()
+    expect(page.locator(".slide .number")).to_have_text("5.1")
+    page.keyboard.press("PageUp")
+    expect(presenter.locator("textarea")).to_have_value("Inner forces do no work.")
+    page.keyboard.press("l")
+    expect(page.locator(".top")).to_be_visible()
 
 
 def test_a_presenter_without_a_lecture_says_how_to_get_one(lecture: Lecture) -> None:

@@ -155,6 +155,23 @@ def test_a_handout_is_whole_and_printed_in_light(lecture: Lecture, tmp_path: Pat
     assert (width, height) == pytest.approx((595.3, 841.9), abs=1.5)
 
 
+def test_the_general_proof_has_an_address_a_code_and_a_handout(lecture: Lecture) -> None:
+    page = lecture.page
+    page.goto(f"{lecture.address}proof?lang=de")
+    page.locator(".steps .katex").first.wait_for()  # the first proof of a server takes its time
+    page.locator(".tools .tool").first.click()
+    expect(page.locator(".qr")).to_be_visible()
+    assert page.locator("dialog input").input_value() == page.url
+    page.locator("dialog .files a").click()
+    expect(page.locator(".paper h1")).to_have_text("Allgemeiner Beweis")
+    expect(page.locator(".paper .step")).to_have_count(20)
+    expect(page.locator(".paper footer a")).to_have_attribute("href", re.compile(r"/proof\?lang=de$"))
+    page.reload()
+    expect(page.locator(".paper .step")).to_have_count(20)
+    wide = "[...document.querySelectorAll('.paper .formula')].filter(e => e.scrollWidth > e.clientWidth + 1).length"
+    assert page.evaluate(wide) == 0
+
+
 def test_on_a_phone_the_menu_has_what_the_header_has_no_room_for(lecture: Lecture) -> None:
     page = lecture.page
     page.set_viewport_size({"width": 360, "height": 740})

@@ -99,7 +99,7 @@ export function stageOf(scene, trajectory, size) {
     const [x, y] = flattened(position);
     return [size.width / 2 + (x - (x0 + x1) / 2) * scale, size.height / 2 + sign * (y - (y0 + y1) / 2) * scale];
   };
-  const unit = Math.max(8, Math.min(24, Math.min(size.width, size.height) / 30));
+  const unit = Math.max(8, Math.min(48, Math.min(size.width, size.height) / 30));
   return { scene, trajectory, size, unit, scale, down: [0, 1], project, direct, once: keeper() };
 }
 

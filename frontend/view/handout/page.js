@@ -36,22 +36,29 @@ export function page(view) {
 
 /** @param {HandoutView} view */
 function sheet(view) {
-  const { scene, lines, state, t } = view;
-  if (!scene || !lines.length) return html`<p class="notice" role="status">${t("derivation.loading")}</p>`;
-  const { lang } = state.place;
-  const title = inLanguage(scene.title, lang);
-  const summary = inLanguage(scene.summary, lang);
+  const { lines, t } = view;
+  if (!lines.length) return html`<p class="notice" role="status">${t("derivation.loading")}</p>`;
   return html`
     <article class="paper">
-      <h1>${title}</h1>
-      <p class="summary">${summary}</p>
-      <div class="given">
-        <div class="drawing"><svg role="img" aria-label=${t("drawing.still", { title })}></svg><div class="labels" aria-hidden="true"></div></div>
-        ${values(view)}
-      </div>
+      ${opening(view)}
       ${lines.map((line) => step(line, view))}
       <footer>${t("handout.source")} <a href=${view.address}>${view.address.length < 160 ? view.address : location.origin}</a></footer>
     </article>`;
+}
+
+/** What it is about: a scene with its picture and values, or what is proven. @param {HandoutView} view */
+function opening(view) {
+  const { scene, state, t } = view;
+  if (!scene) return html`<h1>${t("place.proof")}</h1><p class="summary">${t("proof.subtitle")}</p>`;
+  const { lang } = state.place;
+  const title = inLanguage(scene.title, lang);
+  return html`
+    <h1>${title}</h1>
+    <p class="summary">${inLanguage(scene.summary, lang)}</p>
+    <div class="given">
+      <div class="drawing"><svg role="img" aria-label=${t("drawing.still", { title })}></svg><div class="labels" aria-hidden="true"></div></div>
+      ${values(view)}
+    </div>`;
 }
 
 /** @param {HandoutView} view */

@@ -58,25 +58,44 @@ export function bringStyle() {
 }
 
 /**
- * @param {{root: HTMLElement, session: View["session"], state: () => View["state"], changed: () => void, play: () => void}} page
+ * @typedef {object} Lectured  the page that is lectured from
+ * @property {HTMLElement} root
+ * @property {Pick<View["session"], "goTo" | "move" | "overlay">} session
+ * @property {() => Pick<View["state"], "place" | "overlay" | "lines" | "derivation">} state
+ * @property {() => {scene: string, title: Record<string, string>}} about  under which name notes are kept, and the title
+ * @property {() => void} changed
+ * @property {() => void} play
  */
-export function open({ root, session, state, changed, play }) {
+
+/** @param {Lectured} page */
+export function open({ root, session, state, about, changed, play }) {
   const id = lineId();
   const spot = createSpot(root);
 
-  /** @param {import("../../model/lecture/stops.js").Stop} stop */
-  function stopAt({ step, part }) {
-    session.goTo(step, part);
-    if (part) requestAnimationFrame(() => root.querySelector(`[data-part="${part}"]`)?.scrollIntoView({ block: "nearest", behavior: "smooth" }));
+  /** The substep that was last brought into sight. @type {Element | null} */
+  let seen = null;
+
+  /** The newest substep is what is talked about, however one came to it. */
+  function reachPart() {
+    const newest = [...root.querySelectorAll(".slide .part")].at(-1) ?? null;
+    if (newest && newest !== seen) {
+      const behavior = seen ? "smooth" : "instant";
+      // Where it ends is known when the fonts of its formulas are there.
+      void document.fonts.ready.then(() => requestAnimationFrame(() => newest.scrollIntoView({ block: "nearest", behavior })));
+    }
+    seen = newest;
   }
+
+  const stopAt = (/** @type {import("../../model/lecture/stops.js").Stop} */ { step, part }) => session.goTo(step, part);
   const go = (/** @type {number} */ by) => stopAt(onwards(state().lines, state().place, by, state().place.pace));
   const step = (/** @type {number} */ by) => stopAt(within(state().lines, state().place, by));
   const turn = () => session.move({ beside: BESIDE[(BESIDE.indexOf(state().place.beside) + 1) % BESIDE.length] });
 
   const sender = createSender(new BroadcastChannel(nameOf(id)), {
     here() {
-      const { place, overlay, scene, derivation } = state();
-      return { place, overlay, title: scene?.title ?? {}, chapters: derivation?.chapters ?? [] };
+      const { place, overlay, derivation } = state();
+      const { scene, title } = about();
+      return { place: { ...place, scene }, overlay, title, chapters: derivation?.chapters ?? [] };
     },
     wish(wish) {
       if (wish.kind === "go") go(wish.by);
@@ -110,10 +129,11 @@ export function open({ root, session, state, changed, play }) {
       ArrowDown: () => step(1), ArrowUp: () => step(-1), e: () => stopAt(allOrNone(state().lines, state().place)),
       t: () => session.move({ pace: state().place.pace ? "" : "substeps" }), d: turn, h: pointOut, l: leave,
     },
-    slide: (/** @type {View} */ view) => slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch }),
+    slide: (/** @type {import("./slide.js").Shown} */ view) => slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch }),
     /** Called when anything has changed. */
     update() {
       sender.tell();
+      reachPart();
       if (!state().place.view) spot.off();
     },
   };

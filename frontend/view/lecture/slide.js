@@ -7,23 +7,23 @@ import { icon } from "../icons.js";
 import { indexOf } from "../../model/reveal.js";
 import { partsOf, within } from "../../model/lecture/stops.js";
 
-/** @typedef {import("../page.js").View} View */
+/** @typedef {import("../steps.js").View & {fullscreen: () => void, session: Pick<import("../page.js").View["session"], "goTo" | "move" | "overlay">}} Shown  what a slide needs of a page */
 /** @typedef {import("../../model/types.js").Step} Step */
 /** @typedef {import("./open.js").Lecturing} Lecturing */
 
-/** @param {View} view @param {Lecturing} lecture */
+/** @param {Shown} view @param {Lecturing} lecture */
 export function slide(view, lecture) {
   const { state, t } = view;
   const line = state.lines[indexOf(state.lines, state.place.step)];
   return html`
     <section class="derivation slide" id="derivation" aria-label=${t("derivation")}
       @touchstart=${lecture.touch.start} @touchend=${lecture.touch.end}>
-      ${line ? sheet(line, view) : html`<div class="scroll"><p class="notice" role="status">${t("derivation.loading")}</p></div>`}
+      ${line ? sheet(line, view) : html`<p class="where"></p><div class="scroll"><p class="notice" role="status">${t("derivation.loading")}</p></div>`}
       ${bar(view, lecture)}
     </section>`;
 }
 
-/** @param {import("../../model/reveal.js").Line} line @param {View} view */
+/** @param {import("../../model/reveal.js").Line} line @param {Shown} view */
 function sheet({ step, number, chapter, chapterIndex }, view) {
   const shown = within(view.state.lines, view.state.place, 0).part;
   return html`
@@ -53,7 +53,7 @@ function part({ step, depth }, place) {
     </section>`;
 }
 
-/** How many substeps there are to see yet. @param {Step} step @param {number} shown @param {View} view */
+/** How many substeps there are to see yet. @param {Step} step @param {number} shown @param {Shown} view */
 function more(step, shown, { state, session, t }) {
   const count = partsOf(step).length;
   if (shown >= count) return nothing;
@@ -61,7 +61,7 @@ function more(step, shown, { state, session, t }) {
   return html`<button class="quiet more" @click=${show}>${icon("chevron")}${t("lecture.substeps", { shown, count })}</button>`;
 }
 
-/** @param {View} view @param {Lecturing} lecture */
+/** @param {Shown} view @param {Lecturing} lecture */
 function bar(view, { go, present, leave, spot, spotted }) {
   const { state, session, t } = view;
   const { place, lines } = state;
