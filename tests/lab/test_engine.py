@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from functools import partial
@@ -16,6 +17,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from deltaq.lab import engine as engine_module
+from deltaq.lab import flips
 from deltaq.lab.engine import SCHEDULER, engine
 from deltaq.lab.monodromy import Axis, Plane, surveyed
 from deltaq.mechanics.library import load_scene
@@ -28,6 +31,18 @@ def test_without_a_scheduler_the_processors_of_this_machine_do_it(monkeypatch: p
     monkeypatch.delenv(SCHEDULER, raising=False)
     with engine() as executor:
         assert isinstance(executor, ThreadPoolExecutor)
+
+
+def test_cluster_that_does_not_answer_is_done_without(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setenv(SCHEDULER, "tcp://127.0.0.1:9")
+    monkeypatch.setattr(engine_module, "PATIENCE", 0.2)
+    with engine() as executor:
+        assert list(executor.map(abs, [-1, 2])) == [1, 2]
+    assert [record.message.partition(":")[0] for record in caplog.records if record.name == "deltaq.lab"] == [
+        "a map is worked out here, for the cluster does not answer"
+    ]
 
 
 def start(stack: ExitStack, program: str, *options: str) -> subprocess.Popen[bytes]:
@@ -87,3 +102,69 @@ def test_nothing_is_missing_when_a_worker_is_lost_in_the_middle(cluster: list[su
     expected = [work(part) for part in parts]
     pairs = zip(found, expected, strict=True)
     assert all(np.array_equal(one.matrices, other.matrices) for one, other in pairs)
+
+
+@needs_dask
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")
+def test_map_of_flips_on_a_cluster_is_the_same(
+    cluster: list[subprocess.Popen[bytes]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    angles = np.linspace(-3.0, 3.0, 20)
+    plane = flips.Plane(problem_of(load_scene("double-pendulum"), 3.0), 0, 1, angles, angles)
+    found = list(plane.refined())[-1]
+    monkeypatch.delenv(SCHEDULER)
+    assert np.array_equal(found, list(plane.refined())[-1])
+    assert np.isfinite(found).any()
+
+
+ENDLESS = """
+import numpy as np
+from deltaq.lab.flips import Plane
+from deltaq.mechanics.library import load_scene
+from deltaq.simulation.service import problem_of
+
+angles = np.linspace(0.1, 0.2, 80)
+list(Plane(problem_of(load_scene("pendulum"), 1e5), 0, 0, angles, angles).refined())
+"""
+
+
+def state_of(address: str) -> tuple[int, int]:
+    """How many tasks the scheduler knows, and on how many threads of the workers it is worked."""
+    from distributed import Client
+
+    with Client(address, set_as_default=False) as client:
+        tasks = client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks))
+        return tasks, sum(client.run(lambda dask_worker: len(dask_worker.active_threads)).values())
+
+
+def reached(address: str, wanted: Callable[[tuple[int, int]], bool], seconds: float) -> bool:
+    end = time.monotonic() + seconds
+    while not wanted(state_of(address)) and time.monotonic() < end:
+        time.sleep(0.1)
+    return wanted(state_of(address))
+
+
+@needs_dask
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")
+def test_cluster_rests_when_the_process_that_asked_is_killed(cluster: list[subprocess.Popen[bytes]]) -> None:
+    address = os.environ[SCHEDULER]
+    with subprocess.Popen([sys.executable, "-c", ENDLESS]) as asking:
+        assert reached(address, lambda state: state[0] > 2 and state[1] == 2, 60.0)
+        asking.kill()
+    assert reached(address, lambda state: state == (0, 0), 20.0)  # what was under way would take minutes
+    assert [worker.poll() for worker in cluster] == [None, None]
+
+
+@needs_dask
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")
+def test_cluster_rests_when_the_map_is_given_up(cluster: list[subprocess.Popen[bytes]]) -> None:
+    angles = np.linspace(0.1, 0.2, 80)
+    plane = flips.Plane(problem_of(load_scene("pendulum"), 1e5), 0, 0, angles, angles)
+    with engine() as executor:
+        parts = executor.map(plane._times, [64 * [(0, place)] for place in range(16)])
+        assert reached(os.environ[SCHEDULER], lambda state: state[0] > 2 and state[1] == 2, 60.0)
+    assert reached(os.environ[SCHEDULER], lambda state: state == (0, 0), 20.0)
+    del parts

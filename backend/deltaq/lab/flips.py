@@ -6,10 +6,9 @@ Source: J. S. Heyl, The Double Pendulum Fractal (2008).
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import product
 
 import numpy as np
 
@@ -17,9 +16,13 @@ from ..simulation.integration import Flag
 from ..simulation.library import get_method
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Steps, run
+from .engine import engine, while_wanted
 
 METHOD, TOLERANCE, PER_SECOND = "dormand-prince-54", 1e-6, 25
 COARSEST = 4
+CHUNK = 64  # points that are worked out at a time
+
+Place = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -36,23 +39,25 @@ class Plane:
     def refined(self) -> Iterator[Floats]:
         """Times (second, first), infinite where nothing turns over, NaN where not known yet: rough, then finer."""
         found, stride = np.full((self.y.size, self.x.size), np.nan), COARSEST
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
+        with engine() as executor:
             while stride >= 1:
-                missing = [
-                    (i, j)
-                    for i in range(0, self.y.size, stride)
-                    for j in range(0, self.x.size, stride)
-                    if np.isnan(found[i, j])
-                ]
-                for (i, j), time in zip(missing, pool.map(self._time, missing, chunksize=64), strict=True):
-                    found[i, j] = time
+                places = product(range(0, self.y.size, stride), range(0, self.x.size, stride))
+                missing = [place for place in places if np.isnan(found[place])]
+                parts = [missing[first : first + CHUNK] for first in range(0, len(missing), CHUNK)]
+                for part, times in zip(parts, executor.map(self._times, parts), strict=True):
+                    for place, time in zip(part, times, strict=True):
+                        found[place] = time
                 yield found.copy()
                 stride //= 2
 
-    def _time(self, place: tuple[int, int]) -> float:
+    def _times(self, places: Sequence[Place]) -> list[float]:
+        with while_wanted(self.cancelled) as flag:
+            return [first_flip(self._begun_at(place), flag) for place in places]
+
+    def _begun_at(self, place: Place) -> Problem:
         values = list(self.problem.values)
         values[self.first], values[self.second] = float(self.x[place[1]]), float(self.y[place[0]])
-        return first_flip(replace(self.problem, values=tuple(values)), self.cancelled)
+        return replace(self.problem, values=tuple(values))
 
 
 def first_flip(problem: Problem, cancelled: Flag) -> float:

@@ -28,7 +28,7 @@ from ..simulation.problem import Floats
 from ..simulation.problem import Problem as InitialValueProblem
 from ..simulation.service import problem_of
 from ..simulation.stability import real_stability
-from .engine import engine
+from .engine import engine, while_wanted
 
 METHOD = "dop853"
 TOLERANCE = 1e-12
@@ -132,10 +132,11 @@ def surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table
     longest = float(table.periods.max())
     control = Control(TOLERANCE, longest, longest, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme))
     motion, room = motion_of(problem)._replace(is_powered=False), make_room(start.copy(), weights)
-    flow = Flow(motion, weights, control, unwatched(cancelled), room, np.zeros(2), np.zeros((2, width)))
     outcomes = np.full(count, CANCELLED, dtype=np.int64)
     found = Found(np.zeros((count, width)), np.zeros((count, width, width)), outcomes)
-    survey(flow, start, table, (0, count), found, make_desk(width))
+    with while_wanted(cancelled) as flag:
+        flow = Flow(motion, weights, control, unwatched(flag), room, np.zeros(2), np.zeros((2, width)))
+        survey(flow, start, table, (0, count), found, make_desk(width))
     return found
 
 
