@@ -239,3 +239,27 @@ def test_a_scene_that_does_not_exist_is_told_with_the_nearest(name: str) -> None
     ended = command(name, "double-pendulun")
     assert (ended.returncode, ended.stdout) == (2, "")
     assert "double-pendulum" in ended.stderr
+
+
+@pytest.mark.parametrize(
+    ("field", "message"),
+    [
+        pytest.param("guides=3", "deltaq: /guides: An array is needed here.\n", id="no list"),
+        pytest.param("speed=1", "deltaq: /speed: There is no field “speed” here.\n", id="no such field"),
+        pytest.param("freeze=[1]", "deltaq: /freeze/0: Text is needed here.\n", id="no text"),
+        pytest.param('freeze=["x"]', "deltaq: /freeze/0: There is no free coordinate “x”.", id="no coordinate"),
+    ],
+)
+@pytest.mark.parametrize("form", ["json", "markdown"])
+def test_derive_says_what_is_wrong(form: str, field: str, message: str) -> None:
+    ended = command("derive", "pendulum", "--format", form, "--set", field)
+    assert (ended.returncode, ended.stdout) == (2, "")
+    assert ended.stderr.startswith(message)
+
+
+@pytest.mark.parametrize("name", ["derive", "simulate", "check", "lab", "export-stack"])
+def test_help_ends_with_an_example(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main([name, "--help"])
+    assert ended.value.code == 0
+    assert f"example: deltaq {name} " in " ".join(capsys.readouterr().out.split())

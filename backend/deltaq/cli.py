@@ -49,7 +49,8 @@ def _parser(commands: dict[str, ModuleType]) -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"deltaq {__version__}")
     below = parser.add_subparsers(dest="command", metavar="command")
     for name, module in commands.items():
-        module.arguments(below.add_parser(name, help=module.HELP, description=module.DESCRIPTION))
+        example = f"example: {module.EXAMPLE}" if hasattr(module, "EXAMPLE") else None
+        module.arguments(below.add_parser(name, help=module.HELP, description=module.DESCRIPTION, epilog=example))
     return parser
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from fastapi.exceptions import RequestValidationError
+from pydantic import BaseModel, ValidationError
 
-from ..errors import Problem, escaped
+from ..errors import Problem, RequestError, escaped
 
 _CODES = {
     "missing": "missing-field",
@@ -38,6 +39,15 @@ _CODES = {
     "request-scene-type": "request-scene-type",
     "request-step-and-tolerance": "request-step-and-tolerance",
 }
+
+
+def checked(question: Mapping[str, object], model: type[BaseModel]) -> dict[str, Any]:
+    """A request as a call of the API takes it. Raises RequestError for what that would refuse."""
+    try:
+        return model.model_validate(question).model_dump()
+    except ValidationError as error:
+        findings = [{**finding, "loc": ("body", *finding["loc"])} for finding in error.errors()]
+        raise RequestError(*problems_of(RequestValidationError(findings))) from None
 
 
 def problems_of(error: RequestValidationError) -> Iterator[Problem]:

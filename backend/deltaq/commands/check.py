@@ -10,6 +10,9 @@ DESCRIPTION = """Checks the answers of a CSV table with the columns task and ans
 or latex) and seed where wanted; writes the verdicts, and tells which mistakes were made how often."""
 
 
+EXAMPLE = "deltaq check answers.csv --assignment sheet.toml --output verdicts.csv"
+
+
 def arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("answers", type=Path, help="CSV with a header")

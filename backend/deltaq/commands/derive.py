@@ -13,6 +13,9 @@ DESCRIPTION = """Derives the equations of motion of a scene step by step: as JSO
 or Markdown to read, as a Python program that computes the motion with SciPy, or as a Jupyter notebook with both."""
 
 
+EXAMPLE = "deltaq derive double-pendulum --format notebook --output double-pendulum.ipynb"
+
+
 def arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     scene_argument(parser)
@@ -28,9 +31,11 @@ def run(options: argparse.Namespace) -> None:
     question = question_of(options)
     match options.format:
         case "json":
+            from ..api.validation import checked
+            from ..api.wire.derivation import DerivationRequest
             from ..narration.derive import derive_request
 
-            text = json.dumps(derive_request(question), ensure_ascii=False, indent=1)
+            text = json.dumps(derive_request(checked(question, DerivationRequest)), ensure_ascii=False, indent=1)
         case "notebook":
             text = _notebook(_exported(question, "markdown"), _exported(question, "python"))
         case form:
@@ -39,9 +44,11 @@ def run(options: argparse.Namespace) -> None:
 
 
 def _exported(question: dict[str, Any], form: str) -> str:
+    from ..api.validation import checked
+    from ..api.wire.export import ExportRequest
     from ..handout.service import export_request
 
-    return str(export_request({**question, "form": form})["text"])
+    return str(export_request({**checked(question, ExportRequest), "form": form})["text"])
 
 
 def _notebook(derivation: str, program: str) -> str:

@@ -9,6 +9,9 @@ HELP = "export tasks as questions of STACK"
 DESCRIPTION = "Writes tasks of a built-in scene as Moodle XML of the question type STACK."
 
 
+EXAMPLE = "deltaq export-stack pendulum kinetic-energy equation:phi --output pendulum.xml"
+
+
 def arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("scene", help="id of a built-in scene")

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..errors import CommandError
 from ._common import field_argument, language_argument, question_of, scene_argument
 
 if TYPE_CHECKING:
@@ -18,6 +19,8 @@ HELP = "run an experiment on a scene"
 DESCRIPTION = """Runs an experiment, such as work-precision, stability or fidelity, on a built-in scene (by its id) or
 one of your own (a TOML file), and writes what was found: JSON with all numbers, CSV with the curves, HTML with the
 charts."""
+EXAMPLE = "deltaq lab work-precision double-pendulum --set t_end=20 --output chart.html --output numbers.csv"
+FILES = (".json", ".csv", ".html")
 WIDTH = 40
 
 
@@ -43,6 +46,11 @@ def run(options: argparse.Namespace) -> None:
     from ..lab.experiment import drawn, get_experiment
     from ..narration.catalog import text
 
+    for output in options.output:  # before anything is measured
+        if output.suffix not in FILES or not output.parent.is_dir():
+            raise CommandError(
+                f"{output} is not a file in a folder that is there, with the suffix {' or '.join(FILES)}"
+            )
     experiment = get_experiment(options.experiment)
     result: dict[str, Any] = {}
     for report in _with_progress(experiment.run(question_of(options))):

@@ -17,6 +17,11 @@ DESCRIPTION = """Simulates a scene to a tolerance: a table of time, coordinates,
 everything as JSON. What went wrong on the way is said on the error stream; the exit code is then 2."""
 
 
+EXAMPLE = (
+    'deltaq simulate pendulum --t-end 20 --set tolerance=1e-9 --set \'initial={"phi":{"value":2}}\' --output motion.csv'
+)
+
+
 def arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     scene_argument(parser)
