@@ -9,5 +9,6 @@ declare global {
     react(root: HTMLElement, data: object[], layout: object, config: object): Promise<void>;
     purge(root: HTMLElement): void;
     downloadImage(figure: object, options: object): Promise<string>;
+    Fx: { hover(root: Element, place: { xval: number; yval: number }): void };
   };
 }

@@ -31,6 +31,7 @@ const store = createStore({
   scenes: /** @type {import("./model/types.js").SceneEntry[]} */ ([]),
   dial: { tolerance: 1e-6, step: 0 },
   play: /** @type {import("./view/labs/page.js").Play | null} */ (null),
+  cursor: /** @type {import("./view/labs/page.js").Cursor | null} */ (null),
 });
 const { get, set } = store;
 let own = /** @type {import("./model/own.js").SceneDocument | null} */ (null);
@@ -161,10 +162,11 @@ function update() {
   render(page({
     state: { place: { ...place, scene: bench.get().question.scene } }, session, t, bench: bench.get(), benches: starting, scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, open: (scene) => void open(scene), watch: (wish) => void watch(wish),
     turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
+    cursor: get().cursor, point: (cursor) => set({ cursor }), press: pressed,
     save: (chart, format) => void charts.save(chart, format),
   }), root);
   motion.arrange();
-  void charts.show(now, theme, place.lang);
+  void charts.show(now, theme, place.lang).then(() => charts.point(now, get().cursor));
   history.replaceState(null, "", link({}));
 }
 
@@ -172,7 +174,7 @@ function update() {
 const starting = {
   ...bench,
   start() {
-    set({ play: null, dial: { ...get().dial, step: 0 } });
+    set({ play: null, cursor: null, dial: { ...get().dial, step: 0 } });
     if (bench.get().question.lab === "stability-map") bench.edit(withSides(bench.get().scene, bench.get().question));
     return bench.start();
   },

@@ -63,6 +63,18 @@ def test_a_place_on_the_map_is_simulated(lecture: Lecture) -> None:
     expect(page.locator(".motion h2")).to_contain_text(re.compile(r"Motion at omega = \d+"))
 
 
+def test_a_map_is_read_and_opened_by_keyboard(lecture: Lecture) -> None:
+    page = measured(opened(lecture, "lab=stability-map&scene=kapitza&x=omega:20:100&y=y0:0.02:0.15")).page
+    page.locator("[data-chart='stability-map'] .canvas").focus()
+    for key in ("ArrowUp", "Shift+ArrowRight"):
+        page.keyboard.press(key)
+    told = page.locator("[data-chart='stability-map'] .cursor")
+    expect(told).to_have_text(re.compile(r"^omega = 64\.\d, y0 = 0\.08\d+: lg \|μ\| = "))
+    page.locator("[data-chart='stability-map'] .hoverlayer .hovertext").wait_for()
+    page.keyboard.press("Enter")
+    expect(page.locator(".motion h2")).to_contain_text(re.compile(r"Motion at omega = 64"), timeout=PATIENCE)
+
+
 def test_the_least_rung_is_named_and_opened_as_a_scene(lecture: Lecture) -> None:
     page = measured(opened(lecture, "lab=fidelity&scene=spherical-pendulum&t=4")).page
     expect(page.locator(".verdict")).to_contain_text("The least rung within an error of 1.0 %")

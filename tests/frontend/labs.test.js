@@ -1,5 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
+import { mapOf, middleOf, moved, seenAt } from "../../frontend/model/labs/cursor.js";
 import { cheapestFor, themed, withStep, withTolerance } from "../../frontend/model/labs/figure.js";
 import { createBench } from "../../frontend/model/labs/bench.js";
 import { titleOf } from "../../frontend/model/labs/ladder.js";
@@ -157,4 +158,29 @@ test("another lab keeps the scene, but for the map, which needs a driven one", a
   assert.deepEqual([bench.get().question.lab, bench.get().question.scene], ["chaos", "pendulum"]);
   bench.open("stability-map");
   assert.deepEqual([bench.get().question.scene, bench.get().question.x?.parameter], ["kapitza", "omega"]);
+});
+
+const MAP = { meta: { role: "map", x: "omega", y: "y0" }, x: [10, 20, 30], y: [0.1, 0.2], z: [[0, 1, 2], [3, null, 5]] };
+
+test("arrow keys move over a map, as far as it goes", () => {
+  const rows = /** @type {const} */ ([
+    ["ArrowRight", false, { column: 2, row: 1 }],
+    ["ArrowLeft", true, { column: 0, row: 1 }],
+    ["ArrowUp", false, { column: 1, row: 1 }],
+    ["ArrowDown", false, { column: 1, row: 0 }],
+    ["a", false, null],
+  ]);
+  for (const [key, wide, place] of rows) assert.deepEqual(moved(middleOf(MAP), key, wide, MAP), place);
+});
+
+test("a map says what is at a place, even if it has become coarser", () => {
+  assert.deepEqual(seenAt({ column: 0, row: 1 }, MAP), { x: 10, y: 0.2, value: 3 });
+  assert.deepEqual(seenAt({ column: 1, row: 1 }, MAP), { x: 20, y: 0.2, value: null });
+  assert.deepEqual(seenAt({ column: 9, row: 9 }, MAP), { x: 30, y: 0.2, value: 5 });
+});
+
+test("only maps take the keyboard", () => {
+  const chart = (/** @type {any[]} */ ...data) => /** @type {any} */ ({ data });
+  assert.equal(mapOf(chart({ meta: { role: "eigenvalues" } }, MAP)), MAP);
+  assert.equal(mapOf(chart({})), null);
 });

@@ -5,6 +5,7 @@ import { repeat } from "lit-html/directives/repeat.js";
 import { LABS } from "../../model/labs/question.js";
 import { failure } from "../failure.js";
 import { appearance, brand, language, places } from "../header.js";
+import { canvas } from "./cursor.js";
 import { form } from "./form.js";
 import { motion } from "./motion.js";
 import { rungs } from "./rungs.js";
@@ -17,7 +18,9 @@ import { tolerance } from "./tolerance.js";
  *   benches: import("../../model/labs/bench.js").Benches, scenes: import("../../model/types.js").SceneEntry[],
  *   t: import("../page.js").View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
  *   save: (chart: Chart, format: "png" | "svg") => void, fetchFile: (accept: string) => void,
- *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string, open: (scene: object) => void}} View
+ *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string, open: (scene: object) => void,
+ *   cursor: Cursor | null, point: (cursor: Cursor) => void, press: (chart: Chart, x: number, y: number) => void}} View
+ * @typedef {import("./cursor.js").Cursor} Cursor
  * @typedef {{tolerance: number, step: number}} Dial  where the sliders stand: wanted error, step h in seconds
  * @typedef {{title: string, address: string, status: string}} Play
  */
@@ -90,13 +93,14 @@ function charts(view) {
 }
 
 /** @param {View} view @param {Chart} chart */
-function figure({ save, t }, chart) {
+function figure(view, chart) {
+  const { save, t } = view;
   return html`
     <figure data-chart=${chart.id} aria-labelledby=${`${chart.id}-title`}>
       <h2 id=${`${chart.id}-title`}>${chart.title}
         <span class="files"><button class="quiet small" title=${t("labs.save", { format: "PNG" })} @click=${() => save(chart, "png")}>PNG</button>
         <button class="quiet small" title=${t("labs.save", { format: "SVG" })} @click=${() => save(chart, "svg")}>SVG</button></span></h2>
-      <div class="canvas"></div>
+      ${canvas(view, chart)}
       <figcaption>${chart.caption}</figcaption>
     </figure>`;
 }

@@ -1,5 +1,6 @@
 /** Plotly with heat maps, fetched when the first chart is wanted; and charts drawn by it into the figures of the page. */
 
+import { mapOf, seenAt } from "../../model/labs/cursor.js";
 import { themed } from "../../model/labs/figure.js";
 
 /** @typedef {import("../../model/labs/stream.js").Chart} Chart */
@@ -65,6 +66,14 @@ export function createCharts(root, press) {
         const look = `${theme} ${lang} ${canvas.clientWidth} ${stampOf(chart)}`;
         if (shown.get(canvas) !== look) await draw(canvas, chart, look, lang);
       }
+    },
+    /** Plotly's own label at the place of a cursor. @param {Chart[]} charts @param {import("./cursor.js").Cursor | null} cursor */
+    point(charts, cursor) {
+      const chart = charts.find(({ id }) => id === cursor?.chart);
+      const canvas = chart && root.querySelector(`[data-chart="${chart.id}"] .canvas`);
+      if (!canvas || !cursor) return;
+      const { x, y } = seenAt(cursor.spot, mapOf(chart));
+      globalThis.Plotly.Fx.hover(canvas, { xval: x, yval: y });
     },
     /** As it was made, dark on light. @param {Chart} chart @param {"png" | "svg"} format */
     async save(chart, format) {
