@@ -4,9 +4,8 @@ import { render } from "lit-html";
 import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createBench } from "./model/labs/bench.js";
-import { withStep, withTolerance } from "./model/labs/figure.js";
+import { withMarks } from "./model/labs/figure.js";
 import { EXAMPLES, pointOf, readQuestion, requestOf, writeQuestion } from "./model/labs/question.js";
-import { stepRange } from "./model/labs/step.js";
 import { experiment, file } from "./model/labs/stream.js";
 import { motionOf, written } from "./model/labs/watch.js";
 import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
@@ -90,22 +89,12 @@ function methodTitle(id) {
   return title === `${id}.title` ? id.replace(/^scipy-/, "SciPy ") : title;
 }
 
-/** What is drawn: the charts that were measured, with the sliders' marks on them. */
-function drawn() {
-  const { charts: measured, question, result } = bench.get();
-  const { dial } = get();
-  if (question.lab === "work-precision") return measured.map((chart) => withTolerance(chart, dial.tolerance, "#888888"));
-  if (question.lab !== "stability" || !result) return measured;
-  const [low] = stepRange(result.eigenvalues);
-  return measured.map((chart) => (chart.id === "stability-regions" ? withStep(chart, dial.step || 10 * low) : chart));
-}
-
 let marked = /** @type {{from: Chart[], key: string, charts: Chart[]}} */ ({ from: [], key: "", charts: [] });
 /** The same objects as before where nothing changed, so that nothing is drawn twice. */
 function chartsNow() {
   const from = bench.get().charts;
   const key = JSON.stringify(get().dial) + String(bench.get().result !== null);
-  if (marked.from !== from || marked.key !== key) marked = { from, key, charts: drawn() };
+  if (marked.from !== from || marked.key !== key) marked = { from, key, charts: withMarks(bench.get(), get().dial) };
   return marked.charts;
 }
 

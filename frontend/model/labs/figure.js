@@ -1,5 +1,7 @@
 /** A chart in the colours and the width of the page, and what is put over it while a slider moves. */
 
+import { stepRange } from "./step.js";
+
 /** @typedef {import("./stream.js").Chart} Chart */
 /** @typedef {{ink: string, muted: string, grid: string, paper: string}} Palette */
 
@@ -55,6 +57,17 @@ export function withStep(chart, h) {
 export function withTolerance(chart, tolerance, color) {
   const line = { type: "line", xref: "paper", x0: 0, x1: 1, y0: tolerance, y1: tolerance, line: { color, width: 1.5, dash: "dash" } };
   return { ...chart, layout: { ...chart.layout, shapes: [line] } };
+}
+
+/**
+ * The charts that were measured, with the marks of the sliders on them.
+ * @param {Pick<import("./bench.js").Bench, "charts" | "question" | "result">} bench @param {{tolerance: number, step: number}} dial
+ */
+export function withMarks({ charts, question, result }, dial) {
+  if (question.lab === "work-precision") return charts.map((chart) => withTolerance(chart, dial.tolerance, "#888888"));
+  if (question.lab !== "stability" || !result) return charts;
+  const [low] = stepRange(result.eigenvalues);
+  return charts.map((chart) => (chart.id === "stability-regions" ? withStep(chart, dial.step || 10 * low) : chart));
 }
 
 /** The cheapest run for a tolerance: that of the next finer one that was asked for. @param {{wanted: number, method: string, time: number}[]} cheapest @param {number} tolerance */
