@@ -16,6 +16,7 @@ import httpx
 import pytest
 
 from deltaq import __version__
+from deltaq.api.workers.kernels import mark_as_compiled
 from deltaq.bench import benchmark_names, run_benchmarks
 from deltaq.cli import main
 
@@ -39,6 +40,15 @@ def busy_port() -> Iterator[int]:
         listener.bind(("127.0.0.1", 0))
         listener.listen()
         yield listener.getsockname()[1]
+
+
+def test_kernels_that_are_there_are_not_compiled_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    mark_as_compiled()
+    assert main(["compile"]) == 0
+    assert capsys.readouterr().out == "all kernels are there\n"
 
 
 def test_serve_prints_the_address_serves_and_ends_on_interrupt() -> None:
