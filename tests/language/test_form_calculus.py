@@ -9,6 +9,7 @@ import sympy
 from tests.language.scene_names import NAMES, SYMBOLS, read
 
 from deltaq.language.canonical import is_zero
+from deltaq.language.display import size
 from deltaq.language.form_calculus import plain_form
 from deltaq.language.sympy_algebra import rates_of, time_derivative
 
@@ -64,6 +65,20 @@ def test_what_is_left_to_the_tree(text: str) -> None:
     assert plain_form(expr) is None
     by_tree = sum(expr.diff(x) * rate for x, rate in rates_of(SYMBOLS).items())
     assert sympy.expand(time_derivative(expr, SYMBOLS) - by_tree) == 0
+
+
+def test_a_product_is_not_multiplied_out_for_its_derivative() -> None:
+    factor = "(l + m + g + k + x*m + m1*sin(phi))"
+    expr = read("*".join([factor] * 3) + " + m + x*y*sin(6*phi) + y*x*sin(4*x) + x*y + y*sin(8*phi)")
+    acceleration = time_derivative(time_derivative(expr, SYMBOLS), SYMBOLS)
+    assert size(acceleration) < 5000
+
+
+@pytest.mark.parametrize(
+    "text", ["ddot(" + "*".join(["(x + y + phi + m*sin(x) + l*cos(phi) + k*sin(y))"] * n) + ")" for n in (2, 4, 6)]
+)
+def test_second_derivative_of_a_product_is_found_however_long_it_is(text: str) -> None:
+    assert read(text).has(SYMBOLS.rate("phi", 2))
 
 
 def test_what_nobody_reads_is_not_arranged() -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+import sympy
+from tests.hostile import KINDS
 from tests.language.hostile import BOMBS, CODE, LARGE, LATEX
 from tests.language.scene_names import read
 
@@ -31,15 +33,18 @@ def test_latex_is_refused(text: str) -> None:
     check(text, "latex")
 
 
-@pytest.mark.parametrize("text", PLAIN, ids=[f"plain-{i}" for i in range(len(PLAIN))])
-def test_plain_text_read_as_latex_breaks_nothing(text: str) -> None:
-    try:
-        value = read(text, "latex")
-    except ExpressionError as error:
-        value = error.problems
-    assert value is not None
+@pytest.mark.parametrize("syntax", ["plain", "latex"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_not_refused_has_a_value(kind: str, syntax: Syntax) -> None:
+    for text in KINDS[kind]:
+        try:
+            value = read(text, syntax)
+        except ExpressionError:
+            check(text, syntax)
+        else:
+            assert isinstance(value, sympy.Basic), text
 
 
 def test_the_corpus_is_large() -> None:
-    assert len(set(PLAIN)) >= 190
-    assert len(set(LATEX)) >= 65
+    lines = [text for texts in KINDS.values() for text in texts]
+    assert len(set(lines)) == len(lines) >= 1200

@@ -164,6 +164,7 @@ ACCEPTED = [
     ("\\text{arcsin}(x)", "asin(x)"),
     ("\\textstyle m", "m"),
     ("{}x", "x"),
+    ("x¹²", "x^12"),
     ("\\big|x\\big|", "abs(x)"),
     ("x\u0307", "dot(x)"),
     ("\\frac{d}{dt}^{2} x", "ddot(x)"),
@@ -174,6 +175,7 @@ ACCEPTED = [
 
 # Text; code, offset and length of what is wrong; parameters of the message.
 REFUSED = [
+    ("x²²²", "exponent-too-large", 1, 3, {"limit": 64}),
     ("\\frac{d}{dt}^{m} x", "derivative-order", 14, 1, {"order": "m"}),
     ("\\frac\\right", "missing-argument", 0, 5, {"name": "\\frac"}),
     ("\\begin x", "unclosed-environment", 0, 6, {"name": ""}),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
@@ -11,6 +12,7 @@ import sympy as sp
 
 from ..language import canonical
 from ..language.form_calculus import PlainForm, plain_form
+from ..language.fourier import TooLargeError
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import rates_of, time_derivative, to_sympy
 from ..language.tree import Node
@@ -146,23 +148,28 @@ class Calculus:
 
     def _shown_slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
         form = self._form(value)
-        return self.display(value.diff(by)) if form is None else form.derivative(by).displayed(self.symbols)
+        with suppress(TooLargeError):
+            if form is not None:
+                return form.derivative(by).displayed(self.symbols)
+        return self.display(value.diff(by))
 
     def shown_rate(self, value: sp.Expr) -> sp.Expr:
         """d(value)/dt along the motion, in its display form."""
         form = self._form(value)
-        if form is None:
-            return self.display(self.time_derivative(value))
-        return form.total_derivative(rates_of(self.symbols)).displayed(self.symbols)
+        with suppress(TooLargeError):
+            if form is not None:
+                return form.total_derivative(rates_of(self.symbols)).displayed(self.symbols)
+        return self.display(self.time_derivative(value))
 
     def euler_expression(self, energy: sp.Expr, coordinate: str) -> sp.Expr:
         """d/dt ∂E/∂q̇ − ∂E/∂q"""
         q, rate = self.q(coordinate), self.rate(coordinate)
         form = self._form(energy)
-        if form is None:
-            return self.time_derivative(energy.diff(rate)) - energy.diff(q)
-        momentum = form.derivative(rate)
-        return momentum.total_derivative(rates_of(self.symbols)).minus(form.derivative(q)).expression
+        with suppress(TooLargeError):
+            if form is not None:
+                change = form.derivative(rate).total_derivative(rates_of(self.symbols))
+                return change.minus(form.derivative(q)).expression
+        return self.time_derivative(energy.diff(rate)) - energy.diff(q)
 
     def vary(self, value: sp.Expr) -> sp.Expr:
         """δvalue by the chain rule, the time held fixed."""

@@ -11,6 +11,7 @@ from ..language import fourier
 from ..language.canonical import canonical
 from ..language.display import display_form
 from ..language.form_calculus import plain_forms
+from ..language.fourier import TooLargeError
 from ..language.normal_form import Reader
 from .formula import Explicit, Term
 from .memory import kept
@@ -54,7 +55,10 @@ def _by_form(system: System, shares: tuple[Share, ...]) -> dict[Origin, sp.Expr]
     if forms is None:
         return None
     total = _gathered((source, form) for (source, _), form in zip(shares, forms, strict=True))
-    return {origin: display_form(fourier.add(parts), reader, system.symbols) for origin, parts in total.items()}
+    try:
+        return {origin: display_form(fourier.add(parts), reader, system.symbols) for origin, parts in total.items()}
+    except TooLargeError:
+        return None
 
 
 def _by_expression(system: System, shares: tuple[Share, ...]) -> dict[Origin, sp.Expr]:

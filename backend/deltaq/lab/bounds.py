@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 LONGEST, SPAN = 1000.0, 10.0  # seconds of motion: at most, and usually
+SHORTEST = 1e-6  # below it differences of times are lost in rounding
 TOLERANCES_OF_MODEL = (1e-9, 10.0)  # relative error of a simpler model
 LOCAL_TOLERANCES = (1e-13, 1e-1)
 DRIFT_STEPS, USUAL_DRIFT = (1_000, 1_000_000), 100_000

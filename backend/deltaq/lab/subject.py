@@ -15,7 +15,7 @@ from ..simulation.method import Method
 from ..simulation.problem import Problem
 from ..simulation.request import read_request
 from ..simulation.service import problem_of
-from .bounds import LONGEST, SPAN
+from .bounds import LONGEST, SHORTEST, SPAN
 from .report import Document
 
 COMMON = ("scene", "guides", "freeze", "parameters", "initial", "t_end", "lang")
@@ -55,7 +55,7 @@ def subject_of(document: Mapping[str, object], samples: int = 501, span: float =
     `document`: {scene: id or document, guides?, freeze?, parameters?, initial?, t_end?, lang?} and fields of its own.
     """
     fields = Fields(document)
-    t_end = fields.number("t_end", 0.0, LONGEST)
+    t_end = fields.number("t_end", SHORTEST, LONGEST, closed=True)
     if fields.problems:
         raise RequestError(*fields.problems)
     common = {key: document[key] for key in COMMON if key in document}

@@ -116,16 +116,21 @@ class LatexLexer:
         elif character in GREEK and character != "δ":
             read_symbol(self, GREEK[character], start)
         elif character in SUPERSCRIPTS:
-            self.found += [
-                Token("operator", "^", Span(start, 1)),
-                number_token(SUPERSCRIPTS[character], Span(start, 1)),
-            ]
+            self._raised(start)
         elif character in "+-*/=,;'()[]|·⋅×∗−–÷∕′’″√δ∂":
             self._operator(character, Span(start, 1))
         elif character == "°":
             fail("unit", Span(start, 1), name="°")
         else:
             fail("unexpected-character", Span(start, 1), character=character)
+
+    def _raised(self, start: int) -> None:
+        """x¹²: a run of raised digits is one power."""
+        while self.source.rest and self.source.text[self.source.at] in SUPERSCRIPTS:
+            self.source.at += 1
+        span = self.since(start)
+        digits = "".join(SUPERSCRIPTS[c] for c in self.source.text[start : self.source.at])
+        self.found += [Token("operator", "^", span), number_token(digits, span)]
 
     def _operator(self, text: str, span: Span) -> None:
         if text in ("(", "["):

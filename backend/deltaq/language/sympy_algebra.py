@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -12,7 +13,9 @@ from typing import Any, NoReturn
 import sympy
 
 from ..errors import ExpressionError, Parameter, Problem
+from .display import size
 from .form_calculus import plain_form
+from .fourier import TooLargeError
 from .functions import FUNCTIONS
 from .measure import MAX_EXPONENT
 from .symbols import Symbols
@@ -45,11 +48,14 @@ def to_sympy(node: Node, symbols: Symbols) -> Value:
 
 
 def time_derivative(expr: Value, symbols: Symbols) -> Value:
-    """d/dt along the motion, by the chain rule: df/dt = Σ ∂f/∂q q̇ + ∂f/∂q̇ q̈ + … + ∂f/∂t."""
+    """d/dt along the motion, by the chain rule: df/dt = Σ ∂f/∂q q̇ + ∂f/∂q̇ q̈ + … + ∂f/∂t; of a matrix by entries."""
+    if isinstance(expr, sympy.MatrixBase):
+        return expr.applyfunc(lambda entry: time_derivative(entry, symbols))
     rates = rates_of(symbols)
     form = plain_form(expr)
-    if form is not None:
-        return form.total_derivative(rates).expression
+    with suppress(TooLargeError):
+        if form is not None and len(form.form) <= size(expr):  # else it would be multiplied out for nothing
+            return form.total_derivative(rates).expression
     constant, moving = expr.as_independent(*rates, as_Add=False)
     # Term by term: a term has few symbols, a long sum has all of them.
     changes = (

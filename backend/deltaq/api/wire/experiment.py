@@ -16,6 +16,7 @@ from ...lab.bounds import (
     LOCAL_TOLERANCES,
     LONGEST,
     MAP_POINTS,
+    SHORTEST,
     SPAN,
     TOLERANCES_OF_MODEL,
     USUAL_DRIFT,
@@ -29,7 +30,7 @@ class ExperimentRequest(SceneWithChanges):
     """The scene to experiment on, with its changes and values."""
 
     initial: InitialValues = Field({})
-    t_end: float = Field(SPAN, gt=0, le=LONGEST, description="seconds of motion", examples=[10.0])
+    t_end: float = Field(SPAN, ge=SHORTEST, le=LONGEST, description="seconds of motion", examples=[10.0])
     lang: AskedLanguage = None
 
 
@@ -105,7 +106,7 @@ class StabilityMapRequest(ExperimentRequest):
 class ChaosRequest(ExperimentRequest):
     """Twin runs, Lyapunov exponent, horizon against tolerance, and a map of flips."""
 
-    t_end: float = Field(CHAOS_SPAN, gt=0, le=CHAOS_LONGEST, description="seconds of motion")
+    t_end: float = Field(CHAOS_SPAN, ge=SHORTEST, le=CHAOS_LONGEST, description="seconds of motion")
     apart: float | None = Field(None, ge=APART[0], le=APART[1], description="how far the twins are apart at first")
     map: bool = Field(default=False, description="whether to map the times at which angles turn over")
     count: int = Field(USUAL_FLIPS, ge=FLIP_POINTS[0], le=FLIP_POINTS[1], description="points on a side of the map")

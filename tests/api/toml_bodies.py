@@ -1,0 +1,13 @@
+"""How schemathesis writes a body of TOML: it is a text already."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import schemathesis
+
+
+@schemathesis.serializer("application/toml")
+def text(_context: Any, value: Any) -> bytes:
+    """The text as bytes."""
+    return str(value).encode("utf-8", "backslashreplace")
