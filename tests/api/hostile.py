@@ -78,7 +78,7 @@ class Walk:
                 )
             else:
                 yield Slot(
-                    method, path, f"query {name}", lambda text, name=name: {"path": given, "params": {name: text}}
+                    method, path, f"query {name}", lambda text, name=name: {"path": given, "query": {name: text}}
                 )
 
     def _of_body(self, method: str, path: str, operation: Schema, media_type: str, schema: Schema) -> Iterator[Slot]:
@@ -155,6 +155,11 @@ def encoded(text: str) -> bytes:
     return text.encode("utf-8", "surrogatepass")
 
 
+def quoted(text: str) -> str:
+    """A text as part of an address."""
+    return "".join(f"%{byte:02X}" for byte in encoded(text))
+
+
 def header(name: str, text: str) -> dict[str, bytes]:
     """A header without what no client can send in one."""
     return {name: encoded("".join(one for one in text if one >= " " and one != "\x7f")).strip()}
@@ -170,7 +175,8 @@ async def ask(send: Send, slot: Slot, text: str) -> httpx.Response:
     request = slot.request(text)
     path = slot.path
     for name, value in request.pop("path", {}).items():
-        path = path.replace(f"{{{name}}}", "".join(f"%{byte:02X}" for byte in encoded(str(value))))
+        path = path.replace(f"{{{name}}}", quoted(value))
+    path += "".join(f"?{name}={quoted(value)}" for name, value in request.pop("query", {}).items())
     if "json" in request:
         request |= written(request.pop("json"))
     return await send(slot.method, path, **request)
