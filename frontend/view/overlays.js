@@ -4,6 +4,7 @@ import { html, nothing } from "lit-html";
 import { prose } from "./formula.js";
 import { icon } from "./icons.js";
 import { meant } from "../model/lecture/stops.js";
+import { pageAddress } from "../model/url.js";
 
 /** @typedef {import("./steps.js").View & {state: Pick<import("./page.js").View["state"], "overlay">,
  *   session: Pick<import("./page.js").View["session"], "overlay">}} View  what overlays need of a page */
@@ -96,7 +97,7 @@ const KEYS = [
 ];
 
 /** @param {View} view */
-function help({ t }) {
+function help({ state, t }) {
   return html`<dl class="keys">${KEYS.map(([keys, meaning]) => html`
-    <div><dt>${keys.split(" ").map((key) => html`<kbd>${key}</kbd>`)}</dt><dd>${t(meaning)}</dd></div>`)}</dl>`;
+    <div><dt>${keys.split(" ").map((key) => html`<kbd>${key}</kbd>`)}</dt><dd>${t(meaning)}</dd></div>`)}</dl><p><a href=${pageAddress("help", state.place)}>${t("place.help")}</a></p>`;
 }

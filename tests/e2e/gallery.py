@@ -112,6 +112,7 @@ PLACES = (
     Place("homework-answered", "homework?scene=pendulum&task=equation:phi", ".question h2", answer, full=True),
     Place("homework-class", "homework?scene=pendulum&side=class", ".classroom .pick"),
     Place("docs", "docs?", ".calls article"),
+    Place("help", "help?", ".guide article", full=True),
     Place("docs-try", "docs/try?", ".trial textarea", click("button.main", ".answer pre")),
 )
 

@@ -88,6 +88,7 @@ PLACES = [
     pytest.param("homework?scene=pendulum&task=equation:phi", ".question h2", answer, id="homework, answered"),
     pytest.param("homework?scene=pendulum&side=class", ".classroom .pick", nothing, id="homework of a class"),
     pytest.param("docs?", ".calls article", nothing, id="reference"),
+    pytest.param("help?", ".guide article", nothing, id="help"),
     pytest.param("docs/try?", ".trial textarea", send, id="trial of the API"),
 ]
 DIALOGS = [

@@ -3,6 +3,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { inLanguage, translator } from "../../frontend/model/catalog.js";
 import { SECTIONS } from "../../frontend/model/editor/schema.js";
+import { GUIDE } from "../../frontend/model/guide.js";
 import { COURSE } from "../../frontend/model/start/course.js";
 import { LABS } from "../../frontend/model/labs/question.js";
 import { FORMS, SHOWN } from "../../frontend/model/share.js";
@@ -35,7 +36,7 @@ const source = [...readdirSync(FRONTEND).filter((f) => f.endsWith(".js")), ...["
 /** Nested texts by flat keys. @param {Record<string, any>} texts @param {string} prefix @returns {Record<string, string>} */
 const flat = (texts, prefix) => Object.assign({}, ...Object.entries(texts).map(([key, text]) => (typeof text === "string" ? { [`${prefix}${key}`]: text } : flat(text, `${prefix}${key}.`))));
 const read = (/** @type {string} */ lang, /** @type {string} */ section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"));
-const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture", "reference", "exercises", "figure"].map((section) => read(lang, section)), flat(read(lang, "labs"), "labs."), flat(read(lang, "ladder"), "ladder."))]));
+const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture", "reference", "guide", "exercises", "figure"].map((section) => read(lang, section)), flat(read(lang, "labs"), "labs."), flat(read(lang, "ladder"), "ladder."))]));
 
 test("both languages have the same texts with the same parameters", () => {
   const holes = (/** @type {string} */ text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort().join();
@@ -64,6 +65,9 @@ const VARIATIONS = [
   ...KINDS.map((kind) => `variations.kind-${kind}`),
   ...["from", "to", "end-from", "end-to", "end-fixed", "end-free", "syntax-plain", "syntax-latex", "declare-functions", "declare-parameters", "one_sided", "central"].map((key) => `variations.${key}`),
 ];
+
+/** What the help asks for by part and entry. */
+const HELP = GUIDE.flatMap(({ id, entries }) => [id, `${id}.lead`, ...entries.flatMap((entry) => [`${id}.${entry.id}`, `${id}.${entry.id}.text`])]).map((key) => `guide.${key}`);
 
 /** What the start page asks for by page and by entry of the course. */
 const START = [
@@ -94,12 +98,12 @@ const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.
 /** What sharing asks for by form of file and by what a frame shows. */
 const SHARE = [...FORMS.map((form) => `share.${form}`), ...SHOWN.map((shown) => `share.show-${shown || "both"}`)];
 
-for (const [name, asked] of Object.entries({ labs: LAB, editor: EDITOR, variations: VARIATIONS, start: START, share: SHARE, exercises: EXERCISES })) {
+for (const [name, asked] of Object.entries({ labs: LAB, editor: EDITOR, variations: VARIATIONS, start: START, share: SHARE, exercises: EXERCISES, guide: HELP })) {
   test(`every text of the part "${name}" is there`, () => assert.deepEqual(asked.filter((key) => !(key in catalogs.en)), []));
 }
 
 test("every text that is there is used", () => {
   const composed = ["theme.", "motion.", "tools.", "why.", "player.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical.", ...CHARTS];
-  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...SHARE, ...LAB, ...EXERCISES].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
+  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...SHARE, ...LAB, ...EXERCISES, ...HELP].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });

@@ -1,0 +1,38 @@
+/** The driver of the help. */
+
+import { render } from "lit-html";
+import { createApi } from "./model/api.js";
+import { translator } from "./model/catalog.js";
+import { createSpeech } from "./model/speech.js";
+import { createStore } from "./model/store.js";
+import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { page } from "./view/guide/page.js";
+
+const root = /** @type {HTMLElement} */ (document.getElementById("page"));
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const asked = readPlace(location.search);
+const store = createStore({
+  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
+});
+const { get, set } = store;
+const speech = createSpeech(store, createApi(fetch.bind(globalThis)), (task) => task().catch(() => {}), ["guide"]);
+
+let arrived = false;
+function update() {
+  const { place, catalog } = get();
+  if (!catalog.page) return;
+  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.guide) });
+  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
+  document.documentElement.lang = place.lang;
+  document.title = `δq · ${t("place.help")}`;
+  const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
+  render(page({ state: { place }, session, t }), root);
+  history.replaceState(null, "", location.pathname + writePlace(place) + location.hash);
+  if (!arrived && location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
+  arrived = true;
+}
+
+store.subscribe(update);
+dark.addEventListener("change", update);
+void speech.speak(get().place.lang);

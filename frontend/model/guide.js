@@ -1,0 +1,18 @@
+/** What the help tells whom, in order; `to` is the page where an entry can be tried. */
+
+/** @typedef {{id: string, to?: string}} Entry */
+/** @typedef {{id: string, entries: Entry[]}} Part */
+
+/** @type {Part[]} */
+export const GUIDE = [
+  { id: "lecturers", entries: [
+    { id: "prepare", to: "scene" }, { id: "give", to: "scene" }, { id: "presenter" }, { id: "think" }, { id: "road", to: "proof" },
+    { id: "handout" }, { id: "homework", to: "homework" }, { id: "embed" },
+  ] },
+  { id: "students", entries: [
+    { id: "read", to: "scene" }, { id: "move" }, { id: "write", to: "homework" }, { id: "wrong" }, { id: "lines" }, { id: "own" },
+  ] },
+  { id: "programs", entries: [
+    { id: "first" }, { id: "reference", to: "docs" }, { id: "plain" }, { id: "accuracy" }, { id: "errors" }, { id: "shell" }, { id: "client" },
+  ] },
+];

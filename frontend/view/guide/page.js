@@ -1,0 +1,36 @@
+/** The help: for lecturers, students and programs. */
+
+import { html, nothing } from "lit-html";
+import { appearance, brand, language, places } from "../header.js";
+import { GUIDE } from "../../model/guide.js";
+import { pageAddress } from "../../model/url.js";
+
+/** @typedef {import("../header.js").Appearance} GuideView */
+
+/** @param {GuideView} view */
+export function page(view) {
+  const { t } = view;
+  return html`
+    <a class="skip" href="#guide">${t("skip")}</a>
+    <header class="top">
+      ${brand(view)}<div class="scene"><h1>${t("guide.title")}</h1><p class="summary">${t("guide.subtitle")}</p></div>
+      ${places(view, "help")}<div class="tools">${language(view)}${appearance(view)}</div>
+    </header>
+    <main class="reference guide" id="guide" tabindex="-1">
+      <nav aria-label=${t("guide.parts")}><ul>${GUIDE.map(({ id }) => html`<li><a href=${`#${id}`}>${t(`guide.${id}`)}</a></li>`)}</ul></nav>
+      <div class="calls">${GUIDE.map((part) => section(part, view))}</div>
+    </main>`;
+}
+
+/** @param {import("../../model/guide.js").Part} part @param {GuideView} view */
+const section = ({ id, entries }, view) => html`
+  <section id=${id}><h2>${view.t(`guide.${id}`)}</h2><p class="lead">${view.t(`guide.${id}.lead`)}</p>
+    ${entries.map((entry) => article(`guide.${id}.${entry.id}`, entry.to, view))}</section>`;
+
+/** @param {string} key @param {string | undefined} to @param {GuideView} view */
+const article = (key, to, { t, state }) => html`
+  <article><h3>${t(key)}</h3><p>${written(t(`${key}.text`))}
+    ${to ? html`<a href=${pageAddress(to, state.place)} aria-label=${`${t(key)}: ${t(`place.${to}`)}`}>→ ${t(`place.${to}`)}</a>` : nothing}</p></article>`;
+
+/** Keys and code stand between backticks. @param {string} text */
+const written = (text) => text.split("`").map((part, i) => (i % 2 ? html`<code>${part}</code>` : part));
