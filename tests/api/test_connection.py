@@ -69,6 +69,23 @@ def test_head_that_drips_is_cut_off(service: Served) -> None:
                 time.sleep(0.1)
 
 
+@pytest.mark.parametrize(
+    "head",
+    [
+        pytest.param(b"GET / HTTP/1.1\r\nHost: localhost\r\nX-A: " + b"x" * 100_000 + b"\r\n\r\n", id="a long header"),
+        pytest.param(b"GET / HTTP/1.1\r\nHost: localhost\r\n" + 20_000 * b"X-A: 1\r\n" + b"\r\n", id="many headers"),
+        pytest.param(b"GET /" + b"x" * 100_000 + b" HTTP/1.1\r\nHost: localhost\r\n\r\n", id="a long address"),
+    ],
+)
+def test_large_head_is_refused(service: Served, head: bytes) -> None:
+    with connected(service) as connection:
+        with suppress(ConnectionError):  # it may refuse before it has got all
+            connection.sendall(head)
+        with suppress(ConnectionError):
+            assert connection.recv(2**16).startswith((b"HTTP/1.1 400", b"HTTP/1.1 431"))
+    assert httpx.get(f"{service.address}api/v1/health").status_code == 200
+
+
 def test_slow_reader_is_cut_off(service: Served) -> None:
     """Long answers are asked for, and none is read."""
     request = b"GET /api/v1/catalogs/de HTTP/1.1\r\nHost: localhost\r\n\r\n"
@@ -131,6 +148,33 @@ def test_work_stops_when_its_client_has_gone() -> None:
             assert within(20.0, service, 1)
         assert within(4.0, service, 0)
         assert workers(service, "kills") == kills  # it was given up, not killed for a fault
+
+
+def measuring(service: Served) -> bool:
+    """Whether an experiment is under way."""
+    metrics = httpx.get(f"{service.address}api/v1/metrics", timeout=60).text
+    return 'deltaq_workers_busy{pool="experiments"} 1.0' in metrics
+
+
+def test_experiment_stops_when_the_last_who_hears_it_has_gone() -> None:
+    question, stream = {"scene": "triple-pendulum", "t_end": 77.0, "peers": True}, {"Accept": "text/event-stream"}
+    with served(workers=1) as service:
+        settled(service)
+        while measuring(service):  # it still compiles
+            time.sleep(0.2)
+        address = f"{service.address}api/v1/experiments/work-precision"
+        with httpx.stream("POST", address, json=question, headers=stream, timeout=60) as first:
+            heard = first.iter_lines()  # whose end would be that of the connection
+            assert next(heard) == "event: part"
+            with httpx.stream("POST", address, json=question, headers=stream, timeout=60) as second:
+                heard_too = second.iter_lines()
+                assert next(heard_too) == "event: part"
+            time.sleep(1.5)
+            assert measuring(service)
+        end = time.monotonic() + 4.0
+        while measuring(service) and time.monotonic() < end:
+            time.sleep(0.05)
+        assert not measuring(service)
 
 
 def test_work_goes_on_while_anybody_waits_for_it() -> None:

@@ -19,6 +19,7 @@ from .access import Access
 from .clients import Clients
 from .description import DESCRIPTION, SUMMARY, DescribedAPI, operation_id, subjects
 from .headers import SecurityHeaders
+from .heads import Heads
 from .hosts import TrustedHosts
 from .routes import pages
 from .routes.common import PREFIX
@@ -65,6 +66,7 @@ def _add_layers(app: FastAPI, service: Service) -> None:
     app.add_middleware(TrustedHosts, names=settings.allowed_hosts)
     if settings.cors_origins:
         app.add_middleware(CORSMiddleware, allow_origins=settings.cors_origins, **CROSS_ORIGIN)
+    app.add_middleware(Heads)
     app.add_middleware(SecurityHeaders, frame_ancestors=settings.frame_ancestors)
     app.add_middleware(Clients, ledger=make_ledger(settings))
     app.add_middleware(Access, metrics=service.metrics)

@@ -66,7 +66,7 @@ class Assets:
     def page(self, name: str) -> str | None:
         """<name>.html, with the versioned addresses of the libraries; None if there is no such page."""
         file = self.root / f"{name}.html"
-        if not _PAGE_NAME.fullmatch(name) or not file.is_file():
+        if not _PAGE_NAME.fullmatch(name) or not _is_file(file):
             return None
         return _VENDOR_PATH.sub(f"/vendor/{self.version}/", file.read_text(encoding="utf-8"))
 

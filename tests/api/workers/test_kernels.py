@@ -43,6 +43,8 @@ def test_kernels_of_another_source_do_not_count(tmp_path: Path, monkeypatch: pyt
     mark_as_compiled()
     assert are_compiled()
     os.utime(source / "step.py", (1, 1))
+    assert are_compiled()
+    (source / "step.py").write_text("one = 2\n")
     assert not are_compiled()
 
 

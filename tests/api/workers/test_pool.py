@@ -155,6 +155,35 @@ async def test_processor_time_is_bounded_even_without_a_supervisor(make_pool: Ma
     assert 31 <= int(soft) <= 34  # the deadline of 30 s, and what the process had used
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the system chooses")
+async def test_worker_is_what_goes_when_memory_is_used_up(make_pool: MakePool) -> None:
+    pid = (await run(make_pool(), "pid"))["pid"]
+    assert Path(f"/proc/{pid}/oom_score_adj").read_text(encoding="ascii").strip() == "1000"
+
+
+def workers_of(fork_server: int) -> list[int]:
+    """The processes that the fork server has made, also those that are not ready yet."""
+    return [int(child) for child in Path(f"/proc/{fork_server}/task/{fork_server}/children").read_text().split()]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+async def test_killed_while_starting_costs_nothing(make_pool: MakePool) -> None:
+    pool = make_pool()
+    fork_server = (await run(pool, "family"))["parent"]
+    killed: set[int] = set()
+    asking = asyncio.create_task(run(pool, "echo", "at last"))
+    os.kill(pool.pids[0], signal.SIGKILL)
+    while len(killed) < 4:
+        for pid in workers_of(fork_server):
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+                killed.add(pid)
+        await asyncio.sleep(0.001)
+    with suppress(WorkerDied):  # it may have been taken twice by a worker that had just come up
+        assert await asking == "at last"
+    assert await run(pool, "echo", 1) == 1
+
+
 async def test_killed_while_idle_costs_nothing(make_pool: MakePool) -> None:
     pool = make_pool()
     old = (await run(pool, "pid"))["pid"]

@@ -35,10 +35,12 @@ def are_compiled() -> bool:
 
 
 def _mark() -> Path:
-    """A file whose name depends on what Numba's cache depends on."""
-    files = sorted(KERNELS.glob("*.py"))
-    surroundings = [str((file.name, file.stat().st_mtime_ns, file.stat().st_size)) for file in files]
-    digest = hashlib.sha256("".join([*surroundings, platform.python_version(), _processor()]).encode())
+    """A file whose name depends on what the kernels' validity depends on: their code, not the age of its files, which
+    the layers of an image round.
+    """
+    digest = hashlib.sha256((platform.python_version() + _processor()).encode())
+    for file in sorted(KERNELS.glob("*.py")):
+        digest.update(file.name.encode() + file.read_bytes())
     return folder() / f"{digest.hexdigest()[:16]}.compiled"
 
 

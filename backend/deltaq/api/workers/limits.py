@@ -9,6 +9,8 @@ import resource
 import signal
 import sys
 import time
+from contextlib import suppress
+from pathlib import Path
 
 _PR_SET_PDEATHSIG = 1
 
@@ -33,6 +35,12 @@ def keep_only(*descriptors: int) -> None:
     for last in (*sorted(descriptors), os.sysconf("SC_OPEN_MAX")):
         os.closerange(first, last)
         first = last + 1
+
+
+def die_first() -> None:
+    """Where all memory of a machine or container is used up, Linux ends a worker, not the service (proc(5))."""
+    with suppress(OSError):
+        Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
 
 
 def bound_memory(size: int) -> None:
