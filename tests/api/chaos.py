@@ -1,7 +1,7 @@
-"""All goes wrong at once, and no answer may be: workers are killed, kept answers damaged, Redis comes and goes.
+"""All goes wrong at once, and no answer may be: workers are killed, kept answers damaged, the disk is full, Redis gone.
 
 Run it for long from the checkout: `python -m tests.api.chaos 1000` kills a thousand workers. Loopback only; it ends by
-itself, with 1 if an answer was wrong or the service was lost.
+itself, with 1 if an answer was wrong or the service was lost. The disk is a small one in memory, which takes root.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -40,12 +41,15 @@ class Tally:
 
     kills: int = 0
     damages: int = 0
+    full: int = 0  # times that the disk was full
+    gone: int = 0  # times that Redis was killed
     statuses: Counter[int] = field(default_factory=Counter)
     wrong: list[Question] = field(default_factory=list)
 
     def __str__(self) -> str:
         statuses = ", ".join(f"{count} × {status}" for status, count in sorted(self.statuses.items()))
-        return f"{self.kills} kills, {self.damages} damaged answers: {statuses}; {len(self.wrong)} wrong"
+        done = f"{self.kills} kills, {self.damages} damaged answers, disk full {self.full} ×, Redis gone {self.gone} ×"
+        return f"{done}: {statuses}; {len(self.wrong)} wrong"
 
 
 async def ask(client: httpx.AsyncClient, question: Question) -> tuple[int, Any]:
@@ -105,7 +109,34 @@ async def damage(folder: Path, tally: Tally) -> None:
         await asyncio.sleep(PAUSE)
 
 
-async def come_and_go(socket: Path) -> None:
+async def fill(folder: Path, tally: Tally) -> None:
+    """The small disk is full for a second, and has some room for another."""
+    ballast = folder / "ballast"
+    while True:
+        with suppress(OSError), ballast.open("wb", buffering=0) as file:
+            while file.write(bytes(2**12)) > 0:
+                pass
+        tally.full += shutil.disk_usage(folder).free == 0
+        await asyncio.sleep(1.0)
+        ballast.unlink()
+        await asyncio.sleep(1.0)
+
+
+@contextmanager
+def small_disk(folder: Path) -> Iterator[bool]:
+    """The folder as a disk of its own, a small one in memory; False where that is not allowed."""
+    mount = ["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(folder)]
+    mounted = (
+        shutil.which("mount") is not None and subprocess.run(mount, check=False, capture_output=True).returncode == 0
+    )
+    try:
+        yield mounted
+    finally:
+        if mounted:
+            subprocess.run(["umount", "--lazy", str(folder)], check=True)
+
+
+async def come_and_go(socket: Path, tally: Tally) -> None:
     """A Redis that is killed every second, where there is one."""
     server = shutil.which("redis-server")
     while server:
@@ -115,10 +146,11 @@ async def come_and_go(socket: Path) -> None:
                 await asyncio.sleep(1.0)
             finally:
                 redis.kill()
+                tally.gone += 1
         await asyncio.sleep(0.5)
 
 
-async def torment(service: Served, folder: Path, kills: int) -> Tally:
+async def torment(service: Served, folder: Path, disk: Path | None, kills: int) -> Tally:
     """All of it, with the answers of quieter times to compare with, before and after."""
     tally = Tally()
     async with httpx.AsyncClient(base_url=service.address, timeout=300) as client:
@@ -126,7 +158,8 @@ async def torment(service: Served, folder: Path, kills: int) -> Tally:
         assert {status for status, _ in before} == {200}
         expected = [answer for _, answer in before]
         others = [use(client, expected, tally) for _ in range(CLIENTS)]
-        others += [damage(folder, tally), come_and_go(folder / "redis.socket")]
+        others += [damage(folder, tally), come_and_go(folder / "redis.socket", tally)]
+        others += [fill(disk, tally)] if disk else []
         running = [asyncio.create_task(one) for one in others]
         await kill(service, kills, tally)
         for task in running:
@@ -143,9 +176,11 @@ def run(kills: int) -> Tally:
     """A service of its own, tormented and ended."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        settings = {"workers": 3, "cache_size": 0, "cache_folder": folder, "redis": f"unix://{folder}/redis.socket"}
-        with served(**settings, **PATIENT) as service:
-            return asyncio.run(torment(service, folder, kills))
+        disk = folder / "disk"
+        disk.mkdir()
+        settings = {"workers": 3, "cache_size": 0, "cache_folder": disk, "redis": f"unix://{folder}/redis.socket"}
+        with small_disk(disk) as is_small, served(**settings, **PATIENT) as service:
+            return asyncio.run(torment(service, folder, disk if is_small else None, kills))
 
 
 if __name__ == "__main__":

@@ -2,14 +2,13 @@
 
 Run it from the checkout: `python -m tests.benchmarks.bench_traffic [seconds] [students]`. Each student does something,
 thinks for some seconds, and does the next. Serves and asks on this machine only; prints latencies by kind, answers by
-status, what the cache did, and the memory of the web process at the beginning and at the end. Judges nothing.
+status, what the cache did, and how the memory of the web process and of its workers went. Judges nothing.
 """
 
 from __future__ import annotations
 
 import asyncio
 import random
-import re
 import sys
 from collections import Counter, defaultdict
 from collections.abc import Callable
@@ -20,11 +19,13 @@ from typing import Any
 
 import httpx
 import numpy as np
-from tests.serving import served
+from tests.benchmarks.memory import MIB, Memory
+from tests.serving import Served, served
 
 SECONDS, STUDENTS, THINKING = 60.0, 300, (2.0, 10.0)
 SCENES = ("pendulum", "elastic-pendulum", "double-pendulum", "cart-pendulum", "guided-pendulum", "spherical-pendulum")
 LANGUAGES = ("de", "en")
+LOOK = 2.0  # seconds between two looks at the memory
 Draw = Callable[[random.Random], tuple[str, str, Any]]
 
 
@@ -86,36 +87,30 @@ async def study(client: httpx.AsyncClient, draw: random.Random, end: float, reco
         await asyncio.sleep(draw.uniform(*THINKING))
 
 
-async def metric(client: httpx.AsyncClient, name: str) -> float:
-    found = re.search(rf"^{name} (\S+)$", (await client.get("/api/v1/metrics")).text, re.MULTILINE)
-    return float(found[1]) if found else float("nan")
-
-
-async def lecture(address: str, seconds: float, students: int) -> None:
+async def lecture(service: Served, seconds: float, students: int) -> None:
+    address = service.address.rstrip("/")
     limits = httpx.Limits(max_connections=students, max_keepalive_connections=students)
     async with httpx.AsyncClient(base_url=address, timeout=60, limits=limits) as client:
         while (await client.get("/api/v1/ready")).status_code != 200:
             await asyncio.sleep(0.1)
-        record, before = Record(), await metric(client, "process_resident_memory_bytes")
-        end = monotonic() + seconds
+        record, memory, end = Record(), Memory(service.process.pid), monotonic() + seconds
+        watching = asyncio.create_task(memory.watch(LOOK, record.statuses.total))
         await asyncio.gather(*(study(client, random.Random(n), end, record) for n in range(students)))
-        after = await metric(client, "process_resident_memory_bytes")
+        watching.cancel()
         cache = (await client.get("/api/v1/health")).json()["cache"]
     for kind, found in (*sorted(record.seconds.items()), ("all", list(chain(*record.seconds.values())))):
         p50, p95, p99 = 1000 * np.percentile(found, (50, 95, 99))
         print(f"{kind:24} {len(found):6}   p50 {p50:6.0f} ms   p95 {p95:6.0f} ms   p99 {p99:6.0f} ms")
     print("answers by status:", dict(sorted(record.statuses.items())))
-    print(
-        f"memory {before / 2**20:.0f} → {after / 2**20:.0f} MiB, of which answers {cache['bytes'] / 2**20:.1f} MiB;",
-        cache,
-    )
+    print(memory)
+    print(f"answers kept {cache['bytes'] / MIB:.1f} MiB;", cache)
 
 
 def main() -> None:
     given = [float(argument) for argument in sys.argv[1:]]
     seconds, students = (*given, *(SECONDS, STUDENTS)[len(given) :])
     with served() as service:
-        asyncio.run(lecture(service.address.rstrip("/"), seconds, int(students)))
+        asyncio.run(lecture(service, seconds, int(students)))
 
 
 if __name__ == "__main__":
