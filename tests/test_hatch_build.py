@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+import shutil
+import subprocess
+import sys
+import tarfile
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
@@ -146,3 +151,21 @@ def test_real_allow_list_has_a_licence_for_each_package(root: Path) -> None:
 def test_lockfile_names_no_registry(root: Path) -> None:
     lock = json.loads((root / "frontend/package-lock.json").read_text(encoding="utf-8"))
     assert [name for name, package in lock["packages"].items() if "resolved" in package] == []
+
+
+def built(project: Path, target: str, folder: Path) -> Path:
+    """The one archive of this kind, built from a project."""
+    command = [sys.executable, "-m", "hatchling", "build", "-t", target, "-d", str(folder)]
+    subprocess.run(command, cwd=project, check=True, capture_output=True)
+    (archive,) = folder.iterdir()
+    return archive
+
+
+@pytest.mark.slow
+def test_source_archive_makes_the_very_same_wheel(root: Path, tmp_path: Path) -> None:
+    with tarfile.open(built(root, "sdist", tmp_path / "sdist")) as archive:
+        archive.extractall(tmp_path / "unpacked", filter="data")
+    (unpacked,) = (tmp_path / "unpacked").iterdir()
+    shutil.copytree(root / "frontend/vendor", unpacked / "frontend/vendor")  # else npm would fetch it
+    wheels = [built(project, "wheel", tmp_path / name) for project, name in ((root, "own"), (unpacked, "theirs"))]
+    assert len({hashlib.sha256(wheel.read_bytes()).hexdigest() for wheel in wheels}) == 1

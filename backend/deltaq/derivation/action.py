@@ -12,8 +12,9 @@ from functools import cached_property
 import sympy as sp
 
 from ..language.tree import Name
+from .domain import Interval
 from .formula import Named, Quantity
-from .functional import Functional, Interval
+from .functional import Functional
 from .system import System
 
 

@@ -110,6 +110,13 @@ class Term:
     sign: int = 1
     role: str = ""
 
+    @property
+    def written_out(self) -> Value:
+        """The value of the formula without the sign; only what is written out has one."""
+        if not isinstance(self.formula, Explicit):
+            raise TypeError(f"{type(self.formula).__name__} is not written out")
+        return self.formula.value
+
 
 @dataclass(frozen=True)
 class Plus:

@@ -9,8 +9,9 @@ from itertools import cycle, islice
 from flint import arb, ctx
 
 from ..language.spelling import spell_rate
+from .domain import Interval
 from .evaluation import number
-from .functional import Functional, Interval, direction
+from .functional import Functional, direction
 from .points import Point
 from .verification import BITS
 

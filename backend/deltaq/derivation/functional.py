@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import sympy as sp
 
@@ -17,36 +16,11 @@ from ..language.symbols import Symbols
 from ..language.sympy_algebra import time_derivative, to_sympy
 from ..language.tree import Node
 from .calculus import by_component, column
+from .domain import FIXED, Instant, Interval
 from .formula import Bounds, Explicit, Formula, Given, Integral, Named, Quantity, Value
 from .function_formula import AtTime
 
-Ends = Literal["fixed", "free", "fixed-free", "free-fixed"]
-FIXED: Mapping[Ends, tuple[bool, bool]] = {
-    "fixed": (True, True),
-    "free": (False, False),
-    "fixed-free": (True, False),
-    "free-fixed": (False, True),
-}
 UNDEFINED = (sp.DiracDelta, sp.Derivative, sp.Subs)
-
-
-@dataclass(frozen=True)
-class Instant:
-    """The functional that takes the value at an instant."""
-
-    at: Node
-
-
-@dataclass(frozen=True)
-class Interval:
-    """The functional that integrates from `lower` to `upper`; the functions are prescribed at fixed ends only.
-
-    `ends` holds for both of them, or names the lower one first: "fixed-free".
-    """
-
-    lower: Node
-    upper: Node
-    ends: Ends
 
 
 @dataclass(frozen=True, eq=False)

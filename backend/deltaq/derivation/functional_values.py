@@ -15,8 +15,9 @@ from flint import arb, ctx
 from ..language import floats
 from ..language.spelling import spell_rate
 from .difference_quotient import Line
+from .domain import Instant, Interval
 from .evaluation import number
-from .functional import Functional, Instant, Interval
+from .functional import Functional
 from .tree_evaluation import tree_value
 from .verification import BITS
 

@@ -14,7 +14,7 @@ from .terms import terms_by_source
 def left_side(system: System, coordinate: str) -> sp.Expr:
     """d/dt ∂L/∂q̇ − ∂L/∂q − Qᵈ, written out."""
     terms = terms_by_source(system, coordinate)
-    return sp.Add(*(term.sign * term.formula.value for term in terms))  # type: ignore[union-attr]
+    return sp.Add(*(term.sign * term.written_out for term in terms))
 
 
 @kept

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 import sympy as sp
 from flint import arb, ctx
 
+from .domain import Instant, Interval
 from .evaluation import number
-from .functional import Functional, Instant, Interval
+from .functional import Functional
 from .functional_values import Motion
 
 SAMPLES = 97

@@ -130,9 +130,9 @@ def _mass_terms(system: System, coordinate: str, other: str) -> tuple[Term, ...]
     """What stands before the acceleration of `other` in the equation of the coordinate."""
     acceleration = system.acceleration(other)
     return tuple(
-        replace(term, formula=Explicit(term.formula.value.coeff(acceleration)))  # type: ignore[union-attr]
+        replace(term, formula=Explicit(term.written_out.coeff(acceleration)))
         for term in terms_by_source(system, coordinate)
-        if acceleration in term.formula.value.free_symbols  # type: ignore[union-attr]
+        if acceleration in term.written_out.free_symbols
     )
 
 
@@ -140,11 +140,7 @@ def _forcing_terms(system: System, coordinate: str) -> tuple[Term, ...]:
     """What does not hang on accelerations, on the right."""
     accelerations = {system.acceleration(q) for q in system.free}
     terms = terms_by_source(system, coordinate)
-    return tuple(
-        replace(term, sign=-term.sign)
-        for term in terms
-        if not term.formula.value.free_symbols & accelerations  # type: ignore[union-attr]
-    )
+    return tuple(replace(term, sign=-term.sign) for term in terms if not term.written_out.free_symbols & accelerations)
 
 
 def _potential_of(system: System, load: str) -> LoadPotential:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .domain import Interval
 from .function_points import function_points
-from .functional import Functional, Interval
+from .functional import Functional
 from .rules import (
     both_routes,
     boundary_terms,

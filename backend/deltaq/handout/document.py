@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import cast
 
 from ..derivation.engine import check_formulation, derive
 from ..derivation.system import System
@@ -108,13 +109,13 @@ def _unit(unit: str) -> str:
 
 
 def _part(number: str, chapter: Mapping[str, object], *, substeps: bool) -> Part:
-    steps: Sequence[Mapping[str, object]] = chapter["steps"]  # type: ignore[assignment]
+    steps = cast("Sequence[Mapping[str, object]]", chapter["steps"])
     lines = (line for i, step in enumerate(steps, 1) for line in _lines(step, f"{number}.{i}", 0))
     return Part(str(chapter["title"]), tuple(line for line in lines if substeps or line.depth == 0))
 
 
 def _lines(step: Mapping[str, object], number: str, depth: int) -> Iterator[Line]:
     yield Line(number, depth, str(step["title"]), str(step["text"]), str(step["latex"]))
-    below: Sequence[Mapping[str, object]] = step["substeps"]  # type: ignore[assignment]
+    below = cast("Sequence[Mapping[str, object]]", step["substeps"])
     for i, substep in enumerate(below, 1):
         yield from _lines(substep, f"{number}.{i}", depth + 1)

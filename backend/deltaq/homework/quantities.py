@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from typing import Literal, cast
+from typing import cast
 
 import sympy as sp
 
@@ -19,76 +17,9 @@ from .equality import (
     lagrangian,
     up_to_constant,
 )
+from .quantity import Quantity
 from .road import Road
-
-Form = Literal["expression", "vector", "equation", "equations", "set"]
-Subjects = Callable[[Road], Iterable[str]]
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """One kind of task: `subjects` lists what it can be asked of, `value` are the parts of its answer.
-
-    `needs` are the quantities it is derived from, `chapter` is where the derivation shows it and `steps` the steps that
-    do, the likeliest first. `labels` are the symbols that may stand on the left of the answer, and `points` is what it
-    counts if nobody says otherwise.
-    """
-
-    kind: str
-    form: Form
-    equality: Equality
-    value: Callable[[Road, str], Parts]
-    subjects: Subjects
-    chapter: str
-    labels: tuple[str, ...] = ()
-    needs: tuple[str, ...] = ()
-    points: float = 1.0
-    steps: tuple[str, ...] = ()
-
-    @property
-    def up_to_constant(self) -> bool:
-        """Whether an added constant makes no difference."""
-        return self.equality in (up_to_constant, lagrangian, conserved)
-
-
-def _bodies(road: Road) -> list[str]:
-    return [body.name for body in road.scene.bodies]
-
-
-def _coordinates(road: Road) -> tuple[str, ...]:
-    return road.free
-
-
-def _one(_road: Road) -> tuple[str, ...]:
-    return ("",)
-
-
-def _loaded(road: Road) -> tuple[str, ...]:
-    return ("",) if road.load_names else ()
-
-
-def _with_potential(road: Road) -> tuple[str, ...]:
-    return ("",) if any(map(road.is_conservative, road.load_names)) else ()
-
-
-def _coupled(road: Road) -> tuple[str, ...]:
-    return ("",) if len(road.free) > 1 else ()
-
-
-def _resting(road: Road) -> tuple[str, ...]:
-    return road.free if road.rest is not None else ()
-
-
-def _oscillating(road: Road) -> tuple[str, ...]:
-    return ("",) if road.rest is not None and _positive(road) else ()
-
-
-def _positive(road: Road) -> bool:
-    return bool(road.frequencies) and all(frequencies.number_of(each, road) > 1e-9 for each in road.frequencies)
-
-
-def _conserved(road: Road) -> list[str]:
-    return [str(n) for n, _ in enumerate(road.conserved_of, 1)]
+from .subjects import bodies, coordinates, coupled, loaded, numbered, oscillating, resting, whole, with_potential
 
 
 def _vector(value: sp.ImmutableMatrix) -> Parts:
@@ -115,7 +46,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "vector",
         EXACT,
         lambda road, body: _vector(road.position(body)),
-        _bodies,
+        bodies,
         "configuration",
         ("r", "x"),
         steps=("guided-position:{subject}", "position:{subject}"),
@@ -125,7 +56,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "vector",
         EXACT,
         lambda road, body: _vector(road.virtual_displacement(body)),
-        _bodies,
+        bodies,
         "variation",
         ("deltar", "δr"),
         ("position",),
@@ -136,7 +67,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "expression",
         EXACT,
         _virtual_work,
-        _loaded,
+        loaded,
         "virtual-work",
         ("deltaW", "δW", "deltaA"),
         ("virtual-displacement",),
@@ -159,7 +90,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "expression",
         EXACT,
         lambda road, _: (road.kinetic_energy,),
-        _one,
+        whole,
         "kinetic-energy",
         ("E", "T", "K", "Ekin", "E_kin"),
         ("position",),
@@ -171,7 +102,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "expression",
         CONSTANT,
         lambda road, _: (road.potential_energy,),
-        _with_potential,
+        with_potential,
         "decomposition",
         ("V", "U", "E_pot", "Epot"),
         ("position",),
@@ -182,7 +113,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "expression",
         GAUGE,
         lambda road, _: (road.lagrangian,),
-        _one,
+        whole,
         "lagrange",
         ("L",),
         ("kinetic-energy", "potential-energy"),
@@ -193,7 +124,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "expression",
         EXACT,
         lambda road, q: (road.momentum(q),),
-        _coordinates,
+        coordinates,
         "lagrange",
         ("p",),
         ("lagrangian", "kinetic-energy"),
@@ -204,7 +135,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "equation",
         ONE,
         lambda road, q: (road.equation(q),),
-        _coordinates,
+        coordinates,
         "lagrange",
         (),
         ("lagrangian", "kinetic-energy", "potential-energy", "generalized-force", "momentum"),
@@ -216,7 +147,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "equations",
         SET,
         lambda road, _: tuple(map(road.equation, road.free)),
-        _coupled,
+        coupled,
         "lagrange",
         (),
         ("lagrangian", "kinetic-energy", "potential-energy", "equation"),
@@ -228,7 +159,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "equation",
         ONE,
         lambda road, q: (road.linear_equation(q),),
-        _resting,
+        resting,
         "model",
         (),
         ("equation",),
@@ -240,7 +171,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "set",
         NUMBERS,
         lambda road, _: road.frequencies,
-        _oscillating,
+        oscillating,
         "model",
         (),
         ("linearized",),
@@ -252,7 +183,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "expression",
         MULTIPLE,
         _conserved_value,
-        _conserved,
+        numbered,
         "model",
         ("p", "h", "H", "E"),
         ("lagrangian", "momentum"),

@@ -8,7 +8,8 @@ from difflib import get_close_matches
 
 from ..errors import Problem, UnknownNameError
 from .equality import Parts
-from .quantities import QUANTITIES, Quantity, quantity_of
+from .quantities import QUANTITIES, quantity_of
+from .quantity import Quantity
 from .road import Road
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 
 from ..errors import Problem
 from ..language.expression import Expression
@@ -43,8 +44,12 @@ def _poles(density: Expression, material: tuple[Material, ...], values: dict[str
     ends = {m.name: (evaluate(m.lower.tree, values), evaluate(m.upper.tree, values)) for m in material}
     middle = values | {name: lower + 0.43 * (upper - lower) for name, (lower, upper) in ends.items()}
     for name, (lower, upper) in ends.items():
-        if not is_integrable(lambda s, name=name: evaluate(density.tree, {**middle, name: s}), lower, upper):  # type: ignore[misc]
+        if not is_integrable(partial(_along, name, density, middle), lower, upper):
             yield name
+
+
+def _along(name: str, density: Expression, middle: dict[str, float], s: float) -> float:
+    return evaluate(density.tree, {**middle, name: s})
 
 
 def is_integrable(function: Function, lower: float, upper: float) -> bool:

@@ -84,4 +84,4 @@ class _Writer:
         return head | self.sum(key, quantity.value, quantity.coordinate)
 
     def _term(self, term: Term) -> Document:
-        return {**self.both(term.sign * term.formula.value), "sources": list(term.sources)}  # type: ignore[union-attr]
+        return {**self.both(term.sign * term.written_out), "sources": list(term.sources)}

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast
 
-from ..derivation.functional import Ends, Functional, Instant, Interval
+from ..derivation.domain import Ends, Instant, Interval
+from ..derivation.functional import Functional
 from ..errors import ExpressionError, InputError, Problem, RequestError
 from ..language.expression import Expression
 from ..language.names import Kind, Names, Symbol

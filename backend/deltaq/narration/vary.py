@@ -9,8 +9,9 @@ from typing import cast
 
 import sympy as sp
 
+from ..derivation.domain import Instant, Interval
 from ..derivation.formula import Explicit, Formula
-from ..derivation.functional import Functional, Instant, Interval, direction
+from ..derivation.functional import Functional, direction
 from ..derivation.rules.integration_by_parts import boundary
 from ..derivation.variation import vary
 from ..errors import ExpressionError, Problem, RequestError

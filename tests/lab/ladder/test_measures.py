@@ -11,8 +11,8 @@ from deltaq.lab.ladder.distance import Yardstick
 from deltaq.lab.ladder.mean import Mean
 from deltaq.lab.ladder.quadrature import running_integral
 from deltaq.mechanics.document import read_scene
-from deltaq.mechanics.inertia import total_mass
 from deltaq.mechanics.library import load_scene
+from deltaq.mechanics.mass import total_mass
 from deltaq.mechanics.scene import Scene
 from deltaq.simulation.service import problem_of
 

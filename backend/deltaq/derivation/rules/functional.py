@@ -5,9 +5,10 @@ Source: Gelfand, Fomin, Calculus of Variations, §1; the lecture's identity func
 
 from __future__ import annotations
 
+from ..domain import Instant, Interval
 from ..formula import Explicit, Formula, Quantity
 from ..function_formula import Called
-from ..functional import Functional, Instant, Interval
+from ..functional import Functional
 from ..step import Relation, Step
 
 RULE = "functional"

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...mechanics.inertia import total_mass
+from ...mechanics.mass import total_mass
 from ...mechanics.scene import Scene
 from ...model.operations import operations
 from ...simulation.auto import choose

@@ -1,0 +1,39 @@
+"""One kind of thing that can be asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from .equality import Equality, Parts, conserved, lagrangian, up_to_constant
+from .road import Road
+
+Form = Literal["expression", "vector", "equation", "equations", "set"]
+Subjects = Callable[[Road], Iterable[str]]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One kind of task: `subjects` lists what it can be asked of, `value` are the parts of its answer.
+
+    `needs` are the quantities it is derived from, `chapter` is where the derivation shows it and `steps` the steps that
+    do, the likeliest first. `labels` are the symbols that may stand on the left of the answer, and `points` is what it
+    counts if nobody says otherwise.
+    """
+
+    kind: str
+    form: Form
+    equality: Equality
+    value: Callable[[Road, str], Parts]
+    subjects: Subjects
+    chapter: str
+    labels: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
+    points: float = 1.0
+    steps: tuple[str, ...] = ()
+
+    @property
+    def up_to_constant(self) -> bool:
+        """Whether an added constant makes no difference."""
+        return self.equality in (up_to_constant, lagrangian, conserved)

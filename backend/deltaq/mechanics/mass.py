@@ -1,0 +1,102 @@
+"""How much mass a scene moves: its mass matrix M = Σ m Jᵀ J with J = ∂r/∂q, in plain numbers.
+
+Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §1.6.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from ..language.floats import evaluate
+from ..language.tree import Node, TimeDerivative
+from .kinetics import Distribution, Kinetics, Rotation, Translation
+from .material import Material
+from .scene import Scene
+
+STEP = 1e-5
+GAUSS = ((0.5 - math.sqrt(0.15), 5 / 18), (0.5, 8 / 18), (0.5 + math.sqrt(0.15), 5 / 18))  # on the unit interval
+
+Matrix = list[list[float]]
+Point = Mapping[str, float]
+Share = tuple[float, list[list[float]]]  # an inertia, and the velocity it has for each unit rate
+
+
+def mass_matrix(scene: Scene, point: Point) -> Matrix | None:
+    """M at a point, by central differences; None where a position is not defined."""
+    size = range(len(scene.free))
+    total = [[0.0] * len(size) for _ in size]
+    for body in scene.bodies:
+        for part in body.kinetics:
+            for inertia, columns in _shares(part, scene, point):
+                for i in size:
+                    for j in size:
+                        total[i][j] += inertia * sum(a * b for a, b in zip(columns[i], columns[j], strict=True))
+    return total if all(math.isfinite(entry) for row in total for entry in row) else None
+
+
+def total_mass(scene: Scene) -> float:
+    """The mass of all bodies at the scene's own values of the parameters."""
+    values = {parameter.name: parameter.value for parameter in scene.parameters}
+    return sum(_mass(part, values) for body in scene.bodies for part in body.kinetics)
+
+
+def _mass(part: Kinetics, values: Point) -> float:
+    match part:
+        case Translation(mass=mass):
+            return evaluate(mass, values)
+        case Distribution(density=density, material=material):
+            return sum(weight * evaluate(density, inside) for weight, inside in nodes(material, values))
+        case Rotation():
+            return 0.0
+
+
+def _shares(part: Kinetics, scene: Scene, point: Point) -> Iterator[Share]:
+    """The part as inertias, each with its velocity for unit rates of the free coordinates."""
+    match part:
+        case Translation(mass=mass, position=position):
+            yield evaluate(mass, _guided(scene, point)), _tangents(position, scene, point)
+        case Rotation(inertia=inertia, angular_velocity=angular_velocity):
+            for moment, omega in zip(inertia, angular_velocity, strict=True):
+                yield evaluate(moment, _guided(scene, point)), _turning(omega, scene, point)
+        case Distribution(density=density, position=position, material=material):
+            for weight, inside in nodes(material, point):
+                yield weight * evaluate(density, _guided(scene, inside)), _tangents(position, scene, inside)
+
+
+def _tangents(position: tuple[Node, ...], scene: Scene, point: Point) -> list[list[float]]:
+    """∂r/∂q for every free coordinate."""
+
+    def moved(name: str, step: float) -> list[float]:
+        values = _guided(scene, {**point, name: point[name] + step})
+        return [evaluate(component, values) for component in position]
+
+    pairs = [(moved(c.name, STEP), moved(c.name, -STEP)) for c in scene.free]
+    return [[(a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True)] for ahead, behind in pairs]
+
+
+def _turning(omega: Node, scene: Scene, point: Point) -> list[list[float]]:
+    """∂ω/∂q̇ for every free coordinate; ω is the rate of an angle, or given with rates."""
+    if isinstance(omega, TimeDerivative):
+        return _tangents((omega.operand,), scene, point)
+    rest = {f"dot({c.name})": 0.0 for c in scene.coordinates}
+    at_rest = evaluate(omega, _guided(scene, {**point, **rest}))
+    units = [{**point, **rest, f"dot({c.name})": 1.0} for c in scene.free]
+    return [[evaluate(omega, _guided(scene, unit)) - at_rest] for unit in units]
+
+
+def nodes(material: tuple[Material, ...], point: Point) -> Iterator[tuple[float, Point]]:
+    """Gauss points of the material coordinates with their weights."""
+    if not material:
+        yield 1.0, point
+        return
+    first, *rest = material
+    lower, upper = evaluate(first.lower.tree, point), evaluate(first.upper.tree, point)
+    for place, weight in GAUSS:
+        inner = {**point, first.name: lower + place * (upper - lower)}
+        for other, inside in nodes(tuple(rest), inner):
+            yield weight * (upper - lower) * other, inside
+
+
+def _guided(scene: Scene, point: Point) -> Point:
+    return {**point, **{guide.coordinate: evaluate(guide.value.tree, point) for guide in scene.guides}}
