@@ -69,9 +69,9 @@ async function present() {
 /** What lies above the page. @param {import("./view/proof.js").ProofView} view */
 const above = (view) => (view.state.overlay === "share" ? sharing.part?.shareProof(view, PROOF) : overlays(view));
 
-/** What keys mean in a lecture; nothing stands beside a proof that D could change. */
+/** What keys mean in a lecture; nothing stands beside a proof that D could change, and its steps are laws themselves. */
 function more() {
-  const { d: _, ...keys } = lecturing()?.keys ?? /** @type {Record<string, () => void>} */ ({});
+  const { d: _beside, w: _why, ...keys } = lecturing()?.keys ?? /** @type {Record<string, () => void>} */ ({});
   return keys;
 }
 

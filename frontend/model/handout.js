@@ -18,9 +18,9 @@ import { readChanges } from "./values.js";
  * @property {Failure | null} failure
  */
 
-const PARTS = ["coordinates", "positions", "loads"];
-const SECONDS = 2;
-const SAMPLES = 61;
+const PARTS = ["coordinates", "positions", "loads", "energy"];
+export const SECONDS = 10;
+const SAMPLES = 501;
 
 /**
  * @param {ReturnType<typeof import("./store.js").createStore<Sheet>>} store
@@ -32,9 +32,8 @@ export function createHandout({ get, set }, api, own) {
 
   /** @returns {Promise<Partial<Sheet>>} */
   async function proven() {
-    const { lang } = get().place;
-    const [catalog, { chapters }] = await Promise.all([api.catalog(lang, "lecture"), api.proof(get().proof, lang)]);
-    return { catalog, lines: linesOf(chapters), failure: null };
+    const { chapters } = await api.proof(get().proof, get().place.lang);
+    return { lines: linesOf(chapters), failure: null };
   }
 
   /** @returns {Promise<Partial<Sheet>>} */
@@ -43,20 +42,21 @@ export function createHandout({ get, set }, api, own) {
     const { parameters: values, initial } = readChanges(changes);
     const asked = scene === OWN ? own : scene;
     const parameters = n ? { n } : {};
-    const [catalog, { chapters }, document, trajectory] = await Promise.all([
-      api.catalog(lang, "lecture"),
+    const [{ chapters }, document, trajectory] = await Promise.all([
       api.derive({ scene: asked, lang, formulation, parameters }),
       own && scene === OWN ? completed(own) : api.scene(scene, lang, n),
       api.simulate({ scene: asked, parameters: { ...values, ...parameters }, initial, t_end: SECONDS, samples: SAMPLES, include: PARTS, lang }).catch(() => null),
     ]);
-    return { catalog, lines: linesOf(chapters), scene: document, trajectory, failure: null };
+    return { lines: linesOf(chapters), scene: document, trajectory, failure: null };
   }
 
   async function load() {
     const { lang } = get().place;
+    const keep = (/** @type {Partial<Sheet>} */ part) => get().place.lang === lang && set(part);
     try {
-      const sheet = await (get().proof ? proven() : derived());
-      if (get().place.lang === lang) set(sheet);
+      const texts = api.catalog(lang, "lecture").then((catalog) => keep({ catalog }));
+      const [sheet] = await Promise.all([get().proof ? proven() : derived(), texts]);
+      keep(sheet);
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
       const catalog = await api.catalog(lang, "lecture").catch(() => ({}));

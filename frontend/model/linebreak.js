@@ -12,6 +12,10 @@ const RELATION = /^(=|\\(approx|equiv|neq|le|ge|Longleftrightarrow|Rightarrow|to
 const ROWS = /^\\begin\{aligned\}([\s\S]*)\\end\{aligned\}$/;
 /** What goes on below stands in from where its row began. */
 const INDENT = "\\qquad {}";
+/** Left sides that take more of a row than this, and more letters, have one of their own, and the relations hang below them. */
+const HEAVY = 0.3;
+const SHORT = 6;
+const HANGING = "\\quad {}";
 
 /**
  * Cuts before every token of the outermost level for which `where` holds.
@@ -85,11 +89,29 @@ function closesEarly(content) {
   return false;
 }
 
+/** The two sides of a row: up to its mark of alignment, and after it. @param {string} row */
+function sidesOf(row) {
+  const [head, ...rest] = cut(row, (_, before) => before.endsWith("&"));
+  return rest.length ? [head, rest.join("")] : ["", head];
+}
+
+/** @param {{text: string, gap: string}[]} rows @param {number} most */
+function hung(rows, most) {
+  const heaviest = Math.max(...rows.map(({ text }) => weight(sidesOf(text)[0])));
+  if (heaviest <= Math.max(SHORT, HEAVY * most)) return rows;
+  return rows.flatMap(({ text, gap }) => {
+    const [left, right] = sidesOf(text);
+    const row = { text: `& ${HANGING}${right}`, gap };
+    return weight(left) ? [{ text: `& ${left.replace(/&$/, "")}`, gap: " \\\\[0.2em] " }, row] : [row];
+  });
+}
+
 /** @param {string} row @param {number} most @returns {string[]} */
 function broken(row, most) {
   if (weight(row) <= most) return [row];
-  const [head, ...rest] = cut(row, (_, before) => before.endsWith("&"));
-  const [left, right] = rest.length ? [head, rest.join("")] : ["", head];
+  const [begin, whole] = sidesOf(row);
+  const hangs = whole.trimStart().startsWith(HANGING);
+  const [left, right] = hangs ? [`${begin} ${HANGING}`, whole.trimStart().slice(HANGING.length)] : [begin, whole];
   const lines = [left];
   for (const term of termsOf(right, most)) {
     const last = lines[lines.length - 1];
@@ -105,11 +127,12 @@ function broken(row, most) {
  */
 export function brokenRows(latex, part) {
   const aligned = latex.trim().match(ROWS);
-  const rows = rowsOf(aligned ? aligned[1] : `& ${latex}`);
-  const most = part * Math.max(...rows.map(({ text }) => weight(text)));
+  const given = rowsOf(aligned ? aligned[1] : `& ${latex}`);
+  const most = part * Math.max(...given.map(({ text }) => weight(text)));
+  const rows = hung(given, most);
   const lines = rows.flatMap(({ text, gap }) => {
     const parts = broken(text, most);
     return parts.map((line, i) => line + (i < parts.length - 1 ? " \\\\[0.2em] " : gap));
   });
-  return lines.length === rows.length ? latex : `\\begin{aligned}${lines.join("")}\\end{aligned}`;
+  return lines.length === given.length ? latex : `\\begin{aligned}${lines.join("")}\\end{aligned}`;
 }

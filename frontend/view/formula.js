@@ -4,7 +4,7 @@ import { html, nothing } from "lit-html";
 import { Directive, directive } from "lit-html/directive.js";
 
 /** Display formulas shrink to this part of their size before they scroll. */
-const SMALLEST = 0.66;
+const SMALLEST = 0.62;
 /** Rows that would become smaller are rather broken, where that is not said otherwise. */
 const BEARABLE = 0.78;
 /** Broken rows are to fit at this size. */
@@ -56,6 +56,9 @@ function shrink(element, width) {
   return part;
 }
 
+/** How wide a row is, is only guessed before it is set: if it is wider, it is broken into shorter ones. */
+const SHARES = [1, 0.7, 0.45];
+
 /** @param {HTMLElement} element @param {string} latex */
 function whole(element, latex) {
   typeset(element, latex, true);
@@ -66,9 +69,11 @@ function whole(element, latex) {
 async function goOnBelow(element, latex, part) {
   const { brokenRows } = await import("../model/linebreak.js");
   if (sources.get(element)?.latex !== latex) return;
-  typeset(element, brokenRows(latex, part), true);
   sources.set(element, { latex, broken: true });
-  shrink(element, element.clientWidth);
+  for (const share of SHARES) {
+    typeset(element, brokenRows(latex, share * part), true);
+    if (shrink(element, element.clientWidth) >= SMALLEST) return;
+  }
 }
 
 // What was measured before the fonts of the formulas had come was not their width.

@@ -92,6 +92,7 @@ const KEYS = [
   ["↓ ↑", "help.parts"],
   ["T", "help.pace"],
   ["D", "help.beside"],
+  ["W", "help.why"],
   ["H", "help.spot"],
   ["?", "help.help"],
 ];

@@ -120,6 +120,21 @@ def test_black_screen_pointer_and_what_stands_beside(hall: Lecture) -> None:
     expect(page.locator(".drawing")).to_be_visible()
 
 
+def test_the_variation_and_the_reason_are_there_in_a_lecture_too(hall: Lecture) -> None:
+    page = hall.page
+    page.keyboard.press("w")
+    expect(page.locator(".slide .law .source")).to_contain_text("Lanczos")
+    expect(page).to_have_url(re.compile("why=virtual-displacement"))
+    page.keyboard.press("w")
+    expect(page.locator(".slide .law")).to_have_count(0)
+    page.locator(".figure-tools button").first.click()
+    total = page.locator(".virtual-panel .bars [data-load='']")
+    expect(total).to_be_in_viewport(ratio=0.98)
+    assert page.locator("[data-slider^=delta-] input[type=range]").count() == 3  # δq₁, δq₂ and dt
+    page.reload()
+    expect(total).to_be_in_viewport(ratio=0.98)
+
+
 SWIPE = """([element, from, to]) => {
     const touch = x => new Touch({identifier: 1, target: element, clientX: x, clientY: 400});
     element.dispatchEvent(new TouchEvent('touchstart', {touches: [touch(from)], bubbles: true}));
@@ -153,11 +168,8 @@ def test_equations_fit_the_width_of_the_screen(hall: Lecture, width: int, height
     page.goto(f"{hall.address}scene?scene=double-pendulum&lang=de&view=lecture&step=lagrangian")
     for _ in ("lagrangian", "equation:phi1", "equation:phi2"):
         expect(page.locator(".slide .formula .katex").first).to_be_visible()
-        page.wait_for_timeout(150)
-        too_wide = (
-            "[...document.querySelectorAll('.slide .formula')].filter(e => e.scrollWidth > e.clientWidth + 1).length"
-        )
-        assert page.evaluate(too_wide) == 0, hall.current_step
+        fits = "() => [...document.querySelectorAll('.slide .formula')].every(e => e.scrollWidth <= e.clientWidth + 1)"
+        page.wait_for_function(fits)
         assert page.evaluate("document.documentElement.scrollWidth") == width
         page.keyboard.press("PageDown")
 

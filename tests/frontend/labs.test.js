@@ -83,6 +83,8 @@ test("a chart takes the page's colours, and puts the legend below where it is na
   assert.deepEqual([wide.layout.separators, narrow.layout.separators], [",.", ".,"]);
   assert.deepEqual([wide.layout.legend.orientation, narrow.layout.legend.orientation], [undefined, "h"]);
   assert.ok(narrow.layout.height > wide.layout.height);
+  const wall = themed(CHART, PALETTE, 3000, 40, "de");
+  assert.equal(wall.data[0].marker.size / wide.data[0].marker.size, 40 / 16);
   assert.equal(CHART.data[0].marker?.color, "#222222");
 });
 

@@ -18,6 +18,8 @@ const CASES = [
     "\\begin{aligned}a &= bbbb  \\\\[0.2em] & \\qquad {}+ cccc \\\\[0.4em] d &= e\\end{aligned}"],
   ["a coloured sum keeps its colour on each line", "\\begin{aligned}E &= \\htmlClass{k}{aaaa + bbbb}\\end{aligned}", 0.7,
     "\\begin{aligned}E &=\\htmlClass{k}{aaaa } \\\\[0.2em] & \\qquad {}\\htmlClass{k}{{}+ bbbb}\\end{aligned}"],
+  ["a long left side has a row of its own", "\\begin{aligned}aaaa + bbbb &= c + d \\\\[0.4em] &= e\\end{aligned}", 0.6,
+    "\\begin{aligned}& aaaa  \\\\[0.2em] & \\qquad {}+ bbbb  \\\\[0.2em] & \\quad {}= c + d \\\\[0.4em]& \\quad {}= e\\end{aligned}"],
   ["a formula without rows", "aaaa + bbbb", 0.6, "\\begin{aligned}& aaaa  \\\\[0.2em] & \\qquad {}+ bbbb\\end{aligned}"],
 ];
 

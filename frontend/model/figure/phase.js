@@ -83,13 +83,16 @@ function niceCeil(x) {
   return below >= 0.999 * x ? below : niceFloor(2.6 * below);
 }
 
-/** @param {number[]} values @param {number} from @param {number} to in pixels */
-function scaleOf(values, from, to) {
+/**
+ * @param {number[]} values @param {number} from @param {number} to in pixels
+ * @param {number} [share] of the range that is left free at both ends @param {number} [apart] pixels from one number to the next
+ */
+export function scaleOf(values, from, to, share = 0.08, apart = APART) {
   const [low, high] = [Math.min(...values), Math.max(...values)];
-  const room = 0.08 * Math.max(high - low, 1e-6 * Math.abs(high), 1e-9);
+  const room = share * Math.max(high - low, 1e-6 * Math.abs(high), 1e-9);
   const [a, b] = [low - room, high + room];
   const pixel = (/** @type {number} */ value) => from + ((value - a) / (b - a)) * (to - from);
-  const step = niceCeil(((b - a) * APART) / Math.abs(to - from));
+  const step = niceCeil(((b - a) * apart) / Math.abs(to - from));
   const first = Math.ceil(a / step);
   const ticks = Array.from({ length: Math.max(0, Math.floor(b / step) - first + 1) }, (_, i) => ({ value: Number(((first + i) * step).toPrecision(6)), position: pixel((first + i) * step) }));
   return { pixel, ticks };

@@ -6,6 +6,10 @@ import { stepRange } from "./step.js";
 /** @typedef {{ink: string, muted: string, grid: string, paper: string}} Palette */
 
 const NARROW = 640;
+/** The type size in pixels for which charts are made. */
+const TYPE = 16;
+/** Plotly's own, where a chart says nothing. */
+const LINE = 2, SYMBOL = 6;
 /** Symbols and lines in ink on white paper are in the page's ink. */
 const INK = "#222222";
 
@@ -13,11 +17,12 @@ const INK = "#222222";
  * @param {Chart} chart @param {Palette} palette @param {number} width in pixels @param {number} em @param {string} lang
  */
 export function themed(chart, palette, width, em, lang) {
-  const narrow = width < NARROW * (em / 16);
+  const narrow = width < NARROW * (em / TYPE);
   const layout = {
     ...chart.layout,
     width,
     height: heightOf(chart, narrow, em),
+    margin: scaled(chart.layout.margin ?? {}, em / TYPE),
     font: { ...chart.layout.font, size: 0.8 * em, color: palette.ink },
     paper_bgcolor: "rgba(0,0,0,0)",
     plot_bgcolor: "rgba(0,0,0,0)",
@@ -25,7 +30,7 @@ export function themed(chart, palette, width, em, lang) {
     legend: narrow ? { ...chart.layout.legend, orientation: "h", x: 0, y: -0.22, xanchor: "left", yanchor: "top", font: { size: 0.72 * em } } : { ...chart.layout.legend, font: { size: 0.75 * em } },
     ...axesOf(chart.layout, palette),
   };
-  return { data: chart.data.map((trace) => inked(trace, palette)), layout };
+  return { data: chart.data.map((trace) => thickened(inked(trace, palette), em / TYPE)), layout };
 }
 
 /** @param {Chart} chart @param {boolean} narrow @param {number} em */
@@ -44,6 +49,16 @@ function axesOf(layout, palette) {
 /** @param {any} trace @param {Palette} palette */
 function inked(trace, palette) {
   return trace.marker?.color === INK ? { ...trace, marker: { ...trace.marker, color: palette.ink } } : trace;
+}
+
+/** @param {Record<string, number>} lengths @param {number} by */
+const scaled = (lengths, by) => Object.fromEntries(Object.entries(lengths).map(([name, length]) => [name, length * by]));
+
+/** Lines and symbols grow with the type. @param {any} trace @param {number} by */
+function thickened(trace, by) {
+  const { line, marker } = trace;
+  const sized = marker && (Array.isArray(marker.size) ? marker : { ...marker, size: (marker.size ?? SYMBOL) * by });
+  return { ...trace, ...(line && { line: { ...line, width: (line.width ?? LINE) * by } }), ...(sized && { marker: sized }) };
 }
 
 /** The crosses hλ for a step h. @param {Chart} chart @param {number} h @returns {Chart} */

@@ -22,7 +22,7 @@ export function reachOf({ unit, min, max, value }) {
 export function readChoice(text, free) {
   const given = new Map(text.split(",").map((part) => /** @type {[string, number]} */ ([part.split(":")[0], Number(part.split(":")[1])])));
   const within = (/** @type {number | undefined} */ value, /** @type {number} */ reach) => Math.max(-reach, Math.min(reach, value || 0));
-  if (!text.includes(":")) return { delta: Object.fromEntries(free.map((each, i) => [each.name, i ? 0 : round(2 * FIRST * reachOf(each))])), dt: 0 };
+  if (!text.includes(":")) return { delta: Object.fromEntries(free.map((each) => [each.name, round(2 * FIRST * reachOf(each))])), dt: 0 };
   return { delta: Object.fromEntries(free.map((each) => [each.name, within(given.get(each.name), reachOf(each))])), dt: Math.max(0, within(given.get("dt"), LONGEST)) };
 }
 

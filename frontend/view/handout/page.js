@@ -5,6 +5,8 @@ import { failure } from "../failure.js";
 import { displayed, inline, prose } from "../formula.js";
 import { appearance, brand, language, places } from "../header.js";
 import { icon } from "../icons.js";
+import { history } from "./history.js";
+import { SECONDS } from "../../model/handout.js";
 import { inLanguage } from "../../model/catalog.js";
 import { partsOf } from "../../model/lecture/stops.js";
 import { unitText } from "../../model/numbers.js";
@@ -48,7 +50,7 @@ function sheet(view) {
 
 /** What it is about: a scene with its picture and values, or what is proven. @param {HandoutView} view */
 function opening(view) {
-  const { scene, state, t } = view;
+  const { scene, trajectory, state, t } = view;
   if (!scene) return html`<h1>${t("place.proof")}</h1><p class="summary">${t("proof.subtitle")}</p>`;
   const { lang } = state.place;
   const title = inLanguage(scene.title, lang);
@@ -58,7 +60,8 @@ function opening(view) {
     <div class="given">
       <div class="drawing"><svg role="img" aria-label=${t("drawing.still", { title })}></svg><div class="labels" aria-hidden="true"></div></div>
       ${values(view)}
-    </div>`;
+    </div>
+    ${trajectory?.t.length ? history({ scene, trajectory, lang, title: t("handout.motion", { seconds: SECONDS }), label: t("handout.curves") }) : nothing}`;
 }
 
 /** @param {HandoutView} view */
@@ -75,7 +78,7 @@ function values({ scene, state, t }) {
   ];
   return html`
     <table><caption>${t("handout.values")}</caption>
-      <tbody>${rows.map(({ latex, value, unit }) => html`<tr><th scope="row">${inline(latex)}</th><td>${value} ${unitText(unit)}</td></tr>`)}</tbody></table>`;
+      <tbody>${rows.map(({ latex, value, unit }) => html`<tr><th scope="row">${inline(latex)}</th><td>${value.toLocaleString(state.place.lang, { maximumSignificantDigits: 8 })} ${unitText(unit)}</td></tr>`)}</tbody></table>`;
 }
 
 /** @param {import("../../model/reveal.js").Line} line @param {HandoutView} view */

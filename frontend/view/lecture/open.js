@@ -121,13 +121,20 @@ export function open({ root, session, state, about, changed, play }) {
     changed();
   }
 
+  /** The law of the step that is shown, and what it changes. */
+  function why() {
+    const { place, lines } = state();
+    const step = place.step || lines[0]?.step.id;
+    session.move({ why: place.why === step ? "" : step });
+  }
+
   const touch = createTouch(go);
   return {
     go, present, leave,
     /** What keys mean here besides what they always mean. @type {Record<string, () => void>} */
     keys: {
       ArrowDown: () => step(1), ArrowUp: () => step(-1), e: () => stopAt(allOrNone(state().lines, state().place)),
-      t: () => session.move({ pace: state().place.pace ? "" : "substeps" }), d: turn, h: pointOut, l: leave,
+      t: () => session.move({ pace: state().place.pace ? "" : "substeps" }), d: turn, h: pointOut, l: leave, w: why,
     },
     slide: (/** @type {import("./slide.js").Shown} */ view) => slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch }),
     /** Called when anything has changed. */

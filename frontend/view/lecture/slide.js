@@ -31,25 +31,27 @@ function sheet({ step, number, chapter, chapterIndex }, view) {
     <div class="scroll" tabindex="0" role="region" aria-label=${view.t("derivation")}>
       ${keyed(step.id, html`
         <article class="step" data-step=${step.id} aria-current="step">
-          <h1 class="title"><span class="number">${number}</span><span>${prose(step.title)}</span></h1>
-          ${words(step)}
-          ${partsOf(step).slice(0, shown).map(part)}
+          <h1 class="title"><span class="number">${number}</span><span>${prose(step.title)}${view.why?.button(step, /** @type {any} */ (view))}</span></h1>
+          ${view.why?.panel(step, /** @type {any} */ (view))}
+          ${words(step, view)}
+          ${partsOf(step).slice(0, shown).map((one, i) => part(one, i, view))}
         </article>`)}
       ${more(step, shown, view)}
     </div>`;
 }
 
-/** @param {Step} step */
-const words = ({ text, marked, latex }) => html`
-  ${text ? html`<p class="prose">${prose(text)}</p>` : nothing}
-  ${marked || latex ? displayed(marked || latex) : nothing}`;
+/** @param {Step} step @param {Pick<Shown, "why">} view */
+function words(step, { why }) {
+  const latex = why?.formula(step) ?? (step.marked || step.latex);
+  return html`${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}${latex ? displayed(latex) : nothing}`;
+}
 
-/** @param {{step: Step, depth: number}} shown @param {number} place */
-function part({ step, depth }, place) {
+/** @param {{step: Step, depth: number}} shown @param {number} place @param {Pick<Shown, "why">} view */
+function part({ step, depth }, place, view) {
   return html`
     <section class="part" data-part=${place + 1} style="--depth:${depth}">
       ${step.title ? html`<h2>${prose(step.title)}</h2>` : nothing}
-      ${words(step)}
+      ${words(step, view)}
     </section>`;
 }
 
