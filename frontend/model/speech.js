@@ -9,13 +9,19 @@
  */
 export function createSpeech({ get, set }, api, attempt, always = []) {
   const wanted = new Set(always);
+  let asked = 0;
+  let spoken = 0;
 
   /** @param {string} lang */
   async function speak(lang) {
     set({ place: { ...get().place, lang } });
+    const turn = (asked += 1);
     await attempt(async () => {
       const catalog = await api.catalog(lang, ...wanted);
-      if (get().place.lang === lang) set({ catalog });
+      // An answer that was overtaken holds fewer sections.
+      if (get().place.lang !== lang || turn < spoken) return;
+      spoken = turn;
+      set({ catalog });
     });
   }
 
