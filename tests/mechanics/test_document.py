@@ -119,6 +119,23 @@ WRONG = [
         ),
         id="unknown kind of load",
     ),
+    *(
+        pytest.param(
+            put("/loads/0/name", name),
+            Problem("invalid-name", "/loads/0/name", parameters={"name": name}),
+            id=f"load called {name}",
+        )
+        for name in (
+            "a b",
+            "<b>",
+            r"\binom{x}{y}",
+            r"x}\href{javascript:alert(1)}{y",
+            "gravity-",
+            "-1",
+            "gravity-x",
+            "a-1-2",
+        )
+    ),
     pytest.param(
         put("/loads/0", {"kind": "potential", "energy": "dot(phi)"}),
         Problem("potential-with-rate", "/loads/0/energy", parameters={"coordinate": "phi"}),

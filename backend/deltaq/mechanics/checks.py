@@ -38,6 +38,13 @@ def name_problem(name: str, pointer: str = "/name") -> Problem | None:
     return Problem("invalid-name", pointer, parameters={"name": name[:40]})
 
 
+def load_name_problem(name: str, pointer: str) -> Problem | None:
+    """Loads of one kind without names of their own are told apart by a number: gravity-2."""
+    kind, hyphen, number = name.rpartition("-")
+    problem = name_problem(kind if hyphen and number.isdecimal() else name, pointer)
+    return problem and Problem("invalid-name", pointer, parameters={"name": name[:40]})
+
+
 def latex_problem(latex: str, pointer: str = "/latex") -> Problem | None:
     """A symbol in LaTeX: letters, digits, indices and a few commands; it is printed as it is, so no more."""
     commands = set(re.findall(r"\\([A-Za-z]*)", latex))

@@ -12,7 +12,7 @@ from ..errors import Problem, escaped
 from ..language.expression import Expression
 from ..language.names import Names, Symbol
 from .bodies import Body
-from .checks import demand
+from .checks import demand, load_name_problem
 from .contributions import Contribution, DistributedForce
 from .coordinate import Coordinate
 from .drawing import Drawing
@@ -60,6 +60,7 @@ class Scene:
         yield from _repeated("/loads", [load.name for load in self.loads])
         yield from _repeated("/guides", [guide.coordinate for guide in self.guides])
         yield from _repeated("/events", [event.name for event in self.events])
+        yield from filter(None, (load_name_problem(load.name, f"/loads/{i}/name") for i, load in enumerate(self.loads)))
         for name in sorted(self.labels.keys() - self.places.keys() - self._others):
             yield Problem("label-of-nothing", f"/labels/{escaped(name)}", parameters={"name": name[:40]})
         for index, guide in enumerate(self.guides):
