@@ -13,6 +13,7 @@ from deltaq.lab.charts.words import spoken, words
 from deltaq.lab.experiment import drawn, get_experiment
 from deltaq.lab.experiments import chaos, energy_drift, fidelity, stability
 from deltaq.lab.export import page, table
+from deltaq.lab.peers import PEERS
 from deltaq.narration.catalog import text
 from deltaq.simulation.library import method_ids
 from deltaq.simulation.outcome import _WORDS, codes
@@ -44,6 +45,10 @@ def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str)
 def test_methods_are_told_apart_by_look() -> None:
     looks = [(look(name)["color"], look(name)["dash"]) for name in method_ids()]
     assert len(set(looks)) == len(method_ids())
+
+
+def test_peers_are_told_apart_by_symbol() -> None:
+    assert len({look(f"scipy-{name}")["symbol"] for name in PEERS}) == len(PEERS)
 
 
 @pytest.mark.parametrize("lang", ["de", "en"])

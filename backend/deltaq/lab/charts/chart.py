@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...simulation.library import method_ids
+from ..peers import PEERS
 from .words import Say
 
 Chart = dict[str, Any]
@@ -62,7 +63,7 @@ def look(name: str) -> dict[str, Any]:
     """Colour, symbol and dash of a method, the same in every chart; others (peers) are grey."""
     known = method_ids()
     if name not in known:
-        place = sum(map(ord, name)) % len(SYMBOLS)
+        place = PEERS.index(name.removeprefix("scipy-"))
         return {"color": "#888888", "symbol": f"{SYMBOLS[place]}-open", "dash": "dash"}
     turn, place = divmod(known.index(name), len(PALETTE))
     return {"color": PALETTE[place], "symbol": SYMBOLS[(place + 3 * turn) % len(SYMBOLS)], "dash": DASHES[turn]}
