@@ -136,6 +136,12 @@ def test_both_motions_are_shown_and_the_solution_leads_to_its_step(lecture: Lect
     page.wait_for_timeout(1200)
     places = [page.locator(f".drawing.{one} path.bob").get_attribute("transform") for one in ("right", "yours")]
     assert places[0] != places[1]
+    desk = page.viewport_size
+    page.set_viewport_size({"width": 360, "height": 740})
+    expect(page.locator(".drawing.yours")).to_have_css(
+        "background-color", "rgba(0, 0, 0, 0)"
+    )  # it lies above the right one
+    page.set_viewport_size(desk or {"width": 1366, "height": 768})
     page.get_by_role("button", name="Show the solution").click()
     page.get_by_role("link", name="See this step").click(timeout=PATIENCE)
     expect(page.locator("[data-step='equation:phi'][aria-current]")).to_be_visible(timeout=PATIENCE)
