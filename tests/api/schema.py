@@ -39,7 +39,16 @@ def drive(address: str, folder: Path, examples: int, *options: str) -> subproces
     """Run schemathesis over the whole document; it ends with 0 if nothing was found."""
     (folder / "schemathesis.toml").write_text(SETTINGS, encoding="utf-8")
     command = [sys.executable, "-m", "schemathesis.cli", "run", f"{address}api/v1/openapi.json", "--no-color"]
-    chosen = ["--checks", "all", "--exclude-checks", TOO_STRICT, "--request-timeout", "300"]
+    chosen = [
+        "--checks",
+        "all",
+        "--exclude-checks",
+        TOO_STRICT,
+        "--request-timeout",
+        "300",
+        "--max-response-time",
+        "120",
+    ]
     effort = ["--max-examples", str(examples), "--continue-on-failure", *options]
     environment = os.environ | {
         "SCHEMATHESIS_HOOKS": "tests.api.toml_bodies",
