@@ -7,6 +7,7 @@ import { groupsOf } from "./model/reference.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { page } from "./view/reference/page.js";
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
@@ -37,8 +38,7 @@ function update() {
   const { place, catalog, groups } = get();
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.reference) });
-  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.lang = place.lang;
+  dressed(place, dark.matches);
   document.title = `δq · ${t("place.docs")}`;
   const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
   const choose = (/** @type {string} */ sample) => set({ sample });

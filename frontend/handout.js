@@ -7,6 +7,7 @@ import { createHandout } from "./model/handout.js";
 import { documentIn } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { createDrawing } from "./view/drawing.js";
 import { page } from "./view/handout/page.js";
 
@@ -35,8 +36,7 @@ function update() {
   const { place, catalog, scene, trajectory, substeps } = store.get();
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture) });
-  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.lang = place.lang;
+  dressed(place, dark.matches);
   const own = [proof && `${PROVING}=${encodeURIComponent(proof)}`, substeps ? "" : `${SUBSTEPS}=no`].filter(Boolean);
   const shared = writePlace(place);
   const address = `${location.pathname}${shared}${own.length ? `${shared ? "&" : "?"}${own.join("&")}` : ""}${location.hash}`;

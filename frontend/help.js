@@ -6,6 +6,7 @@ import { translator } from "./model/catalog.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { page } from "./view/guide/page.js";
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
@@ -23,8 +24,7 @@ function update() {
   const { place, catalog } = get();
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.guide) });
-  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.lang = place.lang;
+  dressed(place, dark.matches);
   document.title = `δq · ${t("place.help")}`;
   const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
   render(page({ state: { place }, session, t }), root);

@@ -17,6 +17,7 @@ import { createWorking } from "./model/homework/working.js";
 import { documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { startLanguage } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { linkHighlights } from "./view/highlight.js";
 import { offer } from "./view/homework/files.js";
 import { fetchMathLive, offerKeys } from "./view/homework/mathfield.js";
@@ -153,8 +154,7 @@ function update() {
   const { asked: { place, side }, catalog, entry } = get();
   if (!catalog.page) return;
   const current = view();
-  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.lang = place.lang;
+  dressed(place, dark.matches);
   document.title = `δq · ${current.t("place.homework")}`;
   render(page(current), root);
   staging.show(get(), still.matches);

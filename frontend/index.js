@@ -6,6 +6,7 @@ import { translator } from "./model/catalog.js";
 import { createSamples } from "./model/start/sample.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { createMotions } from "./view/start/motions.js";
 import { HERO, page } from "./view/start/page.js";
 
@@ -37,8 +38,7 @@ function update() {
   const { place, catalog, scenes } = get();
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.start) });
-  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.lang = place.lang;
+  dressed(place, dark.matches);
   document.title = t("title");
   render(page({ state: { place }, session: { language, move }, scenes, t }), root);
   motions.watch(root);

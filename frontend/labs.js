@@ -11,6 +11,7 @@ import { motionOf, written } from "./model/labs/watch.js";
 import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { withSides } from "./view/labs/form.js";
 import { createMotion } from "./view/labs/motion.js";
 import { page } from "./view/labs/page.js";
@@ -143,9 +144,7 @@ function update() {
   const { place, catalog, scenes, dial, play } = get();
   if (!catalog.page) return;
   const t = speech();
-  const theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.dataset.theme = theme;
-  document.documentElement.lang = place.lang;
+  const theme = dressed(place, dark.matches);
   document.title = `δq · ${t("place.labs")}`;
   const now = chartsNow();
   render(page({

@@ -10,6 +10,7 @@ import { linesOf } from "./model/reveal.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { listen } from "./view/keys.js";
 import { page } from "./view/lecture/presenter.js";
 
@@ -59,8 +60,7 @@ function update() {
   const { place, catalog } = get();
   if (!catalog.page || !catalog.lecture) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture) });
-  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.lang = place.lang;
+  dressed(place, dark.matches);
   document.title = `δq · ${t("presenter")}`;
   render(page({ ...get(), state: { place }, session: actions, t }), root);
   history.replaceState(null, "", `${location.pathname}?with=${isId(id) ? id : ""}${writePlace(place).replace("?", "&")}`);

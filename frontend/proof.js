@@ -7,6 +7,7 @@ import { createLater } from "./model/later.js";
 import { createProof, PROOF } from "./model/proof.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { listen } from "./view/keys.js";
 import { openDialog, overlays } from "./view/overlays.js";
 import { page } from "./view/proof.js";
@@ -80,8 +81,7 @@ function update() {
   const { place, catalog, overlay } = state;
   if (!catalog.page && !state.failure) return;
   const t = texts();
-  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.lang = place.lang;
+  dressed(place, dark.matches);
   document.title = `δq · ${t("place.proof")}`;
   render(page({ state, session, link, follow, t, fullscreen, enterLecture, lecture: lecturing(), above }), root);
   if (overlay === "share") void sharing.want();

@@ -9,6 +9,7 @@ import { documentIn, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { translator } from "./model/catalog.js";
 import { readPlace, startLanguage, writePlace } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
 import { listen } from "./view/keys.js";
 import { linkHighlights } from "./view/highlight.js";
@@ -73,10 +74,10 @@ function update() {
   const current = view();
   const { state } = current;
   const { place } = state;
+  // A page that opens as a lecture shows nothing before that would move.
+  if (place.view && !current.lecture && !state.failures.page && !root.querySelector("main")) return void aside.lecture.want();
   if (!state.catalog.page && !state.failures.page) return;
-  const theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.dataset.theme = theme;
-  document.documentElement.lang = place.lang;
+  const theme = dressed(place, dark.matches);
   document.title = current.t("title");
   render(page(current), root);
   aside.update();

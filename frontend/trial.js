@@ -8,6 +8,7 @@ import { createSpeech } from "./model/speech.js";
 import { createStore } from "./model/store.js";
 import { ask, draftIn, draftOf, fragmentOf, sendingOf } from "./model/trial.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { dressed } from "./view/header.js";
 import { page } from "./view/reference/trial.js";
 
 /** @typedef {import("./view/reference/trial.js").TrialView} TrialView */
@@ -78,8 +79,7 @@ function update() {
   const { place, catalog, call, draft } = get();
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.reference) });
-  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.lang = place.lang;
+  dressed(place, dark.matches);
   document.title = `δq · ${t("trial")}`;
   const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
   render(page({ ...get(), ...actions, state: { place }, session, t }), root);

@@ -8,6 +8,7 @@ import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { example } from "./model/variations/examples.js";
 import { createLab } from "./model/variations/lab.js";
 import { readQuestion, writeQuestion } from "./model/variations/question.js";
+import { dressed } from "./view/header.js";
 import { page } from "./view/variations/page.js";
 
 const WIDE = 660;
@@ -97,8 +98,7 @@ function update() {
   const { place, catalog } = get();
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.variations) });
-  document.documentElement.dataset.theme = place.theme === "auto" ? (dark.matches ? "dark" : "light") : place.theme;
-  document.documentElement.lang = place.lang;
+  dressed(place, dark.matches);
   document.title = `δq · ${t("place.variations")}`;
   render(page({ state: { place }, asking: lab.get(), lab, session, t, link, follow, size: chartSize() }), root);
   observe();

@@ -2,7 +2,7 @@
 
 import { translator } from "../model/catalog.js";
 import { createLater } from "../model/later.js";
-import { keepDraft, readDraft } from "../model/own.js";
+import { keepDraft, OWN, readDraft } from "../model/own.js";
 
 /** @typedef {import("./page.js").View} View */
 /** Milliseconds after which a motion is told: not while a slider moves. */
@@ -68,11 +68,12 @@ export function createAside({ root, store, api, session, send, changed, play }) 
     },
     /** Called after each rendering: fetches what is wanted now. */
     update() {
-      const { overlay, place } = get();
+      const { overlay, place, scene, failures } = get();
       if (overlay) void (overlay === "share" ? sharing : above).want();
       above.part?.openDialog(root);
       void framed?.then((tell) => tell());
-      if (place.edit) void editor.want();
+      // It begins with the scene of the page, so that has to be there.
+      if (place.edit && (place.scene === OWN || scene || failures.scene || failures.page)) void editor.want();
       if (place.view) void lecture.want();
       lecture.part?.update();
       tell();

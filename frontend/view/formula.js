@@ -9,6 +9,9 @@ const SMALLEST = 0.62;
 const BEARABLE = 0.78;
 /** Broken rows are to fit at this size. */
 const COMFORTABLE = 0.85;
+/** Milliseconds for which formulas are typeset in one go, and after which those nobody sees have waited long enough. */
+const SLICE = 8;
+const IMPATIENCE = 300;
 
 /** @param {{command: string}} context  only classes, which carry the colours, and only in LaTeX from the server */
 const onlyClasses = (context) => context.command === "\\htmlClass";
@@ -27,106 +30,154 @@ function typeset(element, latex, display) {
   }
 }
 
-const fitter = new ResizeObserver((entries) => entries.forEach(({ target }) => fit(/** @type {HTMLElement} */ (target))));
+const fitter = new ResizeObserver((entries) => fit(entries.map(({ target }) => /** @type {HTMLElement} */ (target))));
 /** @type {WeakMap<HTMLElement, number>} */
 const fittedWidths = new WeakMap();
 
 /** What each display formula says; those that are broken into lines say it in another form. @type {WeakMap<HTMLElement, {latex: string, broken: boolean}>} */
 const sources = new WeakMap();
 
-/** Sets the size at which a formula fits its column; one that would become too small goes on below. @param {HTMLElement} element */
-function fit(element) {
-  const width = element.clientWidth;
-  if (width === 0 || fittedWidths.get(element) === width) return;
-  fittedWidths.set(element, width);
-  const source = sources.get(element);
-  if (source?.broken) whole(element, source.latex);
-  const part = shrink(element, width);
+/** Sets the sizes at which formulas fit their columns; those that would become too small go on below. @param {HTMLElement[]} elements */
+function fit(elements) {
+  const due = elements.filter((element) => element.clientWidth > 0 && fittedWidths.get(element) !== element.clientWidth);
+  for (const element of due) {
+    const source = sources.get(element);
+    if (source?.broken) write(element, source.latex);
+  }
   // A lecture would rather have more lines than smaller ones.
-  const bearable = part < 1 ? Number(getComputedStyle(element).getPropertyValue("--bearable")) || BEARABLE : 0;
-  if (part < bearable && source) void goOnBelow(element, source.latex, part / Math.max(bearable, COMFORTABLE));
+  const long = shrink(due).filter(({ part, bearable }) => part < bearable);
+  if (long.length) void goOnBelow(long);
 }
 
-/** @param {HTMLElement} element @param {number} width @returns {number} the size at which it would fit */
-function shrink(element, width) {
-  element.style.setProperty("--fit", "1");
-  const needed = element.scrollWidth;
-  const part = needed > width ? Math.floor((width / needed) * 98) / 100 : 1;
-  element.style.setProperty("--fit", String(Math.max(SMALLEST, part)));
-  return part;
+/**
+ * Shrinks what is too wide. All is measured before anything is written, so that the page is laid out once and not for each.
+ * @param {HTMLElement[]} elements
+ */
+function shrink(elements) {
+  for (const element of elements) element.style.removeProperty("--fit");
+  const found = elements.map((element) => {
+    const [width, needed] = [element.clientWidth, element.scrollWidth];
+    const part = needed > width ? Math.floor((width / needed) * 98) / 100 : 1;
+    const bearable = part < 1 ? Number(getComputedStyle(element).getPropertyValue("--bearable")) || BEARABLE : 0;
+    return { element, width, part, bearable, latex: sources.get(element)?.latex ?? "" };
+  });
+  for (const { element, width, part } of found) {
+    fittedWidths.set(element, width);
+    if (part < 1) element.style.setProperty("--fit", String(Math.max(SMALLEST, part)));
+  }
+  return found;
 }
 
 /** How wide a row is, is only guessed before it is set: if it is wider, it is broken into shorter ones. */
 const SHARES = [1, 0.7, 0.45];
 
-/** @param {HTMLElement} element @param {string} latex */
-function whole(element, latex) {
-  typeset(element, latex, true);
-  sources.set(element, { latex, broken: false });
+/** @param {HTMLElement} element @param {string} latex @param {string} [shown] in lines, if it is broken */
+function write(element, latex, shown = latex) {
+  typeset(element, shown, true);
+  sources.set(element, { latex, broken: shown !== latex });
 }
 
-/** How to break lines is fetched when a line has to be. @param {HTMLElement} element @param {string} latex @param {number} part */
-async function goOnBelow(element, latex, part) {
+/**
+ * How to break lines is fetched when a line has to be. Only so many at once that the page answers in between.
+ * @param {ReturnType<typeof shrink>} long
+ */
+async function goOnBelow(long, [share, ...shorter] = SHARES) {
   const { brokenRows } = await import("../model/linebreak.js");
-  if (sources.get(element)?.latex !== latex) return;
-  sources.set(element, { latex, broken: true });
-  for (const share of SHARES) {
-    typeset(element, brokenRows(latex, share * part), true);
-    if (shrink(element, element.clientWidth) >= SMALLEST) return;
+  /** @type {typeof long} */
+  const longer = [];
+  while (long.length) {
+    const broken = during(SLICE, long, ({ element, part, bearable, latex }) => {
+      if (sources.get(element)?.latex === latex) write(element, latex, brokenRows(latex, (share * part) / Math.max(bearable, COMFORTABLE)));
+    });
+    const parts = shrink(broken.map(({ element }) => element)).map(({ part }) => part);
+    longer.push(...broken.filter((_, i) => parts[i] < SMALLEST));
+    if (long.length) await new Promise(requestAnimationFrame);
   }
+  if (longer.length && shorter.length) await goOnBelow(longer, shorter);
 }
 
-// What was measured before the fonts of the formulas had come was not their width.
-document.fonts.addEventListener("loadingdone", () => document.querySelectorAll(".formula").forEach((element) => {
-  fittedWidths.delete(/** @type {HTMLElement} */ (element));
-  fit(/** @type {HTMLElement} */ (element));
-}));
+/**
+ * Does the first of some things, if there is one, and more as long as there is time; takes away and returns what was done.
+ * @template T
+ * @param {number} time in milliseconds @param {T[]} things @param {(thing: T) => void} act
+ */
+function during(time, things, act) {
+  const end = performance.now() + time;
+  let done = 0;
+  while (done < things.length && (done === 0 || performance.now() < end)) act(things[done++]);
+  return things.splice(0, done);
+}
+
+// What was measured before the fonts of the formulas had come was not their width; what nobody sees is not measured at all.
+document.fonts.addEventListener("loadingdone", () => document.querySelectorAll(".formula").forEach((element) => fitSoon(/** @type {HTMLElement} */ (element))));
+
+/** When it is laid out; what is observed anew is told of once, even if it has not changed. @param {HTMLElement} element */
+function fitSoon(element) {
+  fittedWidths.delete(element);
+  fitter.unobserve(element);
+  fitter.observe(element);
+}
+
+/** Formulas that nobody sees yet, in the order in which they came. @type {Map<HTMLElement, () => void>} */
+const waiting = new Map();
+const whenIdle = window.requestIdleCallback ?? ((/** @type {() => void} */ work) => setTimeout(work, 30));
+
+function work() {
+  during(SLICE, [...waiting.keys()], catchUp);
+  if (waiting.size) whenIdle(work, { timeout: IMPATIENCE });
+}
+
+/** @param {HTMLElement} element */
+function catchUp(element) {
+  if (element.isConnected) waiting.get(element)?.();
+  waiting.delete(element);
+}
+
+/** What is about to be seen is typeset at once. @param {Node} place */
+export function typesetWithin(place) {
+  [...waiting.keys()].filter((element) => place.contains(element)).forEach(catchUp);
+}
+window.addEventListener("beforeprint", () => typesetWithin(document));
 
 class Typeset extends Directive {
   latex = "";
 
-  /** @param {string} _latex @param {boolean} _display */
-  render(_latex, _display) {
+  /** @param {string} _latex @param {boolean} _display @param {boolean} _later */
+  render(_latex, _display, _later) {
     return nothing;
   }
 
-  /** @param {import("lit-html").ElementPart} part @param {[string, boolean]} values */
-  update(part, [latex, display]) {
-    if (latex === this.latex) return nothing;
-    this.latex = latex;
+  /** @param {import("lit-html").ElementPart} part @param {[string, boolean, boolean]} values */
+  update(part, [latex, display, later]) {
     const element = /** @type {HTMLElement} */ (part.element);
-    typeset(element, latex, display);
-    if (display) {
-      sources.set(element, { latex, broken: false });
-      fittedWidths.delete(element);
-      fitter.observe(element);
-    }
+    const unseen = later && !element.closest("details[open]");
+    if (latex === this.latex && (unseen || !waiting.has(element))) return nothing;
+    this.latex = latex;
+    if (unseen && !waiting.size) whenIdle(work, { timeout: IMPATIENCE });
+    if (unseen) waiting.set(element, () => set(element, latex, display));
+    else set(element, latex, display);
     return nothing;
   }
+}
+
+/** @param {HTMLElement} element @param {string} latex @param {boolean} display */
+function set(element, latex, display) {
+  waiting.delete(element);
+  if (!display) return typeset(element, latex, display);
+  write(element, latex);
+  fitSoon(element);
 }
 
 const typesetInto = directive(Typeset);
 
-/** A formula within a line. @param {string} latex @param {string} [className] */
-export const inline = (latex, className = "") => html`<span class="math ${className}" ${typesetInto(latex, false)}></span>`;
+/** A formula within a line. @param {string} latex @param {string} [className] @param {boolean} [later] it is not seen yet */
+export const inline = (latex, className = "", later = false) => html`<span class="math ${className}" ${typesetInto(latex, false, later)}></span>`;
 
-/** A formula on a line of its own. @param {string} latex */
-export const displayed = (latex) => html`<div class="formula" tabindex="-1" ${typesetInto(latex, true)}></div>`;
+/** A formula on a line of its own. @param {string} latex @param {boolean} [later] it is not seen yet */
+export const displayed = (latex, later = false) => html`<div class="formula" tabindex="-1" ${typesetInto(latex, true, later)}></div>`;
 
-/** What closes a sentence or a bracket never begins a line; browsers would break there after a formula. */
-const CLOSING = /^[.,;:!?)]+/;
-/** Longer formulas may need the break within. */
-const SHORT = 40;
-
-/** A sentence with formulas between dollar signs. @param {string} text */
-export function prose(text) {
-  const parts = text.split("$");
-  const closing = parts.map((part, i) => (i && i % 2 === 0 && parts[i - 1].length <= SHORT && CLOSING.exec(part)?.[0]) || "");
-  return parts.map((part, i) => {
-    if (i % 2 === 0) return part.slice(closing[i].length);
-    return closing[i + 1] ? html`<span class="unbroken">${inline(part)}${closing[i + 1]}</span>` : inline(part);
-  });
-}
+/** A sentence with formulas between dollar signs. @param {string} text @param {boolean} [later] it is not seen yet */
+export const prose = (text, later = false) => text.split("$").map((part, i) => (i % 2 ? inline(part, "", later) : part));
 
 /** A sentence without markup, for titles and screen readers. @param {string} text */
 export const plainly = (text) => text.replace(/\$[^$]*\$/g, (formula) => formula.slice(1, -1).replace(/\\(htmlClass\{[^}]*\}|[a-z]+)|[{}\\]/g, "$1"));

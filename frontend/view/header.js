@@ -36,6 +36,18 @@ export function header(view) {
   `;
 }
 
+/**
+ * Gives the page its language and its theme. Written only when they change: for either, every style is found anew.
+ * @param {Pick<import("../model/types.js").Place, "lang" | "theme">} place @param {boolean} dark  what the viewer prefers
+ */
+export function dressed({ lang, theme }, dark) {
+  const { documentElement: page } = document;
+  const worn = theme === "auto" ? (dark ? "dark" : "light") : theme;
+  if (page.lang !== lang) page.lang = lang;
+  if (page.dataset.theme !== worn) page.dataset.theme = worn;
+  return worn;
+}
+
 /** The way to the start page. @param {Pick<Appearance, "state" | "t">} view */
 export function brand({ state, t }) {
   return html`<a class="brand" href=${pageAddress("", state.place)} title=${t("tagline")} aria-label=${`δq · ${t("place.start")}`}><span class="delta">δ</span><span class="q">q</span></a>`;

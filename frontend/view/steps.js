@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
-import { displayed, prose } from "./formula.js";
+import { displayed, prose, typesetWithin } from "./formula.js";
 import { icon } from "./icons.js";
 import { indexOf } from "../model/reveal.js";
 
@@ -12,6 +12,14 @@ import { indexOf } from "../model/reveal.js";
  *   session: Pick<import("./page.js").View["session"], "go" | "goTo">,
  *   why?: ReturnType<typeof import("./figure/why.js").createWhy>, link: (patch: {step: string}) => string, follow: import("./page.js").View["follow"], t: import("./page.js").View["t"]}} View  what steps need of a page */
 
+/** So many steps before the current one are laid out at once, so that scrolling to it arrives; those before when they are seen. */
+const NEAR = 3;
+
+/** A far step has been scrolled to, or details have been opened. @param {Event} event */
+function comesIntoView(event) {
+  if (!(/** @type {{skipped?: boolean}} */ (event).skipped)) typesetWithin(/** @type {Node} */ (event.currentTarget));
+}
+
 /** @param {View} view */
 export function steps(view) {
   const { state, t } = view;
@@ -20,37 +28,37 @@ export function steps(view) {
   const current = indexOf(state.lines, state.place.step);
   const shown = state.lines.slice(0, current + 1);
   return html`<ol class="steps">
-    ${repeat(shown, (line) => line.step.id, (line) => step(line, line.index === current, view))}
+    ${repeat(shown, (line) => line.step.id, (line) => step(line, line.index === current, view, line.index < current - NEAR))}
   </ol>`;
 }
 
 const skeleton = () => [62, 88, 74].map((width) => html`<div class="bone" style="width:${width}%"></div>`);
 
-/** @param {Line} line @param {boolean} current @param {Pick<View, "link" | "follow" | "session" | "t" | "why">} view */
-export function step(line, current, view) {
+/** @param {Line} line @param {boolean} current @param {Pick<View, "link" | "follow" | "session" | "t" | "why">} view @param {boolean} [far] from the current one */
+export function step(line, current, view, far = false) {
   const opens = line.number.endsWith(".1");
   const { step: content, number } = line;
   return html`
-    <li class="step ${opens ? "opens" : ""}" data-step=${content.id} aria-current=${current ? "step" : nothing}>
+    <li class="step ${opens ? "opens" : ""} ${far ? "far" : ""}" data-step=${content.id} aria-current=${current ? "step" : nothing} @contentvisibilityautostatechange=${comesIntoView}>
       ${opens ? html`<h2 class="chapter"><span class="ordinal">${line.chapterIndex + 1}</span>${line.chapter.title}</h2>` : nothing}
       <h3 class="title">
         <a class="number" href=${view.link({ step: content.id })} title=${view.t("step.link")}
           @click=${(/** @type {Event} */ event) => view.follow(event, () => view.session.goTo(content.id))}>${number}</a>
-        <span>${prose(content.title)}</span>
+        <span>${prose(content.title, far)}</span>
         ${verdict(content, view)}${view.why?.button(content, /** @type {any} */ (view))}
       </h3>
       ${view.why?.panel(content, /** @type {any} */ (view))}
-      ${content.text ? html`<p class="prose">${prose(content.text)}</p>` : nothing}
-      ${formulaOf(content, view)}
+      ${content.text ? html`<p class="prose">${prose(content.text, far)}</p>` : nothing}
+      ${formulaOf(content, view, far)}
       ${content.substeps.length ? substeps(content, view) : nothing}
     </li>
   `;
 }
 
-/** The marked form carries the colours; some steps are words only. @param {Step} content @param {Pick<View, "why">} view */
-function formulaOf(content, { why }) {
+/** The marked form carries the colours; some steps are words only. @param {Step} content @param {Pick<View, "why">} view @param {boolean} later */
+function formulaOf(content, { why }, later) {
   const latex = why?.formula(content) ?? (content.marked || content.latex);
-  return latex ? displayed(latex) : nothing;
+  return latex ? displayed(latex, later) : nothing;
 }
 
 /** @param {Step} content @param {Pick<View, "t">} view */
@@ -64,13 +72,13 @@ function verdict(content, { t }) {
 function substeps(content, view) {
   const count = content.substeps.length;
   return html`
-    <details class="substeps">
+    <details class="substeps" @toggle=${comesIntoView}>
       <summary>${icon("chevron")}${count === 1 ? view.t("step.substeps-one") : view.t("step.substeps", { count })}</summary>
       <ol>
         ${content.substeps.map((part) => html`
           <li>
-            <p class="prose">${part.title ? html`<b>${prose(part.title)}</b>` : nothing} ${prose(part.text)}</p>
-            ${formulaOf(part, view)}
+            <p class="prose">${part.title ? html`<b>${prose(part.title, true)}</b>` : nothing} ${prose(part.text, true)}</p>
+            ${formulaOf(part, view, true)}
             ${part.substeps?.length ? substeps(part, view) : nothing}
           </li>`)}
       </ol>
