@@ -26,6 +26,15 @@ def app() -> Iterator[FastAPI]:
     pool.stop()
 
 
+@pytest.fixture(scope="session")
+def laboratory(app: FastAPI) -> Iterator[None]:
+    """Experiments can be run; a pool is started once."""
+    pool = app.state.service.laboratory
+    pool.start()
+    yield
+    pool.stop(0.1)
+
+
 @pytest.fixture
 async def client(app: FastAPI) -> AsyncIterator[httpx.AsyncClient]:
     transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)

@@ -7,20 +7,11 @@ from typing import Any
 
 import httpx
 import pytest
-from fastapi import FastAPI
 
 from deltaq.api.app import create_app
 from deltaq.settings import Settings
 
-pytestmark = pytest.mark.anyio
-
-
-@pytest.fixture(scope="module", autouse=True)
-def laboratory(app: FastAPI) -> Iterator[None]:
-    pool = app.state.service.laboratory
-    pool.start()
-    yield
-    pool.stop(0.1)
+pytestmark = [pytest.mark.anyio, pytest.mark.usefixtures("laboratory")]
 
 
 DOCUMENT = create_app(Settings()).openapi()

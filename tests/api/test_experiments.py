@@ -7,7 +7,7 @@ import csv
 import io
 import json
 import time
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 from typing import Any
 
 import httpx
@@ -17,7 +17,7 @@ from fastapi import FastAPI
 from deltaq.lab.experiment import experiment_ids, get_experiment
 from deltaq.narration.catalog import text
 
-pytestmark = pytest.mark.anyio
+pytestmark = [pytest.mark.anyio, pytest.mark.usefixtures("laboratory")]
 
 AXES = {
     "x": {"parameter": "omega", "from": 20.0, "to": 80.0, "count": 8},
@@ -32,14 +32,6 @@ SMALL: dict[str, dict[str, Any]] = {
     "chaos": {"scene": "double-pendulum", "t_end": 3.0, "map": True, "count": 16},
     "fidelity": {"scene": "elastic-pendulum", "t_end": 2.0},
 }
-
-
-@pytest.fixture(scope="module", autouse=True)
-def laboratory(app: FastAPI) -> Iterator[None]:
-    pool = app.state.service.laboratory
-    pool.start()
-    yield
-    pool.stop(0.1)
 
 
 def address(name: str) -> str:

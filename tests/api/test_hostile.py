@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import httpx
@@ -10,16 +9,8 @@ import pytest
 from fastapi import FastAPI
 from tests.api.hostile import LINES, Walk, ask, judged
 
-pytestmark = pytest.mark.anyio
+pytestmark = [pytest.mark.anyio, pytest.mark.usefixtures("laboratory")]
 STEP = 37  # from one text to the next; all of them in the long run
-
-
-@pytest.fixture(scope="module", autouse=True)
-def laboratory(app: FastAPI) -> Iterator[None]:
-    pool = app.state.service.laboratory
-    pool.start()
-    yield
-    pool.stop(0.1)
 
 
 async def test_every_string_of_every_call(

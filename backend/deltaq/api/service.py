@@ -19,7 +19,7 @@ from ..settings import Settings
 from .assets import Assets
 from .cache import Cache, content_hash
 from .clients import ACCOUNT
-from .flights import Hear
+from .flights import Hear, ignore
 from .kernels import Kernels
 from .metrics import Metrics, make_metrics
 from .stores.disk import Disk
@@ -67,7 +67,7 @@ class Service:
 
     async def run(self, job: Job, document: Any) -> bytes:
         """The JSON of a job's answer, at the expense of the client that asks."""
-        return await self.pool.run(job, document, account=ACCOUNT.get())
+        return await self.pool.run(job, document, ignore, ACCOUNT.get())
 
     @staticmethod
     def key(*question: Any) -> str:

@@ -119,6 +119,12 @@ async def test_first_bound_that_is_reached_counts(
     assert str(caught.value) == told
 
 
+def test_bound_of_a_processor_and_by_the_clock() -> None:
+    job = Job("one", 1.0, threads=3).within(5.0)
+    assert (job.deadline, job.processor_time) == (10.0, 15.0)
+    assert Job("one", 2.0, threads=3).processor_time == 6.0  # more could not be used before the deadline
+
+
 async def test_job_that_waits_does_not_use_up_its_processor_time(make_pool: MakePool) -> None:
     await run(make_pool(), Purse(), "burn", {"seconds": 0.05, "sleep": 0.6}, processor=0.2)
 

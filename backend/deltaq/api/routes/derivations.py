@@ -1,8 +1,10 @@
-"""Derivations: computed once, then known by their content hash."""
+"""Derivations: computed once, then known by their content hash.
+
+The longest of the built-in ones, twelve links, takes 7 s of a processor; nearly all others less than 0.5 s.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Request, Response
@@ -26,7 +28,7 @@ async def derive(request: Request, body: DerivationRequest) -> Response:
     service = service_of(request)
     question = question_of(request, body)
     key = service.key(DERIVE.target, question)
-    job = replace(DERIVE, deadline=service.settings.derivation_deadline)
+    job = DERIVE.within(service.settings.derivation_deadline)
     answer = await service.answer(key, job, {"id": key, "request": question})
     return packed(request, key, answer, f"{PREFIX}/derivations/{key}")
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from json import loads
 from typing import Annotated, Any
 
@@ -29,7 +28,7 @@ async def export_derivation(
     """The derivation as a LaTeX or Markdown file, or a Python program that computes the motion with SciPy."""
     service = service_of(request)
     question = {"form": form, **question_of(request, body)}
-    job = replace(EXPORT, deadline=service.settings.derivation_deadline)
+    job = EXPORT.within(service.settings.derivation_deadline)
     answer = await service.answer(service.key(EXPORT.target, question), job, question)
     file = loads(unpack(answer))
     headers = {"Content-Disposition": f'attachment; filename="{file["name"]}"', "Vary": "Accept-Language"}

@@ -20,8 +20,9 @@ from .common import COMPUTING, question_of
 
 router = APIRouter(prefix="/expressions", tags=["expressions"], route_class=StrictRoute)
 READING = 0.2  # seconds of a processor for one text
-ONE = Job("deltaq.api.jobs:typeset", deadline=2.0, processor=READING)
-ALL = Job("deltaq.api.jobs:typeset_all", deadline=4.0)
+MOST = 4.0  # for all of many
+ONE = Job("deltaq.api.jobs:typeset", deadline=5.0, processor=READING)
+ALL = Job("deltaq.api.jobs:typeset_all", deadline=10.0)
 
 
 @router.post("", response_model=ExpressionAnswer, responses=COMPUTING)
@@ -33,7 +34,7 @@ async def typeset(request: Request, body: ExpressionRequest) -> Response:
 @router.post("/batch", response_model=ExpressionsAnswer, responses=COMPUTING)
 async def typeset_all(request: Request, body: ExpressionsRequest) -> Response:
     """What each of several texts means; one that cannot be read says why and spoils no other."""
-    return await _answer(request, body, replace(ALL, processor=READING * max(1, len(body.expressions))))
+    return await _answer(request, body, replace(ALL, processor=min(MOST, READING * max(1, len(body.expressions)))))
 
 
 async def _answer(request: Request, body: ExpressionRequest | ExpressionsRequest, job: Job) -> Response:

@@ -22,8 +22,8 @@ from .common import LANGUAGE, SceneId, failures
 router = APIRouter(prefix="/scenes", tags=["scenes"], route_class=StrictRoute)
 TOML_BODY = {"schema": {"type": "string", "examples": [TOML_EXAMPLE]}}
 TOML = {"requestBody": {"required": True, "content": {"application/toml": TOML_BODY}}}
-READ = Job("deltaq.api.jobs:read_scene_toml", deadline=2.0)
-VALIDATE = Job("deltaq.api.jobs:validate", deadline=2.0)
+READ = Job("deltaq.api.jobs:read_scene_toml", deadline=5.0, processor=2.0)
+VALIDATE = Job("deltaq.api.jobs:validate", deadline=5.0, processor=2.0)
 
 
 @cache

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from fastapi import APIRouter, Request, Response
 
 from ..body import StrictRoute
@@ -24,5 +22,5 @@ async def simulate(request: Request, body: SimulationRequest) -> Response:
     question = question_of(request, body)
     key = service.key(SIMULATE.target, question)
     await service.kernels.wait(body.method)
-    job = replace(SIMULATE, deadline=service.settings.simulation_deadline)
+    job = SIMULATE.within(service.settings.simulation_deadline)
     return packed(request, key, await service.answer(key, job, {"request": question}))

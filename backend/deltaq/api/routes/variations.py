@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from fastapi import APIRouter, Request, Response
 
 from ..body import StrictRoute
@@ -24,5 +22,5 @@ async def vary(request: Request, body: VariationRequest) -> Response:
     service = service_of(request)
     question = body.model_dump(by_alias=True) | {"lang": language_of(request)}
     key = service.key(VARY.target, question)
-    job = replace(VARY, deadline=service.settings.derivation_deadline)
+    job = VARY.within(service.settings.derivation_deadline)
     return packed(request, key, await service.answer(key, job, {"id": key, "request": question}))

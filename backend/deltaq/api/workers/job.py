@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from ...errors import DeltaqError
@@ -34,6 +34,10 @@ class Job:
     def processor_time(self) -> float:
         """All processor time that it may use: more than its threads could use before the deadline has no meaning."""
         return min(self.processor, self.threads * self.deadline)
+
+    def within(self, seconds: float) -> Job:
+        """The same with so much processor time for each thread, whose deadline leaves a busy machine twice that."""
+        return replace(self, deadline=2.0 * seconds, processor=self.threads * seconds)
 
 
 class JobError(DeltaqError):
