@@ -122,6 +122,7 @@ def test_old_addresses_of_scenes_lead_to_them(lecture: Lecture, page: Page) -> N
         pytest.param("labs?lang=en", "main", id="labs"),
         pytest.param("homework?lang=en", "main .katex", id="homework"),
         pytest.param("docs?lang=en", ".calls article", id="reference"),
+        pytest.param("docs/try?lang=en", ".trial textarea", id="trial of the API"),
         pytest.param("help?lang=en", ".guide article", id="help"),
         pytest.param("handout?scene=pendulum&lang=en", ".paper .katex", id="handout"),
         pytest.param("presenter?lang=en", ".presenter .notice", id="presenter"),
