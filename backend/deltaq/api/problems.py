@@ -65,12 +65,7 @@ _TYPES: tuple[tuple[type[Exception], ProblemType], ...] = (
     (Exception, INTERNAL_ERROR),
 )
 _TEMPORARY = frozenset({QUOTA_EXCEEDED, OVERLOADED, INTERRUPTED})
-_HTTP_TYPES = {
-    404: NOT_FOUND,
-    405: METHOD_NOT_ALLOWED,
-    408: BODY_TOO_SLOW,
-    413: BODY_TOO_LARGE,
-}
+_HTTP_TYPES = {404: NOT_FOUND, 405: METHOD_NOT_ALLOWED, 408: BODY_TOO_SLOW, 413: BODY_TOO_LARGE}
 
 
 @dataclass(frozen=True)
