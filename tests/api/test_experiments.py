@@ -105,6 +105,8 @@ async def test_a_stream_that_is_refused_says_why(client: httpx.AsyncClient) -> N
 REFUSED = [
     pytest.param("work-precision", {"methods": ["rk5"]}, 404, "/methods/0", "unknown-method", id="method"),
     pytest.param("work-precision", {"t_end": 5000.0}, 422, "/t_end", "request-too-large", id="span"),
+    pytest.param("convergence", {"t_end": 5e-324}, 422, "/t_end", "request-too-small", id="no time at all"),
+    pytest.param("chaos", {"t_end": 5e-324}, 422, "/t_end", "request-too-small", id="no time for chaos"),
     pytest.param("energy-drift", {"steps": 10**8}, 422, "/steps", "request-too-large", id="steps"),
     pytest.param("stability", {"at": "noon"}, 422, "/at", "request-not-one-of", id="place"),
     pytest.param("stability", {"stiffness": "q"}, 404, "/stiffness", "unknown-parameter", id="stiffness"),
