@@ -27,11 +27,6 @@ SETTINGS = """
 [[operations]]
 include-path-regex = "/experiments/"
 checks.not_a_server_error.expected-statuses = ["2xx", "3xx", "4xx", "504"]
-
-# Whatever is sent there is a text.
-[[operations]]
-include-path-regex = "/scenes/toml"
-checks.negative_data_rejection.enabled = false
 """
 
 

@@ -9,5 +9,5 @@ import schemathesis
 
 @schemathesis.serializer("application/toml")
 def text(_context: Any, value: Any) -> bytes:
-    """The text as bytes."""
-    return str(value).encode("utf-8", "backslashreplace")
+    """The text as bytes; what is no text has no TOML."""
+    return value.encode("utf-8", "backslashreplace") if isinstance(value, str) else b"\xff"
