@@ -133,7 +133,7 @@ async function speak(wanted) {
 
 const session = {
   move,
-  /** Charts carry their texts, so they are asked for again: what was measured comes from the cache. @param {string} wanted */
+  /** Charts carry their texts, so they are asked for again, and measured again where nobody asked in that language. @param {string} wanted */
   async language(wanted) {
     await speak(wanted);
     if (bench.get().result) void bench.start();
