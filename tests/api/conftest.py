@@ -9,12 +9,20 @@ import pytest
 from fastapi import FastAPI
 
 from deltaq.api.app import create_app
+from deltaq.api.service import PRELOAD
+from deltaq.api.workers.worker import start_fork_server
 from deltaq.settings import Settings
 
 
 @pytest.fixture(scope="session")
 def anyio_backend() -> str:
     return "asyncio"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _fork_server() -> None:
+    """The one of the service, whichever test is the first to need a worker: only the first decides what it loads."""
+    start_fork_server((PRELOAD,))
 
 
 @pytest.fixture(scope="session")

@@ -15,6 +15,7 @@ from deltaq.lab.measurement import repeated
         pytest.param(2.0, (2.1,), 7, (2.0, 2.1), id="slow twice: enough"),
         pytest.param(34.0, (0.0002, 0.0003), 7, (34.0, 0.0002, 0.0003), id="slow once: it was interrupted"),
         pytest.param(0.004, (), 1, (0.004,), id="once"),
+        pytest.param(0.5, (0.001,), 1, (0.5, 0.001), id="once, but interrupted"),
     ],
 )
 def test_a_run_is_repeated(first: float, later: tuple[float, ...], repeats: int, seconds: tuple[float, ...]) -> None:

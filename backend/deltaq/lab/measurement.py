@@ -100,12 +100,13 @@ def measure(problem: Problem, method: Method, reference: Reference, setting: Set
 def repeated(again: Callable[[], float], first: float, repeats: int) -> tuple[float, ...]:
     """The seconds of runs: many where one is short (the first is left out, it warms up), else up to three.
 
-    Two are enough where both are slow; where the second is not, the first was interrupted.
+    Two are enough where both are slow; where the second is not, the first was interrupted. What seems slow is never
+    believed at once.
     """
     if first <= BRIEF and repeats > 1:
         return tuple(again() for _ in range(repeats))
     seconds = [first]
-    while len(seconds) < min(3, repeats):
+    while len(seconds) < max(2 if first > SLOW else 1, min(3, repeats)):
         seconds.append(again())
         if min(seconds) > max(SLOW, 0.5 * first):
             break

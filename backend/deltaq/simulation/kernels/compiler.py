@@ -30,8 +30,6 @@ def inner(function: F) -> F:
 
 def _compiled(function: F, *, forceinline: bool) -> F:
     options: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "_nrt": False}
-    if forceinline:  # Python never calls it, and wrappers for so many arrays take long to compile
-        options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, **options)(function)
     # Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
     compiled._cache._cache_file._source_stamp = source_stamp()  # noqa: SLF001
