@@ -33,7 +33,8 @@ async def test_requests_are_counted_by_route(client: httpx.AsyncClient) -> None:
 
 async def test_cache_and_workers_are_told(client: httpx.AsyncClient) -> None:
     question = {"expression": "3*m", "scene": "pendulum"}
-    await client.post(f"{API}/expressions", json=question)
+    first = await client.post(f"{API}/expressions", json=question)
+    assert first.status_code == 200, first.text
     before = await read(client)
     await client.post(f"{API}/expressions", json=question)
     after = await read(client)
