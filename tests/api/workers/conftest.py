@@ -6,6 +6,7 @@ from contextlib import ExitStack
 
 import pytest
 
+from deltaq.api.service import PRELOAD
 from deltaq.api.workers.lane import Limits
 from deltaq.api.workers.pool import Pool
 
@@ -19,7 +20,8 @@ def make_pool() -> Iterator[MakePool]:
 
         def make(size: int = 1, queue_length: int = 100, **limits: float) -> Pool:
             chosen = {"memory": 2**31, "jobs": 10_000, "start_timeout": 30.0, "patience": 30.0} | limits
-            pool = Pool(size, queue_length, Limits(**chosen))
+            # A fork server that is started again loads what the last pool wanted.
+            pool = Pool(size, queue_length, Limits(**chosen), (PRELOAD,))
             pool.start()
             stack.callback(pool.stop, 0.1)
             while pool.state.ready < size:
