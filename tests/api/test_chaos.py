@@ -12,4 +12,4 @@ def test_no_answer_is_wrong_and_no_service_lost_in_chaos() -> None:
     assert tally.wrong == []
     assert tally.kills >= 60
     assert tally.statuses.keys() <= {200, 503}
-    assert tally.statuses[200] > 0
+    assert tally.statuses[200] > 5 * tally.statuses[503]

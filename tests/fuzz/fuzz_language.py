@@ -29,7 +29,7 @@ from tests.language.hostile import BOMBS, CODE, LARGE, LATEX  # noqa: E402
 from tests.language.scene_names import NAMES, SYMBOLS  # noqa: E402
 
 SYNTAX = "latex" if sys.argv[1:2] == ["latex"] else "plain"
-SLOW_READING, SLOW_SHOWING = 0.4, 3.0  # seconds; instrumented code takes about twice as long as it should
+SLOW_READING, SLOW_SHOWING = 0.4, 2.0  # seconds; instrumented code takes about twice as long as it should
 BOUNDS = {
     *("too-long", "too-many-digits", "too-many-nodes", "too-deep", "value-too-large", "value-too-small"),
     *("degree-too-large", "exponent-too-large", "not-real", "outside-domain", "division-by-zero"),
