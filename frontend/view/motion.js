@@ -33,7 +33,8 @@ export function createMotion({ root, state, clock, session, still, update }) {
       readouts: createReadouts(find(".readouts")), transport: createTransport(find(".player")),
     };
     new ResizeObserver(() => made.drawing.resize(clock.time)).observe(find(".drawing"));
-    for (const event of ["pointerover", "focusin", "keydown"]) document.addEventListener(event, instruments.want, { once: true });
+    // Not pointerover: browsers send it for a mouse that rests while the page is laid out under it.
+    for (const event of ["pointermove", "pointerdown", "focusin", "keydown"]) document.addEventListener(event, instruments.want, { once: true });
     setTimeout(instruments.want, PATIENCE);
     return made;
   }
