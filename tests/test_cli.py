@@ -51,6 +51,17 @@ def test_kernels_that_are_there_are_not_compiled_again(
     assert capsys.readouterr().out == "all kernels are there\n"
 
 
+@pytest.mark.parametrize("arguments", [["scenes"], ["derive", "pendulum"]], ids=["a short text", "a long text"])
+def test_a_reader_who_has_read_enough(arguments: list[str]) -> None:
+    read, write = os.pipe()
+    os.close(read)
+    with os.fdopen(write, "w") as unread:
+        done = subprocess.run(
+            [*COMMAND, *arguments], stdout=unread, stderr=subprocess.PIPE, text=True, check=False, timeout=300
+        )
+    assert (done.returncode, done.stderr) == (141, "")
+
+
 def test_serve_prints_the_address_serves_and_ends_on_interrupt() -> None:
     with subprocess.Popen(
         [*COMMAND, "serve", "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True

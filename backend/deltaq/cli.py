@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from types import ModuleType
@@ -13,6 +14,7 @@ from .errors import CommandError, InputError
 from .packages import modules_of
 
 MENDABLE = 2
+UNREAD = 141  # what a shell says of a program whose reader has gone
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -24,7 +26,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help()
         return 0
     try:
-        return commands[options.command].run(options) or 0
+        return _run(commands[options.command], options)
+    except BrokenPipeError:
+        # Whoever reads has read enough, as `head` has; what is left to write must not complain either.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return UNREAD
     except (CommandError, UnicodeDecodeError) as error:
         print(f"deltaq: {error}", file=sys.stderr)
     except OSError as error:
@@ -32,6 +38,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except InputError as error:
         print(_told(error, getattr(options, "lang", "en")), file=sys.stderr)
     return MENDABLE
+
+
+def _run(command: ModuleType, options: argparse.Namespace) -> int:
+    code: int = command.run(options) or 0
+    sys.stdout.flush()
+    return code
 
 
 def name_of(module: ModuleType) -> str:

@@ -16,7 +16,7 @@ from deltaq.narration.catalog import text
 
 ROOT = Path(__file__).parents[2]
 PLOTLY = ROOT / "frontend/vendor/plotly.js-basic-dist-min/plotly-basic.min.js"
-METHODS = ["dop853", "dormand-prince-54", "rk4", "radau-5", "gauss-6", "stormer-verlet"]
+METHODS = ["dop853", "dormand-prince-54", "rk4", "radau-5", "gauss-6", "variational-midpoint"]
 PEERS = {"scipy-DOP853", "scipy-Radau"}  # of all that take part
 QUESTION = {"scene": "double-pendulum", "t_end": 10.0, "methods": METHODS, "peers": True, "lang": "en"}
 INKS = {"light": ("#222222", "#d8d8d4"), "dark": ("#e8e8e4", "#44474c")}  # of text, of the grid
