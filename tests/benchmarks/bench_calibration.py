@@ -39,7 +39,7 @@ class Score:
 
 
 def main() -> None:
-    scores = [score for scene in scene_ids() for span in SPANS for score in _scores(scene, span)]
+    scores = all_scores()
     print(f"{'method':24}{'runs':>6}{'true ≤ estimate':>18}{'estimate ≤ 100 true':>22}{'median ratio':>14}")
     for identifier in (*method_ids(), "all"):
         _line(identifier, [s for s in scores if identifier in (s.method, "all")])
@@ -51,9 +51,19 @@ def main() -> None:
         print(f"  {s.scene:30}{s.method:24}{s.label:30}true/estimate {s.shortfall:.3g}")
 
 
+def all_scores() -> list[Score]:
+    """Every run of which something can be said."""
+    return [score for scene in scene_ids() for span in SPANS for score in _scores(scene, span)]
+
+
+def shares(scores: list[Score]) -> tuple[float, float]:
+    """The share of runs whose estimate covers the true error, and of those in which it is at most 100 times it."""
+    return float(np.mean([s.is_covered for s in scores])), float(np.mean([s.excess <= 100 for s in scores]))
+
+
 def _line(name: str, scores: list[Score], width: int = 24) -> None:
     if scores:
-        covered, near = (np.mean([f(s) for s in scores]) for f in (lambda s: s.is_covered, lambda s: s.excess <= 100))
+        covered, near = shares(scores)
         middle = np.median([s.excess for s in scores])
         print(f"{name:{width}}{len(scores):6}{covered:18.1%}{near:22.1%}{middle:14.1f}")
 

@@ -47,13 +47,13 @@ def main() -> None:
     problem = problem_of(calm(), SPAN, SAMPLES)
     reference = simulate(problem, get_method("dop853"), tolerance=1e-13).values
     print(f"\n100 s of a double pendulum, {SAMPLES} samples{'error':>14}{'ms':>10}")
-    for name, motion in (*_own(problem), *_solve_ivp(problem), *_heyoka(problem), *_diffrax(problem)):
-        error, seconds = _measured(motion, reference)
+    for name, motion in (*own(problem), *peers(problem), *_heyoka(problem), *_diffrax(problem)):
+        error, seconds = measured(motion, reference)
         print(f"{name:44}{error:10.1e}{seconds * 1e3:10.2f}")
     _cold()
 
 
-def _measured(motion: Motion, reference: np.ndarray) -> tuple[float, float]:
+def measured(motion: Motion, reference: np.ndarray) -> tuple[float, float]:
     seconds = []
     for _ in range(REPEATS):
         start = perf_counter()
@@ -64,7 +64,7 @@ def _measured(motion: Motion, reference: np.ndarray) -> tuple[float, float]:
     return float(np.abs(values - reference).max()), statistics.median(seconds)
 
 
-def _own(problem: Problem) -> list[tuple[str, Motion]]:
+def own(problem: Problem) -> list[tuple[str, Motion]]:
     def motion(identifier: str, tolerance: float, *, with_error: bool) -> Motion:
         return lambda: simulate(problem, get_method(identifier), tolerance=tolerance, with_error=with_error).values
 
@@ -91,7 +91,7 @@ def _lambdified(problem: Problem) -> Callable[[float, np.ndarray], np.ndarray]:
     return slope
 
 
-def _solve_ivp(problem: Problem) -> list[tuple[str, Motion]]:
+def peers(problem: Problem) -> list[tuple[str, Motion]]:
     slope, times = _lambdified(problem), np.linspace(0.0, SPAN, SAMPLES)
 
     def motion(method: str, tolerance: float) -> Motion:
@@ -168,24 +168,40 @@ def _taylor(problem: Problem, rates: list[sp.Expr], tolerance: float) -> Any:
 
 def _cold() -> None:
     """From a scene never seen before to 100 s at 1e-9, kernels at hand."""
+    print("\nnew scene to 100 s at 1e-9")
+    for name, work in (("δq", cold), ("LagrangesMethod + lambdify + solve_ivp", cold_peer), ("heyoka", cold_heyoka)):
+        milliseconds = work()
+        if milliseconds is not None:
+            print(f"{name:44}{milliseconds:10.1f} ms")
+
+
+def cold() -> float:
+    """Milliseconds of δq."""
     start = perf_counter()
     scene = calm()
     build(equations(scene), scene)
-    built = perf_counter() - start
     simulate(problem_of(scene, SPAN, SAMPLES), get_method("dop853"), tolerance=1e-9)
-    print(f"\nnew scene to 100 s at 1e-9: δq {1e3 * (perf_counter() - start):.1f} ms (model {1e3 * built:.1f} ms)")
-    problem = problem_of(scene, SPAN, SAMPLES)
+    return 1e3 * (perf_counter() - start)
+
+
+def cold_peer() -> float:
+    """Milliseconds of SymPy's LagrangesMethod with lambdify and DOP853 of SciPy."""
+    problem = problem_of(calm(), SPAN, SAMPLES)
     start = perf_counter()
-    slope = _lambdified(problem)
-    solve_ivp(slope, (0.0, SPAN), problem.state, method="DOP853", rtol=1e-10, atol=1e-10)
-    print(f"  LagrangesMethod + lambdify + solve_ivp {1e3 * (perf_counter() - start):.0f} ms")
-    if find_spec("heyoka") is not None:
-        other = replace(problem, parameters=tuple(1.01 * each for each in problem.parameters))
-        rates = _rates(other)  # new numbers, or heyoka would run what it has compiled above
-        start = perf_counter()
-        integrator = _taylor(problem, rates, 1e-12)
-        integrator.propagate_grid(np.linspace(0.0, SPAN, SAMPLES))
-        print(f"  heyoka from given expressions (compile and run) {1e3 * (perf_counter() - start):.0f} ms")
+    solve_ivp(_lambdified(problem), (0.0, SPAN), problem.state, method="DOP853", rtol=1e-10, atol=1e-10)
+    return 1e3 * (perf_counter() - start)
+
+
+def cold_heyoka() -> float | None:
+    """Milliseconds in which heyoka compiles and runs given expressions, their derivation not counted; if it is here."""
+    if find_spec("heyoka") is None:
+        return None
+    problem = problem_of(calm(), SPAN, SAMPLES)
+    other = replace(problem, parameters=tuple(1.01 * each for each in problem.parameters))
+    rates = _rates(other)  # new numbers, or heyoka would run what it has compiled before
+    start = perf_counter()
+    _taylor(problem, rates, 1e-12).propagate_grid(np.linspace(0.0, SPAN, SAMPLES))
+    return 1e3 * (perf_counter() - start)
 
 
 if __name__ == "__main__":

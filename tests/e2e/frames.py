@@ -9,6 +9,7 @@ the page's thread when nothing is slowed, which other work on the machine hardly
 from __future__ import annotations
 
 import sys
+from dataclasses import dataclass
 from itertools import pairwise
 from statistics import quantiles
 
@@ -41,7 +42,21 @@ def thread_time(session: CDPSession) -> float:
     return 1000 * float(next(metric["value"] for metric in metrics if metric["name"] == "TaskDuration"))
 
 
-def measure(page: Page) -> str:
+@dataclass(frozen=True)
+class Frames:
+    """What a frame takes of the page's thread unslowed, and the times between slowed frames, in milliseconds."""
+
+    work: float
+    median: float
+    p95: float
+    longest: float
+
+    def __str__(self) -> str:
+        between = f"median {self.median:5.1f}   p95 {self.p95:5.1f}   longest {self.longest:5.1f} ms"
+        return f"work {self.work:4.1f}   {between}"
+
+
+def measure(page: Page) -> Frames:
     session = page.context.new_cdp_session(page)
     session.send("Performance.enable", {"timeDomain": "threadTicks"})
     page.evaluate(STAMPS, 2)
@@ -53,10 +68,10 @@ def measure(page: Page) -> str:
     session.send("Emulation.setCPUThrottlingRate", {"rate": SLOWER})
     times = [later - earlier for earlier, later in pairwise(page.evaluate(STAMPS, FRAMES))]
     cuts = quantiles(times, n=100)
-    return f"work {work:4.1f}   median {cuts[49]:5.1f}   p95 {cuts[94]:5.1f}   longest {max(times):5.1f} ms"
+    return Frames(work, cuts[49], cuts[94], max(times))
 
 
-def bare(browser: Browser) -> str:
+def bare(browser: Browser) -> Frames:
     """The least that a frame takes."""
     page = browser.new_page(viewport={"width": 1366, "height": 768})
     page.set_content(BARE)
@@ -65,7 +80,7 @@ def bare(browser: Browser) -> str:
     return found
 
 
-def moving(browser: Browser, address: str, scene: str) -> str:
+def moving(browser: Browser, address: str, scene: str) -> Frames:
     """The scene moves beside its plots."""
     page = browser.new_page(viewport={"width": 1366, "height": 768})
     Lecture(page, address).open(f"?scene={scene}&lang=en&duration=20")

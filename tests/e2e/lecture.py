@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, field
 from typing import Any
 
-from playwright.sync_api import Locator, Page
+from playwright.sync_api import Locator, Page, Request
 
 VIOLATIONS = "document.addEventListener('securitypolicyviolation', e => console.error('CSP ' + e.violatedDirective))"
 
@@ -33,6 +33,21 @@ class Lecture:
         self.page.goto(f"{self.address}scene{query}")
         self.steps.first.wait_for(state="attached")
         self.bob.wait_for(state="attached")
+
+    def bytes_before_the_first_plot(self) -> dict[str, int]:
+        """By address, what the page has fetched when its plots stand, but for the library that draws them."""
+        received: dict[str, int] = {}
+
+        def count(request: Request) -> None:
+            sizes = request.sizes()
+            size = sizes["responseBodySize"] + sizes["responseHeadersSize"]
+            received[request.url] = received.get(request.url, 0) + size
+
+        self.page.on("requestfinished", count)
+        self.open()
+        self.page.locator(".plots.ready").wait_for()
+        self.page.wait_for_load_state("networkidle")
+        return {address: size for address, size in received.items() if "plotly" not in address}
 
     @property
     def steps(self) -> Locator:

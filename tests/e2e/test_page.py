@@ -6,7 +6,7 @@ import re
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from playwright.sync_api import Page, Request, expect
+from playwright.sync_api import Page, expect
 from tests.e2e.lecture import Lecture
 
 pytestmark = pytest.mark.e2e
@@ -243,21 +243,11 @@ def test_an_unknown_scene_is_said_in_sentences(page: Page, server: str) -> None:
 
 
 def test_bytes_before_the_first_plot(lecture: Lecture) -> None:
-    received: list[tuple[str, int]] = []
-
-    def count(request: Request) -> None:
-        sizes = request.sizes()
-        received.append((urlsplit(request.url).path, sizes["responseBodySize"] + sizes["responseHeadersSize"]))
-
-    lecture.page.on("requestfinished", count)
-    lecture.open()
-    lecture.page.locator(".plots.ready").wait_for()
-    lecture.page.wait_for_load_state("networkidle")
-    before = [(path, size) for path, size in received if "plotly" not in path]
-    total = sum(size for _, size in before)
+    before = lecture.bytes_before_the_first_plot()
+    total = sum(before.values())
     print(f"{len(before)} requests, {total} bytes before the first plot")
     assert len(before) > 10
-    assert total < BYTES_BEFORE_FIRST_PLOT, sorted(before, key=lambda entry: -entry[1])[:12]
+    assert total < BYTES_BEFORE_FIRST_PLOT, sorted(before.items(), key=lambda entry: -entry[1])
 
 
 def test_a_chain_of_another_length_is_another_scene(lecture: Lecture) -> None:
