@@ -9,7 +9,7 @@ from time import perf_counter
 
 import httpx
 from playwright.sync_api import Browser, sync_playwright
-from tests.api.hostile import LINES, Tally, Walk, one_client
+from tests.api.hostile import LINES, Walk, ask, judged
 from tests.benchmarks import bench_load
 from tests.benchmarks.targets import REPEATS, Target
 from tests.e2e import frames
@@ -67,22 +67,27 @@ def load() -> Iterator[Target]:
     yield Target("300 students at one moment, p99", "< 1 s", told, p99 < 1.0 and not failed, "deltaq bench load")
 
 
-async def refusals(address: str) -> Tally:
-    """Hostile texts one after the other, so that each has the time it takes and not that of a queue."""
+async def answers(address: str) -> list[tuple[httpx.Response, float, str]]:
+    """Answers, seconds and what is wrong: one text after the other, so that none waits for another."""
+    found = []
     async with httpx.AsyncClient(base_url=address.rstrip("/"), timeout=60) as client:
         document = (await client.get("/api/v1/openapi.json")).json()
         slots = [slot for slot in Walk(document).slots() if "/experiments/" not in slot.path]
-        pairs = ((slots[n % len(slots)], LINES[n * 37 % len(LINES)]) for n in range(HOSTILE))
-        tally = Tally()
-        await one_client(client.request, pairs, tally)
-    return tally
+        for n in range(HOSTILE):
+            text = LINES[n * 37 % len(LINES)]
+            start = perf_counter()
+            answer = await ask(client.request, slots[n % len(slots)], text)
+            found.append((answer, perf_counter() - start, judged(answer, text)))
+    return found
 
 
 def hostile() -> Iterator[Target]:
-    """What attackers and slips would send."""
+    """What attackers and slips would send; a text that does no harm where it stands, as in a title, is no error."""
     with served(**PATIENT) as service:
-        tally = asyncio.run(refusals(service.address))
-    seconds, where = tally.slowest
-    told = f"{tally.statuses.total()} texts, {len(tally.found)} found wanting; slowest {seconds:.2f} s ({where})"
-    met = not tally.found and seconds < 1.0 and max(tally.statuses) < 500
-    yield Target("hostile input", "refused in < 1 s", told, met, "python -m tests.api.hostile")
+        found = asyncio.run(answers(service.address))
+    refused = [seconds for answer, seconds, _ in found if 400 <= answer.status_code < 500]
+    wrong = sum(bool(what) for *_, what in found)
+    told = f"{len(refused)} of {len(found)} texts refused, the slowest in {max(refused):.2f} s; {wrong} with harm"
+    yield Target(
+        "hostile texts", "refused in < 1 s", told, max(refused) < 1.0 and not wrong, "python -m tests.api.hostile"
+    )
