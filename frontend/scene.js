@@ -55,7 +55,7 @@ function view() {
   const section = (/** @type {string} */ name) => /** @type {Record<string, unknown>} */ (state.catalog[name] ?? {});
   const methods = translator(section("methods"));
   return {
-    state, session, clock, togglePlay: motion.play, scrub: motion.scrub, instruments: motion.instruments, why: motion.instruments?.why, fullscreen, enterLecture,
+    state, session, clock, togglePlay: motion.play, scrub: motion.scrub, setSpeed: (speed) => session.move({ speed }), instruments: motion.instruments, why: motion.instruments?.why, fullscreen, enterLecture,
     editor: aside.editor.part, lecture: aside.lecturing(), overlays: aside.overlays(),
     t: translator({ ...section("page"), ...section("editor"), ...section("lecture"), ...section("figure") }),
     methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,
@@ -77,6 +77,7 @@ function update() {
   // A page that opens as a lecture shows nothing before that would move.
   if (place.view && !current.lecture && !state.failures.page && !root.querySelector("main")) return void aside.lecture.want();
   if (!state.catalog.page && !state.failures.page) return;
+  clock.setSpeed(place.speed);
   const theme = dressed(place, dark.matches);
   document.title = current.t("title");
   render(page(current), root);

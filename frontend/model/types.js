@@ -55,7 +55,7 @@
  * @typedef {"" | "plots" | "nothing"} Beside  what stands beside a step in a lecture, besides the drawing or without it
  * @typedef {"" | "figure" | "derivation"} Shown  what a frame of another page shows; "" for both
  * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, n: number, formulation: string,
- *   duration: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside,
+ *   duration: number, speed: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside,
  *   vary: string, set: string, at: number, with: string, runs: string, show: Shown, why: string}} Place  what the address says
  */
 export {};

@@ -3,7 +3,7 @@
 /** @typedef {import("./types.js").Place} Place */
 
 /** @type {Place} */
-export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "", vary: "", set: "", at: 0, with: "", runs: "", show: "", why: "" };
+export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, speed: 1, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "", vary: "", set: "", at: 0, with: "", runs: "", show: "", why: "" };
 
 const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
@@ -14,6 +14,8 @@ const VIEWS = ["lecture"];
 const PACES = ["substeps"];
 const BESIDES = ["plots", "nothing"];
 const SHOWN = ["figure", "derivation"];
+/** How many seconds of the motion pass in one of the viewer's. */
+export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 const LONGEST = 100;
 const MOST = 99;
 
@@ -33,6 +35,7 @@ export function readPlace(query) {
     n: whole(given.get("n")),
     formulation: oneOf(FORMULATIONS, given.get("formulation"), HOME.formulation),
     duration: seconds > 0 && seconds <= LONGEST ? seconds : HOME.duration,
+    speed: SPEEDS.find((speed) => speed === Number(given.get("speed"))) ?? HOME.speed,
     panel: /** @type {import("./types.js").Panel} */ (oneOf(PANELS, given.get("panel"), HOME.panel)),
     edit: /** @type {import("./types.js").Editing} */ (given.get("edit") === "" ? "form" : oneOf(EDITING, given.get("edit"), HOME.edit)),
     view: /** @type {import("./types.js").Showing} */ (oneOf(VIEWS, given.get("view"), HOME.view)),

@@ -22,6 +22,7 @@ import { FORMULATIONS } from "../model/url.js";
  * @property {(event: Event, go: () => void) => void} follow
  * @property {() => void} togglePlay
  * @property {(t: number) => void} scrub
+ * @property {(factor: number) => void} setSpeed
  * @property {() => void} fullscreen
  * @property {() => void} reload
  * @property {((view: View) => unknown) | undefined} overlays  once one has been asked for

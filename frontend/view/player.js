@@ -4,12 +4,11 @@ import { html } from "lit-html";
 import { icon } from "./icons.js";
 import { atMost, digitsIn } from "./digits.js";
 import { fixed } from "../model/numbers.js";
+import { SPEEDS } from "../model/url.js";
 
 /** @typedef {import("./page.js").View} View */
 
-const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
-
-/** @param {{state: Pick<View["state"], "trajectory" | "place">} & Pick<View, "clock" | "t" | "togglePlay" | "scrub"> & Partial<Pick<View, "instruments">>} view */
+/** @param {{state: Pick<View["state"], "trajectory" | "place">} & Pick<View, "clock" | "t" | "togglePlay" | "scrub" | "setSpeed"> & Partial<Pick<View, "instruments">>} view */
 export function player(view) {
   const { state, clock, t } = view;
   const label = clock.playing ? t("player.pause") : t("player.play");
@@ -24,7 +23,7 @@ export function player(view) {
           ?disabled=${!state.trajectory} @input=${(/** @type {Event} */ e) => view.scrub(valueOf(e))}></span>
       <output class="time" aria-live="off"></output>
       <label class="choice speed" title=${t("player.speed")}><span class="unseen">${t("player.speed")}</span>
-        <select @change=${(/** @type {Event} */ e) => clock.setSpeed(valueOf(e))}>
+        <select @change=${(/** @type {Event} */ e) => view.setSpeed(valueOf(e))}>
           ${SPEEDS.map((s) => html`<option value=${s} ?selected=${s === clock.speed}>${s.toLocaleString(state.place.lang)}×</option>`)}
         </select>${icon("chevron")}</label>
     </div>

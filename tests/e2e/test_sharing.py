@@ -172,6 +172,27 @@ def test_the_general_proof_has_an_address_a_code_and_a_handout(lecture: Lecture)
     assert page.evaluate(wide) == 0
 
 
+def test_the_speed_of_the_motion_is_part_of_the_address(lecture: Lecture) -> None:
+    page = lecture.page
+    lecture.open("?scene=pendulum&lang=en")
+    speed = page.get_by_label("Speed")
+    speed.select_option("0.25")
+    expect(page).to_have_url(re.compile(r"[?&]speed=0\.25"))
+    page.reload()
+    lecture.bob.wait_for(state="attached")
+    expect(speed).to_have_value("0.25")
+    page.keyboard.press("k")
+    lecture.pause_at(1.0)
+    page.locator(".drawing").hover()
+    page.get_by_role("button", name="One picture on").click()
+    expect(page.locator(".player .time")).to_have_text("1.01 s")
+    page.get_by_role("button", name="Share and take away").click()
+    assert "speed=0.25" in page.get_by_label("the motion alone").input_value()
+    page.keyboard.press("Escape")
+    speed.select_option("1")
+    expect(page).not_to_have_url(re.compile("speed="))
+
+
 def test_on_a_phone_the_menu_has_what_the_header_has_no_room_for(lecture: Lecture) -> None:
     page = lecture.page
     page.set_viewport_size({"width": 360, "height": 740})

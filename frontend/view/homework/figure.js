@@ -23,7 +23,7 @@ export function figure(view) {
       ${state.still ? html`<div class="patience" role="status">${t("failure.simulation")}<button type="button" class="quiet framed small" @click=${() => view.exercise.again()}>${t("retry")}</button></div>` : nothing}
       ${answered ? legend(view) : nothing}
     </div>
-    ${player({ state: { trajectory: right, place }, clock, t, togglePlay, scrub })}
+    ${player({ state: { trajectory: right, place }, clock, t, togglePlay, scrub, setSpeed: clock.setSpeed })}
     ${entry ? given(view) : nothing}
   </section>`;
 }
