@@ -34,11 +34,3 @@ export function moved(lines, id, by) {
   const to = Math.max(0, Math.min(lines.length - 1, indexOf(lines, id) + by));
   return lines[to].step.id;
 }
-
-/**
- * The first step of a chapter.
- * @param {readonly Chapter[]} chapters @param {string} id
- */
-export function firstOf(chapters, id) {
-  return chapters.find((chapter) => chapter.id === id)?.steps[0]?.id ?? "";
-}

@@ -38,7 +38,7 @@ export function scalarAt(values, { index: [a, b, c, d], weight: [u, v, w, x] }) 
 }
 
 /** @param {readonly number[][]} vectors @param {Blend} blend */
-export function vectorAt(vectors, { index, weight }) {
+function vectorAt(vectors, { index, weight }) {
   const [a, b, c, d] = index.map((i) => vectors[i]);
   const [u, v, w, x] = weight;
   return vectors[0].map((_, k) => u * a[k] + v * b[k] + w * c[k] + x * d[k]);

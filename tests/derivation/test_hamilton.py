@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 
 import pytest
-import sympy as sp
 from tests.derivation.scenes import chain, spring_in_space
 
 from deltaq.derivation.action import action
@@ -65,16 +64,6 @@ def test_chapters(formulation: str) -> None:
 
 def is_found(step: Step, system: System) -> bool:
     return not verified_step(step, tuple(random_points(system))).verified
-
-
-def altered(step: Step, before: sp.Expr, after: sp.Expr) -> Step:
-    """The step with one written-out expression replaced wherever it stands at the end of a line."""
-    lines = tuple(
-        Relation((*line.members[:-1], Explicit(after))) if line.after == Explicit(before) else line
-        for line in step.relations
-    )
-    assert lines != step.relations
-    return dataclasses.replace(step, relations=lines)
 
 
 def test_a_wrong_exchange_is_found() -> None:

@@ -33,7 +33,7 @@ L, M, T = (SYSTEM.symbols.name(name) for name in ("l", "m", "t"))
 Y, PHI = SYSTEM.q("y"), SYSTEM.q("phi")
 DY, DPHI = SYSTEM.variation("y"), SYSTEM.variation("phi")
 YD, PHID = SYSTEM.rate("y"), SYSTEM.rate("phi")
-YDD, PHIDD = SYSTEM.acceleration("y"), SYSTEM.acceleration("phi")
+PHIDD = SYSTEM.acceleration("phi")
 R = Named(Quantity("position", "bob"), SYSTEM.position("bob"), (Y, PHI))
 
 

@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { firstOf, indexOf, linesOf, moved } from "../../frontend/model/reveal.js";
+import { indexOf, linesOf, moved } from "../../frontend/model/reveal.js";
 
 const step = (/** @type {string} */ id) => ({ id, rule: "", title: id, text: "", latex: "", marked: "", verified: true, sources: [], substeps: [] });
 const chapters = [
@@ -28,8 +28,4 @@ for (const [name, from, by, to] of MOVES) {
 }
 
 test("an empty derivation moves nowhere", () => assert.equal(moved([], "x", 1), "x"));
-test("the first step of a chapter", () => {
-  assert.equal(firstOf(chapters, "variation"), "chain-rule");
-  assert.equal(firstOf(chapters, "nothing"), "");
-});
 test("where a step stands", () => assert.equal(indexOf(lines, "virtual-displacement:bob"), 2));

@@ -14,7 +14,7 @@ from deltaq.model.symengine_algebra import to_symengine
 SCENE = get_scene("guided-pendulum")
 SYMBOLS = Symbols.of(SCENE)
 PHI, RATE, ACCELERATION = se.symbols("q0 u0 a0")
-Y, Y_RATE, T = se.symbols("q1 u1 t")
+Y, T = se.symbols("q1 t")
 M, L, G, Y0, OMEGA = se.symbols("p0 p1 p2 p3 p4")
 
 

@@ -49,7 +49,7 @@ class Connection(H11Protocol):
         self._head = Alarm()
         self._reading = Alarm()
 
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # as H11Protocol has it
         super().connection_made(transport)
         self._watch_head()
 

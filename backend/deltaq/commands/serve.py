@@ -82,7 +82,7 @@ def _run(listener: socket.socket, settings: Settings) -> None:
     configure(settings.log_level)
     config = uvicorn.Config(
         create_app(settings),
-        http=connections(Patience(settings.head_timeout, settings.reading_timeout)),  # type: ignore[arg-type]
+        http=connections(Patience(settings.head_timeout, settings.reading_timeout)),  # type: ignore[arg-type]  # makes protocols
         ws="none",
         log_config=None,
         access_log=False,

@@ -57,8 +57,7 @@ class Comparison:
 
 def compare(line: Line) -> Comparison:
     """Both quotients of g for h from 1 down to 10⁻¹⁶."""
-    precision, ctx.prec = ctx.prec, BITS
-    try:
+    with ctx.workprec(BITS):
         derivative, second, third = _derivatives(line.exact)
         value = line.exact(arb(0))
         one_sided = 2 * math.sqrt(_ratio(value, second))
@@ -68,8 +67,6 @@ def compare(line: Line) -> Comparison:
             "central": _quotients(line, derivative, -1.0, central),
         }
         return Comparison(float(value), float(derivative), quotients)
-    finally:
-        ctx.prec = precision
 
 
 def _derivatives(g: Callable[[arb], arb]) -> tuple[arb, arb, arb]:

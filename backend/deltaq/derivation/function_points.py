@@ -24,11 +24,8 @@ RATE = -2  # rates are smaller still, so that the test functions keep their sign
 
 def function_points(functional: Functional, *, fixed: Fixed = (False, False), seed: int = 1) -> tuple[Point, ...]:
     """Jets of test functions with positive values and small rates; directions vanish at fixed ends."""
-    precision, ctx.prec = ctx.prec, BITS
-    try:
+    with ctx.workprec(BITS):
         return tuple(_points(functional, random.Random(seed), fixed=fixed))
-    finally:
-        ctx.prec = precision
 
 
 def _points(functional: Functional, source: random.Random, *, fixed: Fixed) -> Iterator[Point]:

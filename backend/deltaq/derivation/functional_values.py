@@ -35,12 +35,9 @@ class Motion:
 
 def line_of(functional: Functional, motion: Motion, time: float) -> Line:
     """g(h) = f(x + h v); `time` is where f is looked at, unless the functional says so itself."""
-    precision, ctx.prec = ctx.prec, BITS
-    try:
+    with ctx.workprec(BITS):
         nodes = _nodes(functional, motion, time)
         sampled = [(weight, _jets(functional, motion, at)) for weight, at in nodes]
-    finally:
-        ctx.prec = precision
     (tree,) = functional.trees
     names = [symbol.name for symbol in functional.jets]
 

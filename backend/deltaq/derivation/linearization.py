@@ -87,8 +87,7 @@ def is_degenerate(system: System, linear: Linearization) -> bool:
 
 def _about(system: System, equilibrium: Equilibrium) -> Linearization:
     raw = (mass_matrix(system), damping_at_rest(system), stiffness_at_rest(system))
-    precision, ctx.prec = ctx.prec, BITS
-    try:
+    with ctx.workprec(BITS):
         point = numeric_point(system, equilibrium)
         mass, damping, stiffness = numbers = [list(components(matrix, point)) for matrix in raw]
         smooth = all(part.is_finite() for values in numbers for part in values)
@@ -98,8 +97,6 @@ def _about(system: System, equilibrium: Equilibrium) -> Linearization:
             matrices = [system.display(matrix.xreplace(dict(equilibrium.values))) for matrix in raw]
         else:
             matrices = [_rational(values, len(system.free)) for values in numbers]
-    finally:
-        ctx.prec = precision
     return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged)
 
 

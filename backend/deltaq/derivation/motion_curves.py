@@ -30,16 +30,13 @@ class Curves:
 
 def curves_of(functional: Functional, motion: Motion, time: float) -> Curves:
     """Over the interval of an integral, else over a span that has the instant inside."""
-    precision, ctx.prec = ctx.prec, BITS
-    try:
+    with ctx.workprec(BITS):
         (lower, upper), at = _span(functional, motion, time)
         times = tuple(lower + (upper - lower) * k / (SAMPLES - 1) for k in range(SAMPLES))
         functions, directions = (
             _sampled(part, functional, motion, times) for part in (motion.functions, motion.directions)
         )
         return Curves(times, functions, directions, at)
-    finally:
-        ctx.prec = precision
 
 
 def _span(functional: Functional, motion: Motion, time: float) -> tuple[tuple[float, float], float | None]:

@@ -19,8 +19,7 @@ TINY = arb(2) ** -260  # keeps the normal equations solvable where roots are not
 def refined(equations: list[sp.Expr], start: Mapping[sp.Symbol, float]) -> dict[sp.Symbol, sp.Expr] | None:
     """The root as exact binary fractions that are right to more than 400 bits; None if it does not converge."""
     slopes = [[equation.diff(q) for q in start] for equation in equations]
-    precision, ctx.prec = ctx.prec, BITS
-    try:
+    with ctx.workprec(BITS):
         point = {q.name: arb(value) for q, value in start.items()}
         for _ in range(STEPS):
             step = _step([number(e, point) for e in equations], [[number(s, point) for s in row] for row in slopes])
@@ -29,8 +28,6 @@ def refined(equations: list[sp.Expr], start: Mapping[sp.Symbol, float]) -> dict[
             point = {name: (value + d).mid() for (name, value), d in zip(point.items(), step, strict=True)}
             if all(abs(d) < SMALL for d in step):
                 return {q: rational(point[q.name]) for q in start}
-    finally:
-        ctx.prec = precision
     return None
 
 

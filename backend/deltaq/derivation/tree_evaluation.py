@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from fractions import Fraction
-from typing import NoReturn, TypeAlias
+from typing import TypeAlias
 
 from flint import arb
 
 from ..language.spelling import spell_rate
-from ..language.tree import Node, fold
+from ..language.tree import Node, NumbersOnly, fold
 from .points import Point, along_motion, central_difference
 
 At: TypeAlias = Callable[[Point], arb]
@@ -55,7 +55,7 @@ def tree_value(tree: Node, point: Point) -> arb:
     return fold(tree, FunctionAlgebra())(point)
 
 
-class FunctionAlgebra:
+class FunctionAlgebra(NumbersOnly):
     """Each node becomes a function of the point, so that derivatives can look beside it."""
 
     def number(self, value: Fraction) -> At:
@@ -93,12 +93,3 @@ class FunctionAlgebra:
 
     def time_derivative(self, operand: At) -> At:
         return lambda point: central_difference(lambda h: operand(along_motion(point, h)))
-
-    def partial_derivative(self, _operand: At, _variable: At) -> NoReturn:
-        raise NotImplementedError("scene expressions hold no partial derivatives")
-
-    def vector(self, _components: tuple[At, ...]) -> NoReturn:
-        raise NotImplementedError("a vector is evaluated component by component")
-
-    def equation(self, _left: At, _right: At) -> NoReturn:
-        raise NotImplementedError("an equation has no value")

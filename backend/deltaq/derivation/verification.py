@@ -50,11 +50,8 @@ def verified_step(step: Step, points: tuple[Point, ...]) -> Step:
 
 def holds(relation: Relation, points: tuple[Point, ...]) -> bool:
     """Whether the members agree at enough points where all are defined (or, for the sign ≠, differ at one)."""
-    precision, ctx.prec = ctx.prec, BITS
-    try:
+    with ctx.workprec(BITS):
         gaps = tuple(islice(filter(arb.is_finite, (_gap(relation.members, point) for point in points)), POINTS))
-    finally:
-        ctx.prec = precision
     if relation.sign == "≠":
         return any(gap > TOLERANCE for gap in gaps)
     return len(gaps) == POINTS and all(gap < TOLERANCE for gap in gaps)

@@ -9,7 +9,7 @@ Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -135,9 +135,3 @@ def growth_in_a_step(distances: Floats) -> float:
     early = distances[quarter : 2 * quarter].max(initial=1e-300)
     late = distances[3 * quarter :].max(initial=1e-300)
     return float((late / early) ** (1.0 / (2 * quarter)))
-
-
-def steps_of(eigenvalues: Complexes) -> Iterator[float]:
-    """Steps worth trying on a slider, from fine to coarse."""
-    fastest = float(np.abs(eigenvalues).max(initial=0.0)) or 1.0
-    yield from (float(step) for step in np.geomspace(0.01, 10.0, 61) / fastest)

@@ -10,7 +10,7 @@ from typing import NoReturn
 
 from .functions import FUNCTIONS
 from .spelling import spell_rate
-from .tree import Node, fold
+from .tree import Node, NumbersOnly, fold
 
 
 def evaluate(node: Node, values: Mapping[str, float]) -> float:
@@ -22,7 +22,7 @@ def evaluate(node: Node, values: Mapping[str, float]) -> float:
 
 
 @dataclass(frozen=True)
-class FloatAlgebra:
+class FloatAlgebra(NumbersOnly):
     """Evaluation from the leaves up; raises ArithmeticError or ValueError where the expression is not defined."""
 
     values: Mapping[str, float]
@@ -62,12 +62,3 @@ class FloatAlgebra:
 
     def time_derivative(self, _operand: float) -> NoReturn:
         raise ValueError("a number has no derivative")
-
-    def partial_derivative(self, _operand: float, _variable: float) -> NoReturn:
-        raise ValueError("a number has no derivative")
-
-    def vector(self, _components: tuple[float, ...]) -> NoReturn:
-        raise ValueError("a vector is evaluated component by component")
-
-    def equation(self, _left: float, _right: float) -> NoReturn:
-        raise ValueError("an equation has no value")

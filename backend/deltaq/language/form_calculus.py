@@ -11,7 +11,7 @@ from typing import Any
 
 from . import fourier
 from .display import display_form
-from .fourier import Form, Monomial, Phase, TooLargeError
+from .fourier import Form, Term, TooLargeError
 from .normal_form import Reader
 from .symbols import Symbols
 
@@ -72,21 +72,23 @@ def plain_forms(exprs: Iterable[Any], reader: Reader) -> list[Form] | None:
 def form_derivative(form: Form, name: str) -> Form:
     """∂/∂name of every term."""
     return fourier.add(
-        {term: coefficient * number}
-        for (mono, phase, sine), coefficient in form.items()
-        for term, number in (*_by_monomial(mono, phase, sine, name), *_by_wave(mono, phase, sine, name))
+        {changed: coefficient * number}
+        for term, coefficient in form.items()
+        for changed, number in (*_by_monomial(term, name), *_by_wave(term, name))
     )
 
 
-def _by_monomial(mono: Monomial, phase: Phase, sine: bool, name: str) -> Iterable[tuple[fourier.Term, Any]]:  # noqa: FBT001
+def _by_monomial(term: Term, name: str) -> Iterable[tuple[Term, Any]]:
     """(xⁿ)′ = n xⁿ⁻¹"""
+    mono, phase, sine = term
     exponent = dict(mono).get(name)
     if exponent is not None:
         yield (fourier.times(mono, ((name, -1),)), phase, sine), exponent
 
 
-def _by_wave(mono: Monomial, phase: Phase, sine: bool, name: str) -> Iterable[tuple[fourier.Term, Any]]:  # noqa: FBT001
+def _by_wave(term: Term, name: str) -> Iterable[tuple[Term, Any]]:
     """(cos θ)′ = −θ′ sin θ and (sin θ)′ = θ′ cos θ; θ is a linear form in monomials."""
+    mono, phase, sine = term
     for inner, factor in phase:
         exponent = dict(inner).get(name)
         if exponent is not None:

@@ -48,7 +48,7 @@ def monomial(name: str, exponent: Any = 1) -> Form:
 def wave(phase: Phase, *, sine: bool) -> Form:
     """The form of cos(phase) or sin(phase)."""
     form: Form = {}
-    _accumulate(form, ONE, phase, sine, fmpq(1))
+    _accumulate(form, (ONE, phase, sine), fmpq(1))
     return form
 
 
@@ -81,13 +81,13 @@ def multiply(left: Form, right: Form) -> Form:
         for (mono_b, phase_b, sine_b), b in right.items():
             mono = times(mono_a, mono_b)
             if not phase_a or not phase_b:
-                _accumulate(product, mono, phase_a or phase_b, sine_a or sine_b, a * b)
+                _accumulate(product, (mono, phase_a or phase_b, sine_a or sine_b), a * b)
                 continue
             half = a * b * HALF
             plus, minus = _combine(phase_a, phase_b, 1), _combine(phase_a, phase_b, -1)
             sine = sine_a != sine_b
-            _accumulate(product, mono, plus, sine, -half if sine_a and sine_b else half)
-            _accumulate(product, mono, minus, sine, -half if sine_b and not sine_a else half)
+            _accumulate(product, (mono, plus, sine), -half if sine_a and sine_b else half)
+            _accumulate(product, (mono, minus, sine), -half if sine_b and not sine_a else half)
     if len(product) > MAX_TERMS:
         raise TooLargeError
     return product
@@ -132,14 +132,14 @@ def _combine(left: Phase, right: Phase, sign: int) -> Phase:
     return tuple(sorted((mono, c) for mono, c in coefficients.items() if c))
 
 
-def _accumulate(form: Form, mono: Monomial, phase: Phase, sine: bool, coefficient: Any) -> None:  # noqa: FBT001
+def _accumulate(form: Form, term: Term, coefficient: Any) -> None:
     """Add one term, its phase turned so that its first coefficient is positive."""
+    mono, phase, sine = term
     if not phase and sine:
         return
     if phase and phase[0][1] < 0:
-        phase = tuple((m, -c) for m, c in phase)
+        term = (mono, tuple((m, -c) for m, c in phase), sine)
         coefficient = -coefficient if sine else coefficient
-    term = (mono, phase, sine)
     value = form.get(term, 0) + coefficient
     if value:
         form[term] = value

@@ -53,7 +53,7 @@ class Reader(Generators):
             known = self._known[expr] = self._read(expr)
         return known
 
-    def _read(self, expr: Any) -> Form:  # noqa: PLR0911
+    def _read(self, expr: Any) -> Form:  # noqa: PLR0911 - one case for each kind
         if expr.is_Symbol:
             self.meaning[expr.name] = expr
             return fourier.monomial(expr.name)

@@ -42,6 +42,6 @@ def parse(text: str, names: Names, syntax: Syntax = "plain") -> Expression:
 def _tokens(text: str, names: Names, syntax: Syntax) -> Iterable[Token]:
     if syntax == "plain":
         return plain_tokens(text, names)
-    from .latex_lexer import latex_tokens  # noqa: PLC0415
+    from .latex_lexer import latex_tokens  # noqa: PLC0415 - scenes are read without it
 
     return latex_tokens(text, names)

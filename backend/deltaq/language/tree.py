@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Protocol, TypeVar
+from typing import NoReturn, Protocol, TypeVar
 
 from .nodes import (
     NOWHERE,
@@ -44,6 +44,7 @@ __all__ = [
     "Negation",
     "Node",
     "Number",
+    "NumbersOnly",
     "PartialDerivative",
     "Power",
     "Product",
@@ -80,6 +81,19 @@ class Algebra(Protocol[T]):
     def partial_derivative(self, operand: T, variable: T) -> T: ...
     def vector(self, components: tuple[T, ...]) -> T: ...
     def equation(self, left: T, right: T) -> T: ...
+
+
+class NumbersOnly:
+    """What algebras of numbers have no value for; the names are gone in it, so nothing is left to differentiate by."""
+
+    def partial_derivative(self, _operand: object, _variable: object) -> NoReturn:
+        raise ValueError("a number has no derivative")
+
+    def vector(self, _components: object) -> NoReturn:
+        raise ValueError("a vector is evaluated component by component")
+
+    def equation(self, _left: object, _right: object) -> NoReturn:
+        raise ValueError("an equation has no value")
 
 
 def fold(node: Node, algebra: Algebra[T]) -> T:

@@ -116,9 +116,6 @@ class Scene:
         """What a point, body or load is called in a sentence; its name where there is no label."""
         return self.labels.get(name, {}).get(language, name)
 
-    def guide_of(self, coordinate: str) -> Guide | None:
-        return next((guide for guide in self.guides if guide.coordinate == coordinate), None)
-
     def __reduce__(self) -> tuple[object, ...]:
         # A mapping proxy cannot be pickled; the cached properties need not be.
         fields = (self.id, dict(self.title), dict(self.summary), self.dimension, self.coordinates, self.parameters)

@@ -10,8 +10,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-Exponents = tuple[Fraction, Fraction, Fraction]  # of kilogram, metre, second
-
 
 @dataclass(frozen=True)
 class Dimension:

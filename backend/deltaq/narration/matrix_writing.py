@@ -56,7 +56,7 @@ def write_matrix(writer: Writer, formula: MatrixFormula) -> str:  # noqa: PLR091
         case Rounded(value, unit):
             return rounded(value, unit)
         case _:
-            raise NotImplementedError(type(formula).__name__)
+            raise TypeError(f"{type(formula).__name__} is no formula of the model")
 
 
 def rounded(value: Value, unit: str = "") -> str:

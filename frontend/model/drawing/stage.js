@@ -27,7 +27,7 @@ const SEEN = 0.9;
 const MOST_GROWTH = GROWTH ** 8;
 
 /** A space position seen from the front right; a plane one as it is. @param {readonly number[]} p @returns {Pixel} */
-export function flattened(p) {
+function flattened(p) {
   return p.length < 3 ? [p[0], p[1]] : [p[0] - 0.4 * p[1], p[2] - 0.25 * p[1]];
 }
 

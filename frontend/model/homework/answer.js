@@ -4,8 +4,6 @@
 /** @typedef {{start: string, between: string, end: string}} Frame */
 /** @typedef {{form: string, components: number | null}} Asked */
 
-export const SYNTAXES = /** @type {const} */ (["plain", "latex"]);
-
 /** @type {Record<string, Record<Syntax, Frame>>} */
 const FRAMES = {
   vector: {

@@ -23,7 +23,7 @@ import { referenceIn } from "./sheet.js";
  */
 
 export const COLUMNS = ["student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback"];
-export const NEEDED = ["task", "answer"];
+const NEEDED = ["task", "answer"];
 export const SLIPS = ["sign", "missing", "half", "double"];
 const MOST_LINES = 24;
 const CARRIED = 64;

@@ -32,7 +32,7 @@ def _compiled(function: F, *, forceinline: bool) -> F:
     options: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "_nrt": False}
     compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, **options)(function)
     # Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
-    compiled._cache._cache_file._source_stamp = source_stamp()  # noqa: SLF001
+    compiled._cache._cache_file._source_stamp = source_stamp()  # noqa: SLF001 - Numba offers no other way
     return cast("F", compiled)
 
 
