@@ -38,10 +38,14 @@ const lecture = createLater(async () => {
   const about = () => ({ scene: PROOF, title: { [store.get().place.lang]: texts()("place.proof") } });
   return open({ root, session, state: store.get, about, changed: update, play() {} });
 }, update);
+const framed = location.pathname.startsWith("/embed/") ? import("./view/embed.js").then(({ embed }) => embed(root, () => store.get().place, whole)) : null;
 const sharing = createLater(() => import("./view/share.js"), update);
 
 const lecturing = () => (store.get().place.view ? lecture.part : null);
 const link = (/** @type {Partial<import("./model/types.js").Place>} */ patch) => location.pathname + writePlace({ ...store.get().place, ...patch });
+
+/** The address of the same step as a page. */
+const whole = () => location.href.replace("/embed/", "/");
 
 /** @param {Event} event @param {() => void} go */
 function follow(event, go) {
@@ -89,6 +93,7 @@ function update() {
   lecture.part?.update();
   openDialog(root);
   history.replaceState(null, "", link({}));
+  void framed?.then((tell) => tell());
   if (reach(place.step, still.matches)) announce(state.lines, place.step, t);
 }
 

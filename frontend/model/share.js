@@ -21,6 +21,9 @@ export function frameAddress(origin, place, shown, fragment) {
   return `${origin}/embed${writePlace({ ...place, view: "", edit: "", panel: HOME.panel, show: shown })}${fragment}`;
 }
 
+/** The address of the general proof within frames of other pages. @param {string} origin @param {Pick<Place, "step" | "lang" | "theme">} place */
+export const proofFrameAddress = (origin, { step, lang, theme }) => `${origin}/embed/proof${writePlace({ ...HOME, step, lang, theme })}`;
+
 /** One line of HTML that shows a place in another page. @param {string} address @param {Shown} shown @param {string} title */
 export function snippet(address, shown, title) {
   return `<iframe src="${escaped(address)}" title="${escaped(title)}" width="100%" height="${HEIGHTS[shown]}" style="border:0" loading="lazy" allow="fullscreen"></iframe>`;

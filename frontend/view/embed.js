@@ -1,7 +1,7 @@
 /** In a frame of another page: what is shown, how high it is, and the way to the whole. */
 
 /**
- * Tells the page around each height as {type: "deltaq.height", height, scene, step}, so that it can fit the frame.
+ * Tells the page around each height as {type: "deltaq.height", height, scene, step}, where a proof has no scene, so that it can fit the frame.
  * @param {HTMLElement} root @param {() => import("../model/types.js").Place} place @param {() => string} whole  address of the same place as a page
  */
 export function embed(root, place, whole) {

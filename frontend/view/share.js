@@ -5,7 +5,7 @@ import { html, nothing, svg } from "lit-html";
 import { dialog } from "./overlays.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
-import { FORMS, frameAddress, pathOf, SHOWN, snippet } from "../model/share.js";
+import { FORMS, frameAddress, pathOf, proofFrameAddress, SHOWN, snippet } from "../model/share.js";
 import { HOME, writePlace } from "../model/url.js";
 
 /** @typedef {import("./page.js").View} View */
@@ -30,21 +30,29 @@ function sharing(view, more) {
     </div>`, view);
 }
 
-/** A proof has an address and a handout. @param {Shared} view @param {string} proof */
+/** A proof has an address, a frame and a handout. @param {Shared} view @param {string} proof */
 export function shareProof(view, proof) {
-  const { lang, theme } = view.state.place;
+  const { state, t } = view;
+  const { lang, theme } = state.place;
   const query = writePlace({ ...HOME, lang, theme });
-  return sharing(view, html`<section><h3>${view.t("share.files")}</h3>
-    <ul class="files"><li>${handoutLink(`/handout${query}${query ? "&" : "?"}proof=${proof}`, view.t)}</li></ul></section>`);
+  const frame = snippet(proofFrameAddress(location.origin, state.place), "derivation", t("place.proof"));
+  return sharing(view, html`
+      ${framing(copied(frame, t("share.frame"), t), t)}
+      <section><h3>${t("share.files")}</h3>
+        <ul class="files"><li>${handoutLink(`/handout${query}${query ? "&" : "?"}proof=${proof}`, t)}</li></ul></section>`);
 }
+
+/** Lines of HTML for other pages. @param {unknown} lines @param {View["t"]} t */
+const framing = (lines, t) => html`<section><h3>${t("share.frame")}</h3><p>${t("share.frame-help")}</p>${lines}</section>`;
 
 /** @param {View} view @param {Take} take */
 export function share(view, take) {
   const { state, t } = view;
   const title = inLanguage(state.scene?.title, state.place.lang);
+  const line = (/** @type {typeof SHOWN[number]} */ shown) => snippet(frameAddress(location.origin, state.place, shown, fragment(state)), shown, title);
+  const named = (/** @type {typeof SHOWN[number]} */ shown) => t(`share.show-${shown || "both"}`);
   return sharing(view, html`
-      <section><h3>${t("share.frame")}</h3><p>${t("share.frame-help")}</p>
-        ${SHOWN.map((shown) => html`<p class="kind">${t(`share.show-${shown || "both"}`)}</p>${copied(snippet(frameAddress(location.origin, state.place, shown, fragment(state)), shown, title), t(`share.show-${shown || "both"}`), t)}`)}</section>
+      ${framing(SHOWN.map((shown) => html`<p class="kind">${named(shown)}</p>${copied(line(shown), named(shown), t)}`), t)}
       <section><h3>${t("share.files")}</h3>${files(view, take)}</section>`);
 }
 

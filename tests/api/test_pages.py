@@ -20,8 +20,8 @@ from deltaq.settings import Settings
 pytestmark = pytest.mark.anyio
 
 IMPORT_MAP = '{"imports": {"lit-html": "/vendor/lit-html/lit-html.js"}}'
-INDEX = f"""<!doctype html><link rel="stylesheet" href="/vendor/katex/katex.css">
-<script type="importmap">{IMPORT_MAP}</script><script type="module" src="/app.js"></script>"""
+INDEX = f"""<!doctype html><head><link rel="stylesheet" href="/vendor/katex/katex.css">
+<script type="importmap">{IMPORT_MAP}</script></head><script type="module" src="/app.js"></script>"""
 
 
 @pytest.fixture
@@ -29,6 +29,7 @@ def site(tmp_path: Path) -> Path:
     """A small front end, with files beside it that nobody may get."""
     files = {
         "index.html": INDEX,
+        "scene.html": INDEX.replace("app", "scene"),
         "proof.html": INDEX.replace("app", "proof"),
         "trial.html": INDEX.replace("app", "trial"),
         "app.js": "export const δq = 1;\n" * 100,
@@ -105,6 +106,18 @@ async def test_policy_allows_the_import_map_and_no_other_inline_script(browser: 
         "img-src 'self' data: blob:; font-src 'self' data:; worker-src 'self' blob:; object-src 'none'; "
         "base-uri 'none'; form-action 'self'; frame-ancestors 'self'"
     )
+
+
+@pytest.mark.parametrize(("path", "script"), [("/embed", "/scene.js"), ("/embed/proof", "/proof.js")])
+async def test_a_frame_shows_a_page_where_its_policy_allows(site: Path, path: str, script: str) -> None:
+    app = create_app(Settings(workers=1, static=str(site), frame_ancestors=("https://course.test",)))
+    transport = httpx.ASGITransport(app=app)
+    async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test") as client:
+        page = await client.get(path)
+        assert (await client.get("/embed/variations")).status_code == 404
+    assert f'src="{script}"' in page.text
+    assert '<link rel="stylesheet" href="/styles/embed.css"></head>' in page.text
+    assert page.headers["content-security-policy"].endswith("frame-ancestors 'self' https://course.test")
 
 
 @pytest.mark.parametrize("path", ["/", "/app.js", "/icon.svg", "/api/v1/scenes", "/nothing", "/docs/try"])
@@ -213,7 +226,7 @@ async def test_no_page_at_all(tmp_path: Path) -> None:
         assert (await client.get("/")).status_code == 404
 
 
-@pytest.mark.parametrize("path", ["/", "/docs", "/docs/try"])
+@pytest.mark.parametrize("path", ["/", "/docs", "/docs/try", "/embed", "/embed/proof"])
 async def test_real_page_and_all_that_it_names(client: httpx.AsyncClient, path: str) -> None:
     page = await client.get(path)
     assert page.status_code == 200

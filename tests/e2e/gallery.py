@@ -99,6 +99,7 @@ PLACES = (
     Place("presenter", "presenter?x=1", ".notice"),
     Place("handout", "handout?scene=elastic-pendulum", ".paper path.bob"),
     Place("embed", "embed?scene=elastic-pendulum&step=virtual-displacement:bob", BOB),
+    Place("embed-proof", "embed/proof?step=general-product-rule", ".steps .katex"),
     Place("variations", "variations?", ".steps .katex", full=True),
     Place("labs", "labs?", ".question button.main"),
     Place(

@@ -73,6 +73,7 @@ PLACES = [
     pytest.param(f"{SCENE}&view=lecture&part=1&beside=plots", ".slide .katex", nothing, id="lecture mode"),
     pytest.param("scene?scene=pendulum&edit=form", ".editor .field .katex", nothing, id="editor"),
     pytest.param("embed?scene=pendulum", ".steps .katex", nothing, id="frame"),
+    pytest.param("embed/proof?", ".steps .katex", nothing, id="proof in a frame"),
     pytest.param("handout?scene=pendulum", ".paper .katex", nothing, id="handout"),
     pytest.param("presenter?x=1", ".presenter .notice", nothing, id="presenter without lecture"),
     pytest.param("variations?", ".steps .katex", nothing, id="variations"),

@@ -100,6 +100,26 @@ def test_the_line_of_html_shows_the_place_at_its_height(
     expect(frame.locator(".home a")).to_have_attribute("href", re.compile(r"/scene\?scene=elastic-pendulum"))
 
 
+def test_the_proof_goes_into_a_course_page(lecture: Lecture) -> None:
+    page = lecture.page
+    page.goto(f"{lecture.address}proof?lang=en&step=general-product-rule&theme=dark")
+    page.locator(".steps .katex").first.wait_for()
+    page.locator(".tools .tool").first.click()
+    snippet = page.get_by_label("Embed in a course page").input_value()
+    course(page, lecture.address, snippet)
+    frame = page.frame_locator("iframe")
+    expect(frame.locator(".step[aria-current]")).to_have_attribute("data-step", "general-product-rule")
+    expect(frame.locator(".top")).to_be_hidden()
+    expect(frame.locator("html")).to_have_attribute("data-theme", "dark")
+    page.wait_for_function("window.heard && window.heard.step === 'general-product-rule' && window.heard.height > 700")
+    before = page.evaluate("window.heard.height")
+    frame.locator(".pager .main").click()
+    page.wait_for_function(f"window.heard.height > {before}")
+    inner = "document.querySelector('iframe').contentDocument.documentElement"
+    page.wait_for_function(f"{inner}.scrollHeight <= {inner}.clientHeight")
+    expect(frame.locator(".home a")).to_have_attribute("href", re.compile(r"/proof\?step=(?!general-product-rule)"))
+
+
 def test_a_frame_grows_with_its_steps(shared: Lecture) -> None:
     page = shared.page
     course(page, shared.address, page.get_by_label("derivation and motion").input_value())
@@ -110,14 +130,13 @@ def test_a_frame_grows_with_its_steps(shared: Lecture) -> None:
     page.wait_for_function(f"window.heard.height > {before}")
 
 
-def test_another_origin_may_not_show_it(lecture: Lecture) -> None:
+@pytest.mark.parametrize("path", ["embed?scene=pendulum", "embed/proof"])
+def test_another_origin_may_not_show_it(lecture: Lecture, path: str) -> None:
     page = lecture.page
     elsewhere = "http://course.test/"
     page.route(
         f"{elsewhere}**",
-        lambda route: route.fulfill(
-            body=f'<iframe src="{lecture.address}embed?scene=pendulum"></iframe>', content_type="text/html"
-        ),
+        lambda route: route.fulfill(body=f'<iframe src="{lecture.address}{path}"></iframe>', content_type="text/html"),
     )
     page.goto(elsewhere)
     page.wait_for_timeout(500)
@@ -161,7 +180,7 @@ def test_the_general_proof_has_an_address_a_code_and_a_handout(lecture: Lecture)
     page.locator(".steps .katex").first.wait_for()  # the first proof of a server takes its time
     page.locator(".tools .tool").first.click()
     expect(page.locator(".qr")).to_be_visible()
-    assert page.locator("dialog input").input_value() == page.url
+    assert page.get_by_label("Adresse dieses Standes").input_value() == page.url
     page.locator("dialog .files a").click()
     expect(page.locator(".paper h1")).to_have_text("Allgemeiner Beweis")
     expect(page.locator(".paper .step")).to_have_count(20)

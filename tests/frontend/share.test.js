@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { createExports, frameAddress, pathOf, snippet } from "../../frontend/model/share.js";
+import { createExports, frameAddress, pathOf, proofFrameAddress, snippet } from "../../frontend/model/share.js";
 import { createStore } from "../../frontend/model/store.js";
 import { START } from "../../frontend/model/state.js";
 import { HOME } from "../../frontend/model/url.js";
@@ -10,6 +10,10 @@ const place = { ...HOME, scene: "pendulum", step: "position:bob", view: /** @typ
 test("a frame shows the place, without what belongs to the page alone", () => {
   assert.equal(frameAddress("https://dq.example", place, "", ""), "https://dq.example/embed?scene=pendulum&step=position:bob");
   assert.equal(frameAddress("https://dq.example", HOME, "figure", "#s=x"), "https://dq.example/embed?show=figure#s=x");
+});
+
+test("a frame shows the proof at its step, without what belongs to a page", () => {
+  assert.equal(proofFrameAddress("https://dq.example", { ...place, step: "product-rule", lang: "de" }), "https://dq.example/embed/proof?step=product-rule&lang=de");
 });
 
 test("a scene's own words stay words in HTML", () => {

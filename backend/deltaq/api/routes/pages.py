@@ -44,10 +44,13 @@ def start(request: Request) -> Response:
 @router.api_route("/embed", methods=["GET", "HEAD"])
 def embed(request: Request) -> Response:
     """The page of a scene for frames of other pages, which DELTAQ_FRAME_ANCESTORS names."""
-    html = service_of(request).assets.page("scene")
-    if html is None:
-        raise HTTPException(404)
-    return _page(request, html.replace("</head>", '<link rel="stylesheet" href="/styles/embed.css"></head>'))
+    return _framed(request, "scene")
+
+
+@router.api_route("/embed/proof", methods=["GET", "HEAD"])
+def embedded_proof(request: Request) -> Response:
+    """The general proof for frames of other pages."""
+    return _framed(request, "proof")
 
 
 @router.api_route("/docs/try", methods=["GET", "HEAD"])
@@ -70,6 +73,14 @@ def file(request: Request, path: str) -> Response:
     if asset is None:
         raise HTTPException(404)
     return _file(request, asset)
+
+
+def _framed(request: Request, name: str) -> Response:
+    """A page as it looks in a frame of another one."""
+    html = service_of(request).assets.page(name)
+    if html is None:
+        raise HTTPException(404)
+    return _page(request, html.replace("</head>", '<link rel="stylesheet" href="/styles/embed.css"></head>'))
 
 
 def _page(request: Request, html: str) -> Response:
