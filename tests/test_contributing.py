@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import re
 import shutil
@@ -27,7 +28,9 @@ from deltaq.settings import Settings
 
 async def main():
     app = create_app(Settings(workers=1, derivation_deadline=120.0))
-    app.state.service.pool.start()
+    pools = (app.state.service.pool, app.state.service.laboratory)
+    for pool in pools:
+        pool.start()
     try:
         transport = httpx.ASGITransport(app=app)
         async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test/api/v1", timeout=150) as client:
@@ -35,7 +38,8 @@ async def main():
                 answer = await client.request(method, path, json=body)
                 print(json.dumps(answer.json()))
     finally:
-        app.state.service.pool.stop()
+        for pool in pools:
+            pool.stop(0.1)
 
 asyncio.run(main())
 """
@@ -90,11 +94,12 @@ def coupled(root: Path) -> dict[str, Any]:
 
 def test_the_api_knows_what_was_added(copy: Path, root: Path) -> None:
     answer = {"value": "-m*l^2*dot(phi)^2/2 - m*g*l*cos(phi)"}
-    scenes, methods, derivation, verdict = asked(
+    scenes, methods, derivation, experiment, verdict = asked(
         copy,
         ("GET", "/scenes", None),
         ("GET", "/methods?lang=de", None),
         ("POST", "/derivations", {"scene": coupled(root), "lang": "en"}),
+        ("POST", "/experiments/eigenvalues", {"scene": "pendulum", "initial": {"phi": {"value": 0.0}}, "lang": "de"}),
         ("POST", "/checks", {"scene": "pendulum", "task": "lagrangian", "answer": answer, "lang": "en"}),
     )
     assert "slide" in [scene["id"] for scene in scenes["scenes"]]
@@ -102,6 +107,9 @@ def test_the_api_knows_what_was_added(copy: Path, root: Path) -> None:
     steps = {step["rule"]: step for chapter in derivation["chapters"] for step in chapter["steps"]}
     assert steps["work-of-couple"]["verified"] is True
     assert derivation["result"]["virtual_work"]["terms"][-1]["plain"] == "F*l*delta(phi)"
+    (chart,) = experiment["charts"]
+    assert (chart["title"], chart["caption"]) == ("Eigenwerte", "Der Bewegung, linearisiert an ihrem Anfang.")
+    assert sorted(experiment["imaginary"]) == pytest.approx([-math.sqrt(9.81), math.sqrt(9.81)], rel=1e-6)
     assert verdict["misconception"] == "energies-swapped"
     assert verdict["feedback"] == "Not right yet. Which of the two energies is positive in L?"
 
@@ -112,11 +120,12 @@ def test_the_tests_of_its_kind_take_it_up(copy: Path) -> None:
         "tests/mechanics/test_library.py": "slide",
         "tests/narration/test_catalogs.py": "says_the_same or states_its_law or slide",
         "tests/simulation/test_methods.py": "ralston and not (falls or growth)",
+        "tests/api/test_experiments.py": "eigenvalues and title",
         "tests/homework/test_misconceptions.py": "told",
     }
     chosen = " or ".join(f"({words})" for words in modules.values())
     options = ["-p", "no:cacheprovider", "-n", "0", "-v", "--color=no", "-k", chosen]
     passed = run(copy, "-m", "pytest", *options, *modules)
     assert {name for name in modules if f"{name}::" in passed} == set(modules)
-    for one in ("slide", "ralston"):
+    for one in ("slide", "ralston", "eigenvalues"):
         assert re.search(rf"\[.*{one}.*\] PASSED", passed), one

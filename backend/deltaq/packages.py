@@ -9,11 +9,16 @@ from types import ModuleType
 
 
 @cache
-def modules_of(package: str) -> tuple[ModuleType, ...]:
-    """The modules directly inside a package, in the order of their names; names with a leading _ are private."""
+def names_of(package: str) -> tuple[str, ...]:
+    """The names of the modules directly inside a package, in order, none imported; a leading _ makes one private."""
     path = import_module(package).__path__
-    names = sorted(module.name for module in iter_modules(path) if not module.name.startswith("_"))
-    return tuple(import_module(f"{package}.{name}") for name in names)
+    return tuple(sorted(module.name for module in iter_modules(path) if not module.name.startswith("_")))
+
+
+@cache
+def modules_of(package: str) -> tuple[ModuleType, ...]:
+    """The modules directly inside a package, in the order of their names."""
+    return tuple(import_module(f"{package}.{name}") for name in names_of(package))
 
 
 @cache

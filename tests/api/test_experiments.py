@@ -14,7 +14,7 @@ import httpx
 import pytest
 from fastapi import FastAPI
 
-from deltaq.lab.experiment import experiment_ids, get_experiment
+from deltaq.lab.library import experiment_ids, get_experiment
 from deltaq.narration.catalog import text
 
 pytestmark = [pytest.mark.anyio, pytest.mark.usefixtures("laboratory")]
@@ -23,7 +23,8 @@ AXES = {
     "x": {"parameter": "omega", "from": 20.0, "to": 80.0, "count": 8},
     "y": {"parameter": "y0", "from": 0.02, "to": 0.1, "count": 8},
 }
-SMALL: dict[str, dict[str, Any]] = {
+# Questions that take little time; an experiment that is not named is asked for the motion of a pendulum.
+SMALL: dict[str, dict[str, Any]] = {key: {"scene": "pendulum", "t_end": 1.0} for key in experiment_ids()} | {
     "work-precision": {"scene": "pendulum", "t_end": 1.0, "methods": ["rk4", "dop853"]},
     "convergence": {"scene": "pendulum", "t_end": 1.0, "methods": ["heun"]},
     "energy-drift": {"scene": "pendulum", "steps": 1000, "methods": ["rk4", "stormer-verlet"]},
@@ -41,7 +42,7 @@ def address(name: str) -> str:
 async def test_every_experiment_has_a_call_and_every_call_an_experiment(client: httpx.AsyncClient) -> None:
     paths = (await client.get("/api/v1/openapi.json")).json()["paths"]
     calls = {path.removeprefix(address("")) for path in paths if path.startswith(address(""))}
-    assert calls == set(experiment_ids()) == set(SMALL)
+    assert calls == set(experiment_ids())
 
 
 @pytest.mark.parametrize("name", SMALL)

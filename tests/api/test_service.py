@@ -13,7 +13,7 @@ from fastapi import FastAPI
 from deltaq import __version__
 from deltaq.api.app import create_app
 from deltaq.api.service import source_digest
-from deltaq.lab.experiment import experiment_ids
+from deltaq.lab.library import experiment_ids
 from deltaq.settings import Settings
 from deltaq.simulation.library import method_ids
 

@@ -11,7 +11,8 @@ from typing import Any
 from playwright.sync_api import sync_playwright
 from tests.e2e.browser import FLAGS, chromium
 
-from deltaq.lab.experiment import drawn, get_experiment
+from deltaq.lab.experiment import drawn
+from deltaq.lab.library import get_experiment
 from deltaq.narration.catalog import text
 
 ROOT = Path(__file__).parents[2]

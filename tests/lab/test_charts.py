@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import plotly.graph_objects as go
@@ -10,19 +9,25 @@ import pytest
 
 from deltaq.lab.charts.chart import look
 from deltaq.lab.charts.words import spoken, words
-from deltaq.lab.experiment import drawn, get_experiment
-from deltaq.lab.experiments import chaos, energy_drift, fidelity, stability
+from deltaq.lab.experiment import drawn
 from deltaq.lab.export import page, table
+from deltaq.lab.library import experiment_ids, get_experiment
 from deltaq.lab.peers import PEERS
 from deltaq.narration.catalog import text
 from deltaq.simulation.library import method_ids
 from deltaq.simulation.outcome import _WORDS, codes
 
-QUESTIONS: dict[str, dict[str, Any]] = {
+AXES = {
+    "x": {"parameter": "omega", "from": 20.0, "to": 80.0, "count": 8},
+    "y": {"parameter": "y0", "from": 0.02, "to": 0.1, "count": 8},
+}
+# Questions that take little time; an experiment that is not named is asked for the motion of a pendulum.
+QUESTIONS: dict[str, dict[str, Any]] = {key: {"scene": "pendulum", "t_end": 1.0} for key in experiment_ids()} | {
     "work-precision": {"scene": "pendulum", "t_end": 1.0, "methods": ["rk4", "explicit-euler", "radau-5"]},
     "convergence": {"scene": "elastic-pendulum", "t_end": 1.0, "parameters": {"k": 5000.0}},
     "energy-drift": {"scene": "pendulum", "steps": 1000},
     "stability": {"scene": "elastic-pendulum", "t_end": 1.0, "methods": ["rk4", "stormer-verlet"]},
+    "stability-map": {"scene": "kapitza", **AXES},
     "chaos": {"scene": "double-pendulum", "t_end": 2.0, "map": True, "count": 16},
     "fidelity": {"scene": "elastic-pendulum", "t_end": 2.0},
 }
@@ -74,8 +79,3 @@ def test_every_way_to_end_has_its_words(lang: str) -> None:
 )
 def test_numbers_are_written_as_they_are_printed(number: object, expected: object) -> None:
     assert spoken(number, "de") == expected
-
-
-def test_one_experiment_is_one_file() -> None:
-    for module in (chaos, energy_drift, fidelity, stability):
-        assert module.EXPERIMENT.id.replace("-", "_") == Path(module.__file__ or "").stem

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from deltaq.lab.experiment import get_experiment
+from deltaq.lab.library import get_experiment
 from deltaq.lab.subject import subject_of
 
 

@@ -8,6 +8,7 @@ from importlib import import_module
 from time import monotonic
 from typing import Any
 
+from ..lab.library import get_experiment
 from ..mechanics.document import examine
 from ..mechanics.toml import read_toml
 from ..narration.catalog import text
@@ -135,9 +136,8 @@ def check_batch(document: Document) -> Document:
 def experiment(document: Document) -> Iterator[Document]:
     """Parts with the charts so far, not more often than they can be looked at; then the result with its charts."""
     given = {key: value for key, value in document.items() if key != "experiment" and value is not None}
-    module, lang = import_module("deltaq.lab.experiment"), document["lang"]
-    found, shown, result = module.get_experiment(document["experiment"]), 0.0, {}
-    drawn = partial(module.drawn, found, text=text, language=lang)
+    found, shown, result = get_experiment(document["experiment"]), 0.0, {}
+    drawn = partial(import_module("deltaq.lab.experiment").drawn, found, text=text, language=document["lang"])
     for report in found.run(given):
         result = report.result
         if monotonic() - shown > PART_PAUSE:

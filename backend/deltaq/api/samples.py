@@ -41,12 +41,9 @@ SHOWN = {
     "get_catalog": 'answer["methods"]',
     "work_precision": '[(chart["title"], chart["caption"]) for chart in answer["charts"]]',
     "convergence": 'answer["orders"]',
-    "energy_drift": '[chart["caption"] for chart in answer["charts"]]',
-    "stability": '[chart["caption"] for chart in answer["charts"]]',
-    "stability_map": '[chart["caption"] for chart in answer["charts"]]',
-    "chaos": '[chart["caption"] for chart in answer["charts"]]',
-    "fidelity": '[chart["caption"] for chart in answer["charts"]]',
 }
+# The same by the subject of a call that is not named above.
+SHOWN_BY_SUBJECT = {"experiments": '[chart["caption"] for chart in answer["charts"]]'}
 
 # The id of a derivation is known only when there was one.
 _DERIVED_SHELL = r"""ID=$(curl -s {0}/api/v1/derivations -H 'content-type: application/json' \
@@ -70,7 +67,7 @@ def samples(method: str, path: str, operation: Json, components: Json) -> list[d
     address = ADDRESS + path_of(path, operation)
     media_type, body = body_of(operation, components)
     is_json = JSON in operation["responses"]["200"]["content"]
-    looked_at = SHOWN.get(operation["operationId"], "answer")
+    looked_at = SHOWN.get(operation["operationId"]) or SHOWN_BY_SUBJECT.get(operation["tags"][0], "answer")
     return [
         {"lang": "Shell", "source": shell(address, media_type, body)},
         {"lang": "Python", "source": notebook(method, address, media_type, body, looked_at if is_json else None)},

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import CommandError
+from ..lab.library import experiment_ids, get_experiment
 from ._common import field_argument, language_argument, question_of, scene_argument
 
 if TYPE_CHECKING:
@@ -26,9 +27,7 @@ WIDTH = 40
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.add_argument(
-        "experiment", help="work-precision, convergence, energy-drift, stability, stability-map, chaos or fidelity"
-    )
+    parser.add_argument("experiment", help=f"one of {', '.join(experiment_ids())}")
     scene_argument(parser)
     field_argument(parser)
     parser.add_argument(
@@ -43,7 +42,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Measure, and write the files."""
-    from ..lab.experiment import drawn, get_experiment
+    from ..lab.experiment import drawn
     from ..narration.catalog import text
 
     for output in options.output:  # before anything is measured

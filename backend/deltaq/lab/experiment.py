@@ -1,15 +1,11 @@
-"""The experiments there are: whatever stands in `experiments/`."""
+"""What an experiment is, and how its result is drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
-from functools import cache
 from typing import Any
 
-from ..errors import Problem, UnknownNameError
-from ..packages import modules_of
 from .charts.chart import Chart
 from .charts.words import Say, spoken, words
 from .report import Document, Report
@@ -42,21 +38,3 @@ def _subject(result: Mapping[str, Any], language: str) -> str:
     values |= {f"{name}(0)": start["value"] for name, start in result["initial"].items()}
     told = ", ".join(f"{name} = {spoken(value, language)}" for name, value in values.items())
     return f"{titles.get(language) or next(iter(titles.values()), result['scene'])}: {told}"
-
-
-@cache
-def _experiments() -> dict[str, Experiment]:
-    return {module.EXPERIMENT.id: module.EXPERIMENT for module in modules_of("deltaq.lab.experiments")}
-
-
-def experiment_ids() -> tuple[str, ...]:
-    return tuple(_experiments())
-
-
-def get_experiment(identifier: str) -> Experiment:
-    """The experiment of this id. Raises UnknownNameError if there is none."""
-    if identifier not in _experiments():
-        near = get_close_matches(identifier, experiment_ids(), n=1)
-        told = {"name": identifier[:64], "suggestion": near[0] if near else "", "known": ", ".join(experiment_ids())}
-        raise UnknownNameError(Problem("unknown-experiment", parameters=told))
-    return _experiments()[identifier]

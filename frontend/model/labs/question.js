@@ -89,10 +89,9 @@ export function writeQuestion(question) {
   return query.toString().replaceAll("%3A", ":");
 }
 
-/** What each lab reads besides scene and values. @type {Record<string, (question: Question) => object>} */
+/** What a lab reads besides scene and values. @type {Record<string, ((question: Question) => object) | undefined>} */
 const OWN = {
   "work-precision": ({ peers }) => ({ peers }),
-  convergence: () => ({}),
   "energy-drift": ({ steps }) => (steps ? { steps } : {}),
   stability: ({ at, stiffness }) => ({ at, ...(stiffness ? { stiffness } : {}) }),
   "stability-map": ({ x, y }) => ({ x, y }),
@@ -104,7 +103,7 @@ const OWN = {
 export function requestOf(question, scene, lang) {
   const { lab, parameters, initial, duration } = question;
   const span = duration && lab !== "energy-drift" && lab !== "stability-map" ? { t_end: duration } : {};
-  return { scene, parameters, initial, ...span, lang, ...OWN[lab](question) };
+  return { scene, parameters, initial, ...span, lang, ...OWN[lab]?.(question) };
 }
 
 /** The motion at a point of a map: two parameters, or two angles at rest. @param {Question} question @param {{role: string, x: string, y: string}} map @param {number} x @param {number} y @returns {Pick<Question, "parameters" | "initial">} */

@@ -2,6 +2,8 @@
 
 All who ask for the same at once share one experiment, and what was measured is kept: a time that was measured here an
 hour ago is as good as one that is measured now. Who wants it measured anew says so by `Cache-Control: no-cache`.
+
+There is a call for whatever stands in `lab/experiments/`; what may be asked of it stands in `wire/experiments/`.
 """
 
 from __future__ import annotations
@@ -10,12 +12,16 @@ import hashlib
 from collections.abc import Awaitable, Callable
 from dataclasses import replace
 from functools import partial
+from inspect import getdoc
 from json import loads
 from typing import Any
 
 from fastapi import APIRouter, Request, Response
 from starlette.responses import StreamingResponse
 
+from ...lab.library import experiment_ids
+from ...narration.catalog import text
+from ...packages import classes_of
 from ..body import StrictRoute
 from ..flights import Hear, ignore
 from ..languages import language_of
@@ -23,21 +29,10 @@ from ..problems import report_of
 from ..responses import packed
 from ..service import Service, service_of, unpack
 from ..streams import MEDIA_TYPE, events
-from ..wire.experiment import (
-    ChaosRequest,
-    ConvergenceRequest,
-    EnergyDriftRequest,
-    ExperimentAnswer,
-    ExperimentRequest,
-    FidelityRequest,
-    StabilityMapRequest,
-    StabilityRequest,
-    WorkPrecisionRequest,
-)
+from ..wire.experiment import ExperimentAnswer, ExperimentRequest
 from ..workers.job import Job
 from .common import COMPUTING, question_of
 
-router = APIRouter(prefix="/experiments", tags=["experiments"], route_class=StrictRoute)
 EXPERIMENT = Job("deltaq.api.jobs:experiment", deadline=180.0, threads=8, pace="slow")
 EXPORT = Job("deltaq.api.jobs:export_charts", deadline=30.0, pace="slow")
 FILES = {"text/html": "html", "text/csv": "csv"}
@@ -56,46 +51,33 @@ ANSWERS: dict[int | str, dict[str, Any]] = {
 }
 
 
-@router.post("/work-precision", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS, openapi_extra=ANEW)
-async def work_precision(request: Request, body: WorkPrecisionRequest) -> Response:
-    """Speed against accuracy: the error of each method against time and right-hand sides."""
-    return await _measured(request, "work-precision", body)
+def _router() -> APIRouter:
+    """A call for each experiment there is."""
+    router = APIRouter(prefix="/experiments", tags=["experiments"], route_class=StrictRoute)
+    questions = classes_of("deltaq.api.wire.experiments", "experiment")
+    for identifier in experiment_ids():
+        asked = questions.get(identifier)
+        router.add_api_route(
+            f"/{identifier}",
+            _call_of(identifier, asked or ExperimentRequest),
+            methods=["POST"],
+            name=identifier.replace("-", "_"),
+            description=getdoc(asked) if asked else text("en", f"labs.experiments.{identifier}.summary"),
+            response_model=ExperimentAnswer,
+            responses=COMPUTING | ANSWERS,
+            openapi_extra=ANEW,
+        )
+    return router
 
 
-@router.post("/convergence", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS, openapi_extra=ANEW)
-async def convergence(request: Request, body: ConvergenceRequest) -> Response:
-    """Order of convergence: the error of each method against its step."""
-    return await _measured(request, "convergence", body)
+def _call_of(experiment: str, asked: type) -> Callable[[Request, ExperimentRequest], Awaitable[Response]]:
+    """What answers such a question: FastAPI reads from the annotation of the body what may be asked."""
 
+    async def call(request: Request, body: ExperimentRequest) -> Response:
+        return await _measured(request, experiment, body)
 
-@router.post("/energy-drift", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS, openapi_extra=ANEW)
-async def energy_drift(request: Request, body: EnergyDriftRequest) -> Response:
-    """Departure of the energy balance over many steps, symplectic methods against others."""
-    return await _measured(request, "energy-drift", body)
-
-
-@router.post("/stability", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS, openapi_extra=ANEW)
-async def stability(request: Request, body: StabilityRequest) -> Response:
-    """Regions of stability with the eigenvalues of the scene, steps of failure, and a series over a stiffness."""
-    return await _measured(request, "stability", body)
-
-
-@router.post("/stability-map", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS, openapi_extra=ANEW)
-async def stability_map(request: Request, body: StabilityMapRequest) -> Response:
-    """Floquet multipliers over two parameters of a scene that something drives periodically."""
-    return await _measured(request, "stability-map", body)
-
-
-@router.post("/chaos", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS, openapi_extra=ANEW)
-async def chaos(request: Request, body: ChaosRequest) -> Response:
-    """Twin runs, Lyapunov exponent, and the horizon of prediction against the tolerance."""
-    return await _measured(request, "chaos", body)
-
-
-@router.post("/fidelity", response_model=ExperimentAnswer, responses=COMPUTING | ANSWERS, openapi_extra=ANEW)
-async def fidelity(request: Request, body: FidelityRequest) -> Response:
-    """The least model that will do: simpler models of the scene, each with its cost and its error."""
-    return await _measured(request, "fidelity", body)
+    call.__annotations__["body"] = asked
+    return call
 
 
 async def _measured(request: Request, experiment: str, body: ExperimentRequest) -> Response:
@@ -138,3 +120,6 @@ async def _exported(service: Service, media_type: str, answer: bytes, language: 
     name = f"{result['experiment']}-{result['scene']}.{FILES[media_type]}"
     headers = {"Content-Disposition": f'attachment; filename="{name}"'}
     return Response(found["text"], media_type=media_type, headers=headers)
+
+
+router = _router()
