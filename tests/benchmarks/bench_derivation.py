@@ -16,7 +16,7 @@ from sympy.core.cache import clear_cache
 
 from deltaq.api.app import create_app
 from deltaq.derivation.engine import derive
-from deltaq.derivation.evaluation import program
+from deltaq.derivation.program import program
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.narration.derive import derive_request
 

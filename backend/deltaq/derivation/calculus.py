@@ -13,12 +13,12 @@ import sympy as sp
 from ..language import canonical
 from ..language.form_calculus import PlainForm, plain_form
 from ..language.fourier import TooLargeError
+from ..language.memory import kept
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import rates_of, time_derivative, to_sympy
 from ..language.tree import Node
 from ..mechanics.scene import Scene
 from .formula import Given, Value
-from .memory import kept
 
 V = TypeVar("V", sp.Expr, sp.ImmutableMatrix)
 
@@ -140,12 +140,18 @@ class Calculus:
 
     def display(self, value: V) -> V:
         """The shortest of a few equivalent forms."""
-        return by_component(value, lambda component: canonical.display(component, self.symbols))
+        return by_component(value, self._shown)
+
+    @kept
+    def _shown(self, value: sp.Expr) -> sp.Expr:
+        shown: sp.Expr = canonical.display(value, self.symbols)
+        return shown
 
     def derivative(self, value: V, by: sp.Symbol) -> V:
         """∂value/∂by, in its display form."""
         return by_component(value, lambda component: self._shown_slope(component, by))
 
+    @kept
     def _shown_slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
         form = self._form(value)
         with suppress(TooLargeError):

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..language.memory import kept
 from . import formula as f
 from .abstract_motion import total_rate
 from .function_formula import AtTime, Called, Directional, Each, FunctionFormula, LimitOfQuotient, Over, Ratio, Summed
-from .memory import kept
 from .step import Relation
 
 AT = " at "  # in the symbol of a function's value at an instant

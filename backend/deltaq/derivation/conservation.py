@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .memory import kept
+from ..language.memory import kept
 from .system import System
 
 MOST_CYCLIC = 2

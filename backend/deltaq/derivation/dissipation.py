@@ -11,7 +11,7 @@ from itertools import combinations
 import sympy as sp
 from flint import acb_mat, arb
 
-from .memory import kept
+from ..language.memory import kept
 from .spectrum import ZERO
 from .system import System
 

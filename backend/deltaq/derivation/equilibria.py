@@ -15,11 +15,11 @@ from itertools import islice, product
 
 import sympy as sp
 
+from ..language.memory import kept
 from ..mechanics.coordinate import Coordinate
 from .closed_form import Known, Sought, closed_form
 from .compiled import compiled
 from .matrix_form import forces_at_rest, forcing, is_autonomous, mass_matrix
-from .memory import kept
 from .newton import root
 from .refinement import refined
 from .system import System

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from functools import lru_cache
-from operator import itemgetter
+from collections.abc import Callable
 
 import sympy as sp
 from flint import arb, arb_mat
@@ -30,24 +28,13 @@ from .formula import (
 from .function_evaluation import evaluate_functions
 from .function_formula import FunctionFormula
 from .matrix_formula import AtEquilibrium, Determinant, Inserted, Jacobian, MatrixTimes, Power, Rounded, Stack
-from .points import STEP, Point, along_motion, shifted, varied
+from .points import STEP, Pair, Point, along_motion, moved, pair, shifted, varied
+from .program import number
 from .quadrature import integral
-from .tree_evaluation import FUNCTIONS, power, tree_value
+from .tree_evaluation import tree_value
 
 Numbers = tuple[arb, ...]  # one for a scalar, several for a vector or, row by row, a matrix
 Evaluate = Callable[[Formula], Numbers]
-
-# Operations by the names of SymPy's classes.
-BY_CLASS: Mapping[str, Callable[..., arb]] = {
-    **FUNCTIONS,
-    "Abs": FUNCTIONS["abs"],
-    "Add": lambda *terms: sum(terms, arb(0)),
-    "Mul": lambda *factors: math.prod(factors, start=arb(1)),
-    "Pow": power,
-    # The slope of a jump: nothing beside it, and no value at it.
-    "DiracDelta": lambda x, *_order: arb("nan") if x.contains(0) else arb(0),
-}
-CONSTANTS: Mapping[sp.Basic, Callable[[], arb]] = {sp.pi: arb.pi, sp.E: arb.const_e}
 
 
 def evaluate(formula: Formula, point: Point) -> Numbers:  # noqa: PLR0912 - one case for each kind
@@ -62,13 +49,13 @@ def evaluate(formula: Formula, point: Point) -> Numbers:  # noqa: PLR0912 - one 
         case Explicit(value) | Named(_, value) | Rounded(value):
             return components(value, point)
         case Partial(of, by):
-            return difference(at, of, lambda h: shifted(point, {by.name: h}))
+            return difference(at, of, pair(point, by.name, lambda h: shifted(point, {by.name: h})))
         case Rate(of):
-            return difference(at, of, lambda h: along_motion(point, h))
+            return difference(at, of, pair(point, Rate, lambda h: along_motion(point, h)))
         case Gateaux(of):
-            return difference(at, of, lambda h: varied(point, h))
+            return difference(at, of, pair(point, Gateaux, lambda h: varied(point, h)))
         case Shifted(value, h):
-            return difference(at, Explicit(value), lambda size: {**point, h.name: size})
+            return difference(at, Explicit(value), pair(point, (h.name, 0), lambda size: moved(point, {h.name: size})))
         case Times(factors):
             return _product([evaluate(factor, point) for factor in factors])
         case Dot(left, right):
@@ -83,7 +70,7 @@ def evaluate(formula: Formula, point: Point) -> Numbers:  # noqa: PLR0912 - one 
         case Equation(left, right):
             return _sum([evaluate(left, point), tuple(-part for part in evaluate(right, point))])
         case Substituted(of, values) | AtEquilibrium(of, values) | Inserted(of, values):
-            return evaluate(of, {**point, **{symbol.name: number(value, point) for symbol, value in values.items()}})
+            return evaluate(of, moved(point, {symbol.name: number(value, point) for symbol, value in values.items()}))
         case Stack() | MatrixTimes() | Jacobian() | Determinant() | Power():
             return _of_matrix(formula, point)
 
@@ -110,28 +97,10 @@ def components(value: Value, point: Point) -> Numbers:
     return tuple(number(part, point) for part in parts)
 
 
-def difference(at: Callable[[Point], Evaluate], of: Formula, moved: Callable[[arb], Point]) -> Numbers:
+def difference(at: Callable[[Point], Evaluate], of: Formula, beside: Pair) -> Numbers:
     """The derivative of a formula along a curve of points, as a central difference."""
-    ahead, behind = at(moved(STEP))(of), at(moved(-STEP))(of)
+    ahead, behind = (at(point)(of) for point in beside)
     return tuple((a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True))
-
-
-def number(expression: sp.Basic, point: Point) -> arb:
-    """The expression's value, evaluated from the leaves up."""
-    return program(expression)(point)
-
-
-@lru_cache(maxsize=1 << 13)
-def program(expression: sp.Basic) -> Callable[[Point], arb]:
-    """The expression as a function of the point; the same parts come again at every point and in many formulas."""
-    if isinstance(expression, sp.Symbol):
-        return itemgetter(expression.name)
-    if isinstance(expression, sp.Rational):
-        return lambda _: arb(expression.p) / arb(expression.q)
-    if expression in CONSTANTS:
-        return lambda _: CONSTANTS[expression]()
-    operation, parts = BY_CLASS[type(expression).__name__], tuple(map(program, expression.args))
-    return lambda point: operation(*[part(point) for part in parts])
 
 
 def matrix_times(matrix: Numbers, vector: Numbers) -> Numbers:

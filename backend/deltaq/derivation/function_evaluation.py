@@ -25,7 +25,7 @@ from .function_formula import (
     Ratio,
     Summed,
 )
-from .points import STEP, Point, along_motion
+from .points import STEP, Point, along_motion, moved
 from .quadrature import integral
 
 if TYPE_CHECKING:
@@ -74,8 +74,7 @@ def _quotient(first: Numbers, second: Numbers, by: arb) -> Numbers:
 
 def _moved(point: Point, along: Mapping[sp.Symbol, sp.Expr], h: arb, number: Number) -> Point:
     """x + h v; symbols that only writing knows, such as a vector as a whole, have no value to be moved."""
-    moved = {s.name: point[s.name] + h * number(v, point) for s, v in along.items() if s.name in point}
-    return {**point, **moved}
+    return moved(point, {s.name: point[s.name] + h * number(v, point) for s, v in along.items() if s.name in point})
 
 
 def _at(point: Point, time: arb) -> Point:

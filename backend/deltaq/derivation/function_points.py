@@ -10,9 +10,9 @@ from flint import arb, ctx
 
 from ..language.spelling import spell_rate
 from .domain import Interval
-from .evaluation import number
 from .functional import Functional, direction
-from .points import Point
+from .points import Place, Point
+from .program import number
 from .verification import BITS
 
 Fixed = tuple[bool, bool]
@@ -34,7 +34,7 @@ def _points(functional: Functional, source: random.Random, *, fixed: Fixed) -> I
         for x in functional.functions:
             point |= {spell_rate(x, n): _random(source, size + (RATE if n else 0)) for n in range(3)}
             point |= {direction(x, n).name: _random(source, size) for n in range(3)}
-        yield _anchored(functional, point, fixed=fixed)
+        yield Place(_anchored(functional, point, fixed=fixed))
 
 
 def _random(source: random.Random, size: int) -> arb:

@@ -16,8 +16,8 @@ from ..language import floats
 from ..language.spelling import spell_rate
 from .difference_quotient import Line
 from .domain import Instant, Interval
-from .evaluation import number
 from .functional import Functional
+from .program import number
 from .tree_evaluation import tree_value
 from .verification import BITS
 

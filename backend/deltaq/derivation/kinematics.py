@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..errors import InputError, SceneError
+from ..language.memory import kept
 from ..language.tree import Node
 from ..mechanics.contributions import DistributedForce
 from ..mechanics.material import Material
 from .antiderivative import definite_integral
 from .calculus import Calculus, column
 from .formula import Bounds, Named, Quantity
-from .memory import kept
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 import sympy as sp
 from flint import arb, ctx
 
+from ..language.memory import kept
 from .calculus import column
 from .equilibria import Equilibrium, equilibria, free_coordinates
-from .evaluation import components, number
+from .evaluation import components
 from .matrix_form import forces_at_rest, forcing, mass_matrix
-from .memory import kept
+from .program import number
 from .refinement import rational
 from .spectrum import Spectrum, spectrum
 from .stability import stability

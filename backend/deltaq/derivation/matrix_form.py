@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ..language.memory import kept
 from .calculus import column
-from .memory import kept
 from .system import System
 from .terms import terms_by_source
 

@@ -10,9 +10,9 @@ import sympy as sp
 from flint import arb, ctx
 
 from .domain import Instant, Interval
-from .evaluation import number
 from .functional import Functional
 from .functional_values import Motion
+from .program import number
 
 SAMPLES = 97
 BITS = 53

@@ -2,15 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 
 from flint import arb
 
 from ..language.spelling import spell_rate
 
 Point = Mapping[str, arb]  # values of names, `dot(name)`, `ddot(name)`, `delta(name)` and `d(name)`
+Pair = tuple[Point, Point]
 
 STEP = arb(2) ** -128
+
+
+class Place(dict[str, arb]):
+    """A point that remembers what was evaluated at it, and the points beside it.
+
+    `origin` is the place it was moved from, and `moved` names what has another value than there: an expression without
+    any of these has its value from the origin. What is remembered has the precision of the first evaluation.
+    """
+
+    def __init__(self, values: Point, origin: Place | None = None, moved: Iterable[str] = ()) -> None:
+        super().__init__(values)
+        self.origin = origin
+        self.moved = frozenset(moved)
+        self.known: dict[Hashable, arb] = {}
+        self.pairs: dict[Hashable, Pair] = {}
+
+
+def moved(point: Point, changes: Point) -> Place:
+    """The point with other values for some names."""
+    return Place({**point, **changes}, point, changes) if isinstance(point, Place) else Place({**point, **changes})
+
+
+def pair(point: Point, curve: Hashable, along: Callable[[arb], Point]) -> Pair:
+    """The points one STEP ahead and behind on a curve through a point; a place makes them once for each curve."""
+    known = point.pairs if isinstance(point, Place) else {}
+    if curve not in known:
+        known[curve] = (along(STEP), along(-STEP))
+    return known[curve]
 
 
 def central_difference(function: Callable[[arb], arb]) -> arb:
@@ -20,13 +49,13 @@ def central_difference(function: Callable[[arb], arb]) -> arb:
 
 def along_motion(point: Point, h: arb) -> Point:
     """Where the system is a time h later: q + q̇h + q̈h²/2, and its rates."""
-    moved = {"t": point["t"] + h}
+    changes = {"t": point["t"] + h}
     for name in point:
         speed, acceleration = point.get(spell_rate(name, 1)), point.get(spell_rate(name, 2))
         if speed is not None and acceleration is not None:
-            moved[name] = point[name] + speed * h + acceleration * h * h / 2
-            moved[spell_rate(name, 1)] = speed + acceleration * h
-    return {**point, **moved}
+            changes[name] = point[name] + speed * h + acceleration * h * h / 2
+            changes[spell_rate(name, 1)] = speed + acceleration * h
+    return moved(point, changes)
 
 
 def varied(point: Point, h: arb) -> Point:
@@ -34,5 +63,6 @@ def varied(point: Point, h: arb) -> Point:
     return shifted(point, {name: h * point[f"delta({name})"] for name in point if f"delta({name})" in point})
 
 
-def shifted(point: Point, shifts: Mapping[str, arb]) -> Point:
-    return {**point, **{name: point[name] + shift for name, shift in shifts.items()}}
+def shifted(point: Point, shifts: Point) -> Point:
+    """The point with a number added to some of its values."""
+    return moved(point, {name: point[name] + shift for name, shift in shifts.items()})

@@ -12,7 +12,7 @@ import sympy as sp
 from flint import arb
 
 from .formula import Bounds
-from .points import Point, along_motion
+from .points import Point, along_motion, moved
 
 NODES = 48
 # The error is about (half the interval / distance to the next singularity)^2n.
@@ -50,4 +50,4 @@ def integral(
 
 def placed(point: Point, name: str, value: arb) -> Point:
     """The point at another value of a material coordinate, or at another time, where all functions follow."""
-    return along_motion(point, value - point["t"]) if name == "t" else {**point, name: value}
+    return along_motion(point, value - point["t"]) if name == "t" else moved(point, {name: value})

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import sympy as sp
 from flint import arb, ctx
 
-from .evaluation import number
 from .newton import solved
+from .program import number
 
 BITS = 640
 STEPS = 14

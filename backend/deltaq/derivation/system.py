@@ -8,13 +8,13 @@ from itertools import combinations
 
 import sympy as sp
 
+from ..language.memory import kept
 from ..language.tree import Node
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import PotentialEnergy
 from ..mechanics.kinetics import Distribution, Kinetics, Rotation, Translation
 from .antiderivative import antiderivative, is_finite
 from .formula import Formula, Given, Named, Quantity, Substituted
-from .memory import kept
 from .work import Work
 
 

@@ -12,9 +12,9 @@ from ..language.canonical import canonical
 from ..language.display import display_form
 from ..language.form_calculus import plain_forms
 from ..language.fourier import TooLargeError
+from ..language.memory import kept
 from ..language.normal_form import Reader
 from .formula import Explicit, Term
-from .memory import kept
 from .provenance import Share, of_equation
 from .system import System
 

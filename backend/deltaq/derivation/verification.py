@@ -20,7 +20,7 @@ from flint import arb, ctx
 
 from .evaluation import evaluate
 from .formula import Formula
-from .points import Point
+from .points import Place, Point
 from .step import Chapter, Derivation, Relation, Step
 from .system import System
 
@@ -84,7 +84,7 @@ def random_points(system: System, seed: int = 1) -> Iterator[Point]:
         yield with_fixed_ends(system, point)
 
 
-def with_fixed_ends(system: System, point: Point) -> Point:
+def with_fixed_ends(system: System, point: Point) -> Place:
     """The point with a short interval around its time, and each δq a parabola that vanishes at both ends."""
     start, end = system.ends
     before, after = HALF, 2 * HALF
@@ -93,4 +93,4 @@ def with_fixed_ends(system: System, point: Point) -> Point:
     for name in system.coordinates:
         height = point[f"delta({name})"] / (before * after)
         jets |= {f"dot(delta({name}))": height * (after - before), f"ddot(delta({name}))": -2 * height}
-    return {**point, **times, **jets}
+    return Place({**point, **times, **jets})

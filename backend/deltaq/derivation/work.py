@@ -7,6 +7,7 @@ from functools import cached_property
 
 import sympy as sp
 
+from ..language.memory import kept
 from ..mechanics.contributions import (
     Contribution,
     DissipationFunction,
@@ -16,7 +17,6 @@ from ..mechanics.contributions import (
     PotentialEnergy,
 )
 from .kinematics import Kinematics
-from .memory import kept
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..derivation.calculus import column
-from ..derivation.memory import kept
+from ..language.memory import kept
 from .equality import Parts
 from .road import Road
 

@@ -10,9 +10,9 @@ import sympy as sp
 from ..derivation.calculus import V
 from ..derivation.conservation import cyclic, jacobi_energy, jacobi_energy_rate
 from ..derivation.linearization import linearizations
-from ..derivation.memory import kept
 from ..derivation.system import System
 from ..language.canonical import display
+from ..language.memory import kept
 
 
 @dataclass(frozen=True, eq=False)

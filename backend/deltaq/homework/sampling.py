@@ -15,7 +15,7 @@ from functools import cached_property
 import sympy as sp
 
 from ..derivation.compiled import Function, compiled
-from ..derivation.memory import kept
+from ..language.memory import kept
 from .road import Road
 
 POINTS = 6

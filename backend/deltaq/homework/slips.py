@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..derivation.memory import kept
 from ..language.canonical import display
+from ..language.memory import kept
 from .equality import Parts
 from .sampling import Sampler, Values, close
 

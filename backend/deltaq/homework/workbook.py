@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import cast
 
-from ..derivation.memory import kept
 from ..errors import InputError
 from ..language.canonical import display
+from ..language.memory import kept
 from ..mechanics.requests import changed_scene
 from ..mechanics.scene import Scene
 from .detour import Detour, misconceptions

@@ -16,6 +16,7 @@ from flint import fmpq
 from ..errors import ExpressionError, Problem
 from . import fourier
 from .fourier import ONE, STILL, Form, Monomial, TooLargeError
+from .memory import kept
 from .normal_form import Reader
 from .order import Order, split_symbol
 from .symbols import Symbols
@@ -39,7 +40,7 @@ def display(expr: Any, symbols: Symbols) -> Any:
     if isinstance(expr, sympy.Tuple):
         return sympy.Tuple(*(display(part, symbols) for part in expr))
     try:
-        return min(_candidates(expr, Order(symbols.names)), key=size)
+        return min(_candidates(expr, _order(symbols)), key=size)
     except TooLargeError:
         return expr
     except ZeroDivisionError:
@@ -50,9 +51,14 @@ def display_form(form: Form, reader: Reader, symbols: Symbols) -> Any:
     """The shortest of the equivalent expressions of a form whose generators are symbols."""
     if len(form) > _MAX_SHOWN:
         return reader.expression(form)
-    arranged = _Arrangement(reader, Order(symbols.names)).expression(form)
+    arranged = _Arrangement(reader, _order(symbols)).expression(form)
     moves = any(split_symbol(name)[0] for mono, _, _ in form for name, _ in mono)
     return arranged if moves else min(arranged, reader.expression(form), key=size)
+
+
+@kept
+def _order(symbols: Symbols) -> Order:
+    return Order(symbols.names)
 
 
 def size(expr: Any) -> int:

@@ -9,6 +9,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import sympy
+
 from . import fourier
 from .display import display_form
 from .fourier import Form, Term, TooLargeError
@@ -51,8 +53,8 @@ class PlainForm:
 
 
 def plain_form(expr: Any) -> PlainForm | None:
-    """The plain form of a sum that is long enough for it to pay; else None."""
-    if max((len(part.args) for part in (expr, *expr.args) if part.is_Add), default=0) <= LONG:
+    """The plain form of an expression with a sum in it that is long enough for it to pay; else None."""
+    if max((len(part.args) for part in expr.atoms(sympy.Add)), default=0) <= LONG:
         return None
     reader = Reader()
     forms = plain_forms([expr], reader)

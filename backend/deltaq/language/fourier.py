@@ -16,7 +16,7 @@ from typing import Any
 
 from flint import fmpq
 
-# Exponents are int where whole, else fmpq; both compare and hash alike.
+# Exponents, and the numbers in phases, are int where whole, else fmpq; both compare and hash alike, an int much faster.
 Monomial = tuple[tuple[str, Any], ...]
 Phase = tuple[tuple[Monomial, Any], ...]
 Term = tuple[Monomial, Phase, bool]  # True: sine
@@ -112,15 +112,15 @@ def times(left: Monomial, right: Monomial) -> Monomial:
     exponents = dict(left)
     for name, exponent in right:
         exponents[name] = exponents.get(name, 0) + exponent
-    return tuple(sorted((name, _whole(e)) for name, e in exponents.items() if e))
+    return tuple(sorted((name, whole(e)) for name, e in exponents.items() if e))
 
 
 def raised(mono: Monomial, exponent: Any) -> Monomial:
     """A power of a monomial."""
-    return tuple((name, _whole(e * exponent)) for name, e in mono) if exponent else ONE
+    return tuple((name, whole(e * exponent)) for name, e in mono) if exponent else ONE
 
 
-def _whole(exponent: Any) -> Any:
+def whole(exponent: Any) -> Any:
     """An int where it is one."""
     return exponent if isinstance(exponent, int) else int(exponent.p) if exponent.q == 1 else exponent
 
@@ -129,7 +129,7 @@ def _combine(left: Phase, right: Phase, sign: int) -> Phase:
     coefficients = dict(left)
     for mono, coefficient in right:
         coefficients[mono] = coefficients.get(mono, 0) + sign * coefficient
-    return tuple(sorted((mono, c) for mono, c in coefficients.items() if c))
+    return tuple(sorted((mono, whole(c)) for mono, c in coefficients.items() if c))
 
 
 def _accumulate(form: Form, term: Term, coefficient: Any) -> None:

@@ -93,7 +93,7 @@ class Generators:
         """cos(phase) or sin(phase) in SymPy."""
         if not phase:
             return sympy.S.One
-        angle = sympy.Add(*(sympy.Rational(int(c.p), int(c.q)) * self.monomial(mono) for mono, c in phase))
+        angle = sympy.Add(*(_rational(c) * self.monomial(mono) for mono, c in phase))
         return sympy.sin(angle) if sine else sympy.cos(angle)
 
     def monomial(self, mono: Monomial) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 import sympy
 
 from .functions import FUNCTIONS
+from .memory import kept
 from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, decimal, exact, fraction_parts, is_decimal
 from .order import split_symbol
 from .typography import Mark, Typography, unmarked
@@ -29,7 +30,12 @@ def latex(expr: Any, typography: Typography) -> str:
     if isinstance(expr, sympy.Tuple):
         rows = [latex(part, typography).replace(" = ", " &= ") for part in expr]
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
-    return _Latex(typography).text(sympy.sympify(expr), 0)
+    return _printer(typography).text(sympy.sympify(expr), 0)
+
+
+@kept
+def _printer(typography: Typography) -> _Latex:
+    return _Latex(typography)
 
 
 class _Latex:
@@ -41,6 +47,7 @@ class _Latex:
         text, own = self._with_binding(expr)
         return _bracketed(text) if own < binding else text
 
+    @kept
     def _with_binding(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
         if expr.is_Symbol:
             return self._typography.symbol(expr.name), ATOM if split_symbol(expr.name)[0] < 4 else PRODUCT
@@ -104,6 +111,7 @@ class _Latex:
             following = factor
         return text or "1"
 
+    @kept
     def _factor(self, factor: sympy.Expr, *, closed: bool, alone: bool) -> str:
         base, exponent = base_exponent(factor)
         if _takes_power(base, exponent):

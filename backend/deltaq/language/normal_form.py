@@ -156,7 +156,8 @@ class Reader(Generators):
         if not self._is_polynomial(form):
             return self._opaque(expr)
         turn = next((c for (mono, _, _), c in form.items() if mono == (("pi", 1),)), None)
-        phase: Phase = tuple(sorted((mono, c) for (mono, _, _), c in form.items() if mono != (("pi", 1),)))
+        moving = {mono: fourier.whole(c) for (mono, _, _), c in form.items() if mono != (("pi", 1),)}
+        phase: Phase = tuple(sorted(moving.items()))
         if turn is None:
             return fourier.wave(phase, sine=sine)
         return self._turned(phase, sympy.Rational(int(turn.p), int(turn.q)) * sympy.pi, sine=sine)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Mapping
+from functools import lru_cache
 from types import MappingProxyType
 
 _RATES = ("{}", "dot({})", "ddot({})", "dddot({})")
@@ -36,6 +37,7 @@ _LATEX_OF: Mapping[str, str] = MappingProxyType({"phi": r"\varphi", "epsilon": r
 _WORD = re.compile(r"[A-Za-z]+|\d+")
 
 
+@lru_cache(maxsize=1 << 12)
 def spell_rate(name: str, order: int) -> str:
     """The plain spelling of a time derivative; order 0 is the coordinate itself."""
     return _RATES[order].format(name)

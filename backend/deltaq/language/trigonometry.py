@@ -44,8 +44,7 @@ def _units(form: Form) -> dict[Monomial, Any]:
     units: dict[Monomial, Any] = {}
     for _, phase, _ in form:
         for mono, coefficient in phase:
-            known = units.get(mono, coefficient)
-            units[mono] = _common_unit(known, coefficient)
+            units[mono] = _common_unit(units.get(mono, fmpq(coefficient)), fmpq(coefficient))
     return units
 
 

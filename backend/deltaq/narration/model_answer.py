@@ -8,8 +8,8 @@ import sympy as sp
 from flint import arb
 
 from ..derivation.conservation import Reduction
-from ..derivation.evaluation import number
 from ..derivation.linearization import Linearization
+from ..derivation.program import number
 from ..derivation.result import LoadPotential, Result
 from ..derivation.spectrum import ComplexMode, Mode
 from ..language.latex_printer import Typography, latex

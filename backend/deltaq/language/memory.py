@@ -17,8 +17,9 @@ def kept(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenate[S, P], 
     @wraps(method)
     def recalling(self: S, *args: P.args, **kwargs: P.kwargs) -> T:
         answers = cast("dict[object, T]", vars(self).setdefault(f"answers of {method.__name__}", {}))
-        if args not in answers:
-            answers[args] = method(self, *args, **kwargs)
-        return answers[args]
+        known = (args, *kwargs.items()) if kwargs else args
+        if known not in answers:
+            answers[known] = method(self, *args, **kwargs)
+        return answers[known]
 
     return cast("Callable[Concatenate[S, P], T]", recalling)

@@ -1,0 +1,24 @@
+"""What schemathesis is told of this API: how a body of TOML is written, and when 504 is an answer."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import schemathesis
+
+SOONEST = 0.2  # seconds: the least bound of any computation
+
+
+@schemathesis.serializer("application/toml")
+def text(_context: Any, value: Any) -> bytes:
+    """The text as bytes; what is no text has no TOML."""
+    return value.encode("utf-8", "backslashreplace") if isinstance(value, str) else b"\xff"
+
+
+@schemathesis.check
+def too_large_took_its_time(_context: Any, response: Any, case: Any) -> None:
+    """A computation is too large when it has reached a bound, not before; each is told, for somebody to look at."""
+    if response.status_code == 504:
+        print(f"504 after {response.elapsed:.1f} s: {case.method} {case.path}", file=sys.stderr)
+        assert response.elapsed > SOONEST, f"too large after {response.elapsed} s"
