@@ -16,6 +16,7 @@ from fastapi import FastAPI
 
 from deltaq.lab.library import experiment_ids, get_experiment
 from deltaq.narration.catalog import text
+from deltaq.packages import classes_of
 
 pytestmark = [pytest.mark.anyio, pytest.mark.usefixtures("laboratory")]
 
@@ -43,6 +44,10 @@ async def test_every_experiment_has_a_call_and_every_call_an_experiment(client: 
     paths = (await client.get("/api/v1/openapi.json")).json()["paths"]
     calls = {path.removeprefix(address("")) for path in paths if path.startswith(address(""))}
     assert calls == set(experiment_ids())
+
+
+def test_every_question_is_that_of_an_experiment() -> None:
+    assert classes_of("deltaq.api.wire.experiments", "experiment").keys() <= set(experiment_ids())
 
 
 @pytest.mark.parametrize("name", SMALL)

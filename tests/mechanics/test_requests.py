@@ -13,18 +13,18 @@ from deltaq.mechanics.writing import write_scene
 
 def test_by_name_and_by_document() -> None:
     scene = load_scene("pendulum")
-    assert changed_scene("pendulum") == changed_scene(write_scene(scene)) == scene
+    assert changed_scene({"scene": "pendulum"}) == changed_scene({"scene": write_scene(scene)}) == scene
 
 
 @pytest.mark.parametrize("size", [1, 2, 12])
 def test_member_of_a_family(size: int) -> None:
-    scene = changed_scene("chain-pendulum", parameters={"n": size, "g": 1.6})
+    scene = changed_scene({"scene": "chain-pendulum", "parameters": {"n": size, "g": 1.6}})
     assert len(scene.free) == len(scene.bodies) == size
     assert {p.name: p.value for p in scene.parameters}["g"] == 1.6
 
 
 def test_default_member() -> None:
-    assert len(changed_scene("chain-pendulum").free) == ChainPendulum.default
+    assert len(changed_scene({"scene": "chain-pendulum"}).free) == ChainPendulum.default
 
 
 SIZE = {"name": "n", "least": 1, "most": 12}
@@ -46,5 +46,5 @@ REFUSED = [
 @pytest.mark.parametrize(("reference", "parameters", "problem"), REFUSED)
 def test_refused(reference: object, parameters: dict[str, float], problem: Problem) -> None:
     with pytest.raises(InputError) as caught:
-        changed_scene(reference, parameters=parameters)
+        changed_scene({"scene": reference, "parameters": parameters})
     assert caught.value.problems[0] == problem

@@ -12,13 +12,14 @@ from .system import System
 from .verification import verified
 
 FORMULATIONS = "deltaq.derivation.formulations"
+USUAL = "dalembert-lagrange"  # if none is asked for
 
 
 def formulation_names() -> tuple[str, ...]:
     return tuple(module.FORMULATION for module in modules_of(FORMULATIONS))
 
 
-def derive(scene: Scene, formulation: str = "dalembert-lagrange") -> tuple[System, Derivation]:
+def derive(scene: Scene, formulation: str = USUAL) -> tuple[System, Derivation]:
     """The derivation of a scene, every step verified. Raises UnknownNameError for an unknown formulation."""
     check_formulation(formulation)
     road = next(module for module in modules_of(FORMULATIONS) if formulation == module.FORMULATION)

@@ -12,7 +12,7 @@ from ..language.latex_printer import Typography
 from ..language.latex_printer import latex as latex_text
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
-from ..narration.catalog import language_of, text
+from ..narration.catalog import text
 from ..narration.derive import notation_of
 from ..narration.narrator import Narrator
 
@@ -68,17 +68,16 @@ class Handout:
         return text(self.language, f"handout.{key}")
 
 
-def handout_of(scene: Scene, language: str | None, formulation: str, *, substeps: bool = True) -> Handout:
+def handout_of(scene: Scene, language: str, formulation: str, *, substeps: bool = True) -> Handout:
     """The handout of a scene. Raises UnknownNameError for an unknown formulation."""
     check_formulation(formulation)
     with inside("/scene"):
         system, derivation = derive(scene, formulation)
-    lang = language_of(language)
-    chapters = Narrator(lang, notation_of(system, lang)).chapters(derivation)
+    chapters = Narrator(language, notation_of(system, language)).chapters(derivation)
     return Handout(
-        lang,
-        _in_language(scene.title, lang),
-        _in_language(scene.summary, lang),
+        language,
+        _in_language(scene.title, language),
+        _in_language(scene.summary, language),
         tuple(_initial_values(system)),
         tuple(Value(_latex(scene, p.name), p.name, p.value, _unit(p.unit)) for p in scene.parameters),
         tuple(_part(str(i), chapter, substeps=substeps) for i, chapter in enumerate(chapters, 1)),

@@ -6,11 +6,12 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import cast
 
+from ..derivation.engine import USUAL
 from ..mechanics.changes import change
 from ..mechanics.initial import with_initial
 from ..mechanics.requests import requested_scene
 from ..mechanics.scene import Scene
-from ..narration.catalog import language_of
+from ..narration.catalog import language_in
 from .document import handout_of
 from .latex import latex_file
 from .markdown import markdown_file
@@ -42,15 +43,14 @@ def _scene_of(document: Mapping[str, object]) -> Scene:
 
 def _told(write: Callable[..., str]) -> Callable[[Scene, Mapping[str, object]], str]:
     def told(scene: Scene, document: Mapping[str, object]) -> str:
-        language = cast("str | None", document.get("lang"))
-        formulation = str(document.get("formulation") or "dalembert-lagrange")
-        return write(handout_of(scene, language, formulation, substeps=document.get("substeps") is not False))
+        formulation, substeps = str(document.get("formulation") or USUAL), document.get("substeps") is not False
+        return write(handout_of(scene, language_in(document), formulation, substeps=substeps))
 
     return told
 
 
 def _program(scene: Scene, document: Mapping[str, object]) -> str:
-    language = language_of(cast("str | None", document.get("lang")))
+    language = language_in(document)
     return script(scene, language, float(cast("float", document.get("t_end") or 10.0)))
 
 

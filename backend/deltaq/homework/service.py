@@ -11,7 +11,7 @@ from ..language.parser import Syntax
 from ..language.plain_printer import plain
 from ..mechanics.requests import inside
 from ..mechanics.writing import write_scene
-from ..narration.catalog import language_of
+from ..narration.catalog import language_in
 from .assignment import AssignedTask, read_assignment
 from .feedback import Document, model_answer, problem_documents, task_document, verdict_document
 from .motion import moved_scene
@@ -24,7 +24,7 @@ from .working import Line, Scheme, check_following, mark, wrong_among
 def tasks_request(document: Mapping[str, object]) -> Document:
     """{scene, guides?, freeze?, parameters?, seed?, lang?} → {scene, symbols, tasks}."""
     workbook = workbook_of(document)
-    language = _language(document)
+    language = language_in(document)
     return {
         "scene": write_scene(workbook.scene),
         "symbols": _symbols(workbook),
@@ -50,16 +50,12 @@ def check_request(document: Mapping[str, object]) -> Document:
     previous = [_line(one) for one in cast("Sequence[Mapping[str, object]]", document.get("previous") or ())]
     wrong = wrong_among(workbook, previous)
     verdict = check_following(workbook, workbook.task(line.task), line, wrong)
-    return verdict_document(verdict, workbook.scene, _language(document))
+    return verdict_document(verdict, workbook.scene, language_in(document))
 
 
 def _line(document: Mapping[str, object]) -> Line:
     answer = cast("Mapping[str, str]", document["answer"])
     return Line(str(document["task"]), answer["value"], cast("Syntax", answer.get("syntax") or "plain"))
-
-
-def _language(document: Mapping[str, object]) -> str:
-    return language_of(cast("str | None", document.get("lang")))
 
 
 def reading_request(document: Mapping[str, object]) -> Document:
@@ -69,7 +65,7 @@ def reading_request(document: Mapping[str, object]) -> Document:
     try:
         shown = read(workbook.task(line.task), workbook.road, line.text, line.syntax).shown
     except ExpressionError as error:
-        problems = problem_documents(error.problems, _language(document))
+        problems = problem_documents(error.problems, language_in(document))
         return {"latex": "", "plain": "", "problems": problems}
     return {"latex": latex(shown, Typography(workbook.scene.names)), "plain": plain(shown), "problems": []}
 
@@ -94,7 +90,7 @@ def lines_request(document: Mapping[str, object]) -> Document:
     marked = mark(workbook, lines, _scheme(cast("Mapping[str, object]", document.get("scheme") or {})))
     first = next((n for n, each in enumerate(marked) if each.verdict.outcome in ("wrong", "invalid")), None)
     worth = {line.task: each.of for line, each in zip(lines, marked, strict=True)}
-    language = _language(document)
+    language = language_in(document)
     return {
         "lines": [
             {**verdict_document(each.verdict, workbook.scene, language), "points": each.points, "of": each.of}
@@ -119,7 +115,7 @@ def assignment_request(document: Mapping[str, object]) -> Document:
     with inside("/assignment"):
         sheet = read_assignment(document["assignment"])
     seed = cast("str | None", document.get("seed")) if sheet.individual else None
-    language = _language(document)
+    language = language_in(document)
     return {
         "title": dict(sheet.title),
         "follow_through": sheet.follow_through,
@@ -139,7 +135,7 @@ def stack_request(document: Mapping[str, object]) -> Document:
     workbook = workbook_of(document)
     named = cast("Sequence[str]", document.get("tasks") or ())
     tasks = [workbook.task(identifier) for identifier in named] or workbook.tasks
-    return {"xml": quiz(workbook, tasks, _language(document))}
+    return {"xml": quiz(workbook, tasks, language_in(document))}
 
 
 def batch_request(document: Mapping[str, object]) -> list[Document]:

@@ -6,7 +6,6 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import cast
 
 from ..errors import InputError
 from ..language.canonical import display
@@ -110,11 +109,5 @@ def workbook_of(document: Mapping[str, object]) -> Workbook:
 @lru_cache(maxsize=KEPT)
 def _kept_workbook(text: str) -> Workbook:
     document = json.loads(text)
-    scene = changed_scene(
-        document["scene"],
-        cast("list[dict[str, str]]", document["guides"] or []),
-        cast("list[str]", document["freeze"] or []),
-        cast("dict[str, float]", document["parameters"] or {}),
-    )
-    seed = document["seed"]
+    scene, seed = changed_scene(document), document["seed"]
     return Workbook(scene if seed is None else seeded(scene, str(seed)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from typing import cast
 
 from ..errors import InputError, Problem, RequestError
 from .changes import change
@@ -25,14 +26,15 @@ def requested_scene(reference: object, parameters: Mapping[str, float]) -> tuple
         return read_scene(reference), parameters
 
 
-def changed_scene(
-    reference: object,
-    guides: Sequence[Mapping[str, str]] = (),
-    freeze: Sequence[str] = (),
-    parameters: Mapping[str, float] | None = None,
-) -> Scene:
-    """The scene a request means, its changes applied."""
-    scene, values = requested_scene(reference, parameters or {})
+def changed_scene(document: Mapping[str, object]) -> Scene:
+    """The scene that a request {scene, guides?, freeze?, parameters?} means, its changes applied.
+
+    The types of the fields are checked already.
+    """
+    guides = cast("Sequence[Mapping[str, str]]", document.get("guides") or ())
+    freeze = cast("Sequence[str]", document.get("freeze") or ())
+    parameters = cast("Mapping[str, float]", document.get("parameters") or {})
+    scene, values = requested_scene(document["scene"], parameters)
     return change(scene, guides, freeze, values)
 
 

@@ -69,6 +69,11 @@ def message(language: str, problem: Problem) -> str:
     return f"{sentence} {text(language, 'errors.suggestion', suggestion=suggestion)}" if suggestion else sentence
 
 
+def language_in(document: Mapping[str, object]) -> str:
+    """The language that a request asks for by `lang`."""
+    return language_of(str(document.get("lang") or ""))
+
+
 def language_of(wanted: str | None) -> str:
     """The language to answer in: the one wanted if there is a catalog for it, else English."""
     short = (wanted or "")[:2].lower()

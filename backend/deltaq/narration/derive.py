@@ -5,15 +5,13 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from typing import cast
 
-from ..derivation.engine import check_formulation, derive
+from ..derivation.engine import USUAL, check_formulation, derive
 from ..derivation.result import result_of
 from ..derivation.system import System
 from ..language.latex_printer import Typography
 from ..mechanics.requests import changed_scene, inside
-from ..mechanics.scene import Scene
-from .catalog import language_of
+from .catalog import language_in
 from .marks import by_coordinate, in_class
 from .narrator import Narrator
 from .notation import Notation
@@ -28,12 +26,12 @@ def derive_request(document: Mapping[str, object]) -> Document:
 
     `document`: {scene: id or document, guides?, freeze?, parameters?, formulation?, lang?}, already checked for types.
     """
-    scene = scene_of(document)
-    formulation = str(document.get("formulation") or "dalembert-lagrange")
+    scene = changed_scene(document)
+    formulation = str(document.get("formulation") or USUAL)
     check_formulation(formulation)
     with inside("/scene"):
         system, derivation = derive(scene, formulation)
-    language = language_of(cast("str | None", document.get("lang")))
+    language = language_in(document)
     key = json.dumps(document, sort_keys=True, ensure_ascii=False)
     return {
         "id": hashlib.sha256(key.encode()).hexdigest()[:24],
@@ -42,16 +40,6 @@ def derive_request(document: Mapping[str, object]) -> Document:
         "chapters": Narrator(language, notation_of(system, language)).chapters(derivation),
         "result": written(result_of(system), Typography(scene.names)),
     }
-
-
-def scene_of(document: Mapping[str, object]) -> Scene:
-    """The scene a request names or brings, with its changes."""
-    return changed_scene(
-        document["scene"],
-        cast("list[dict[str, str]]", document.get("guides") or []),
-        cast("list[str]", document.get("freeze") or []),
-        cast("dict[str, float]", document.get("parameters") or {}),
-    )
 
 
 def notation_of(system: System, language: str) -> Notation:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import cast
 
 from ..derivation.abstract_motion import H
 from ..derivation.proof import PROOF, prove
 from ..errors import Problem, UnknownNameError
-from .catalog import language_of, text
+from .catalog import language_in, text
 from .function_notation import FunctionNotation, FunctionTypography
 from .general_symbols import DIRECTIONS, NAMES, GeneralSymbols
 from .marks import Wrap, in_class
@@ -24,7 +23,7 @@ def proof_request(document: Mapping[str, object]) -> Document:
     if identifier not in PROOFS:
         parameters = {"name": identifier[:40], "known": ", ".join(PROOFS)}
         raise UnknownNameError(Problem("unknown-proof", parameters=parameters))
-    language = language_of(cast("str | None", document.get("lang")))
+    language = language_in(document)
     narrator = Narrator(language, _notation(in_class))
     chapters = narrator.chapters(prove())
     return {"id": identifier, "title": text(language, f"rules.proofs.{identifier}"), "chapters": chapters}

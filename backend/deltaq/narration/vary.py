@@ -18,7 +18,7 @@ from ..errors import ExpressionError, Problem, RequestError
 from ..language.names import Names
 from ..language.plain_printer import plain
 from ..language.spelling import latex_of, spell_rate
-from .catalog import language_of
+from .catalog import language_in
 from .function_notation import FunctionNotation, FunctionSymbols, FunctionTypography
 from .marks import Wrap, in_class, unmarked
 from .narrator import Narrator
@@ -36,7 +36,7 @@ def vary_request(document: Mapping[str, object]) -> Document:
     are "fixed" or "free", or one of both, the lower first: "fixed-free".
     """
     question = read_question(document)
-    language = language_of(cast("str | None", document.get("lang")))
+    language = language_in(document)
     try:
         derivation = vary(question.functional)
     except ExpressionError as error:
