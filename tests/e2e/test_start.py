@@ -9,7 +9,7 @@ from functools import cache
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from playwright.sync_api import Page, Request, expect
+from playwright.sync_api import Page, Request, Route, expect
 from tests.e2e.lecture import Lecture
 
 pytestmark = pytest.mark.e2e
@@ -32,6 +32,21 @@ def test_the_pendulum_moves_and_leads_to_its_scene(start: Lecture) -> None:
     assert bob.get_attribute("transform") != before
     start.page.locator(".hero a").click()
     expect(start.steps.first).to_be_visible()
+
+
+def test_who_waits_for_the_pendulum_is_told(lecture: Lecture) -> None:
+    """A first start compiles for a while; the page is not empty meanwhile."""
+    held: list[Route] = []
+    lecture.page.route("**/api/v1/simulations", held.append)
+    lecture.page.goto(f"{lecture.address}?lang=en")
+    told = lecture.page.locator(".hero .patience")
+    expect(told).to_be_visible()
+    expect(told).to_contain_text("compiles its numerical methods")
+    lecture.page.unroute("**/api/v1/simulations")
+    for route in held:
+        route.continue_()
+    expect(told).to_be_hidden()
+    expect(lecture.page.locator(".hero path.bob")).to_be_attached()
 
 
 def test_the_pendulum_rests_for_those_who_prefer_it(lecture: Lecture) -> None:

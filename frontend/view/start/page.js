@@ -45,6 +45,7 @@ function opening({ state, t }) {
       </div>
       <div class="hero">
         <div class="drawing waiting" data-scene=${HERO}><svg aria-hidden="true"></svg><div class="labels" aria-hidden="true"></div></div>
+        <p class="patience" role="status">${t("drawing.loading")} <small>${t("drawing.first-start")}</small></p>
         <a href=${scene} aria-label=${t("start.hero")}></a></div>
     </section>`;
 }
