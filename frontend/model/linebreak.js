@@ -3,13 +3,13 @@
  * textbooks set it. Classes that colour a sum as a whole are kept on each of its lines.
  */
 
-const OPENING = /^(\{|\(|\[|\\left|\\begin)/;
-const CLOSING = /^(\}|\)|\]|\\right|\\end)/;
-/** In a term too long by itself a row may go on within brackets, as long as they need not fit their content. */
-const BRACKET = /^[()[\]]$/;
-const TOKEN = /\\begin\{[a-z*]+\}|\\end\{[a-z*]+\}|\\left(?:\\[a-zA-Z{}|]+|.)|\\right(?:\\[a-zA-Z{}|]+|.)|\\\\(?:\[[^\]]*\])?|\\[a-zA-Z]+|\\.|[\s\S]/g;
+import { cut, endsRow, parted, tokensOf, weight } from "./latex.js";
+import { named, narrowed } from "./matrices.js";
+
 const RELATION = /^(=|\\(approx|equiv|neq|le|ge|Longleftrightarrow|Rightarrow|to))$/;
 const ROWS = /^\\begin\{aligned\}([\s\S]*)\\end\{aligned\}$/;
+/** In a term too long by itself a row may go on within so many brackets within each other. */
+const DEEPEST = 3;
 /** What goes on below stands in from where its row began. */
 const INDENT = "\\qquad {}";
 /** Left sides that take more of a row than this, and more letters, have one of their own, and the relations hang below them. */
@@ -17,46 +17,12 @@ const HEAVY = 0.3;
 const SHORT = 6;
 const HANGING = "\\quad {}";
 
-/**
- * Cuts before every token of the outermost level for which `where` holds.
- * @param {string} latex @param {(token: string, before: string) => boolean} where  before: what the piece holds so far
- * @param {boolean} [within]  whether brackets count as the outermost level, too
- */
-function cut(latex, where, within = false) {
-  const pieces = [""];
-  let depth = 0;
-  for (const [token] of latex.matchAll(TOKEN)) {
-    const passed = within && BRACKET.test(token);
-    if (!passed && CLOSING.test(token)) depth -= 1;
-    if (depth === 0 && where(token, pieces[pieces.length - 1])) pieces.push("");
-    pieces[pieces.length - 1] += token;
-    if (!passed && OPENING.test(token)) depth += 1;
-  }
-  return pieces;
-}
-
 /** The rows of an aligned formula, each with the gap that follows it. @param {string} body */
 function rowsOf(body) {
-  let ended = false;
-  return cut(body, (token) => {
-    const starts = ended;
-    ended = token.startsWith("\\\\");
-    return starts;
-  }).map((row) => {
+  return parted(body, endsRow).map((row) => {
     const [, text, gap] = /** @type {RegExpMatchArray} */ (row.match(/^([\s\S]*?)(\\\\(?:\[[^\]]*\])?)?$/));
     return { text, gap: gap ?? "" };
   });
-}
-
-/** How wide a formula is, roughly, in letters. @param {string} latex */
-export function weight(latex) {
-  const flat = latex
-    .replace(/\\htmlClass\{[^}]*\}/g, "")
-    .replace(/\\(begin|end)\{[^}]*\}|\\(left|right|,|;|!|quad|qquad|,)|\\\\(\[[^\]]*\])?|[{}^_&\s]/g, "")
-    .replace(/\\(dot|ddot|mathbf|mathrm|frac|text|partial)/g, (_, name) => (name === "partial" ? "∂" : ""))
-    .replace(/\\(sin|cos|tan|exp|log)/g, "sin")
-    .replace(/\\[a-zA-Z]+/g, "x");
-  return flat.length;
 }
 
 /** A sign that joins two terms, not one that leads a term or follows a relation. @param {string} token @param {string} before */
@@ -67,7 +33,19 @@ function joins(token, before) {
 
 /** The terms of the outermost sum, each with its sign; a coloured sum counts by its own terms. @param {string} sum @param {number} most @returns {string[]} */
 function termsOf(sum, most) {
-  return cut(sum, joins).flatMap((term) => coloured(term, most) ?? (weight(term) > most ? cut(term, joins, true) : [term]));
+  return cut(sum, joins).flatMap((term) => coloured(term, most) ?? (weight(term) > most ? opened(term, most) : [term]));
+}
+
+/**
+ * The pieces of a term that is too long by itself: it goes on within its outermost brackets, and within those inside
+ * only where that is not enough.
+ * @param {string} term @param {number} most @param {number} [levels] @returns {string[]}
+ */
+function opened(term, most, levels = 1) {
+  const free = term.replace(/\\left([([])/g, "\\Bigl$1").replace(/\\right([)\]])/g, "\\Bigr$1");
+  const pieces = cut(free, joins, levels);
+  if (pieces.length === 1) return levels < DEEPEST ? opened(term, most, levels + 1) : [term];
+  return pieces.flatMap((piece) => (weight(piece) > most ? opened(piece, most) : [piece]));
 }
 
 /** The terms of a sum within one colour, each in that colour; null if the term is not such a sum. @param {string} term @param {number} most */
@@ -82,7 +60,7 @@ function coloured(term, most) {
 /** Whether what looks like the inside of one group is the end of one and the beginning of another. @param {string} content */
 function closesEarly(content) {
   let depth = 0;
-  for (const [token] of content.matchAll(TOKEN)) {
+  for (const token of tokensOf(content)) {
     if (token === "{") depth += 1;
     if (token === "}" && --depth < 0) return true;
   }
@@ -112,14 +90,31 @@ function broken(row, most) {
   const [begin, whole] = sidesOf(row);
   const hangs = whole.trimStart().startsWith(HANGING);
   const [left, right] = hangs ? [`${begin} ${HANGING}`, whole.trimStart().slice(HANGING.length)] : [begin, whole];
-  const lines = [left];
-  for (const term of termsOf(right, most)) {
+  const terms = termsOf(right, most).map((term, i) => narrowed(term, most - (i ? 0 : weight(left)), linesOf));
+  return lined(terms, most, left).map((line, i) => (i ? `& ${INDENT}${line}` : line));
+}
+
+/** Brackets that a piece opens, less those that it closes. @param {string} piece */
+const balance = (piece) => tokensOf(piece).reduce((sum, token) => sum + (/^[([]$/.test(token) ? 1 : /^[)\]]$/.test(token) ? -1 : 0), 0);
+
+/** Terms in lines of at most `most` letters; what ends a bracket of a line above ends its line. @param {string[]} terms @param {number} most @param {string} [lead]  what the first of them follows */
+function lined(terms, most, lead = "") {
+  const lines = [lead];
+  let [open, within] = [0, false];
+  for (const term of terms) {
     const last = lines[lines.length - 1];
-    if (weight(last) > 0 && last !== left && weight(last) + weight(term) > most) lines.push(`& ${INDENT}${term}`);
-    else lines[lines.length - 1] += term;
+    const ends = within && open === 0;
+    if (last !== lead && (ends || weight(last) + weight(term) > most)) {
+      lines.push(term);
+      within = open > 0;
+    } else lines[lines.length - 1] += term;
+    open += balance(term);
   }
   return lines;
 }
+
+/** @param {string} sum @param {number} most */
+const linesOf = (sum, most) => lined(termsOf(sum, most), most);
 
 /**
  * The formula with rows of at most `part` of its widest one; a formula that cannot be broken comes back as it is.
@@ -129,10 +124,11 @@ export function brokenRows(latex, part) {
   const aligned = latex.trim().match(ROWS);
   const given = rowsOf(aligned ? aligned[1] : `& ${latex}`);
   const most = part * Math.max(...given.map(({ text }) => weight(text)));
-  const rows = hung(given, most);
+  const rows = hung(named(given, most, sidesOf), most);
   const lines = rows.flatMap(({ text, gap }) => {
     const parts = broken(text, most);
     return parts.map((line, i) => line + (i < parts.length - 1 ? " \\\\[0.2em] " : gap));
   });
-  return lines.length === given.length ? latex : `\\begin{aligned}${lines.join("")}\\end{aligned}`;
+  const written = lines.join("");
+  return written === given.map(({ text, gap }) => text + gap).join("") ? latex : `\\begin{aligned}${written}\\end{aligned}`;
 }

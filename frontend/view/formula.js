@@ -3,8 +3,8 @@
 import { html, nothing } from "lit-html";
 import { Directive, directive } from "lit-html/directive.js";
 
-/** Display formulas shrink to this part of their size before they scroll. */
-const SMALLEST = 0.62;
+/** Display formulas shrink to this part of their size, 11 pixels on a phone, before they scroll. */
+const SMALLEST = 0.56;
 /** Rows that would become smaller are rather broken, where that is not said otherwise. */
 const BEARABLE = 0.78;
 /** Broken rows are to fit at this size. */
@@ -64,6 +64,7 @@ function shrink(elements) {
   for (const { element, width, part } of found) {
     fittedWidths.set(element, width);
     if (part < 1) element.style.setProperty("--fit", String(Math.max(SMALLEST, part)));
+    element.classList.toggle("wide", part < SMALLEST);
   }
   return found;
 }

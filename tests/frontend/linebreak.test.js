@@ -1,7 +1,8 @@
 import { strict as assert } from "node:assert";
 import { createRequire } from "node:module";
 import { test } from "node:test";
-import { brokenRows, weight } from "../../frontend/model/linebreak.js";
+import { weight } from "../../frontend/model/latex.js";
+import { brokenRows } from "../../frontend/model/linebreak.js";
 
 const katex = createRequire(new URL("../../frontend/package.json", import.meta.url))("katex");
 
@@ -20,6 +21,18 @@ const CASES = [
     "\\begin{aligned}E &=\\htmlClass{k}{aaaa } \\\\[0.2em] & \\qquad {}\\htmlClass{k}{{}+ bbbb}\\end{aligned}"],
   ["a long left side has a row of its own", "\\begin{aligned}aaaa + bbbb &= c + d \\\\[0.4em] &= e\\end{aligned}", 0.6,
     "\\begin{aligned}& aaaa  \\\\[0.2em] & \\qquad {}+ bbbb  \\\\[0.2em] & \\quad {}= c + d \\\\[0.4em]& \\quad {}= e\\end{aligned}"],
+  ["large brackets become fixed ones where a term goes on within them", "\\begin{aligned}a &= f\\,\\left(bbbb + cccc\\right)\\end{aligned}", 0.7,
+    "\\begin{aligned}a &= f\\,\\Bigl(bbbb  \\\\[0.2em] & \\qquad {}+ cccc\\Bigr)\\end{aligned}"],
+  ["brackets inside stay whole where that is enough", "\\begin{aligned}a &= f(bbbb (c + d) + eeee (g + h))\\end{aligned}", 0.7,
+    "\\begin{aligned}a &= f(bbbb (c + d)  \\\\[0.2em] & \\qquad {}+ eeee (g + h))\\end{aligned}"],
+  ["a column goes on within its brackets", "\\begin{aligned}r &= \\begin{bmatrix} bbbb + cccc \\\\ d \\end{bmatrix}\\,x\\end{aligned}", 0.7,
+    "\\begin{aligned}r &= \\begin{bmatrix*}[l] bbbb  \\\\ \\quad {}+ cccc \\\\[0.6em] d \\end{bmatrix*}\\,x\\end{aligned}"],
+  ["the long entries of a matrix have names, equal ones the same",
+    "\\begin{aligned}\\mathbf{M} &= \\begin{bmatrix} aaaa + bbbb & cccc + dddd \\\\ cccc + dddd & e \\end{bmatrix} \\\\[0.85em] f &= g\\end{aligned}", 0.7,
+    "\\begin{aligned}\\mathbf{M} &= \\begin{bmatrix} M_{11} & M_{12} \\\\ M_{12} & e \\end{bmatrix} \\\\[0.4em] M_{11} &= aaaa + bbbb \\\\[0.2em] M_{12} &= cccc + dddd\\\\[0.85em] f &= g\\end{aligned}"],
+  ["a matrix whose name stands above keeps it further down",
+    "\\begin{aligned}\\mathbf{K}_0 &= \\mathbf{K} \\\\ &= \\begin{bmatrix} aaaabbbb & 0 \\\\ 0 & ccccdddd \\end{bmatrix} \\\\ & \\begin{bmatrix} aaaabbbb & 0 \\\\ 0 & ccccdddd \\end{bmatrix}\\,x = 0\\end{aligned}", 0.7,
+    "\\begin{aligned}\\mathbf{K}_0 &= \\mathbf{K} \\\\ &= \\begin{bmatrix} K_{0,11} & 0 \\\\ 0 & K_{0,22} \\end{bmatrix} \\\\[0.4em] K_{0,11} &= aaaabbbb \\\\[0.2em] K_{0,22} &= ccccdddd\\\\ & \\begin{bmatrix} K_{0,11} & 0 \\\\ 0 & K_{0,22} \\end{bmatrix}\\,x = 0\\end{aligned}"],
   ["a formula without rows", "aaaa + bbbb", 0.6, "\\begin{aligned}& aaaa  \\\\[0.2em] & \\qquad {}+ bbbb\\end{aligned}"],
 ];
 
@@ -31,12 +44,15 @@ for (const [name, latex, part, wanted] of /** @type {[string, string, number, st
   });
 }
 
-test("a matrix is one thing", () => {
+test("a matrix without a name, or of short entries, is one thing", () => {
   const matrix = "\\begin{aligned}M &= \\begin{bmatrix} a + b & c \\\\ c & d - e \\end{bmatrix}\\end{aligned}";
   assert.equal(brokenRows(matrix, 0.2), matrix);
+  const nameless = "\\begin{aligned}m &= \\begin{bmatrix} aaaa + bbbb & c \\\\ c & d \\end{bmatrix}\\end{aligned}";
+  assert.equal(brokenRows(nameless, 0.2), nameless);
 });
 
 test("weight counts what is seen", () => {
   assert.equal(weight("\\htmlClass{q-0 x}{\\dot{\\varphi}_1}^{2}"), 3);
   assert.equal(weight("\\frac{1}{2} m \\ell^2"), 5);
+  assert.equal(weight("\\begin{bmatrix} aa & b \\\\ c & ddd \\end{bmatrix}"), 8);
 });
