@@ -7,7 +7,7 @@ import pytest
 from tests.simulation.scenes import oscillator
 
 from deltaq.simulation.estimate import estimate
-from deltaq.simulation.kernels.explicit_runge_kutta import Result
+from deltaq.simulation.kernels.loop import Result
 from deltaq.simulation.problem import Problem
 from deltaq.simulation.run import Run
 from deltaq.simulation.service import problem_of

@@ -8,9 +8,10 @@ from functools import cache, singledispatch
 import numpy as np
 from numpy.typing import NDArray
 
-from .kernels.explicit_runge_kutta import Result, integrate
+from .kernels.explicit_runge_kutta import integrate
 from .kernels.implicit_room import make_implicit_room
 from .kernels.implicit_runge_kutta import integrate_implicit
+from .kernels.loop import Result
 from .kernels.motion import Motion
 from .kernels.newmark import integrate_newmark
 from .kernels.newmark_step import NewmarkWeights, make_newmark_room

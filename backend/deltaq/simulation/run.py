@@ -9,7 +9,7 @@ import numpy as np
 
 from .event import Approach, Event, approaches, first_event
 from .integration import Flag, Setting, integrated, motion_of, watch_of
-from .kernels.explicit_runge_kutta import Result
+from .kernels.loop import Result
 from .kernels.motion import EVENT, FINE, STEP_LIMIT, STIFF
 from .kernels.step_control import Control
 from .method import Method

@@ -2,37 +2,17 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from .compiler import inner, kernel, variable
 from .extension import sample, watch_extension
-from .motion import CANCELLED, FINE, NOT_FINITE, STEP_LIMIT, STEP_UNDERFLOW, Floats, Motion, slope
+from .loop import Result, begin, interruption, later
+from .motion import FINE, STEP_UNDERFLOW, Floats, Motion
 from .step import Room, Weights, accept, attempt
 from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, patience, shrunk
 from .watch import Watch
 
 ROUNDING = 2.3e-16
-
-
-class Result(NamedTuple):
-    """`outcome` as in `motion`; the first `samples` rows of the samples are filled."""
-
-    outcome: int
-    samples: int
-    steps: int
-    rejected: int
-    evaluations: int
-    reached: float
-
-
-@inner
-def interruption(control: Control, tries: int, watch: Watch) -> int:
-    """Whether to stop before the next step, and why."""
-    if watch.cancelled[0] != 0:
-        return CANCELLED
-    return STEP_LIMIT if tries >= control.step_limit else FINE
 
 
 @inner
@@ -60,11 +40,7 @@ def integrate(
     """
     t, lost_time, end = times[0], 0.0, weights.b.size
     finish = times[times.size - 1]
-    outcome = slope(motion, t, room.old, room.slopes[0])
-    for d in range(room.old.size):
-        out[0, d] = room.old[d]
-        if outcome == FINE and not abs(room.slopes[0, d]) < np.inf:
-            outcome = NOT_FINITE
+    outcome = begin(motion, t, room.old, room.slopes[0], out)
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
     is_adaptive = control.tolerance > 0.0
@@ -89,9 +65,7 @@ def integrate(
             evaluations += extra
             accept(end, room)
             steps += 1
-            tick = h + lost_time
-            lost_time = tick - ((t + tick) - t)
-            t += tick
+            t, lost_time = later(t, h, lost_time)
             h = grown(control, h, error, before, growth)
             before, growth = max(error, 1e-4), LARGEST_GROWTH
         elif is_adaptive:

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from .collocation import sample_stages
 from .compiler import inner, kernel, variable
-from .explicit_runge_kutta import Result, interruption
 from .hermite import sample_between
 from .implicit_room import ImplicitRoom, take
-from .implicit_step import attempt_implicit, begin, differentiate, prepare
+from .implicit_step import attempt_implicit, differentiate, prepare
+from .loop import Result, begin, interruption, later
 from .motion import FINE, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion
 from .phase import Phase, momenta
 from .stages import ImplicitWeights, predict
@@ -85,14 +85,15 @@ def integrate_implicit(
     The initial state stands in room.ends.old.
     """
     t, lost_time, n, last = times[0], 0.0, motion.degrees, times[times.size - 1]
-    outcome = begin(motion, phase, t, out, room)
+    q, v = room.ends.old[:n], room.ends.old[n : 2 * n]
+    outcome = begin(motion, t, room.ends.old, room.ends.old_slope, out)
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
+    momenta(phase, t, q, v, room.p, room.rate)
     is_adaptive = control.tolerance > 0.0
     h = control.step * (0.01 if is_adaptive else 1.0)
     before_h, assembled_h, is_old, is_fresh = 0.0, 0.0, True, True
     filled, steps, rejected, evaluations = variable(1), 0, 0, 2
-    q, v = room.ends.old[:n], room.ends.old[n : 2 * n]
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps + rejected, watch)
         if outcome != FINE:
@@ -115,9 +116,7 @@ def integrate_implicit(
             evaluations += made
             take(room)
             steps += 1
-            tick = h + lost_time
-            lost_time = tick - ((t + tick) - t)
-            t += tick
+            t, lost_time = later(t, h, lost_time)
             before_h, is_fresh, is_old = h, False, slowness > SLOW
             h = next_step(control, h, error)
             momenta(phase, t, q, v, room.stages.spare[0], room.rate)

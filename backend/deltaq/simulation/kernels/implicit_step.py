@@ -7,24 +7,11 @@ import numpy as np
 from .compiler import inner
 from .implicit_error import error_of, prepare_error
 from .implicit_room import ImplicitRoom, add
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Floats, Motion, slope
+from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Motion, slope
 from .newton import assemble, newton
-from .phase import Phase, linearize, momenta, velocity
+from .phase import Phase, linearize, velocity
 from .stages import ImplicitWeights, Start, middle
 from .step import LARGEST_VALUE
-
-
-@inner
-def begin(motion: Motion, phase: Phase, t: float, out: Floats, room: ImplicitRoom) -> int:
-    """The momenta of the initial state, which becomes the first sample."""
-    ends, n = room.ends, motion.degrees
-    outcome = slope(motion, t, ends.old, ends.old_slope)
-    for d in range(ends.old.size):
-        out[0, d] = ends.old[d]
-        if outcome == FINE and not abs(ends.old_slope[d]) < np.inf:
-            outcome = NOT_FINITE
-    momenta(phase, t, ends.old[:n], ends.old[n : 2 * n], room.p, room.rate)
-    return outcome
 
 
 @inner

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from .compiler import kernel, variable
-from .explicit_runge_kutta import Result, interruption
 from .hermite import sample_between, watch_between
-from .motion import FINE, NOT_FINITE, Floats, Motion, slope
+from .loop import Result, begin, interruption, later
+from .motion import FINE, Floats, Motion
 from .newmark_step import NewmarkRoom, NewmarkWeights, attempt_newmark, take
 from .step_control import Control
 from .watch import Watch
@@ -30,11 +28,7 @@ def integrate_newmark(
     The initial state stands in room.ends.old.
     """
     t, lost_time, h, ends = times[0], 0.0, control.step, room.ends
-    outcome = slope(motion, t, ends.old, ends.old_slope)
-    for d in range(ends.old.size):
-        out[0, d] = ends.old[d]
-        if outcome == FINE and not abs(ends.old_slope[d]) < np.inf:
-            outcome = NOT_FINITE
+    outcome = begin(motion, t, ends.old, ends.old_slope, out)
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
     filled, steps, evaluations, needs_matrix = variable(1), 0, 1, True
@@ -53,9 +47,7 @@ def integrate_newmark(
             evaluations += made
             take(room)
             steps += 1
-            tick = h + lost_time
-            lost_time = tick - ((t + tick) - t)
-            t += tick
+            t, lost_time = later(t, h, lost_time)
         elif not was_fresh:
             needs_matrix, outcome = True, FINE
     return Result(outcome, filled, steps, 0, evaluations, min(t, times[times.size - 1]))

@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiler import inner, kernel, variable
-from .explicit_runge_kutta import Result, interruption
 from .hermite import Ends, make_ends, sample_between, watch_between
+from .loop import Result, begin, interruption, later
 from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, factor, slope, solve
 from .phase import Phase, momenta
 from .step import LARGEST_VALUE
@@ -62,6 +62,16 @@ def push(phase: Phase, t: float, room: SplitRoom) -> None:
     solve(room.factors, n)
     for d in range(n):
         room.force[d] = room.factors[first + d]
+
+
+@inner
+def factorize(phase: Phase, t: float, room: SplitRoom) -> None:
+    """The factors of M, which stay."""
+    n = phase.degrees
+    push(phase, t, room)
+    for i in range(n * (n + 1) // 2):
+        room.factors[i] = phase.outputs[i]
+    factor(room.factors, n)
 
 
 @inner
@@ -125,17 +135,10 @@ def integrate_split(
     The initial state stands in room.ends.old and room.ends.new.
     """
     t, lost_time, n, h, ends = times[0], 0.0, motion.degrees, control.step, room.ends
-    outcome = slope(motion, t, ends.old, ends.old_slope)
-    for d in range(ends.old.size):
-        out[0, d] = ends.old[d]
-        if outcome == FINE and not abs(ends.old_slope[d]) < np.inf:
-            outcome = NOT_FINITE
+    outcome = begin(motion, t, ends.old, ends.old_slope, out)
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
-    push(phase, t, room)
-    for i in range(n * (n + 1) // 2):
-        room.factors[i] = phase.outputs[i]
-    factor(room.factors, n)
+    factorize(phase, t, room)
     filled, steps, evaluations, is_known = variable(1), 0, 2, False
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps, watch)
@@ -156,7 +159,5 @@ def integrate_split(
         for d in range(ends.old.size):
             ends.old[d] = ends.new[d]
         steps += 1
-        tick = h + lost_time
-        lost_time = tick - ((t + tick) - t)
-        t += tick
+        t, lost_time = later(t, h, lost_time)
     return Result(outcome, filled, steps, 0, evaluations, min(t, times[times.size - 1]))
