@@ -27,6 +27,7 @@ Make = Callable[[str, tuple[sp.Expr, ...]], sp.Expr]
 
 
 def symbol(name: str) -> sp.Symbol:
+    """A real symbol; letters of the proof are no coordinates of a scene."""
     return sp.Symbol(name, real=True)
 
 
@@ -35,14 +36,17 @@ BODY = Bounds(P, sp.Integer(0), sp.Integer(1))
 
 
 def q(index: str) -> sp.Symbol:
+    """qᵢ"""
     return symbol(f"q_{index}")
 
 
 def rate(index: str) -> sp.Symbol:
+    """q̇ᵢ"""
     return symbol(spell_rate(f"q_{index}", 1))
 
 
 def variation(index: str) -> sp.Symbol:
+    """δqᵢ"""
     return symbol(f"delta(q_{index})")
 
 
@@ -74,6 +78,7 @@ class AbstractMotion:
 
     @property
     def acceleration(self) -> sp.ImmutableMatrix:
+        """a = dv/dt"""
         return total_rate(self.velocity)
 
     @property

@@ -26,17 +26,21 @@ class Action(Functional):
 
     @property
     def functions(self) -> tuple[str, ...]:
+        """The coordinates that are varied: those no guide prescribes."""
         return self.system.free
 
     @cached_property
     def value(self) -> sp.Expr:
+        """The integrand L(q, q̇, t)."""
         return self.system.lagrangian
 
     @property
     def named(self) -> Named:
+        """L under its symbol."""
         return Named(Quantity("lagrangian"), self.value)
 
     def momentum(self, function: str) -> sp.Expr:
+        """pᵢ = ∂L/∂q̇ᵢ"""
         return self.system.momentum(function)
 
 

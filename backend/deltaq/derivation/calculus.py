@@ -1,4 +1,4 @@
-"""The symbols of a scene in the hands of SymPy, and the few operations that every law uses."""
+"""The few operations that every law uses, on expressions in the symbols of a scene."""
 
 from __future__ import annotations
 
@@ -14,95 +14,24 @@ from ..language import canonical
 from ..language.form_calculus import PlainForm, plain_form
 from ..language.fourier import TooLargeError
 from ..language.memory import kept
-from ..language.symbols import Symbols
 from ..language.sympy_algebra import rates_of, time_derivative, to_sympy
 from ..language.tree import Node
-from ..mechanics.scene import Scene
 from .formula import Given, Value
+from .scene_symbols import SceneSymbols
 
 V = TypeVar("V", sp.Expr, sp.ImmutableMatrix)
 
 
 @dataclass(frozen=True, eq=False)
-class Calculus:
-    """Coordinates, rates, accelerations and variations are plain symbols: `phi`, `dot(phi)`, `ddot(phi)`, `delta(phi)`.
-
-    Derivatives with respect to time follow by the chain rule. `free` are the coordinates that no guide prescribes.
-    """
-
-    scene: Scene
-
-    @cached_property
-    def symbols(self) -> Symbols:
-        return Symbols(self.scene.names)
-
-    @cached_property
-    def free(self) -> tuple[str, ...]:
-        return tuple(coordinate.name for coordinate in self.scene.free)
-
-    @cached_property
-    def coordinates(self) -> tuple[str, ...]:
-        return tuple(coordinate.name for coordinate in self.scene.coordinates)
-
-    def q(self, name: str) -> sp.Symbol:
-        return self.symbols.name(name)
-
-    def rate(self, name: str) -> sp.Symbol:
-        return self.symbols.rate(name, 1)
-
-    def acceleration(self, name: str) -> sp.Symbol:
-        return self.symbols.rate(name, 2)
-
-    def variation(self, name: str) -> sp.Symbol:
-        return self.symbols.variation(name)
-
-    @property
-    def t(self) -> sp.Symbol:
-        return self.symbols.time
-
-    @property
-    def zero(self) -> sp.Expr:
-        return sp.Integer(0)
-
-    def fresh(self, *names: str) -> sp.Symbol:
-        """A symbol that the scene does not have, under the first of the names that is still to be had."""
-        taken = {symbol.name for symbol in self.scene.names.symbols}
-        return sp.Symbol(next(name for name in names if name not in taken), real=True)
-
-    @cached_property
-    def h(self) -> sp.Symbol:
-        """The number that the definition of the first variation differentiates by."""
-        return self.fresh("h", "epsilon", "eta", "lambda")
-
-    @cached_property
-    def omega(self) -> sp.Symbol:
-        """The circular frequency that an oscillation is sought with."""
-        return self.fresh("omega", "nu", "Omega", "varpi", "w")
-
-    @cached_property
-    def exponent(self) -> sp.Symbol:
-        """The number λ that a motion e^λt is sought with."""
-        return self.fresh("lambda", "mu", "s", "sigma")
-
-    @cached_property
-    def ends(self) -> tuple[sp.Symbol, sp.Symbol]:
-        """The instants between which the action is taken."""
-        return self.fresh("t_0", "t_a", "tau_0"), self.fresh("t_1", "t_b", "tau_1")
-
-    @cached_property
-    def parameter_values(self) -> Mapping[sp.Symbol, sp.Rational]:
-        """The scene's values of its parameters, as the decimals that the scene states."""
-        return {self.q(p.name): sp.Rational(repr(float(p.value))) for p in self.scene.parameters}
-
-    @cached_property
-    def variations(self) -> Mapping[sp.Symbol, sp.Symbol]:
-        """δq of every free coordinate q."""
-        return {self.q(name): self.variation(name) for name in self.free}
+class Calculus(SceneSymbols):
+    """Derivatives with respect to time follow by the chain rule, as do variations; guides are put in."""
 
     def expression(self, node: Node) -> sp.Expr:
+        """The SymPy expression of a scalar tree."""
         return to_sympy(node, self.symbols)
 
     def vector(self, nodes: Iterable[Node]) -> sp.ImmutableMatrix:
+        """The column of scalar trees."""
         return column(self.expression(node) for node in nodes)
 
     def given(self, trees: tuple[Node, ...]) -> Given:
@@ -191,10 +120,12 @@ class Calculus:
         return canonical.is_zero(value, self.symbols) is True
 
     def dot(self, left: sp.ImmutableMatrix, right: sp.ImmutableMatrix) -> sp.Expr:
+        """a · b"""
         return sum((a * b for a, b in zip(left, right, strict=True)), self.zero)
 
 
 def column(components: Iterable[sp.Expr]) -> sp.ImmutableMatrix:
+    """The column vector of these components."""
     return sp.ImmutableMatrix([[component] for component in components])
 
 

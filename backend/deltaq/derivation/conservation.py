@@ -20,6 +20,7 @@ def is_cyclic(system: System, coordinate: str) -> bool:
 
 
 def cyclic(system: System) -> tuple[str, ...]:
+    """The coordinates whose momenta are conserved."""
     return tuple(q for q in system.free if is_cyclic(system, q))
 
 

@@ -16,6 +16,7 @@ USUAL = "dalembert-lagrange"  # if none is asked for
 
 
 def formulation_names() -> tuple[str, ...]:
+    """Names of all formulations there are."""
     return tuple(module.FORMULATION for module in modules_of(FORMULATIONS))
 
 

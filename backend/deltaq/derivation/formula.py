@@ -185,4 +185,5 @@ Formula = (
 
 
 def minus(formula: Formula, *sources: str) -> Term:
+    """The formula as a term that is subtracted."""
     return Term(formula, sources, -1)

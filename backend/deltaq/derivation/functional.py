@@ -19,6 +19,7 @@ from .calculus import by_component, column
 from .domain import FIXED, Instant, Interval
 from .formula import Bounds, Explicit, Formula, Given, Integral, Named, Quantity, Value
 from .function_formula import AtTime
+from .scene_symbols import SMALL, fresh
 
 UNDEFINED = (sp.DiracDelta, sp.Derivative, sp.Subs)
 
@@ -40,6 +41,7 @@ class Functional:
 
     @property
     def functions(self) -> tuple[str, ...]:
+        """The functions that are varied."""
         return self.names.coordinates
 
     @cached_property
@@ -66,13 +68,13 @@ class Functional:
     @cached_property
     def h(self) -> sp.Symbol:
         """The number that the definition differentiates by."""
-        taken = {symbol.name for symbol in self.names.symbols}
-        return sp.Symbol(next(name for name in ("h", "epsilon", "eta", "lambda") if name not in taken), real=True)
+        return fresh(self.names, *SMALL)
 
     def expression(self, node: Node) -> sp.Expr:
         return to_sympy(node, self.symbols)
 
     def display(self, value: Value) -> Value:
+        """The value in its shortest form."""
         return by_component(value, lambda component: canonical.display(component, self.symbols))
 
     def derivative(self, value: Value, by: sp.Symbol) -> Value:
@@ -122,10 +124,12 @@ class Functional:
 
     @property
     def given(self) -> Given:
+        """f as it was written."""
         return Given(self.trees, self.value)
 
     @property
     def explicit(self) -> Explicit:
+        """f written out."""
         return Explicit(self.value)
 
     def on(self, formula: Formula) -> Formula:
@@ -140,6 +144,7 @@ class Functional:
 
     @property
     def interval(self) -> Bounds:
+        """The interval of the integral. TypeError if it is none."""
         if not isinstance(self.domain, Interval):
             raise TypeError("only an integral has an interval")
         return Bounds(self.symbols.time, self.expression(self.domain.lower), self.expression(self.domain.upper))

@@ -35,6 +35,7 @@ class Kinematics(Calculus):
 
     @kept
     def position(self, place: str) -> sp.ImmutableMatrix:
+        """r(P, t, q) with the guides put in."""
         return self.guided(self.vector(self.trees(place)))
 
     def bounds(self, material: tuple[Material, ...]) -> tuple[Bounds, ...]:

@@ -21,11 +21,13 @@ def of_virtual_work(system: System) -> Iterator[Share]:
 
 
 def of_kinetic_energy(system: System) -> Iterator[Share]:
+    """E = Σ E of each body."""
     for body in system.scene.bodies:
         yield f"body:{body.name}", system.kinetic_energy_of(body)
 
 
 def of_potential_energy(system: System) -> Iterator[Share]:
+    """V = Σ V of each load that has a potential."""
     for load in filter(system.is_conservative, system.load_names):
         yield f"load:{load}", system.load_potential(load)
 

@@ -77,6 +77,7 @@ class Result:
 
 
 def result_of(system: System) -> Result:
+    """What a derivation leads to, computed once for the system; SceneError where an integral has no closed form."""
     bodies = [body.name for body in system.scene.bodies]
     return Result(
         scene=system.scene,

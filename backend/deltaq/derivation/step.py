@@ -22,10 +22,12 @@ class Relation:
 
     @property
     def before(self) -> Formula:
+        """What the law was applied to."""
         return self.members[0]
 
     @property
     def after(self) -> Formula:
+        """What the law leads to."""
         return self.members[-1]
 
 
@@ -54,11 +56,13 @@ class Step:
         return f"{self.rule}:{self.subject}" if self.subject else self.rule
 
     def walk(self) -> Iterator[Step]:
+        """The step and all below it, in reading order."""
         yield self
         for substep in self.substeps:
             yield from substep.walk()
 
     def with_substeps(self, *substeps: Step) -> Step:
+        """The step, its work shown by these."""
         return replace(self, substeps=substeps)
 
 

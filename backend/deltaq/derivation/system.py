@@ -50,6 +50,7 @@ class System(Work):
 
     @property
     def body_sources(self) -> tuple[str, ...]:
+        """Every body, as a source of terms."""
         return tuple(f"body:{body.name}" for body in self.scene.bodies)
 
     @kept
@@ -76,6 +77,7 @@ class System(Work):
 
     @cached_property
     def kinetic_energy(self) -> sp.Expr:
+        """E = Σ ∫ ½ v·v dm over all bodies."""
         return self.display(sp.Add(*(self.kinetic_energy_of(body) for body in self.scene.bodies)))
 
     @kept
@@ -94,6 +96,7 @@ class System(Work):
 
     @property
     def conservative_sources(self) -> tuple[str, ...]:
+        """Every load with a potential, as a source of terms."""
         return tuple(f"load:{load}" for load in self.load_names if self.is_conservative(load))
 
     def load_potential(self, load: str) -> sp.Expr:
@@ -133,6 +136,7 @@ class System(Work):
 
     @cached_property
     def potential_energy(self) -> sp.Expr:
+        """V = Σ V of the loads with a potential."""
         loads = (load for load in self.load_names if self.is_conservative(load))
         return self.display(sp.Add(*map(self.load_potential, loads)))
 
@@ -144,6 +148,7 @@ class System(Work):
 
     @cached_property
     def lagrangian(self) -> sp.Expr:
+        """L = E − V"""
         return self.kinetic_energy - self.potential_energy
 
     @kept

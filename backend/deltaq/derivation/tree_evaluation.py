@@ -41,6 +41,7 @@ FUNCTIONS: Mapping[str, Callable[..., arb]] = {
 
 
 def rational(value: Fraction) -> arb:
+    """The ball that holds an exact fraction."""
     return arb(value.numerator) / arb(value.denominator)
 
 

@@ -25,6 +25,7 @@ class Work(Kinematics):
 
     @cached_property
     def load_names(self) -> tuple[str, ...]:
+        """The loads that do work, in the scene's order."""
         return tuple(dict.fromkeys(part.source for part in self.scene.contributions))
 
     def place_of(self, load: Contribution) -> str:

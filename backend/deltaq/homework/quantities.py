@@ -193,4 +193,5 @@ QUANTITIES: tuple[Quantity, ...] = (
 
 
 def quantity_of(kind: str) -> Quantity | None:
+    """The quantity of a task of this kind, if there is one."""
     return next((quantity for quantity in QUANTITIES if quantity.kind == kind), None)

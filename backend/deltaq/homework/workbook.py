@@ -40,14 +40,17 @@ class Workbook:
 
     @cached_property
     def road(self) -> Road:
+        """The way from the scene to every right answer."""
         return Road(self.scene)
 
     @cached_property
     def sampler(self) -> Sampler:
+        """Numbers that tell answers apart."""
         return Sampler(self.road)
 
     @cached_property
     def tasks(self) -> tuple[Task, ...]:
+        """All that can be asked about the scene."""
         return tuple(tasks_of(self.road))
 
     @kept
@@ -57,6 +60,7 @@ class Workbook:
 
     @kept
     def right(self, task: Task) -> Parts:
+        """The right answer to a task."""
         return task.value(self.road)
 
     @kept
@@ -70,6 +74,7 @@ class Workbook:
 
     @kept
     def fingerprint(self, task: Task) -> Fingerprint | None:
+        """Numbers that every right answer to the task shares; None where numbers cannot tell."""
         return task.quantity.equality.fingerprint(self.right(task), self.sampler)
 
     @cached_property

@@ -126,6 +126,7 @@ def implicit_weights(scheme: Partitioned) -> ImplicitWeights:
 
 
 def floats(row: Row) -> Floats:
+    """A row of a tableau in double precision."""
     return np.array([float(number) for number in row])
 
 

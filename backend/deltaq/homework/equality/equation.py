@@ -11,6 +11,7 @@ __all__ = ["fingerprint", "same", "same_solved"]
 
 
 def same(given: Parts, right: Parts, road: Road) -> Match:
+    """Whether it is the equation up to a factor."""
     return equations.same(given, right, road)
 
 
