@@ -171,7 +171,22 @@ async def test_all_who_ask_for_the_same_share_one_experiment(client: httpx.Async
     answer, *told = await asyncio.gather(first, *others)
     results = [[event async for event in events_of(response)][-1] for response in told]
     assert results == 30 * [("result", answer.json())]  # times and all
-    assert cache.misses == misses + 1
+    assert cache.misses == misses + 2  # one measurement and its charts
+
+
+async def test_another_language_measures_nothing(client: httpx.AsyncClient, app: FastAPI) -> None:
+    service, question = app.state.service, SMALL["work-precision"] | {"t_end": 1.25}
+    english = (await client.post(address("work-precision"), json=question | {"lang": "en"})).json()
+    spent = service.laboratory.state.processor_seconds
+    assert spent > 0.0
+    german = (await client.post(address("work-precision"), json=question | {"lang": "de"})).json()
+    assert service.laboratory.state.processor_seconds == spent
+    titles = [[chart["title"] for chart in answer.pop("charts")] for answer in (english, german)]
+    assert english == german  # times and all
+    assert titles[0] != titles[1]
+    file = await client.post(address("work-precision"), json=question | {"lang": "de"}, headers={"Accept": "text/csv"})
+    assert file.status_code == 200
+    assert service.laboratory.state.processor_seconds == spent
 
 
 async def test_measured_anew_on_demand_and_kept_then(client: httpx.AsyncClient, app: FastAPI) -> None:
@@ -183,7 +198,7 @@ async def test_measured_anew_on_demand_and_kept_then(client: httpx.AsyncClient, 
     anew = await client.post(address("work-precision"), json=question, headers={"Cache-Control": "no-cache"})
     assert anew.json() != first.json()  # its times differ
     assert anew.headers["etag"] != first.headers["etag"]
-    assert cache.misses == misses + 1
+    assert cache.misses == misses + 2  # the measurement and its charts
     assert (await client.post(address("work-precision"), json=question)).json() == anew.json()
 
 

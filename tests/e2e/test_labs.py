@@ -35,6 +35,18 @@ def test_work_and_precision_answers_while_the_wish_is_dragged(lecture: Lecture) 
     expect(answer).not_to_have_text(before)
 
 
+def test_another_language_tells_the_same_figures(lecture: Lecture) -> None:
+    page = measured(opened(lecture, "lab=work-precision&scene=pendulum&t=3")).page
+    said = page.locator("output[for=tolerance]").inner_text()
+    time = re.search(r": (\S+)\xa0?\s?ms", said)
+    assert time is not None
+    page.locator(".segments [lang=de]").click()
+    answer = page.locator("output[for=tolerance]")
+    expect(answer).not_to_have_text(said)
+    expect(page.locator("figure figcaption").first).to_contain_text("Bewegung")
+    expect(answer).to_contain_text(time[1].replace(".", ","))
+
+
 def test_a_run_is_stopped_and_keeps_what_was_measured(lecture: Lecture) -> None:
     page = opened(lecture, "lab=work-precision&scene=triple-pendulum&t=60&peers=1").page
     page.locator("form.question button.main").click()

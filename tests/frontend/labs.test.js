@@ -154,6 +154,24 @@ test("the same question is measured anew, another one is not", async () => {
   assert.deepEqual(asked, [false, true, false, false]);
 });
 
+test("in another language what was measured is told again, never measured anew, and stays until it is", async () => {
+  /** @type {[string, boolean][]} */
+  const asked = [];
+  let lang = "en";
+  const run = async (/** @type {any[]} */ ...[, body, , , anew]) => { asked.push([body.lang, anew]); return { experiment: "chaos", charts: [body.lang] }; };
+  const bench = createBench(/** @type {any} */ ({ run, scene: async () => SCENE, document: (/** @type {string} */ id) => id, lang: () => lang }), { ...NOTHING, scene: "pendulum" });
+  await bench.retell();
+  assert.deepEqual(asked, []);
+  await bench.start();
+  lang = "de";
+  const told = bench.retell();
+  assert.deepEqual([bench.get().charts, bench.get().result?.charts], [["en"], ["en"]]);
+  await told;
+  await bench.retell();
+  assert.deepEqual(bench.get().charts, ["de"]);
+  assert.deepEqual(asked, [["en", false], ["de", false], ["de", false]]);
+});
+
 test("another lab keeps the scene, but for the map, which needs a driven one", async () => {
   const bench = createBench(/** @type {any} */ ({ run: async () => {}, scene: async () => SCENE, document: (/** @type {string} */ id) => id, lang: () => "en" }), { ...NOTHING, scene: "pendulum" });
   bench.open("chaos");

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 from importlib import import_module
+from json import loads
 from time import monotonic
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..lab.library import get_experiment
 from ..mechanics.document import examine
@@ -14,6 +14,10 @@ from ..mechanics.toml import read_toml
 from ..narration.catalog import text
 from ..narration.outcome import explained
 from .problems import describe
+
+if TYPE_CHECKING:
+    from ..lab.charts.chart import Chart
+    from ..lab.experiment import Experiment
 
 Document = dict[str, Any]
 PART_PAUSE = 0.4  # seconds between two parts of a stream
@@ -134,16 +138,26 @@ def check_batch(document: Document) -> Document:
 
 
 def experiment(document: Document) -> Iterator[Document]:
-    """Parts with the charts so far, not more often than they can be looked at; then the result with its charts."""
+    """Parts with the charts so far, not more often than they can be looked at; then the result, which has no words."""
     given = {key: value for key, value in document.items() if key != "experiment" and value is not None}
     found, shown, result = get_experiment(document["experiment"]), 0.0, {}
-    drawn = partial(import_module("deltaq.lab.experiment").drawn, found, text=text, language=document["lang"])
     for report in found.run(given):
         result = report.result
         if monotonic() - shown > PART_PAUSE:
-            yield {"done": report.done, "total": report.total, "charts": drawn(result)}
+            yield {"done": report.done, "total": report.total, "charts": _charts(found, result, document["lang"])}
             shown = monotonic()
-    yield {"experiment": found.id, **result, "charts": drawn(result)}
+    yield {"experiment": found.id, **result}
+
+
+def draw_charts(document: Document) -> Document:
+    """A result, given as JSON, with its charts in a language."""
+    result: Document = loads(document["result"])
+    return result | {"charts": _charts(get_experiment(result["experiment"]), result, document["lang"])}
+
+
+def _charts(found: Experiment, result: Document, lang: str) -> list[Chart]:
+    charts: list[Chart] = import_module("deltaq.lab.experiment").drawn(found, result, text, lang)
+    return charts
 
 
 def export_charts(document: Document) -> Document:

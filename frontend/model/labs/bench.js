@@ -43,17 +43,17 @@ export function createBench({ run, scene, document, lang }, question) {
     if (get().running) set({ running: false, stopped: "stopped" });
   }
 
-  /** Measures; what has just been measured is measured anew, and what anybody measured before is there at once. */
-  async function start() {
+  /** @param {Partial<Bench>} cleared  what is shown until something comes @param {boolean} renews  whether what has just been measured is measured anew */
+  async function ask(cleared, renews) {
     stop();
     const { signal } = control;
     const { question, result: before } = get();
-    set({ ...EMPTY, running: true });
+    set({ ...cleared, running: true });
     const body = requestOf(question, document(question.scene), lang());
     const asked = JSON.stringify([question.lab, body]);
     const hear = (/** @type {Part} */ { done, total, charts }) => signal.aborted || set({ progress: done / total, charts });
     try {
-      const result = await run(question.lab, body, hear, signal, before !== null && asked === answered);
+      const result = await run(question.lab, body, hear, signal, renews && before !== null && asked === answered);
       if (signal.aborted) return;
       answered = asked;
       set({ running: false, progress: 1, result, charts: result.charts });
@@ -61,6 +61,12 @@ export function createBench({ run, scene, document, lang }, question) {
       if (!signal.aborted) set({ running: false, failure: failureIn(error) });
     }
   }
+
+  /** Measures; what has just been measured is measured anew, and what anybody measured before is there at once. */
+  const start = () => ask(EMPTY, true);
+
+  /** Charts carry their texts: in another language they are asked for again, and nothing is measured for it. */
+  const retell = async () => (get().result || get().running ? ask({ stopped: "" }, false) : undefined);
 
   async function load() {
     const { scene: id } = get().question;
@@ -83,6 +89,7 @@ export function createBench({ run, scene, document, lang }, question) {
     subscribe: store.subscribe,
     edit,
     start,
+    retell,
     stop,
     load,
     /** Another lab, on the same scene; where there is none, on the one that shows it best. @param {string} lab */

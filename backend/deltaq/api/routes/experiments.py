@@ -2,6 +2,8 @@
 
 All who ask for the same at once share one experiment, and what was measured is kept: a time that was measured here an
 hour ago is as good as one that is measured now. Who wants it measured anew says so by `Cache-Control: no-cache`.
+Figures have no language: charts are drawn from them in each that is asked for; the parts of a shared stream are in that
+of who began it.
 
 There is a call for whatever stands in `lab/experiments/`; what may be asked of it stands in `wire/experiments/`.
 """
@@ -11,7 +13,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Awaitable, Callable
 from dataclasses import replace
-from functools import partial
 from inspect import getdoc
 from json import loads
 from typing import Any
@@ -34,6 +35,7 @@ from ..workers.job import Job
 from .common import COMPUTING, question_of
 
 EXPERIMENT = Job("deltaq.api.jobs:experiment", deadline=180.0, threads=8, pace="slow")
+CHARTS = Job("deltaq.api.jobs:draw_charts", deadline=30.0, pace="slow")
 EXPORT = Job("deltaq.api.jobs:export_charts", deadline=30.0, pace="slow")
 FILES = {"text/html": "html", "text/csv": "csv"}
 ANEW: dict[str, Any] = {
@@ -85,8 +87,12 @@ async def _measured(request: Request, experiment: str, body: ExperimentRequest) 
     service = service_of(request)
     question = {"experiment": experiment, **question_of(request, body)}
     job = replace(EXPERIMENT, deadline=service.settings.experiment_deadline)
-    key, accepted = service.key(job.target, question), request.headers.get("accept", "")
-    measured = partial(service.measurement, key, job, question, anew=_wants_anew(request))
+    key, accepted = service.key(job.target, question | {"lang": ""}), request.headers.get("accept", "")
+
+    async def measured(hear: Hear) -> bytes:
+        result = await service.measurement(key, job, question, hear, anew=_wants_anew(request))
+        return await _drawn(service, result, question["lang"])
+
     if MEDIA_TYPE in accepted:
         return _streamed(request, measured)
     answer = await measured(ignore)
@@ -94,6 +100,12 @@ async def _measured(request: Request, experiment: str, body: ExperimentRequest) 
     if wanted is None:
         return packed(request, hashlib.sha256(answer).hexdigest()[:32], answer)  # measured anew, it is another
     return await _exported(service, wanted, unpack(answer), question["lang"])
+
+
+async def _drawn(service: Service, result: bytes, language: str) -> bytes:
+    """A kept result with its charts, kept themselves by what was measured."""
+    key = service.key(CHARTS.target, hashlib.sha256(result).hexdigest(), language)
+    return await service.answer(key, CHARTS, {"result": unpack(result).decode(), "lang": language})
 
 
 def _wants_anew(request: Request) -> bool:
