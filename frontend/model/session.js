@@ -1,10 +1,9 @@
 /** What the page does: choosing, revealing, changing, simulating. No DOM; views call these functions. */
 
 import { ApiError } from "./api.js";
-import { latestOnly } from "./latest.js";
 import { requestOf, sceneOf } from "./request.js";
 import { linesOf, moved } from "./reveal.js";
-import { endOf, samplesNeeded } from "./trajectory.js";
+import { createSimulations } from "./simulations.js";
 import { changed, readChanges, UNCHANGED, writeChanges } from "./values.js";
 import { createSpeech } from "./speech.js";
 import { NO_FAILURES, preferred } from "./state.js";
@@ -12,9 +11,6 @@ import { completed, fragmentOf, OWN } from "./own.js";
 
 /** @typedef {import("./types.js").Failure} Failure */
 /** @typedef {import("./state.js").State} State */
-
-/** Milliseconds between two simulations while a slider moves. */
-const PAUSE = 100;
 
 /**
  * @param {ReturnType<typeof import("./store.js").createStore<State>>} store
@@ -41,40 +37,7 @@ export function createSession(store, api, clock) {
     }
   }
 
-  /** @type {object | null} */
-  let shown = null;
-  const simulations = latestOnly(simulate, PAUSE);
-
-  /** Fast swings are asked for again with as many samples as they need. @param {object} request @param {import("./types.js").Trajectory} trajectory */
-  function refine(request, trajectory) {
-    const chosen = get().methods.find((method) => method.id === trajectory.method);
-    const samples = chosen?.adaptive && trajectory.status === "ok" ? samplesNeeded(trajectory) : 0;
-    if (samples > trajectory.t.length) simulations.offer({ ...request, samples });
-  }
-
-  /** @param {object} request @param {AbortSignal} signal */
-  async function simulate(request, signal) {
-    set({ simulating: true });
-    await attempt("simulation", async () => {
-      const trajectory = await api.simulate(request, signal);
-      if (signal.aborted) return;
-      set({ trajectory, ...shownWith(request) });
-      clock.setEnd(endOf(trajectory));
-      refine(request, trajectory);
-    });
-    set({ simulating: false });
-  }
-
-  /** The viewer's own scene changes on the page together with its motion. @param {any} request */
-  function shownWith({ scene }) {
-    if (typeof scene === "string" || scene === shown) return {};
-    shown = scene;
-    return { scene: completed(scene) };
-  }
-
-  function askSimulation() {
-    if (asked()) simulations.ask(requestOf(get(), get().changes, get().place.method));
-  }
+  const simulations = createSimulations(store, api, clock, (task) => attempt("simulation", task));
 
   async function derive() {
     const { lang, formulation, n } = get().place;
@@ -93,7 +56,7 @@ export function createSession(store, api, clock) {
   function change(changes) {
     set({ changes });
     move({ set: writeChanges(changes) });
-    askSimulation();
+    simulations.ask();
   }
 
   /** @param {string} id @param {string} [step] @param {number} [n] @param {string} [changes] as the address has them */
@@ -102,7 +65,7 @@ export function createSession(store, api, clock) {
     clock.seek(0);
     set({ scene: null, derivation: null, lines: [], trajectory: null, runs: [], changes: readChanges(changes), failures: NO_FAILURES });
     move({ scene: id, step, n, set: changes, ...(id === get().place.scene ? {} : { part: 0, vary: "", runs: "", at: 0 }) });
-    askSimulation();
+    simulations.ask();
     await attempt("scene", async () => {
       const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang, n);
       const [scene] = await Promise.all([document, derive()]);
@@ -132,7 +95,7 @@ export function createSession(store, api, clock) {
       set({ own, changes: UNCHANGED });
       move({ set: "" });
       if (get().place.scene !== OWN) return choose(OWN);
-      askSimulation();
+      simulations.ask();
       await derive();
     },
     /** The address of a scene while it is written. @param {import("./own.js").SceneDocument} own */
@@ -148,7 +111,7 @@ export function createSession(store, api, clock) {
     async language(lang) {
       await speak(lang);
       await derive();
-      askSimulation();
+      simulations.ask();
     },
     /** @param {string} formulation the road to the equations */
     async formulate(formulation) {
@@ -163,7 +126,7 @@ export function createSession(store, api, clock) {
     /** @param {Partial<import("./types.js").Place>} patch how to simulate */
     resimulate(patch) {
       move(patch);
-      askSimulation();
+      simulations.ask();
     },
     /** @param {import("./values.js").Slider} slider @param {number} value */
     slide(slider, value) {
