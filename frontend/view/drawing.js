@@ -22,7 +22,8 @@ const SVG = "http://www.w3.org/2000/svg";
 function pool(parent, make, update) {
   /** @type {Map<string, {element: E, last: Partial<T>}>} */
   const kept = new Map();
-  let keys = "";
+  /** @type {readonly T[]} */
+  let arranged = [];
 
   /** @param {readonly T[]} items */
   function arrange(items) {
@@ -40,9 +41,8 @@ function pool(parent, make, update) {
   }
 
   return (/** @type {readonly T[]} */ items) => {
-    const order = items.map((item) => item.key).join(" ");
-    if (order !== keys) arrange(items);
-    keys = order;
+    if (items.length !== arranged.length || items.some(({ key }, place) => key !== arranged[place].key)) arrange(items);
+    arranged = items;
     for (const item of items) {
       const found = /** @type {{element: E, last: Partial<T>}} */ (kept.get(item.key));
       if (found.last === item) continue;

@@ -57,7 +57,13 @@ export function createPlots(root, { seek }) {
   let visible = false;
   let due = 0;
   let now = 0;
-  const point = () => (cursor.style.transform = `translateX(${scale.pixel(now).toFixed(1)}px)`);
+  let pointed = NaN;
+  /** On whole pixels of the screen: there it is sharp, and most frames of a long motion have nothing to move. */
+  function point() {
+    const x = Math.round(scale.pixel(now) * devicePixelRatio) / devicePixelRatio;
+    if (x !== pointed) cursor.style.transform = `translateX(${x}px)`;
+    pointed = x;
+  }
   /** @type {Promise<boolean> | null} */
   let plotly = null;
 
@@ -112,9 +118,12 @@ export function createPlots(root, { seek }) {
   });
   root.addEventListener("pointerleave", () => (ghost.hidden = true));
   new ResizeObserver(schedule).observe(root);
-  new IntersectionObserver(([entry]) => {
-    visible = entry.isIntersecting;
-    if (visible) schedule();
+  // Once: what is watched for being seen is measured in every frame.
+  new IntersectionObserver(([entry], watch) => {
+    if (!entry.isIntersecting) return;
+    watch.disconnect();
+    visible = true;
+    schedule();
   }).observe(root);
 
   return {

@@ -1,8 +1,8 @@
-/** The present values of coordinates and energies, in their colours; written directly, ten times a second at most. */
+/** The present values of coordinates and energies, in their colours; written directly, one after the other, each ten times a second at most. */
 
 import { fixed, unitText } from "../model/numbers.js";
 import { atMost, digitsIn } from "./digits.js";
-import { snapshotAt } from "../model/trajectory.js";
+import { blendAt, scalarAt } from "../model/trajectory.js";
 
 /** @typedef {import("../model/types.js").Scene} Scene */
 /** @typedef {import("../model/types.js").Trajectory} Trajectory */
@@ -12,7 +12,7 @@ const PAUSE = 100;
 
 /** @param {HTMLElement} root */
 export function createReadouts(root) {
-  /** @type {{trajectory: Trajectory, lang: string, write: ((t: number) => string)} | null} */
+  /** @type {{trajectory: Trajectory, lang: string, fields: Field[], next: number} | null} */
   let shown = null;
   let due = atMost(PAUSE);
 
@@ -23,39 +23,39 @@ export function createReadouts(root) {
         root.replaceChildren();
         shown = null;
       } else if (shown?.trajectory !== trajectory || shown.lang !== lang) {
-        shown = { trajectory, lang, write: fields(root, scene, trajectory, lang) };
-        due = atMost(PAUSE);
+        shown = { trajectory, lang, fields: fieldsIn(root, scene, trajectory, lang), next: 0 };
+        due = atMost(PAUSE / shown.fields.length);
       }
     },
     /** The same as a sentence's part. @param {number} t */
-    text(t) {
-      return shown?.write(t) ?? "";
-    },
-    /** @param {number} t */
+    text: (t) => (shown?.fields ?? []).map(({ name, write }) => `${name} = ${write(t)}`).join(", "),
+    /** One after the other: all at once would make a frame late. @param {number} t */
     move(t) {
-      if (shown && due()) shown.write(t);
+      if (!shown?.fields.length || !due()) return;
+      shown.fields[shown.next].write(t);
+      shown.next = (shown.next + 1) % shown.fields.length;
     },
   };
 }
 
-/** @param {HTMLElement} root @param {Scene} scene @param {Trajectory} trajectory @param {string} lang */
-function fields(root, scene, trajectory, lang) {
-  const wanted = scene.coordinates.filter((c) => trajectory.coordinates[c.name]);
-  const cells = wanted.map((coordinate) => {
+/** @typedef {{name: string, write: (t: number) => string}} Field  writes the value at a moment, and says it */
+
+/** @param {HTMLElement} root @param {Scene} scene @param {Trajectory} trajectory @param {string} lang @returns {Field[]} */
+function fieldsIn(root, scene, trajectory, lang) {
+  root.replaceChildren();
+  return scene.coordinates.filter(({ name }) => trajectory.coordinates[name]).map((coordinate) => {
     const line = document.createElement("div");
     const [symbol, value] = [document.createElement("span"), document.createElement("span")];
     line.className = `q-${scene.coordinates.indexOf(coordinate)}`;
     value.className = "number";
     globalThis.katex.render(`${coordinate.latex || coordinate.name} =`, symbol, { throwOnError: false, strict: "ignore", output: "html" });
     line.append(symbol, value);
-    return { line, value: digitsIn(value), coordinate };
+    root.append(line);
+    const digits = digitsIn(value);
+    const values = trajectory.coordinates[coordinate.name];
+    const write = (/** @type {number} */ t) =>
+      (digits.data = `${fixed(scalarAt(values, blendAt(trajectory.t, t)), 3, lang)} ${unitText(coordinate.unit)}`);
+    write(0);
+    return { name: coordinate.name, write };
   });
-  root.replaceChildren(...cells.map((cell) => cell.line));
-  return (/** @type {number} */ t) => {
-    const now = snapshotAt(trajectory, t);
-    for (const { value, coordinate } of cells) {
-      value.data = `${fixed(now.coordinates[coordinate.name], 3, lang)} ${unitText(coordinate.unit)}`;
-    }
-    return cells.map(({ value, coordinate }) => `${coordinate.name} = ${value.data}`).join(", ");
-  };
 }

@@ -1,7 +1,7 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
 import { figureOf, KINDS, withDrawing } from "../../frontend/model/drawing/figure.js";
-import { arcFromDown, coil, wrapped } from "../../frontend/model/drawing/geometry.js";
+import { arcFromDown, coil, sliverFromDown, wrapped } from "../../frontend/model/drawing/geometry.js";
 import { forceLatex } from "../../frontend/model/drawing/marks.js";
 import { stageOf, viewOf } from "../../frontend/model/drawing/stage.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
@@ -68,8 +68,9 @@ test("the largest force is as long as every other largest force; a vanishing one
   const length = (/** @type {number[][]} */ loads) => {
     const stage = stageOf(scene, { ...trajectory, loads: { F: loads } }, square(400));
     const figure = figureOf(stage, { ...snapshotAt(trajectory, 0), loads: { F: loads[0] } });
-    return figure.shapes.find((s) => s.key === "force3-shaft")?.d;
+    return figure.shapes.find((s) => s.key === "force3")?.d;
   };
+  assert.match(length([[2, 0], [1, 0]]) ?? "", /^M.*L.*M.*Z$/, "a shaft and a head in one path");
   assert.equal(length([[2, 0], [1, 0]]), length([[2000, 0], [1, 0]]));
   assert.equal(length([[0, 0], [1, 0]]), undefined);
 });
@@ -115,6 +116,14 @@ test("angles are shown between minus and plus half a turn", () => {
   assert.ok(Math.abs(wrapped(2 * Math.PI + 0.3) - 0.3) < 1e-12);
   assert.ok(arcFromDown([0, 0], 10, 0.5).includes(" 0 0 0 "));
   assert.ok(arcFromDown([0, 0], 10, -0.5).includes(" 0 0 1 "));
+});
+
+test("an arc there and back encloses nothing: it ends where it begins, the other way round", () => {
+  for (const angle of [0.5, -0.5, 3.5]) {
+    const [, begin, out, back, end] = /** @type {RegExpMatchArray} */ (sliverFromDown([5, 5], 10, angle).match(/^M(\S+ \S+)A10 10 0 (\d \d) \S+ \S+A10 10 0 (\d \d) (\S+ \S+)$/));
+    assert.equal(begin, end);
+    assert.deepEqual([out[0], out[2] === back[2]], [back[0], false]);
+  }
 });
 
 const FORCES = [["F", "\\mathbf{F}"], ["F0", "\\mathbf{F}_{0}"], ["F_1", "\\mathbf{F}_{1}"], ["drive", "\\mathbf{F}"]];

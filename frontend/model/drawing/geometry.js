@@ -48,6 +48,16 @@ export function arcFromDown(centre, radius, angle) {
   return `M${at(add(centre, [0, radius]))}A${digits(radius)} ${digits(radius)} 0 ${large} ${sweep} ${at(end)}`;
 }
 
+/**
+ * The same arc there and back: it encloses nothing, so a path that is filled shows no more of it than its line.
+ * @param {Pixel} centre @param {number} radius @param {number} angle
+ */
+export function sliverFromDown(centre, radius, angle) {
+  const large = Math.abs(angle) > Math.PI ? 1 : 0;
+  const back = angle > 0 ? 1 : 0;
+  return `${arcFromDown(centre, radius, angle)}A${digits(radius)} ${digits(radius)} 0 ${large} ${back} ${at(add(centre, [0, radius]))}`;
+}
+
 /** Unit vector at an angle from the downward vertical. @param {number} angle @returns {Pixel} */
 export const fromDown = (angle) => [Math.sin(angle), Math.cos(angle)];
 
@@ -73,14 +83,15 @@ export function coil(from, to, radius, coils) {
   const body = Math.max(0, length - 2 * lead);
   const loop = Math.min(radius * 0.45, (body / coils) * 0.8);
   const steps = coils * 14;
-  /** @type {Pixel[]} */
-  const points = [from];
+  let path = `M${at(from)}`;
+  // In plain numbers: a hundred pairs in every frame would soon be garbage to collect.
   for (let i = 0; i <= steps; i += 1) {
     const turn = (i / steps) * coils * 2 * Math.PI;
     const s = lead + loop * 0.5 + ((body - loop) * i) / steps - loop * 0.5 * Math.cos(turn);
-    points.push(add(from, add(scaled(along, s), scaled(across, radius * Math.sin(turn)))));
+    const aside = radius * Math.sin(turn);
+    path += `L${digits(from[0] + along[0] * s + across[0] * aside)} ${digits(from[1] + along[1] * s + across[1] * aside)}`;
   }
-  return polyline([...points, to]);
+  return `${path}L${at(to)}`;
 }
 
 /**

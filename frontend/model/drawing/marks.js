@@ -1,6 +1,6 @@
 /** What is written into a drawing: forces, weights, angles, dimensions. */
 
-import { add, arcFromDown, arrowHead, at as pixel, fromDown, lengthOf, line, normal, scaled, subtract, unit, wrapped } from "./geometry.js";
+import { add, arrowHead, at as pixel, fromDown, lengthOf, line, normal, scaled, sliverFromDown, subtract, unit, wrapped } from "./geometry.js";
 import { coordinateClass, latexOf, placeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
@@ -14,6 +14,8 @@ import { coordinateClass, latexOf, placeOf } from "./stage.js";
 const LONGEST = 5.5;
 /** Between rod and vertical there is no room for a letter below this angle; it fades in up to twice of it. */
 const NARROW = 0.18;
+/** A head that has a line about it is drawn smaller by this. */
+const LINED = 0.8;
 /** Shorter arrows are not drawn: their head would lie. */
 const SHORTEST = 0.6;
 
@@ -31,6 +33,16 @@ export function arrow(from, vector, key, className, size) {
   ];
 }
 
+/**
+ * The same as one path, half as much to move: it is filled, and its line encloses nothing.
+ * @param {Pixel} from @param {Pixel} vector in pixels @param {string} key @param {string} className @param {number} size
+ * @returns {import("../types.js").Shape[]}
+ */
+function solidArrow(from, vector, key, className, size) {
+  const [shaft, head] = arrow(from, vector, key, className, LINED * size);
+  return [{ key, d: shaft.d + head.d, className: `pointed ${shaft.className}` }];
+}
+
 /** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
 export function force(element, stage, now, key) {
   const load = stage.scene.loads.find((candidate) => candidate.name === element.load);
@@ -38,13 +50,13 @@ export function force(element, stage, now, key) {
   const samples = stage.trajectory.loads?.[element.load ?? ""];
   const value = now.loads[element.load ?? ""];
   if (!load || !samples || !value) return { shapes: [], labels: [] };
-  const largest = Math.max(...samples.map((sample) => lengthOf(stage.direct(sample))), 1e-12);
+  const largest = stage.once(`largest ${key}`, () => Math.max(...samples.map((sample) => lengthOf(stage.direct(sample))), 1e-12));
   const vector = scaled(stage.direct(value), (LONGEST * stage.unit) / largest);
   if (!(lengthOf(vector) > SHORTEST * stage.unit)) return { shapes: [], labels: [] };
   const from = placeOf(stage, now, load.at ?? "");
   const className = `load load-${load.name}`;
   return {
-    shapes: arrow(from, vector, key, className, stage.unit),
+    shapes: solidArrow(from, vector, key, className, stage.unit),
     labels: [{ key, latex: forceLatex(load), at: beyond(from, vector, stage.unit * 1.1), className }],
   };
 }
@@ -76,7 +88,7 @@ export function weight(element, stage, now, key) {
   const className = `load load-${load?.name ?? "weight"}`;
   const label = add(from, add(vector, [stage.unit * 0.65, -stage.unit * 0.5]));
   return {
-    shapes: arrow(from, vector, key, className, stage.unit),
+    shapes: solidArrow(from, vector, key, className, stage.unit),
     labels: [{ key, latex: weightLatex(element, stage, load), at: label, className, start: true }],
   };
 }
@@ -136,8 +148,7 @@ export function angle(element, stage, now, key) {
   return {
     shapes: [
       reference,
-      { key: `${key}-arc`, d: arcFromDown(centre, radius, short), className: `mark ${className}` },
-      { key: `${key}-head`, d: arrowHead(end, along, size), className: `head ${className}` },
+      { key: `${key}-arc`, d: sliverFromDown(centre, radius, short) + arrowHead(end, along, LINED * size), className: `pointed mark ${className}` },
     ],
     labels: [
       {
@@ -170,8 +181,7 @@ export function dimension(element, stage, now, key) {
     shapes: [
       { key: `${key}-from`, d: line(from, add(a, past)), className: "reference" },
       { key: `${key}-to`, d: line(to, add(b, past)), className: "extension" },
-      { key: `${key}-line`, d: line(a, add(b, scaled(unit(span), -size * 0.7))), className: `mark ${className}` },
-      { key: `${key}-head`, d: size > 1 ? arrowHead(b, unit(span), size) : "", className: `head ${className}` },
+      { key: `${key}-line`, d: line(a, add(b, scaled(unit(span), -size * 0.7))) + (size > 1 ? arrowHead(b, unit(span), LINED * size) : ""), className: `pointed mark ${className}` },
     ],
     labels: [{ key, latex: latexOf(stage.scene, element.coordinate), at: add(scaled(add(a, b), 0.5), aside), className }],
   };

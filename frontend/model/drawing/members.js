@@ -1,7 +1,7 @@
 /** What a system is made of: rod, spring, bob, cart, block, disc, hoop, and the trail a place leaves. */
 
 import { add, circle, coil, lengthOf, line, normal, polygon, polyline, scaled, subtract, unit } from "./geometry.js";
-import { placeOf } from "./stage.js";
+import { placeOf, unlessMoved } from "./stage.js";
 import { trailOf } from "../trajectory.js";
 
 /** @typedef {import("../types.js").Element} Element */
@@ -133,9 +133,9 @@ export function cart(element, stage, now, key) {
 }
 
 /** A trail is made of this many pieces of so many seconds, each with this many points and fainter with age. */
-const PIECES = 16;
-const PIECE = 0.1;
-const POINTS = 4;
+const PIECES = 10;
+const PIECE = 0.16;
+const POINTS = 6;
 const STRONGEST = 0.55;
 /** Opacity changes by whole steps of this, so that few pieces are touched in one frame. */
 const SHADE = 0.05;
@@ -146,14 +146,15 @@ const SHADE = 0.05;
  * @returns {Figure}
  */
 export function trail(element, stage, now, key) {
-  const place = element.at ?? "";
   const newest = Math.floor(now.t / PIECE);
+  const path = (/** @type {number} */ n, /** @type {number} */ end) =>
+    n < 0 ? "" : polyline(trailOf(stage.trajectory, element.at ?? "", n * PIECE, end, POINTS).map(stage.project));
   const shapes = Array.from({ length: PIECES }, (_, i) => {
     const n = newest - ((newest - i) % PIECES + PIECES) % PIECES;
-    const path = (/** @type {number} */ end) => polyline(trailOf(stage.trajectory, place, n * PIECE, end, POINTS).map(stage.project));
-    const d = n < 0 ? "" : n < newest ? stage.once(`${key} ${n}`, () => path((n + 1) * PIECE)) : path(now.t);
     const fresh = Math.max(0, 1 - (now.t - n * PIECE) / (PIECES * PIECE));
-    return { key: `${key}-${i}`, d, className: "trail", opacity: Math.round((fresh ** 1.6 * STRONGEST) / SHADE) * SHADE };
+    const shade = Math.round((fresh ** 1.6 * STRONGEST) / SHADE);
+    const piece = (/** @type {number} */ end) => ({ key: `${key}-${i}`, d: path(n, end), className: "trail", opacity: shade * SHADE });
+    return n === newest ? piece(now.t) : unlessMoved(stage, `${key}-${i}`, `${n} ${shade}`, () => piece((n + 1) * PIECE));
   });
   return { shapes, labels: [] };
 }
