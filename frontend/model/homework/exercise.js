@@ -1,6 +1,7 @@
-/** The page's course: scenes and assignments become a sheet of tasks, of which one is worked on; solution and motions when asked for. */
+/** The page's course: scenes and assignments become a sheet of tasks, of which one is worked on; solution when asked for. */
 
 import { attempt } from "./attempt.js";
+import { createComparison } from "./comparison.js";
 import { FIRST_SCENE } from "./place.js";
 import { referenceOf, sheetOfAssignment, sheetOfScene } from "./sheet.js";
 import { FRESH } from "./state.js";
@@ -8,8 +9,6 @@ import { FRESH } from "./state.js";
 /** @typedef {import("./place.js").Asked} Asked */
 /** @typedef {import("./sheet.js").Entry} Entry */
 /** @typedef {import("./sheet.js").Assignment} Assignment */
-
-const MOTION = { t_end: 10, samples: 401, include: ["coordinates", "rates", "positions", "loads", "error"] };
 
 /** Whether both ask for the same sheet. @param {Asked} a @param {Asked} b */
 const isSame = (a, b) => a.seed === b.seed && a.place.scene === b.place.scene && a.place.lang === b.place.lang;
@@ -23,10 +22,8 @@ export function createExercise(store, api, progress, answering) {
   /** @param {Partial<Asked>} patch */
   const ask = (patch) => set({ asked: { ...get().asked, ...patch } });
   const lang = () => get().asked.place.lang;
+  const { animate, ...comparison } = createComparison(store, api);
   const workingKey = () => `${get().entry?.group}/~working`;
-
-  /** @param {Entry} entry */
-  const sceneOf = ({ reference, scene }) => (Object.keys(reference).length === 1 && typeof reference.scene === "string" ? reference.scene : scene);
 
   /** The sheet that is asked for, in the language of the page. */
   async function fetchSheet() {
@@ -65,17 +62,6 @@ export function createExercise(store, api, progress, answering) {
     if (get().solution) void solve();
   }
 
-  /** @param {Entry} entry */
-  async function animate(entry) {
-    const simulated = api.simulate({ scene: sceneOf(entry), ...MOTION, lang: lang() }).catch(() => null);
-    const guides = (entry.scene.guides ?? []).flatMap(({ coordinate, value }) => [{ expression: coordinate }, { expression: value }]);
-    const typeset = guides.length ? api.typeset({ scene: entry.scene, expressions: guides, lang: lang() }).catch(() => null) : null;
-    const [right, written] = await Promise.all([simulated, typeset]);
-    if (get().entry?.group !== entry.group) return;
-    const latex = (written?.expressions ?? []).map((one) => one.latex);
-    set({ right, still: !right, guides: latex.flatMap((left, i) => (i % 2 ? [] : [`${left} = ${latex[i + 1]}`])) });
-  }
-
   async function solve() {
     const { entry } = get();
     if (!entry) return;
@@ -99,6 +85,7 @@ export function createExercise(store, api, progress, answering) {
     load,
     solve,
     show,
+    ...comparison,
     /** @param {Asked} asked @param {Assignment | null} assignment @param {import("../own.js").SceneDocument | null} own  a scene that the address brings along */
     async start(asked, assignment, own) {
       set({ asked, assignment, own });
@@ -126,26 +113,6 @@ export function createExercise(store, api, progress, answering) {
     move: (patch) => ask({ place: { ...get().asked.place, ...patch } }),
     /** @param {Asked["side"]} side */
     turn: (side) => ask({ side }),
-    /** The motion that the last checked answer describes. */
-    async compare() {
-      const { entry, draft } = get();
-      const { checked } = draft;
-      if (!entry || !checked) return;
-      await attempt(store, "trouble", "moving", async () => {
-        const answer = { syntax: checked.syntax, value: checked.value };
-        const { scene } = await api.post("/checks/motion", { ...entry.reference, task: entry.task.id, answer, lang: lang() });
-        const answered = await api.simulate({ scene, ...MOTION, lang: lang() });
-        if (get().entry?.key === entry.key) set({ answered });
-      });
-    },
-    /** The motion of the scene, asked for once more. */
-    again() {
-      const { entry } = get();
-      set({ still: false });
-      if (entry) void animate(entry);
-    },
-    /** The motion of the answer is no longer wanted. */
-    part: () => set({ answered: null }),
     /** @param {import("./progress.js").Line[]} lines */
     write(lines) {
       set({ lines, kept: progress.write(workingKey(), lines) });
