@@ -6,7 +6,7 @@ import { attempt } from "./attempt.js";
 
 const MOTION = { t_end: 10, samples: 401, include: ["coordinates", "rates", "positions", "loads", "error"] };
 
-/** What the simulation is asked for: a built-in scene by its id, any other as a document. @param {Entry} entry */
+/** A built-in scene by its id, any other whole. @param {Entry} entry */
 const sceneOf = ({ reference, scene }) => (Object.keys(reference).length === 1 && typeof reference.scene === "string" ? reference.scene : scene);
 
 /** @param {import("./state.js").Store} store @param {import("./state.js").Api} api */
