@@ -17,13 +17,13 @@ const store = createStore({
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
 });
 const { get, set } = store;
-const speech = createSpeech(store, createApi(fetch.bind(globalThis)), (task) => task().catch(() => {}), ["guide"]);
+const speech = createSpeech(store, createApi(fetch.bind(globalThis)), (task) => task().catch(() => {}), ["guide", "lecture"]);
 
 let arrived = false;
 function update() {
   const { place, catalog } = get();
   if (!catalog.page) return;
-  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.guide) });
+  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture), .../** @type {object} */ (catalog.guide) });
   dressed(place, dark.matches);
   document.title = `δq · ${t("place.help")}`;
   const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };

@@ -19,8 +19,8 @@ const PRESSED = "button, a, summary";
  * @property {() => Record<string, () => void>} [more]  what keys mean at this moment besides
  */
 
-/** @param {Keys} keys @returns {Record<string, () => void>} */
-function table({ go, fullscreen, overlay, play, substeps, lecture = () => {}, presenter = () => {} }) {
+/** What each key does. @param {Keys} keys @returns {Record<string, () => void>} */
+export function table({ go, fullscreen, overlay, play, substeps, lecture = () => {}, presenter = () => {} }) {
   const next = () => go(1);
   const previous = () => go(-1);
   return {

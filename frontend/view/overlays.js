@@ -3,6 +3,7 @@
 import { html, nothing } from "lit-html";
 import { prose } from "./formula.js";
 import { icon } from "./icons.js";
+import { keytable } from "./keytable.js";
 import { meant } from "../model/lecture/stops.js";
 import { pageAddress } from "../model/url.js";
 
@@ -77,28 +78,7 @@ function jump({ state, session, link, follow, t }) {
     </form>`;
 }
 
-const KEYS = [
-  ["→ N Space PageDown", "help.next"],
-  ["← P PageUp", "help.previous"],
-  ["Home End", "help.ends"],
-  ["G", "help.jump"],
-  ["E", "help.substeps"],
-  ["K", "help.play"],
-  ["F", "help.fullscreen"],
-  ["B .", "help.black"],
-  ["Esc O", "help.overview"],
-  ["L", "help.lecture"],
-  ["S", "help.presenter"],
-  ["↓ ↑", "help.parts"],
-  ["T", "help.pace"],
-  ["D", "help.beside"],
-  ["W", "help.why"],
-  ["H", "help.spot"],
-  ["?", "help.help"],
-];
-
 /** @param {View} view */
 function help({ state, t }) {
-  return html`<dl class="keys">${KEYS.map(([keys, meaning]) => html`
-    <div><dt>${keys.split(" ").map((key) => html`<kbd>${key}</kbd>`)}</dt><dd>${t(meaning)}</dd></div>`)}</dl><p><a href=${pageAddress("help", state.place)}>${t("place.help")}</a></p>`;
+  return html`${keytable(t)}<p><a href=${pageAddress("help", state.place)}>${t("place.help")}</a></p>`;
 }

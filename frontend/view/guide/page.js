@@ -1,7 +1,8 @@
-/** The help: for lecturers, students and programs. */
+/** The help: for lecturers, students and programs; and the keys. */
 
 import { html, nothing } from "lit-html";
 import { appearance, brand, language, places } from "../header.js";
+import { keytable } from "../keytable.js";
 import { GUIDE } from "../../model/guide.js";
 import { pageAddress } from "../../model/url.js";
 
@@ -17,8 +18,9 @@ export function page(view) {
       ${places(view, "help")}<div class="tools">${language(view)}${appearance(view)}</div>
     </header>
     <main class="reference guide" id="guide" tabindex="-1">
-      <nav aria-label=${t("guide.parts")}><ul>${GUIDE.map(({ id }) => html`<li><a href=${`#${id}`}>${t(`guide.${id}`)}</a></li>`)}</ul></nav>
-      <div class="calls">${GUIDE.map((part) => section(part, view))}</div>
+      <nav aria-label=${t("guide.parts")}><ul>${[...GUIDE.map(({ id }) => id), "keys"].map((id) => html`<li><a href=${`#${id}`}>${t(`guide.${id}`)}</a></li>`)}</ul></nav>
+      <div class="calls">${GUIDE.map((part) => section(part, view))}
+        <section id="keys"><h2>${t("guide.keys")}</h2><p class="lead">${t("guide.keys.lead")}</p>${keytable(t)}</section></div>
     </main>`;
 }
 
