@@ -13,8 +13,7 @@ from ..language.latex_printer import latex as latex_text
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..narration.catalog import text
-from ..narration.derive import notation_of
-from ..narration.narrator import Narrator
+from ..narration.derive import narrator_of
 
 
 @dataclass(frozen=True)
@@ -73,7 +72,7 @@ def handout_of(scene: Scene, language: str, formulation: str, *, substeps: bool 
     check_formulation(formulation)
     with inside("/scene"):
         system, derivation = derive(scene, formulation)
-    chapters = Narrator(language, notation_of(system, language)).chapters(derivation)
+    chapters = narrator_of(system, language).chapters(derivation)
     return Handout(
         language,
         _in_language(scene.title, language),

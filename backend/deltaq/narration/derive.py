@@ -12,6 +12,7 @@ from ..derivation.system import System
 from ..language.latex_printer import Typography
 from ..mechanics.requests import changed_scene, inside
 from .catalog import language_in
+from .letters import letters_of
 from .marks import by_coordinate, in_class
 from .narrator import Narrator
 from .notation import Notation
@@ -37,7 +38,7 @@ def derive_request(document: Mapping[str, object]) -> Document:
         "id": hashlib.sha256(key.encode()).hexdigest()[:24],
         "scene": scene.id,
         "formulation": formulation,
-        "chapters": Narrator(language, notation_of(system, language)).chapters(derivation),
+        "chapters": narrator_of(system, language).chapters(derivation),
         "result": written(result_of(system), Typography(scene.names)),
     }
 
@@ -47,3 +48,11 @@ def notation_of(system: System, language: str) -> Notation:
     typography = Typography(system.scene.names, mark=by_coordinate(system.scene, in_class))
     names = {symbol.name: symbol.typeset for symbol in system.scene.names.symbols if symbol.kind == "coordinate"}
     return Notation(typography, QuantitySymbols(system.scene, language, names, in_class), system.h)
+
+
+def narrator_of(system: System, language: str) -> Narrator:
+    """Who tells the derivation of a scene, in letters that the scene has not taken."""
+    notation = notation_of(system, language)
+    small = {"h": notation.value(system.h), r"\omega": notation.value(system.omega)}
+    own = {letter: latex.replace("{", "{{").replace("}", "}}") for letter, latex in small.items()}
+    return Narrator(language, notation, {**letters_of(system.scene.names), **own})

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ..derivation.step import Chapter, Derivation, Step
-from .catalog import text
+from .catalog import filled, template, text
+from .letters import Letters, in_sentence
 from .marks import without_classes
 from .notation import Notation
 
@@ -15,10 +16,14 @@ Document = dict[str, object]
 
 @dataclass(frozen=True)
 class Narrator:
-    """Tells a derivation. `notation` writes LaTeX with the classes of the page; the LaTeX for everyone is without."""
+    """Tells a derivation. `notation` writes LaTeX with the classes of the page; the LaTeX for everyone is without.
+
+    `letters` are those that its sentences have instead of the lecture's.
+    """
 
     language: str
     notation: Notation
+    letters: Letters = field(default_factory=dict)
 
     def chapters(self, derivation: Derivation) -> list[Document]:
         return [self.chapter(chapter) for chapter in derivation.chapters if chapter.steps]
@@ -36,13 +41,16 @@ class Narrator:
             "id": step.id,
             "rule": step.rule,
             "title": text(self.language, f"{key}.title", **names),
-            "text": text(self.language, f"{key}.{outcome or 'text'}", **names),
+            "text": self._sentence(f"{key}.{outcome or 'text'}", names),
             "latex": without_classes(marked),
             "marked": marked,
             "verified": step.verified,
             "sources": list(step.sources),
             "substeps": [self.step(substep) for substep in step.substeps],
         }
+
+    def _sentence(self, key: str, names: Mapping[str, str]) -> str:
+        return filled(in_sentence(template(self.language, key), self.letters), names)
 
     def _names(self, about: Mapping[str, str]) -> dict[str, str]:
         """Names for a sentence; coordinates become mathematics between dollar signs."""

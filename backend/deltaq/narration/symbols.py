@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 from ..derivation.formula import Quantity
 from ..mechanics.scene import Scene
+from .letters import Letters, in_symbol, letters_of
 
 NUMBERED = re.compile(r"q_\{?(\d+)\}?")
 
@@ -60,6 +62,8 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "jacobi-energy": ("h", ""),
     "routh-function": ("R", ""),
 }
+AXES = ("1", "2", "3")  # the principal axes of a body
+ALWAYS_INDEXED = ("moment",)
 BY_PLACE = ("position", "virtual-displacement", "differential", "velocity")
 
 
@@ -95,7 +99,7 @@ class QuantitySymbols:
 
     def latex(self, quantity: Quantity) -> str:
         pattern, css = SYMBOLS[quantity.kind]
-        symbol = pattern.format(
+        symbol = self._own(quantity.kind, pattern).format(
             of=self._index(quantity),
             i=self._colored(quantity.of, self.index(quantity.of)),
             q=self._colored(quantity.of, self.coordinate_latex.get(quantity.of, "")),
@@ -103,6 +107,15 @@ class QuantitySymbols:
         )
         named = css.format(name=quantity.of) if quantity.of or "{" not in css else ""
         return self.wrap(named, symbol)
+
+    @cached_property
+    def letters(self) -> Letters:
+        """What stands for the letters that the scene has taken."""
+        return letters_of(self.scene.names)
+
+    def _own(self, kind: str, pattern: str) -> str:
+        """A moment has the index of its load, which tells it from a parameter M."""
+        return pattern if kind in ALWAYS_INDEXED else in_symbol(pattern, self.letters)
 
     def label(self, name: str) -> str:
         return self.scene.label(name, self.language)
@@ -126,11 +139,18 @@ class QuantitySymbols:
         alone = quantity.kind in BY_PLACE and len(self.scene.bodies) == 1 and quantity.of == self.scene.bodies[0].name
         if alone:
             return ""
-        names = [quantity.of] if not quantity.part or len(self.scene.bodies) == 1 else [quantity.of, quantity.part]
-        return f"_{{{', '.join(map(self._word, names))}}}"
+        return f"_{{{', '.join(map(self._word, self._names(quantity)))}}}"
+
+    def _names(self, quantity: Quantity) -> tuple[str, ...]:
+        """Whose it is, and which part of it; with a single body only what tells it from its like."""
+        if not quantity.part:
+            return (quantity.of,)
+        if len(self.scene.bodies) > 1:
+            return quantity.of, quantity.part
+        return (quantity.part,) if quantity.part in AXES else (quantity.of,)
 
     def _word(self, name: str) -> str:
-        return upright(self.label(name))
+        return name if name in AXES else upright(self.label(name))
 
 
 def upright(name: str) -> str:
