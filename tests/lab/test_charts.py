@@ -13,9 +13,10 @@ from deltaq.lab.experiment import drawn
 from deltaq.lab.export import page, table
 from deltaq.lab.library import experiment_ids, get_experiment
 from deltaq.lab.peers import PEERS
-from deltaq.narration.catalog import text
+from deltaq.narration.catalog import keys, text
+from deltaq.simulation.kernels.motion import EVENT
 from deltaq.simulation.library import method_ids
-from deltaq.simulation.outcome import _WORDS, codes
+from deltaq.simulation.outcome import outcome_of
 
 AXES = {
     "x": {"parameter": "omega", "from": 20.0, "to": 80.0, "count": 8},
@@ -56,12 +57,9 @@ def test_peers_are_told_apart_by_symbol() -> None:
     assert len({look(f"scipy-{name}")["symbol"] for name in PEERS}) == len(PEERS)
 
 
-@pytest.mark.parametrize("lang", ["de", "en"])
-def test_every_way_to_end_has_its_words(lang: str) -> None:
-    statuses = {status for status, _ in _WORDS.values()} | {"horizon_reached", "tolerance_missed", "too_slow", "event"}
-    for status in statuses:
-        assert text(lang, f"labs.status.{status}")
-    assert codes()
+def test_every_way_to_end_has_its_words_and_no_word_is_left_over() -> None:
+    ends = {outcome_of(kernel, {}).status for kernel in range(EVENT + 1)}
+    assert set(keys("en", "labs.status")) == ends | {"horizon_reached", "tolerance_missed", "too_slow"}
 
 
 @pytest.mark.parametrize(
