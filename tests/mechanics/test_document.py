@@ -63,6 +63,24 @@ def test_loads_of_one_kind_are_numbered() -> None:
     assert [load.name for load in read_scene(document).loads] == ["gravity-1", "gravity-2"]
 
 
+def test_bodies_of_one_kind_are_numbered() -> None:
+    document = copy.deepcopy(PENDULUM)
+    del document["bodies"][0]["name"], document["drawing"]  # type: ignore[attr-defined]
+    put("/bodies/1", copy.deepcopy(document["bodies"][0]))(document)  # type: ignore[index]
+    assert [body.name for body in read_scene(document).bodies] == ["particle1", "particle2"]
+
+
+@pytest.mark.parametrize("section", ["points", "parameters", "coordinates"])
+def test_what_is_of_no_kind_needs_a_name_of_its_own(section: str) -> None:
+    nameless: dict[str, object] = {"position": ["0", "0"]} if section == "points" else {}
+    document = {**copy.deepcopy(PENDULUM), section: [*PENDULUM.get(section, []), nameless, nameless]}  # type: ignore[misc]
+    with pytest.raises(SceneError) as caught:
+        read_scene(document)
+    problems = [problem for problem in caught.value.problems if problem.pointer.endswith("/name")]
+    assert [problem.code for problem in problems].count("missing-field") == 2
+    assert {problem.parameters["name"] for problem in problems if "name" in problem.parameters} <= {""}
+
+
 def put(path: str, value: object) -> Callable[[dict], None]:
     """A change of the document at a JSON pointer."""
     *parents, last = path.strip("/").split("/")

@@ -113,12 +113,14 @@ class Reader:
             self.complain("too-many", key, field=key, limit=LIMIT)
             return ()
         kinds = [str(value.get("kind", "")) if isinstance(value, Mapping) else "" for value in values]
-        pointer = f"{self.pointer}/{key}"
+        pointer, joint = f"{self.pointer}/{key}", "-" if key == "loads" else ""
         self.problems += [
             Problem("not-a-table", f"{pointer}/{i}") for i, v in enumerate(values) if not isinstance(v, Mapping)
         ]
         return tuple(
-            Reader(value, f"{pointer}/{i}", self.problems, context or self.context, default_name=_numbered(kinds, i))
+            Reader(
+                value, f"{pointer}/{i}", self.problems, context or self.context, default_name=_numbered(kinds, i, joint)
+            )
             for i, value in enumerate(values)
             if isinstance(value, Mapping)
         )
@@ -189,7 +191,9 @@ class Reader:
             self.complain("unknown-field", escaped(key), field=key[:40], suggestion=near[0] if near else "")
 
 
-def _numbered(kinds: list[str], index: int) -> str:
-    """A thing without a name is called by its kind, with a number where there are several of the kind."""
+def _numbered(kinds: list[str], index: int, joint: str) -> str:
+    """A thing without a name is called by its kind, with a number where there are several of the kind: gravity-2,
+    particle2; things that are of no kind have no such name.
+    """
     kind = kinds[index]
-    return kind if kinds.count(kind) < 2 else f"{kind}-{kinds[: index + 1].count(kind)}"
+    return kind if not kind or kinds.count(kind) < 2 else f"{kind}{joint}{kinds[: index + 1].count(kind)}"
