@@ -34,7 +34,7 @@ class Settings:
     queue_length: int = setting(1024, "jobs that may wait before others are refused")
     queue_patience: float = setting(15.0, "seconds after which a job that waits is refused")
     start_timeout: float = setting(60.0, "seconds within which a worker must be up")
-    derivation_deadline: float = setting(10.0, "seconds of a processor for a derivation; by the clock twice that")
+    derivation_deadline: float = setting(5.0, "seconds of a processor for a derivation; by the clock twice that")
     simulation_deadline: float = setting(20.0, "seconds of a processor for a simulation; by the clock twice that")
     experiment_deadline: float = setting(180.0, "seconds for an experiment")
     experiment_workers: int = setting(1, "experiments at a time; they measure times, so they want a quiet machine")

@@ -27,7 +27,8 @@ def _fork_server() -> None:
 
 @pytest.fixture(scope="session")
 def app() -> Iterator[FastAPI]:
-    application = create_app(Settings(workers=2, derivation_deadline=60.0, simulation_deadline=120.0))
+    settings = Settings(workers=2, derivation_deadline=60.0, simulation_deadline=120.0, queue_patience=120.0)
+    application = create_app(settings)
     pool = application.state.service.pool
     pool.start()
     yield application

@@ -18,7 +18,7 @@ from .workers.conftest import MakePool, make_pool
 
 __all__ = ["make_pool"]
 COMPILE = Job("tests.api.workers.jobs:compile_family", 30.0)
-SLEEP = Job("tests.api.workers.jobs:spin", 30.0)
+SLEEP = Job("tests.api.workers.jobs:spin", 2.0)
 ALL_BUT_NEWMARK = Job("tests.api.workers.jobs:compile_but_newmark", 30.0)
 ECHO = Job("tests.api.workers.jobs:echo", 30.0)
 
@@ -64,6 +64,7 @@ async def test_what_is_compiled_is_not_waited_for(make_pool: MakePool) -> None:
     later = Kernels(SLEEP, SLEEP)
     await later.compile(pool, pool, workers=2)
     await later.wait()
+    assert pool.state.kills == 0  # as a job that spins is
 
 
 @pytest.mark.anyio

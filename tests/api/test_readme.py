@@ -100,4 +100,5 @@ def test_every_file_that_is_named_is_there(root: Path) -> None:
         linked = [
             name for name in re.findall(r"\]\(([^):#]+)\)|src(?:set)?=\"([^\":]+)\"", text) for name in name if name
         ]
+        assert linked, page
         assert [name for name in linked if not ((root / page).parent / name).exists()] == [], page

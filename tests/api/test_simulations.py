@@ -113,5 +113,6 @@ async def test_wrong_question(
 
 async def test_examples_of_the_documentation_work(client: httpx.AsyncClient) -> None:
     schema = (await client.get("/api/v1/openapi.json")).json()["components"]["schemas"]["SimulationRequest"]
+    assert schema["examples"]
     for example in schema["examples"]:
         assert (await simulated(client, **example)).status == "ok"

@@ -22,6 +22,7 @@ LONG = [
         "m*(x + y + l*sin(phi))^2 + k*sqrt(m)*x + cos(omega*t - phi)*x^3 + 1/l + 1/m + g + c + a*x*y*cos(x)^2",
         id="powers and a product of waves",
     ),
+    pytest.param("m*l*(x^2 + y^2 + x*y + x*sin(phi) + y*cos(phi) + x + y) + g", id="the long sum stands in a product"),
 ]
 NOT_PLAIN = [
     pytest.param("m*x + k*y", id="short"),

@@ -28,7 +28,7 @@ from .formula import (
 from .function_evaluation import evaluate_functions
 from .function_formula import FunctionFormula
 from .matrix_formula import AtEquilibrium, Determinant, Inserted, Jacobian, MatrixTimes, Power, Rounded, Stack
-from .points import STEP, Pair, Point, along_motion, moved, pair, shifted, varied
+from .points import STEP, Point, along_motion, moved, pair, shifted, varied
 from .program import number
 from .quadrature import integral
 from .tree_evaluation import tree_value
@@ -93,11 +93,11 @@ def _of_matrix(formula: Stack | MatrixTimes | Jacobian | Determinant | Power, po
 
 def components(value: Value, point: Point) -> Numbers:
     """The numbers of a vector or an expression."""
-    parts = list(value) if isinstance(value, sp.MatrixBase) else [value]
+    parts = value.flat() if isinstance(value, sp.MatrixBase) else [value]
     return tuple(number(part, point) for part in parts)
 
 
-def difference(at: Callable[[Point], Evaluate], of: Formula, beside: Pair) -> Numbers:
+def difference(at: Callable[[Point], Evaluate], of: Formula, beside: tuple[Point, ...]) -> Numbers:
     """The derivative of a formula along a curve of points, as a central difference."""
     ahead, behind = (at(point)(of) for point in beside)
     return tuple((a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True))

@@ -9,7 +9,6 @@ from flint import arb
 from ..language.spelling import spell_rate
 
 Point = Mapping[str, arb]  # values of names, `dot(name)`, `ddot(name)`, `delta(name)` and `d(name)`
-Pair = tuple[Point, Point]
 
 STEP = arb(2) ** -128
 
@@ -26,7 +25,7 @@ class Place(dict[str, arb]):
         self.origin = origin
         self.moved = frozenset(moved)
         self.known: dict[Hashable, arb] = {}
-        self.pairs: dict[Hashable, Pair] = {}
+        self.beside: dict[Hashable, tuple[Point, ...]] = {}
 
 
 def moved(point: Point, changes: Point) -> Place:
@@ -34,12 +33,17 @@ def moved(point: Point, changes: Point) -> Place:
     return Place({**point, **changes}, point, changes) if isinstance(point, Place) else Place({**point, **changes})
 
 
-def pair(point: Point, curve: Hashable, along: Callable[[arb], Point]) -> Pair:
-    """The points one STEP ahead and behind on a curve through a point; a place makes them once for each curve."""
-    known = point.pairs if isinstance(point, Place) else {}
+def beside(point: Point, curve: Hashable, along: Callable[[arb], Point], places: Iterable[arb]) -> tuple[Point, ...]:
+    """The points at these places of a curve through a point; one that remembers makes them once for each curve."""
+    known = point.beside if isinstance(point, Place) else {}
     if curve not in known:
-        known[curve] = (along(STEP), along(-STEP))
+        known[curve] = tuple(map(along, places))
     return known[curve]
+
+
+def pair(point: Point, curve: Hashable, along: Callable[[arb], Point]) -> tuple[Point, ...]:
+    """The points one STEP ahead and behind."""
+    return beside(point, curve, along, (STEP, -STEP))
 
 
 def central_difference(function: Callable[[arb], arb]) -> arb:

@@ -6,13 +6,13 @@ tolerance of the verification. Source: Golub, Welsch, Math. Comp. 23 (1969), 221
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import sympy as sp
 from flint import arb
 
 from .formula import Bounds
-from .points import Point, along_motion, moved
+from .points import Point, along_motion, beside, moved
 
 NODES = 48
 # The error is about (half the interval / distance to the next singularity)^2n.
@@ -39,15 +39,22 @@ def integral(
     half, middle = (upper - lower) / 2, (upper + lower) / 2
     total: Numbers = ()
     count = nodes or (FEW_NODES if half < SHORT else NODES)
-    for node in range(count):
-        place, weight = arb.legendre_p_root(count, node, weight=True)
-        inside = placed(point, first.symbol.name, middle + half * place)
+    roots = [arb.legendre_p_root(count, node, weight=True) for node in range(count)]
+    for inside, (_, weight) in zip(
+        _nodes(point, first, [middle + half * root for root, _ in roots]), roots, strict=True
+    ):
         values = integral(of, tuple(rest), inside, number, nodes)
         summands = [half * weight * value for value in values]
         total = tuple(a + b for a, b in zip(total or [arb(0)] * len(summands), summands, strict=True))
     return total
 
 
-def placed(point: Point, name: str, value: arb) -> Point:
-    """The point at another value of a material coordinate, or at another time, where all functions follow."""
-    return along_motion(point, value - point["t"]) if name == "t" else moved(point, {name: value})
+def _nodes(point: Point, bounds: Bounds, values: list[arb]) -> Iterable[Point]:
+    """The point at other values of a material coordinate, or at other times, where all functions follow.
+
+    Times are few, and many formulas are integrated over them; of a body's many nodes each is forgotten at once.
+    """
+    name = bounds.symbol.name
+    if name == "t":
+        return beside(point, (bounds, len(values)), lambda time: along_motion(point, time - point["t"]), values)
+    return (moved(point, {name: value}) for value in values)

@@ -59,7 +59,7 @@ class Road(System):
         """The rows of M₀, D₀ and K₀ that belong to a coordinate."""
         equation = self.equation(coordinate)
         kinds = (self.acceleration, self.rate, self.q)
-        rows = [[self._at_rest(equation.diff(kind(q))) for q in self.free] for kind in kinds]
+        rows = [[self._at_rest(self.slope(equation, kind(q))) for q in self.free] for kind in kinds]
         return tuple(tuple(display(entry, self.symbols) for entry in row) for row in rows)
 
     @kept
@@ -72,8 +72,10 @@ class Road(System):
     @cached_property
     def frequencies(self) -> tuple[sp.Expr, ...]:
         """ω of det(K₀ − ω²M₀) = 0 for one and two degrees of freedom; none where there is damping."""
+        if len(self.free) > 2:
+            return ()
         rows = [self.linear_row(q) for q in self.free]
-        if len(rows) > 2 or any(entry != 0 for _, damping, _ in rows for entry in map(sp.expand, damping)):
+        if any(entry != 0 for _, damping, _ in rows for entry in map(sp.expand, damping)):
             return ()
         M, K = (sp.Matrix([row[kind] for row in rows]) for kind in (0, 2))
         a = M.det()

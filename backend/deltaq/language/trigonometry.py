@@ -22,6 +22,8 @@ def shortest(form: Form, reader: Reader) -> Form:
     """The form as it is, or with sin² or with cos² eliminated, whichever is shortest to write."""
     if len(form) > _MAX_TERMS or fourier.is_still(form) or max(len(phase) for _, phase, _ in form) > _MAX_ANGLES:
         return form
+    if len(form) == 1 and all(len(phase) > 1 for _, phase, _ in form):
+        return form  # one wave of several angles: two products at least, each of as many factors
     units = _units(form)
     if any(abs(c) > _MAX_MULTIPLE * units[mono] for _, phase, _ in form for mono, c in phase):
         return form
