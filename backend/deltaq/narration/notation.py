@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -68,7 +68,7 @@ class Notation:
             case Shifted(value, h):
                 return self.at_zero(self.factor(Explicit(value)), h)
             case Times(factors):
-                return r"\,".join(map(self.factor, factors))
+                return r"\,".join(self._powers(factors))
             case Dot(left, right):
                 return rf"{self.factor(left)} \cdot {self.factor(right)}"
             case Plus(terms):
@@ -132,6 +132,15 @@ class Notation:
         """In parentheses where it is a sum of its own."""
         text = self.formula(formula)
         return rf"\left({text}\right)" if self._is_sum(formula) else text
+
+    def _powers(self, factors: tuple[Formula, ...]) -> Iterator[str]:
+        """The factors; a name that stands there twice is squared."""
+        for text, alike in groupby(factors, self.factor):
+            first, *others = alike
+            if others and isinstance(first, Named):
+                yield f"{text}^{{{1 + len(others)}}}"
+            else:
+                yield from (text, *(text for _ in others))
 
     def _is_sum(self, formula: Formula) -> bool:
         written_out = isinstance(formula, Explicit | Given) and isinstance(formula.value, sp.Add)
