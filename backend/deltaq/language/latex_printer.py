@@ -10,7 +10,7 @@ import sympy
 
 from .functions import FUNCTIONS
 from .memory import kept
-from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, decimal, exact, fraction_parts, is_decimal
+from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, decimal, exact, fraction_parts, is_decimal, signed_sum
 from .order import split_symbol
 from .typography import Mark, Typography, unmarked
 
@@ -30,7 +30,7 @@ def latex(expr: Any, typography: Typography) -> str:
     if isinstance(expr, sympy.Tuple):
         rows = [latex(part, typography).replace(" = ", " &= ") for part in expr]
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
-    return _printer(typography).text(sympy.sympify(expr), 0)
+    return _printer(typography).text(sympy.sympify(expr, strict=True), 0)
 
 
 @kept
@@ -68,14 +68,7 @@ class _Latex:
         return rf"\mathrm{{e}}^{{{exponent}}}"
 
     def _sum(self, expr: sympy.Expr) -> str:
-        text = ""
-        for term in self._order.terms(expr):
-            printed = self.text(term, SUM + 1)
-            if not text:
-                text = printed
-            else:
-                text += f" - {printed[1:].lstrip()}" if printed.startswith("-") else f" + {printed}"
-        return text
+        return signed_sum(self.text(term, SUM + 1) for term in self._order.terms(expr))
 
     def _product(self, expr: sympy.Expr) -> str:
         sign, upper, lower = fraction_parts(expr)

@@ -1,7 +1,8 @@
-"""How numbers and fractions are written: 9.81 as a decimal, 1/2 as a fraction, m/2 and not 0.5 m."""
+"""How numbers, fractions and sums are written: 9.81 as a decimal, 1/2 as a fraction, m/2 and not 0.5 m, a − b."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 
 import sympy
@@ -38,6 +39,12 @@ def plain_number(number: sympy.Expr) -> tuple[str, int]:
         text = str(value.numerator) if value.denominator == 1 else decimal(value)
         return text, SUM + 1 if value < 0 else ATOM
     return f"{value.numerator}/{value.denominator}", PRODUCT
+
+
+def signed_sum(terms: Iterable[str]) -> str:
+    """Printed terms as a sum: a minus in front of a term takes the place of the plus."""
+    first, *others = terms
+    return first + "".join(f" - {term[1:].lstrip()}" if term.startswith("-") else f" + {term}" for term in others)
 
 
 def base_exponent(factor: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:

@@ -12,7 +12,7 @@ from typing import Any
 
 import sympy
 
-from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, fraction_parts, plain_number
+from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, fraction_parts, plain_number, signed_sum
 from .order import Order
 
 _FUNCTION_NAMES: Mapping[str, str] = MappingProxyType({"Abs": "abs"})
@@ -26,7 +26,7 @@ def plain(expr: Any, order: Order | None = None) -> str:
         return f"{plain(expr.lhs, order)} = {plain(expr.rhs, order)}"
     if isinstance(expr, sympy.Tuple):
         return "[" + ", ".join(plain(part, order) for part in expr) + "]"
-    return _Plain(order or Order()).text(sympy.sympify(expr), 0)
+    return _Plain(order or Order()).text(sympy.sympify(expr, strict=True), 0)
 
 
 def _matrix(matrix: Any, order: Order | None) -> str:
@@ -64,14 +64,7 @@ class _Plain:
         return f"{name}({', '.join(self.text(a, 0) for a in expr.args)})", ATOM
 
     def _sum(self, expr: sympy.Expr) -> str:
-        text = ""
-        for term in self._order.terms(expr):
-            printed = self.text(term, SUM + 1)
-            if not text:
-                text = printed
-            else:
-                text += f" - {printed[1:]}" if printed.startswith("-") else f" + {printed}"
-        return text
+        return signed_sum(self.text(term, SUM + 1) for term in self._order.terms(expr))
 
     def _product(self, expr: sympy.Expr) -> tuple[str, int]:
         sign, upper, lower = fraction_parts(expr)
