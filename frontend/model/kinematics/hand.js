@@ -35,12 +35,12 @@ export function nearest(places, where, hand, within) {
 
 /**
  * The coordinates that bring a place to the hand, angles within one turn, each within its range.
- * @param {Kinematics} kinematics @param {Scene} scene @param {string} place @param {Values} q @param {number} t
- * @param {Pixel} hand @param {(position: number[]) => Pixel} project
+ * @param {{kinematics: Kinematics, scene: Scene, now: Snapshot, stage: import("../drawing/stage.js").Stage}} around
+ * @param {string} place @param {Values} q where it is held @param {Pixel} hand
  * @returns {Values}
  */
-export function brought(kinematics, scene, place, q, t, hand, project) {
-  const found = reached(kinematics, place, q, t, hand, project);
+export function brought({ kinematics, scene, now, stage }, place, q, hand) {
+  const found = reached(kinematics, place, q, now.t, hand, stage.project);
   return Object.fromEntries(scene.coordinates.map((coordinate) => {
     const value = coordinate.unit === "rad" ? wrapped(found[coordinate.name]) : found[coordinate.name];
     const [low, high] = coordinateRange(coordinate);

@@ -8,6 +8,15 @@ import { arrow } from "../drawing/marks.js";
 /** @typedef {import("../types.js").Pixel} Pixel */
 /** @typedef {import("../types.js").Snapshot} Snapshot */
 /** @typedef {import("../drawing/stage.js").Stage} Stage */
+/**
+ * @typedef {object} Arrow
+ * @property {string} key
+ * @property {Pixel} from
+ * @property {number[]} vector  in the scene
+ * @property {string} className
+ * @property {string} [latex]
+ * @property {1 | -1} [side]  on which the label stands
+ */
 
 /** Only what moves has a ghost; what is written into a drawing has none. */
 const MEMBERS = /^(rod|spring|damper|bob|cart|block|disc|hoop|pivot|guide)(?!\d*-(hatch|rail|triangle))/;
@@ -40,25 +49,26 @@ const merged = (figures) => ({ shapes: figures.flatMap(({ shapes }) => shapes), 
  */
 function arrowsOf(stage, { body, at, variation, frozen, explicit }, running) {
   const from = stage.project(at);
-  const named = (/** @type {string} */ key, /** @type {Pixel} */ start, /** @type {number[]} */ vector, /** @type {string} */ latex, /** @type {string} */ className, side = 1) =>
-    labelled(stage, `${key}-${body}`, start, stage.direct(vector), latex, `${className} body-${body}`, side);
+  const drawn = (/** @type {Arrow[]} */ arrows) => merged(arrows.map((one) => labelled(stage, { ...one, key: `${one.key}-${body}`, className: `${one.className} body-${body}` })));
   const whole = frozen.map((x, c) => x + explicit[c]);
   const partly = add(from, stage.direct(frozen));
-  const shown = [named("variation", from, variation, "\\delta\\mathbf r", "virtual")];
-  if (!running) return merged(shown);
-  const moving = lengthOf(stage.direct(explicit)) > 1;
-  return merged([
-    ...shown,
-    named("differential", from, whole, "\\mathrm d\\mathbf r", "actual", -1),
-    ...(moving ? [
-      named("frozen", from, frozen, "", "actual part"),
-      named("explicit", partly, explicit, "\\frac{\\partial\\mathbf r}{\\partial t}\\mathrm dt", "time-term", -1),
-    ] : []),
+  /** @type {Arrow} */
+  const virtual = { key: "variation", from, vector: variation, className: "virtual", latex: "\\delta\\mathbf r" };
+  if (!running) return drawn([virtual]);
+  /** @type {Arrow} */
+  const actual = { key: "differential", from, vector: whole, className: "actual", latex: "\\mathrm d\\mathbf r", side: -1 };
+  if (!(lengthOf(stage.direct(explicit)) > 1)) return drawn([virtual, actual]);
+  return drawn([
+    virtual,
+    actual,
+    { key: "frozen", from, vector: frozen, className: "actual part" },
+    { key: "explicit", from: partly, vector: explicit, className: "time-term", latex: "\\frac{\\partial\\mathbf r}{\\partial t}\\mathrm dt", side: -1 },
   ]);
 }
 
-/** @param {Stage} stage @param {string} key @param {Pixel} from @param {Pixel} vector @param {string} latex @param {string} className @param {number} side @returns {Figure} */
-function labelled(stage, key, from, vector, latex, className, side) {
+/** @param {Stage} stage @param {Arrow} arrow @returns {Figure} */
+function labelled(stage, { key, from, vector: direction, className, latex, side = 1 }) {
+  const vector = stage.direct(direction);
   const long = lengthOf(vector);
   if (!(long > SHORTEST * stage.unit)) return { shapes: [], labels: [] };
   const middle = add(from, scaled(vector, 0.5));

@@ -62,8 +62,8 @@ function expression(sheet, pointer, label, value, material) {
     </div>`;
 }
 
-/** @param {Sheet} sheet @param {string} pointer @param {string} label @param {string} value @param {string[]} options @param {(text: string) => void} change */
-export function choice(sheet, pointer, label, value, options, change, say = (/** @type {string} */ one) => one) {
+/** @param {Sheet} sheet @param {string} pointer @param {string} label @param {string} value @param {{options: string[], say?: (option: string) => string}} from @param {(text: string) => void} change */
+export function choice(sheet, pointer, label, value, { options, say = (one) => one }, change) {
   const all = options.includes(value) ? options : [value, ...options];
   const { invalid, why } = aria(sheet, pointer);
   return html`
@@ -111,9 +111,9 @@ export function fieldOf(sheet, at, { key, type }) {
   if (type === "expression") return expression(sheet, pointer, label, row[key], materialOf(row));
   if (type === "material") return material(sheet, pointer, row);
   if (type === "number") return line(sheet, pointer, label, row[key], (text) => put(numberOf(text)), { className: "narrow", mode: "decimal" });
-  if (type === "place") return choice(sheet, pointer, label, row[key] ?? "", places, put);
-  if (type === "coordinate") return choice(sheet, pointer, label, row[key] ?? "", coordinates, put);
-  if (type === "flag") return choice(sheet, pointer, label, String(row[key] ?? true), ["true", "false"], (text) => put(text === "true"), (one) => sheet.t(`editor.flag.${one}`));
+  if (type === "place") return choice(sheet, pointer, label, row[key] ?? "", { options: places }, put);
+  if (type === "coordinate") return choice(sheet, pointer, label, row[key] ?? "", { options: coordinates }, put);
+  if (type === "flag") return choice(sheet, pointer, label, String(row[key] ?? true), { options: ["true", "false"], say: (one) => sheet.t(`editor.flag.${one}`) }, (text) => put(text === "true"));
   if (key === "name") return line(sheet, pointer, label, row[key], (text) => sheet.editing.edit(renamed(document, section, index, text)), { className: "name" });
   return line(sheet, pointer, label, row[key], (text) => put(text || undefined), { className: "narrow" });
 }

@@ -37,7 +37,7 @@ function about(sheet) {
       <div class="fields">
         ${text("title")}${text("summary")}
         ${line(sheet, "/id", t("editor.field.id"), document.id, (id) => sheet.put("/id", id))}
-        ${choice(sheet, "/dimension", t("editor.field.dimension"), String(dimensionOf(document)), ["2", "3"], (d) => sheet.put("/dimension", Number(d)), (d) => t(`editor.dimension.${d}`))}
+        ${choice(sheet, "/dimension", t("editor.field.dimension"), String(dimensionOf(document)), { options: ["2", "3"], say: (d) => t(`editor.dimension.${d}`) }, (d) => sheet.put("/dimension", Number(d)))}
       </div>
     </section>`;
 }
@@ -62,7 +62,7 @@ function card(sheet, section, row, index) {
   const { t, writing } = sheet;
   const { key, kinds } = section;
   const [first, ...others] = fieldsOf(section, row, dimensionOf(writing.document));
-  const kind = kinds && choice(sheet, `/${key}/${index}/kind`, t("editor.field.kind"), row.kind ?? "", Object.keys(kinds), (one) => sheet.put(`/${key}/${index}/kind`, one), (one) => t(`editor.kind.${one}`));
+  const kind = kinds && choice(sheet, `/${key}/${index}/kind`, t("editor.field.kind"), row.kind ?? "", { options: Object.keys(kinds), say: (one) => t(`editor.kind.${one}`) }, (one) => sheet.put(`/${key}/${index}/kind`, one));
   const asked = others.filter((field) => !field.optional);
   const beside = others.filter((field) => field.optional);
   const fields = key === "coordinates" || key === "parameters" ? others : [...asked, ...beside];
@@ -98,7 +98,7 @@ function drawing(sheet) {
   const count = rowsOf(given.elements).length;
   return html`
     <div class="card"><div class="fields">
-      ${choice(sheet, "/drawing", t("editor.vertical"), given.vertical ?? "up", ["down", "up"], (vertical) => sheet.put("/drawing/vertical", vertical), (one) => t(`editor.vertical.${one}`))}
+      ${choice(sheet, "/drawing", t("editor.vertical"), given.vertical ?? "up", { options: ["down", "up"], say: (one) => t(`editor.vertical.${one}`) }, (vertical) => sheet.put("/drawing/vertical", vertical))}
     </div>
     <p class="hint">${count ? t("editor.drawing-own", { count }) : t("editor.drawing-automatic")}
       ${count ? html`<button type="button" class="quiet small" @click=${() => sheet.put("/drawing", { vertical: given.vertical ?? "up" })}>${t("editor.drawing-reset")}</button>` : nothing}</p></div>`;

@@ -65,8 +65,8 @@ export function createHand(bench, virtual) {
   function lead(hand) {
     const all = around();
     if (!held || !all) return;
-    const { kinematics, now, stage, scene } = all;
-    const q = brought(kinematics, scene, held.place, held.q, now.t, hand, stage.project);
+    const { kinematics, now, scene } = all;
+    const q = brought(all, held.place, held.q, hand);
     held.q = q;
     if (state().place.vary) return virtual.vary(q);
     drawing.hold(configured(kinematics, now, q));
