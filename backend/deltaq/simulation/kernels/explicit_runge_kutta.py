@@ -9,17 +9,15 @@ from .extension import sample, watch_extension
 from .loop import Result, begin, interruption, later
 from .motion import FINE, STEP_UNDERFLOW, Floats, Motion
 from .step import Room, Weights, accept, attempt
-from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, patience, shrunk
+from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, patience, shrunk, tells_apart
 from .watch import Watch
-
-ROUNDING = 2.3e-16
 
 
 @inner
 def tried_again(control: Control, outcome: int, t: float, h: float, error: float) -> tuple[int, float]:
     """FINE and a smaller size to try the step with, or what ends the run: the size is too small to tell times apart."""
     smaller = shrunk(control, h, error if outcome == FINE else np.nan)
-    if smaller > 16.0 * ROUNDING * max(abs(t), 1e-3 * control.largest_step):
+    if tells_apart(control, t, smaller):
         return FINE, smaller
     return STEP_UNDERFLOW if outcome == FINE else outcome, smaller
 

@@ -12,13 +12,11 @@ from .implicit_room import ImplicitRoom, take
 from .implicit_step import attempt_implicit, differentiate, prepare
 from .loop import Result, begin, interruption, later
 from .motion import FINE, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion
+from .newton import SLOW
 from .phase import Phase, momenta
 from .stages import ImplicitWeights, predict
-from .step_control import Control, grown, shrunk
+from .step_control import Control, grown, shrunk, tells_apart
 from .watch import Watch, look_at, seen
-
-ROUNDING = 2.3e-16
-SLOW = 0.002  # a ratio of corrections above which the derivatives are taken anew
 
 
 @inner
@@ -64,7 +62,7 @@ def smaller_step(control: Control, outcome: int, t: float, h: float, error: floa
     if control.tolerance == 0.0:
         return outcome, h
     smaller = shrunk(control, h, error) if outcome == FINE else 0.25 * h
-    if smaller > 16.0 * ROUNDING * max(abs(t), 1e-3 * control.largest_step):
+    if tells_apart(control, t, smaller):
         return FINE, smaller
     return STEP_UNDERFLOW if outcome in (FINE, NEWTON_FAILED) else outcome, smaller
 

@@ -16,6 +16,7 @@ Floats = NDArray[np.float64]
 FINE, STEP_LIMIT, SINGULAR, NOT_FINITE, TOO_LARGE, STEP_UNDERFLOW, CANCELLED = 0, 1, 2, 3, 4, 5, 6
 NEWTON_FAILED, STIFF, EVENT = 7, 8, 9
 
+ROUNDING = 2.3e-16  # of a number in double precision, relative to it
 # A pivot smaller than this part of the largest mass is rounding error: M has no inverse there.
 SMALLEST_PIVOT = 1e-14
 

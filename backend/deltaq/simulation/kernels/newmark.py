@@ -7,10 +7,9 @@ from .hermite import sample_between, watch_between
 from .loop import Result, begin, interruption, later
 from .motion import FINE, Floats, Motion
 from .newmark_step import NewmarkRoom, NewmarkWeights, attempt_newmark, take
+from .newton import SLOW
 from .step_control import Control
 from .watch import Watch
-
-SLOW = 0.002  # a ratio of corrections above which the derivatives are taken anew
 
 
 @kernel

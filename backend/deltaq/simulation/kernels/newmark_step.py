@@ -9,13 +9,12 @@ import numpy as np
 from .compiler import inner
 from .hermite import Ends, make_ends
 from .linear import Places, decompose, substitute
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Floats, Motion, slope
+from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, TOO_LARGE, Floats, Motion, slope
 from .phase import NUDGE
 from .pointer import call
 from .step import LARGEST_VALUE
 
 MOST_ITERATIONS = 50
-ROUNDING = 2.3e-16
 
 
 class NewmarkWeights(NamedTuple):

@@ -14,12 +14,12 @@ import numpy as np
 
 from .compiler import inner
 from .linear import decompose, substitute
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, Floats
+from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, Floats
 from .phase import Phase, momenta
 from .stages import ImplicitWeights, Stages, Start
 
 MOST_ITERATIONS = 50
-ROUNDING = 2.3e-16
+SLOW = 0.002  # a ratio of corrections above which the derivatives are taken anew
 
 
 @inner

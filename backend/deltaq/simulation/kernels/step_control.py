@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiler import inner, variable
-from .motion import FINE, STIFF, Floats, Motion, slope
+from .motion import FINE, ROUNDING, STIFF, Floats, Motion, slope
 from .step import Room
 
 MANY = 1000  # steps held back by stability, after which it is asked whether the end can be reached
@@ -92,6 +92,12 @@ def shrunk(control: Control, h: float, error: float) -> float:
     if not error < np.inf:
         return 0.1 * h
     return float(h * max(SAFETY * error ** (-1.0 / control.error_order), LARGEST_SHRINK))
+
+
+@inner
+def tells_apart(control: Control, t: float, h: float) -> bool:
+    """Whether t and t + h are different times in double precision, with some digits to spare."""
+    return h > 16.0 * ROUNDING * max(abs(t), 1e-3 * control.largest_step)
 
 
 @inner
