@@ -36,7 +36,7 @@ function about(sheet) {
     <section class="part about">
       <div class="fields">
         ${text("title")}${text("summary")}
-        ${line(sheet, "/id", t("editor.field.id"), document.id, (id) => sheet.put("/id", id))}
+        ${line(sheet, "/id", t("editor.field.id"), document.id, (id) => sheet.put("/id", id), { className: "name" })}
         ${choice(sheet, "/dimension", t("editor.field.dimension"), String(dimensionOf(document)), { options: ["2", "3"], say: (d) => t(`editor.dimension.${d}`) }, (d) => sheet.put("/dimension", Number(d)))}
       </div>
     </section>`;
