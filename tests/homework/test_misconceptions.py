@@ -65,6 +65,16 @@ def test_every_misconception_occurs() -> None:
     assert {kind.id for kind in misconceptions()} - seen == set()
 
 
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_hint_names_only_what_the_mistake_is_about(scene: str) -> None:
+    """A text with a placeholder that nothing fills would have a hole."""
+    workbook = workbook_of({"scene": scene})
+    nameless = {c.road.id for task in workbook.tasks for c in workbook.candidates(task) if not c.road.about}
+    for language in ("de", "en"):
+        told: dict = catalog(language)["homework"]["misconceptions"]  # type: ignore[index, assignment]
+        assert {kind for kind in nameless if "{about}" in "".join(told[kind].values())} == set()
+
+
 def test_misconceptions_are_told_and_explained() -> None:
     kinds = misconceptions()
     assert len(kinds) >= 30
