@@ -1,4 +1,8 @@
-"""The jobs that run in workers: JSON document in, JSON document out; here SymPy and Numba begin."""
+"""The jobs that are more than one call: JSON document in, JSON document out, in a worker.
+
+Others name what answers them, `deltaq.homework.service:check_request`; it is imported in the worker, where SymPy and
+Numba begin.
+"""
 
 from __future__ import annotations
 
@@ -35,12 +39,6 @@ def vary(document: Document) -> Document:
     return {**answer, "id": document["id"]}
 
 
-def prove(document: Document) -> Document:
-    """A general proof, every line verified."""
-    answer: Document = import_module("deltaq.narration.proof").proof_request(document)
-    return answer
-
-
 def simulate(document: Document) -> Document:
     """A trajectory; why it ended, and what to do about it, said in the language asked for."""
     answer: Document = import_module("deltaq.simulation.service").run(document["request"])
@@ -59,12 +57,6 @@ def read_scene_toml(document: Document) -> Document:
     return {"scene": read_toml(document["text"])}
 
 
-def typeset(document: Document) -> Document:
-    """What one expression means."""
-    answer: Document = import_module("deltaq.narration.expressions").typeset_request(document)
-    return answer
-
-
 def typeset_all(document: Document) -> Document:
     """What each of several expressions means, or what is wrong with it."""
     answers, problems = import_module("deltaq.narration.expressions").typeset_all(document)
@@ -76,65 +68,6 @@ def warm(document: Document) -> Document:
     """Bring the compiled kernels of a family of methods to disk, so that nobody else waits for a compiler."""
     import_module("deltaq.simulation.service").warm(document["family"])
     return document
-
-
-def tasks(document: Document) -> Document:
-    """The tasks of a scene."""
-    answer: Document = import_module("deltaq.homework.service").tasks_request(document)
-    return answer
-
-
-def check(document: Document) -> Document:
-    """The verdict on one answer."""
-    answer: Document = import_module("deltaq.homework.service").check_request(document)
-    return answer
-
-
-def read_answer(document: Document) -> Document:
-    """What an answer is understood as."""
-    answer: Document = import_module("deltaq.homework.service").reading_request(document)
-    return answer
-
-
-def solve(document: Document) -> Document:
-    """The right answer to a task."""
-    answer: Document = import_module("deltaq.homework.service").solution_request(document)
-    return answer
-
-
-def answered_motion(document: Document) -> Document:
-    """The scene that moves as an answer says."""
-    answer: Document = import_module("deltaq.homework.service").motion_request(document)
-    return answer
-
-
-def open_assignment(document: Document) -> Document:
-    """The tasks of an assignment."""
-    answer: Document = import_module("deltaq.homework.service").assignment_request(document)
-    return answer
-
-
-def export_stack(document: Document) -> Document:
-    """Questions for STACK as XML."""
-    answer: Document = import_module("deltaq.homework.service").stack_request(document)
-    return answer
-
-
-def export_handout(document: Document) -> Document:
-    """A derivation as a document, or its motion as a program."""
-    answer: Document = import_module("deltaq.handout.service").export_request(document)
-    return answer
-
-
-def check_lines(document: Document) -> Document:
-    """The verdicts on a whole working, with points."""
-    answer: Document = import_module("deltaq.homework.service").lines_request(document)
-    return answer
-
-
-def check_batch(document: Document) -> Document:
-    """The verdicts on several answers."""
-    return {"verdicts": import_module("deltaq.homework.service").batch_request(document)}
 
 
 def experiment(document: Document) -> Iterator[Document]:

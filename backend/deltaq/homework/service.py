@@ -138,7 +138,7 @@ def stack_request(document: Mapping[str, object]) -> Document:
     return {"xml": quiz(workbook, tasks, language_in(document))}
 
 
-def batch_request(document: Mapping[str, object]) -> list[Document]:
-    """The verdicts on several answers, one after the other."""
+def batch_request(document: Mapping[str, object]) -> Document:
+    """{checks, lang?} → the verdicts, one after the other."""
     checks = cast("Sequence[Mapping[str, object]]", document["checks"])
-    return [check_request({"lang": document.get("lang"), **one}) for one in checks]
+    return {"verdicts": [check_request({"lang": document.get("lang"), **one}) for one in checks]}

@@ -14,7 +14,7 @@ from ..workers.job import Job
 from .common import COMPUTING, question_of
 
 router = APIRouter(prefix="/exports", tags=["exports"], route_class=StrictRoute)
-EXPORT = Job("deltaq.api.jobs:export_handout", deadline=5.0)
+EXPORT = Job("deltaq.handout.service:export_request", deadline=5.0)
 MEDIA_TYPES = {"latex": "application/x-tex", "markdown": "text/markdown", "python": "text/x-python"}
 FILES: dict[int | str, dict[str, Any]] = {
     200: {"content": {media_type: {"schema": {"type": "string"}} for media_type in MEDIA_TYPES.values()}}

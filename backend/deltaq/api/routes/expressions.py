@@ -21,7 +21,7 @@ from .common import COMPUTING, question_of
 router = APIRouter(prefix="/expressions", tags=["expressions"], route_class=StrictRoute)
 READING = 0.2  # seconds of a processor for one text
 MOST = 4.0  # for all of many
-ONE = Job("deltaq.api.jobs:typeset", deadline=5.0, processor=READING)
+ONE = Job("deltaq.narration.expressions:typeset_request", deadline=5.0, processor=READING)
 ALL = Job("deltaq.api.jobs:typeset_all", deadline=10.0)
 
 

@@ -27,15 +27,15 @@ from .common import COMPUTING, LANGUAGE, SceneId, failures, question_of
 
 router = APIRouter(tags=["homework"], route_class=StrictRoute)
 XML: dict[int | str, dict[str, Any]] = {200: {"content": {"application/xml": {"schema": {"type": "string"}}}}}
-TASKS = Job("deltaq.api.jobs:tasks", deadline=8.0)
-CHECK = Job("deltaq.api.jobs:check", deadline=15.0)
-READING = Job("deltaq.api.jobs:read_answer", deadline=4.0)
-SOLUTION = Job("deltaq.api.jobs:solve", deadline=8.0)
-MOTION = Job("deltaq.api.jobs:answered_motion", deadline=8.0)
-ASSIGNMENT = Job("deltaq.api.jobs:open_assignment", deadline=30.0, pace="slow")
-STACK = Job("deltaq.api.jobs:export_stack", deadline=60.0, pace="slow")
-LINES = Job("deltaq.api.jobs:check_lines", deadline=30.0, pace="slow")
-BATCH = Job("deltaq.api.jobs:check_batch", deadline=60.0, pace="slow")
+TASKS = Job("deltaq.homework.service:tasks_request", deadline=8.0)
+CHECK = Job("deltaq.homework.service:check_request", deadline=15.0)
+READING = Job("deltaq.homework.service:reading_request", deadline=4.0)
+SOLUTION = Job("deltaq.homework.service:solution_request", deadline=8.0)
+MOTION = Job("deltaq.homework.service:motion_request", deadline=8.0)
+ASSIGNMENT = Job("deltaq.homework.service:assignment_request", deadline=30.0, pace="slow")
+STACK = Job("deltaq.homework.service:stack_request", deadline=60.0, pace="slow")
+LINES = Job("deltaq.homework.service:lines_request", deadline=30.0, pace="slow")
+BATCH = Job("deltaq.homework.service:batch_request", deadline=60.0, pace="slow")
 
 
 @router.get(

@@ -16,7 +16,7 @@ from ..workers.job import Job
 from .common import LANGUAGE, failures
 
 router = APIRouter(prefix="/proofs", tags=["proofs"], route_class=StrictRoute)
-PROVE = Job("deltaq.api.jobs:prove", deadline=60.0, pace="slow")
+PROVE = Job("deltaq.narration.proof:proof_request", deadline=60.0, pace="slow")
 
 
 @router.get("", response_model=ProofList, responses=failures(422), dependencies=[LANGUAGE])
