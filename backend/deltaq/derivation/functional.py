@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,6 +11,9 @@ import sympy as sp
 
 from ..errors import ExpressionError, Problem
 from ..language import canonical
+from ..language.form_calculus import PlainForm, plain_form
+from ..language.fourier import TooLargeError
+from ..language.memory import kept
 from ..language.names import Names
 from ..language.spelling import spell_rate
 from ..language.symbols import Symbols
@@ -79,10 +83,22 @@ class Functional:
 
     def derivative(self, value: Value, by: sp.Symbol) -> Value:
         """∂value/∂by. Raises ExpressionError where it does not exist."""
+        return by_component(value, lambda component: self._slope(component, by))
+
+    def _slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
+        form = self._form(value)
+        with suppress(TooLargeError):
+            if form is not None:
+                shown: sp.Expr = form.derivative(by).displayed(self.symbols)
+                return shown
         found = value.diff(by)
         if found.has(*UNDEFINED):
             raise ExpressionError(Problem("not-differentiable"))
         return self.display(found)
+
+    @kept
+    def _form(self, value: sp.Expr) -> PlainForm | None:
+        return plain_form(value)
 
     @cached_property
     def slopes(self) -> Mapping[sp.Symbol, Value]:

@@ -12,6 +12,7 @@ from typing import Any
 
 import sympy
 
+from .memory import kept
 from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, fraction_parts, plain_number, signed_sum
 from .order import Order
 
@@ -26,7 +27,12 @@ def plain(expr: Any, order: Order | None = None) -> str:
         return f"{plain(expr.lhs, order)} = {plain(expr.rhs, order)}"
     if isinstance(expr, sympy.Tuple):
         return "[" + ", ".join(plain(part, order) for part in expr) + "]"
-    return _Plain(order or Order()).text(sympy.sympify(expr, strict=True), 0)
+    return _printer(order or Order()).text(sympy.sympify(expr, strict=True), 0)
+
+
+@kept
+def _printer(order: Order) -> _Plain:
+    return _Plain(order)
 
 
 def _matrix(matrix: Any, order: Order | None) -> str:
@@ -45,6 +51,7 @@ class _Plain:
         text, own = self._with_binding(expr)
         return f"({text})" if own < binding else text
 
+    @kept
     def _with_binding(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
         if expr.is_Symbol:
             return expr.name, ATOM

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import sympy as sp
 
 from ..derivation.formula import Term
 from ..derivation.result import Conserved, Result
 from ..language.latex_printer import Typography, latex
+from ..language.order import Order
 from ..language.plain_printer import plain
 from .model_answer import equilibrium, load, own_symbols, routh
 
@@ -34,7 +35,7 @@ def written(result: Result, typography: Typography) -> Document:
         "lagrangian": write.sum("lagrangian", result.lagrangian),
         "equations": write.each("equations", result.equations, " = 0"),
         "mass_matrix": {
-            "plain": [[plain(entry) for entry in row] for row in result.mass_matrix.tolist()],
+            "plain": [[plain(entry, write.order) for entry in row] for row in result.mass_matrix.tolist()],
             "latex": latex(result.mass_matrix, typography),
             "terms": write.entries("mass_matrix"),
         },
@@ -52,12 +53,14 @@ def written(result: Result, typography: Typography) -> Document:
 class _Writer:
     result: Result
     typography: Typography
+    order: Order = field(default_factory=Order)
 
     def both(self, value: sp.Expr, suffix: str = "") -> Document:
-        return {"plain": plain(value) + suffix, "latex": latex(value, self.typography) + suffix}
+        return {"plain": plain(value, self.order) + suffix, "latex": latex(value, self.typography) + suffix}
 
     def vector(self, value: sp.ImmutableMatrix) -> Document:
-        return {"plain": [plain(component) for component in value], "latex": latex(value, self.typography)}
+        text = [plain(component, self.order) for component in value]
+        return {"plain": text, "latex": latex(value, self.typography)}
 
     def sum(self, key: str, value: sp.Expr, coordinate: str = "", suffix: str = "") -> Document:
         """The expression, and its terms with the bodies and loads they come from."""

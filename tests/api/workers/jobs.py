@@ -148,6 +148,7 @@ def kill_self_while_replying(document: Any) -> Any:
     marker = Path(document["marker"])
     if not marker.exists():
         marker.touch()
+        gc.unfreeze()  # what a worker is born with is set aside
         pipe = next(one for one in gc.get_objects() if isinstance(one, Connection))
         os.write(pipe.fileno(), struct.pack("!i", 1000) + b'+"half of')
         os.kill(os.getpid(), signal.SIGKILL)
