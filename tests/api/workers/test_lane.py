@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import signal
+from typing import NoReturn
 
 import pytest
 
@@ -45,6 +46,28 @@ def test_lane_that_stops_refuses() -> None:
     found = lane.attempt(task("echo"))
     assert isinstance(found, Overloaded)
     assert str(found) == "the service is stopping"
+
+
+@pytest.mark.parametrize(
+    ("failures", "told"),
+    [
+        pytest.param(0, [], id="it goes with the service"),
+        pytest.param(2, ["a worker did not start: EOFError()"] * 2, id="twice before that"),
+    ],
+)
+def test_start_that_fails_is_told_unless_the_service_stops(
+    failures: int, told: list[str], monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    lane, left = Lane(FairQueue(1), LIMITS), iter(range(failures))
+
+    def fails(_memory: int, _timeout: float) -> NoReturn:
+        if next(left, None) is None:
+            lane.stop()
+        raise EOFError
+
+    monkeypatch.setattr("deltaq.api.workers.lane.start_worker", fails)
+    assert lane.ready_worker() is None
+    assert caplog.messages == told
 
 
 @pytest.mark.parametrize(

@@ -66,8 +66,9 @@ class Lane(Thread):
                 self.worker = start_worker(self.limits.memory, self.limits.start_timeout)
                 self.served = 0
             except Exception as error:  # noqa: BLE001  killed while it started, no memory … : another one may come up
-                LOGGER.warning("a worker did not start: %s", error)
-                self.stopping.wait(pause)
+                if self.stopping.wait(pause):
+                    break  # it goes with the service
+                LOGGER.warning("a worker did not start: %r", error)
                 pause = min(2 * pause, LONGEST_PAUSE)
         return self.worker
 
