@@ -1,7 +1,9 @@
-"""The exception tree. An input error is the user's to mend; anything else that is raised is our bug.
+"""The exception tree. An input error is the user's to mend; what is raised and is none of these is our bug.
 
     DeltaqError
     ├── CommandError          a command of the shell cannot do what it was asked
+    ├── SettingsError         an environment variable does not hold what its setting needs (settings)
+    ├── JobError              a worker could not finish a job: killed, too large, too many waiting … (api)
     └── InputError            carries Problems: where, what, and what to write instead
         ├── ExpressionError   in the text of one expression (language)
         ├── SceneError        in a scene document (mechanics)

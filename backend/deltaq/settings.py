@@ -8,13 +8,15 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, field, fields
 from typing import Any
 
+from .errors import DeltaqError
+
 MEBIBYTE = 2**20
 PREFIX = "DELTAQ_"
 _ORIGIN = re.compile(r"\*|https?://[A-Za-z0-9.*-]+(:\d+)?")
 LOG_LEVELS = ("debug", "info", "warning", "error")
 
 
-class SettingsError(Exception):
+class SettingsError(DeltaqError):
     """An environment variable does not hold what its setting needs."""
 
 
