@@ -35,6 +35,8 @@ def site(tmp_path: Path) -> Path:
         "app.js": "export const δq = 1;\n" * 100,
         "view/drawing.js": "// drawing",
         "icon.svg": "<svg/>",
+        "styles/homework/tasks.css": ".tasks {}\n",
+        "styles/homework/answer.css": ".answer {}\n",
         "package.json": "{}",
         ".npmrc": "secret",
         "node_modules/x/index.js": "secret",
@@ -212,6 +214,16 @@ async def test_file_is_read_again_when_it_changes(browser: httpx.AsyncClient, si
     await browser.get("/app.js")
     (site / "app.js").write_text("changed", encoding="utf-8")
     assert (await browser.get("/app.js")).text == "changed"
+
+
+async def test_a_style_sheet_in_parts_is_sent_as_one(browser: httpx.AsyncClient, site: Path) -> None:
+    sheet = await browser.get("/styles/homework.css")
+    assert (sheet.headers["content-type"], sheet.text) == ("text/css; charset=utf-8", ".answer {}\n\n.tasks {}\n")
+    assert (await browser.get("/styles/homework/tasks.css")).text == ".tasks {}\n"
+    (site / "styles/homework/tasks.css").write_text(".tasks { margin: 0 }\n", encoding="utf-8")
+    assert "margin" in (await browser.get("/styles/homework.css")).text
+    for path in ("/styles/homework", "/styles/homework.js", "/styles.css", "/styles/.css", f"/{'x' * 300}.css"):
+        assert (await browser.get(path)).status_code == 404, path
 
 
 async def test_head(browser: httpx.AsyncClient) -> None:

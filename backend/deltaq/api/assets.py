@@ -79,14 +79,14 @@ class Assets:
         if any(part in HIDDEN_FOLDERS or part.startswith(".") or "\\" in part or "\0" in part for part in parts):
             return None
         file = self.root.joinpath(*parts)
-        if (
-            file.suffix not in MEDIA_TYPES
-            or not _is_file(file)
-            or not file.resolve().is_relative_to(self.root.resolve())
-        ):
+        sources = _sources(file)
+        if file.suffix not in MEDIA_TYPES or not sources or not all(map(self._holds, sources)):
             return None
-        content, compressed = _read(file, file.stat().st_mtime_ns)
+        content, compressed = _read(sources, tuple(source.stat().st_mtime_ns for source in sources))
         return Asset(content, compressed, MEDIA_TYPES[file.suffix], FOR_EVER if versioned else ASK_AGAIN)
+
+    def _holds(self, file: Path) -> bool:
+        return file.resolve().is_relative_to(self.root.resolve())
 
 
 def import_map_hash(page: str) -> str | None:
@@ -104,11 +104,21 @@ def _is_file(file: Path) -> bool:
         return False
 
 
+def _sources(file: Path) -> tuple[Path, ...]:
+    """What is sent as a file: itself; or, for a style sheet that stands in parts, those in the folder of its name."""
+    if _is_file(file):
+        return (file,)
+    try:
+        return tuple(sorted(file.with_suffix("").glob("*.css"))) if file.suffix == ".css" else ()
+    except OSError:  # a name too long for the file system
+        return ()
+
+
 @lru_cache(maxsize=512)
-def _read(file: Path, _modified: int) -> tuple[bytes, Mapping[str, bytes]]:
-    """Content and compressed content; read again when the file has been modified."""
-    content = file.read_bytes()
-    if file.suffix in INCOMPRESSIBLE:
+def _read(files: tuple[Path, ...], _modified: tuple[int, ...]) -> tuple[bytes, Mapping[str, bytes]]:
+    """Content and compressed content; read again when a file has been modified."""
+    content = b"\n".join(file.read_bytes() for file in files)
+    if files[0].suffix in INCOMPRESSIBLE:
         return content, {}
     quality = BEST_QUALITY if len(content) <= BEST_UP_TO else QUALITY
     return content, {"br": brotli.compress(content, quality=quality), "gzip": gzip.compress(content, 9, mtime=0)}
