@@ -134,11 +134,23 @@ function catchUp(element) {
   waiting.delete(element);
 }
 
-/** What is about to be seen is typeset at once. @param {Node} place */
+/** @param {Node} place */
+const waitingIn = (place) => [...waiting.keys()].filter((element) => place.contains(element));
+
+/** Formulas that somebody sees now. @type {HTMLElement[]} */
+const sought = [];
+
+/** What has come into view is typeset before all others, so many at once that scrolling goes on; what closed details hide goes on waiting. @param {Node} place */
 export function typesetWithin(place) {
-  [...waiting.keys()].filter((element) => place.contains(element)).forEach(catchUp);
+  if (!sought.length) requestAnimationFrame(seek);
+  sought.push(...waitingIn(place).filter((element) => !element.closest("details:not([open])")));
 }
-window.addEventListener("beforeprint", () => typesetWithin(document));
+
+function seek() {
+  during(SLICE, sought, catchUp);
+  if (sought.length) requestAnimationFrame(seek);
+}
+window.addEventListener("beforeprint", () => waitingIn(document).forEach(catchUp));
 
 class Typeset extends Directive {
   latex = "";
