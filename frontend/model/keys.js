@@ -21,8 +21,10 @@ export const KEYS = [
   [["?"], "help.help"],
 ];
 
-/** What stands on a key. @type {Record<string, string>} */
-const LABELS = { ArrowRight: "→", ArrowLeft: "←", ArrowDown: "↓", ArrowUp: "↑", " ": "Space", Escape: "Esc" };
+const ARROWS = /** @type {Record<string, string>} */ ({ ArrowRight: "→", ArrowLeft: "←", ArrowDown: "↓", ArrowUp: "↑" });
+const CALLED = /** @type {Record<string, string>} */ ({
+  " ": "key.space", Escape: "key.escape", Home: "key.home", End: "key.end", PageUp: "key.page-up", PageDown: "key.page-down",
+});
 
-/** @param {string} key */
-export const labelOf = (key) => LABELS[key] ?? (key.length === 1 ? key.toUpperCase() : key);
+/** What stands on a key. @param {string} key @param {import("./catalog.js").Translate} t */
+export const labelOf = (key, t) => ARROWS[key] ?? (key in CALLED ? t(CALLED[key]) : key.toUpperCase());

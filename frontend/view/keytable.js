@@ -5,4 +5,4 @@ import { KEYS, labelOf } from "../model/keys.js";
 
 /** @param {import("../model/catalog.js").Translate} t */
 export const keytable = (t) => html`<dl class="keys">${KEYS.map(([names, meaning]) => html`
-  <div><dt>${names.map((name) => html`<kbd>${labelOf(name)}</kbd>`)}</dt><dd>${t(meaning)}</dd></div>`)}</dl>`;
+  <div><dt>${names.map((name) => html`<kbd>${labelOf(name, t)}</kbd>`)}</dt><dd>${t(meaning)}</dd></div>`)}</dl>`;

@@ -12,5 +12,9 @@ test("every key of the page is told once", () => {
 });
 
 test("keys are called by what stands on them", () => {
-  assert.deepEqual(["ArrowUp", " ", "Escape", "PageDown", "w", "."].map(labelOf), ["↑", "Space", "Esc", "PageDown", "W", "."]);
+  const t = (/** @type {string} */ key) => `<${key}>`;
+  assert.deepEqual(told.filter((key) => key.length > 1 || key === " ").map((key) => labelOf(key, t)), [
+    "→", "<key.space>", "<key.page-down>", "←", "<key.page-up>", "<key.home>", "<key.end>", "<key.escape>", "↓", "↑",
+  ]);
+  assert.deepEqual(["w", ".", "?"].map((key) => labelOf(key, t)), ["W", ".", "?"]);
 });
