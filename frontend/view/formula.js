@@ -16,9 +16,7 @@ const IMPATIENCE = 300;
 /** @param {{command: string}} context  only classes, which carry the colours, and only in LaTeX from the server */
 const onlyClasses = (context) => context.command === "\\htmlClass";
 
-/**
- * @param {HTMLElement} element @param {string} latex @param {boolean} display
- */
+/** @param {HTMLElement} element @param {string} latex @param {boolean} display */
 function typeset(element, latex, display) {
   try {
     globalThis.katex.render(latex, element, {
@@ -37,12 +35,15 @@ const fittedWidths = new WeakMap();
 /** What each display formula says; those that are broken into lines say it in another form. @type {WeakMap<HTMLElement, {latex: string, broken: boolean}>} */
 const sources = new WeakMap();
 
+/** What a long step has out of sight has a size, but its content has none yet. @param {HTMLElement} element */
+const laidOut = ({ firstElementChild: content }) => !content || content.checkVisibility({ contentVisibilityAuto: true });
+
 /** Sets the sizes at which formulas fit their columns; those that would become too small go on below. @param {HTMLElement[]} elements */
 function fit(elements) {
-  const due = elements.filter((element) => element.clientWidth > 0 && fittedWidths.get(element) !== element.clientWidth);
+  const due = elements.filter((element) => element.clientWidth > 0 && fittedWidths.get(element) !== element.clientWidth && laidOut(element));
   for (const element of due) {
-    const source = sources.get(element);
-    if (source?.broken) write(element, source.latex);
+    const { latex = "", broken = false } = sources.get(element) ?? {};
+    if (broken) write(element, latex);
   }
   // A lecture would rather have more lines than smaller ones.
   const long = shrink(due).filter(({ part, bearable }) => part < bearable);
@@ -128,14 +129,17 @@ function work() {
   if (waiting.size) whenIdle(work, { timeout: IMPATIENCE });
 }
 
-/** @param {HTMLElement} element */
-function catchUp(element) {
+const catchUp = (/** @type {HTMLElement} */ element) => {
   if (element.isConnected) waiting.get(element)?.();
   waiting.delete(element);
-}
+};
 
-/** @param {Node} place */
-const waitingIn = (place) => [...waiting.keys()].filter((element) => place.contains(element));
+const waitingIn = (/** @type {Node} */ place) => [...waiting.keys()].filter((element) => place.contains(element));
+
+/** A formula of a long step has been scrolled to. @param {EventTarget | null} target */
+export function fitSeen(target) {
+  if (target instanceof HTMLElement && sources.has(target)) fitSoon(target);
+}
 
 /** Formulas that somebody sees now. @type {HTMLElement[]} */
 const sought = [];

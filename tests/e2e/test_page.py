@@ -191,6 +191,17 @@ def test_another_scene_begins_at_its_first_step(lecture: Lecture) -> None:
     expect(lecture.page.locator(".readouts > div")).to_have_count(1)
 
 
+def test_a_formula_that_is_scrolled_to_fits_its_column(lecture: Lecture) -> None:
+    """Out of sight it has no width yet."""
+    lecture.open("?scene=elastic-pendulum&lang=en&theme=projector&step=equation:phi")
+    lecture.page.locator(".formula:empty").first.wait_for(state="detached")
+    steps = lecture.page.locator(".step.far")
+    for index in range(steps.count()):
+        steps.nth(index).evaluate("e => e.scrollIntoView()")
+        formula = steps.nth(index).locator("> .formula").first.element_handle()
+        lecture.page.wait_for_function("e => e.scrollWidth <= e.clientWidth + 1", arg=formula)
+
+
 def test_the_plot_and_the_drawing_share_a_clock(lecture: Lecture) -> None:
     lecture.open()
     lecture.page.locator(".plots.ready").wait_for()
