@@ -37,15 +37,20 @@ def test_the_pendulum_moves_and_leads_to_its_scene(start: Lecture) -> None:
 def test_who_waits_for_the_pendulum_is_told(lecture: Lecture) -> None:
     """A first start compiles for a while; the page is not empty meanwhile."""
     held: list[Route] = []
+    released = False
 
     def hold(route: Route) -> None:
-        held.append(route)
+        if released:
+            route.continue_()
+        else:
+            held.append(route)
 
     lecture.page.route("**/api/v1/simulations", hold)
     lecture.page.goto(f"{lecture.address}?lang=en")
     told = lecture.page.locator(".hero .patience")
     expect(told).to_be_visible()
     expect(told).to_contain_text("compiles its numerical methods")
+    released = True
     for route in held:
         route.continue_()
     expect(told).to_be_hidden()
