@@ -95,6 +95,18 @@ def test_thorough_code_is_made_for_long_runs_only() -> None:
     assert again.cost.rhs_evaluations == brief.cost.rhs_evaluations
 
 
+def test_thorough_code_is_made_when_many_short_runs_would_have_paid_for_it() -> None:
+    problem = problem_of(oscillator(), 10.0)
+    problem = replace(problem, model=replace(problem.model))
+    first = simulate(problem, get_method("rk4"), step=1e-3, with_error=False)
+    runs = 1
+    while not problem.model.is_thorough and runs < 10:
+        again = simulate(problem, get_method("rk4"), step=1e-3, with_error=False)
+        np.testing.assert_array_equal(again.values, first.values)
+        runs += 1
+    assert runs == 4  # each of them 40,000 right-hand sides
+
+
 def test_fixed_steps_are_known_to_be_many_beforehand() -> None:
     problem = problem_of(oscillator(), 10.0)
     problem = replace(problem, model=replace(problem.model))

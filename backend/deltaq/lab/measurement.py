@@ -84,6 +84,7 @@ def warm(problem: Problem, *methods: Method) -> None:
 
 def measure(problem: Problem, method: Method, reference: Reference, setting: Setting, *, repeats: int) -> Point:
     """The run, and how long it takes. `repeats` 1 measures the time but once."""
+    problem.model.settle()
     flag = np.zeros(1, dtype=np.int64)
 
     def once() -> Run:

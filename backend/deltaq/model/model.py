@@ -46,6 +46,13 @@ class Observation:
     arrows: Mapping[str, Floats]
 
 
+@dataclass
+class Usage:
+    """How many right-hand sides have run in code that was compiled quickly."""
+
+    evaluations: int = 0
+
+
 @dataclass(frozen=True)
 class Model:
     """M(q, t) q̈ = f(q, q̇, t) as machine code; parameters are inputs, so new values need no new model.
@@ -60,12 +67,17 @@ class Model:
     observed: Compiled
     events: Compiled | None
     scene: Scene = field(repr=False, compare=False)
+    usage: Usage = field(default_factory=Usage, init=False, repr=False, compare=False)
 
     @cached_property
     def thorough(self) -> Compiled:
         """The same as `motion`, in machine code whose compilation pays in long runs; made when first asked for."""
         eqs = equations(self.scene)
         return compile_expressions(eqs.symbols.inputs, of_motion(eqs), THOROUGH)
+
+    def settle(self) -> None:
+        """From now on all runs are in the same, thorough code: for those who compare times."""
+        _ = self.thorough
 
     @property
     def is_thorough(self) -> bool:

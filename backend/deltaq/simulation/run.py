@@ -54,13 +54,15 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
     """Integrates a problem once; samples at `times`.
 
     A run begins in machine code that is compiled quickly. One that turns out to be long begins again in code that runs
-    faster, whose compilation takes as long as what was lost.
+    faster, whose compilation takes as long as what was lost; so do runs of a model that has run for as long already.
     """
-    shortest = problem.step_limit * method.tableau.stages <= SHORT
-    known = float(times[-1]) / steps.size if steps.tolerance == 0.0 else 0.0
-    if shortest or not (problem.model.is_thorough or known * method.tableau.stages > SHORT):
-        limit = min(SHORT // method.tableau.stages, problem.step_limit)
+    model, stages = problem.model, method.tableau.stages
+    shortest = problem.step_limit * stages <= SHORT
+    known = float(times[-1]) / steps.size * stages if steps.tolerance == 0.0 else 0.0
+    if shortest or not (model.is_thorough or max(known, model.usage.evaluations) > SHORT):
+        limit = min(SHORT // stages, problem.step_limit)
         found = _run(replace(problem, step_limit=limit), method, times, cancelled, steps, is_long=False)
+        model.usage.evaluations += found.result.evaluations
         if shortest or found.result.outcome not in (STEP_LIMIT, STIFF):
             return found
     return _run(problem, method, times, cancelled, steps, is_long=True)

@@ -68,6 +68,7 @@ class Ride:
 def ride(scene: Scene, span: float, cancelled: Flag) -> Ride:
     """The motion of a scene by the method that suits it, to `TOLERANCE`."""
     problem = replace(problem_of(scene, span, SAMPLES), step_limit=STEP_LIMIT)
+    problem.model.settle()
     choice = choose(AUTO, scene, problem, None, TOLERANCE)
     return Ride(scene, problem, choice, simulate(problem, choice.method, tolerance=TOLERANCE, cancelled=cancelled))
 
