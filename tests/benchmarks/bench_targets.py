@@ -1,7 +1,7 @@
 """What δq promises, measured once more: one table of targets, figures and the commands that tell more.
 
-Run it from the checkout on a calm machine: `python -m tests.benchmarks.bench_targets`; it takes about twenty minutes,
-most of them for the honesty of the estimate. Peers that are not installed are left out by name. Medians. Prints;
+Run it from the checkout on a calm machine: `python -m tests.benchmarks.bench_targets`; it takes about seven minutes,
+two of them for the honesty of the estimate. Peers that are not installed are left out by name. Medians. Prints;
 judges nothing but each figure against its target.
 """
 
