@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from redis import Redis
+from redis import Redis, RedisError
 
 from deltaq.api.stores import shared
 from deltaq.api.stores.shared import PREFIX, Shared
@@ -29,8 +29,15 @@ class RedisServer:
 
     def start(self) -> None:
         self.process = subprocess.Popen([*self.command, "--save", ""], stdout=subprocess.DEVNULL)
-        while not self.socket.exists():
+        while not self._answers():  # its socket is there before it listens
+            assert self.process.poll() is None, "redis-server has ended"
             time.sleep(0.01)
+
+    def _answers(self) -> bool:
+        try:
+            return bool(Redis.from_url(self.address).ping())
+        except RedisError:
+            return False
 
     def stop(self) -> None:
         self.process.terminate()
