@@ -35,6 +35,9 @@ def site(tmp_path: Path) -> Path:
         "app.js": "export const δq = 1;\n" * 100,
         "view/drawing.js": "// drawing",
         "icon.svg": "<svg/>",
+        "styles/homework.css": '@import "homework/tasks.css";\n@import "homework/answer.css";\n',
+        "styles/torn.css": '@import "homework/tasks.css";\n@import "homework/lost.css";\n',
+        "styles/open.css": '@import "../../secret.css";\n',
         "styles/homework/tasks.css": ".tasks {}\n",
         "styles/homework/answer.css": ".answer {}\n",
         "package.json": "{}",
@@ -216,14 +219,31 @@ async def test_file_is_read_again_when_it_changes(browser: httpx.AsyncClient, si
     assert (await browser.get("/app.js")).text == "changed"
 
 
-async def test_a_style_sheet_in_parts_is_sent_as_one(browser: httpx.AsyncClient, site: Path) -> None:
+async def test_a_style_sheet_is_sent_with_what_it_imports(browser: httpx.AsyncClient, site: Path) -> None:
     sheet = await browser.get("/styles/homework.css")
-    assert (sheet.headers["content-type"], sheet.text) == ("text/css; charset=utf-8", ".answer {}\n\n.tasks {}\n")
+    assert (sheet.headers["content-type"], sheet.text) == ("text/css; charset=utf-8", ".tasks {}\n\n.answer {}\n\n")
     assert (await browser.get("/styles/homework/tasks.css")).text == ".tasks {}\n"
     (site / "styles/homework/tasks.css").write_text(".tasks { margin: 0 }\n", encoding="utf-8")
     assert "margin" in (await browser.get("/styles/homework.css")).text
-    for path in ("/styles/homework", "/styles/homework.js", "/styles.css", "/styles/.css", f"/{'x' * 300}.css"):
-        assert (await browser.get(path)).status_code == 404, path
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param("/styles/torn.css", id="imports what is not there"),
+        pytest.param("/styles/homework", id="folder"),
+        pytest.param("/styles.css", id="folder with a suffix"),
+        pytest.param("/styles/.css", id="no name"),
+        pytest.param(f"/{'x' * 300}.css", id="name too long for the file system"),
+    ],
+)
+async def test_no_such_sheet(browser: httpx.AsyncClient, path: str) -> None:
+    assert (await browser.get(path)).status_code == 404
+
+
+async def test_a_style_sheet_does_not_lead_out_of_the_site(browser: httpx.AsyncClient, tmp_path: Path) -> None:
+    (tmp_path / "secret.css").write_text(".secret {}", encoding="utf-8")
+    assert "secret {}" not in (await browser.get("/styles/open.css")).text
 
 
 async def test_head(browser: httpx.AsyncClient) -> None:

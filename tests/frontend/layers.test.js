@@ -65,3 +65,14 @@ for (const page of PAGES) {
     assert.deepEqual(asked.sort(), [...imported(driverOf(page))].sort());
   });
 }
+
+const SHEETS = readdirSync(new URL("styles", FRONTEND), { recursive: true }).map(String).filter((file) => file.endsWith(".css")).map((file) => `styles/${file}`);
+
+test("no style sheet is longer than 200 lines", () => {
+  assert.deepEqual(SHEETS.filter((file) => source(file).split("\n").length > 201), []);
+});
+
+test("every part of a style sheet is imported by it, once", () => {
+  const imported = SHEETS.flatMap((file) => [...source(file).matchAll(/^@import "([^"]+)";$/gm)].map((match) => `styles/${match[1]}`));
+  assert.deepEqual(imported.sort(), SHEETS.filter((file) => file.split("/").length > 2).sort());
+});
