@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
-from deltaq.derivation.abstract_motion import AbstractMotion, arbitrary, each, q, rate, sample, summed, total_rate
+from deltaq.derivation.abstract_motion import AbstractMotion, P, arbitrary, each, q, rate, sample, summed, total_rate
 from deltaq.derivation.carrying_out import GeneralAlgebra
-from deltaq.derivation.formula import Explicit, Partial, Rate
-from deltaq.derivation.function_formula import FunctionFormula, Over
+from deltaq.derivation.formula import Dot, Explicit, Formula, Partial, Rate, Times
+from deltaq.derivation.function_formula import FunctionFormula, Over, Ratio
 from deltaq.derivation.proof import CHAPTERS, prove
 from deltaq.derivation.rules import general_cancellation, general_exchange, general_product_rule
 from deltaq.derivation.rules._general import by_mass, for_each, half_square, lever, velocity
@@ -82,6 +82,30 @@ def test_integrals_are_compared_term_by_term() -> None:
 def scaled(integral: Over) -> Over:
     """q₁ ∫ … with the factor inside"""
     return Over(Explicit(q("1")), integral.region, integral.element, integral.bounds, integral.weight)
+
+
+def test_what_stands_before_an_integral_is_not_integrated() -> None:
+    """P ∫ P dm is not ∫ P² dm."""
+    motion, algebra = arbitrary(), GeneralAlgebra()
+    before = Times((Explicit(P), by_mass(motion, Explicit(P))))
+    assert not algebra.holds(Relation((before, by_mass(motion, Explicit(P**2)))))
+
+
+MASS = by_mass(arbitrary(), Explicit(sp.Integer(1)))
+
+
+@pytest.mark.parametrize(
+    ("formula", "said"),
+    [
+        pytest.param(Times((MASS, MASS)), "a product of integrals", id="product"),
+        pytest.param(Dot(MASS, MASS), "a product of integrals", id="scalar product"),
+        pytest.param(Ratio(MASS, MASS), "a product of integrals", id="ratio"),
+        pytest.param(by_mass(arbitrary(), MASS), "an integral of integrals", id="double integral"),
+    ],
+)
+def test_integrals_are_carried_out_one_at_a_time(formula: Formula, said: str) -> None:
+    with pytest.raises(TypeError, match=f"^{said} is no part of a general proof$"):
+        GeneralAlgebra().carried_out(formula)
 
 
 def test_rate_of_an_undefined_function_is_the_chain_rule() -> None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..language.memory import kept
 from ..language.spelling import spell_rate
 from .calculus import column
 from .formula import Bounds, Formula, Value
@@ -72,11 +73,13 @@ class AbstractMotion:
         return column(self.make(f"r{k}", (P, T, *_coordinates())) for k in range(1, COMPONENTS + 1))
 
     @property
+    @kept
     def velocity(self) -> sp.ImmutableMatrix:
         """v = dr/dt"""
         return total_rate(self.position)
 
     @property
+    @kept
     def acceleration(self) -> sp.ImmutableMatrix:
         """a = dv/dt"""
         return total_rate(self.velocity)

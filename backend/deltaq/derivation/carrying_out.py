@@ -1,13 +1,16 @@
 """Carrying a formula out with computer algebra on undefined functions: derivatives taken, sums and integrals formed.
 
-Two formulas are equal in general if what is left has the same normal form: products multiplied out, each integral split
-into its terms with everything constant in front.
+Two formulas are equal in general if what is left has the same normal form: products multiplied out. An integral stands
+there as its integrand, in a material coordinate of its own, times a mark: the integral is linear and the body does not
+depend on t and qᵢ, so whatever the proof does with an integral is done with the integrand. SymPy
+would differentiate integrals of its own many times slower.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import reduce
 
 import sympy as sp
 
@@ -18,6 +21,8 @@ from .function_formula import AtTime, Called, Directional, Each, FunctionFormula
 from .step import Relation
 
 AT = " at "  # in the symbol of a function's value at an instant
+INSIDE = " inside"  # in the symbol of a coordinate that is integrated over
+MARK = "integral over "
 Values = tuple[sp.Expr, ...]
 
 
@@ -45,7 +50,8 @@ class GeneralAlgebra:
             case f.Times(factors):
                 return _product([self.carried_out(factor) for factor in factors])
             case f.Dot(left, right):
-                return (sp.Add(*(a * b for a, b in zip(self.carried_out(left), self.carried_out(right), strict=True))),)
+                pairs = zip(self.carried_out(left), self.carried_out(right), strict=True)
+                return (sp.Add(*(_times(a, b) for a, b in pairs)),)
             case f.Plus(terms):
                 return _sum([tuple(term.sign * v for v in self.carried_out(term.formula)) for term in terms])
             case f.Equation(left, right):
@@ -63,10 +69,9 @@ class GeneralAlgebra:
             case AtTime(of, time):
                 return tuple(_at(value, time) for value in self.carried_out(of))
             case Over(of, _, _, bounds, weight):
-                limits = (bounds.symbol, bounds.lower, bounds.upper)
-                return tuple(sp.Integral(weight * value, limits) for value in self.carried_out(of))
+                return tuple(_integral(weight * value, bounds) for value in self.carried_out(of))
             case Ratio(numerator, denominator):
-                return (self.carried_out(numerator)[0] / self.carried_out(denominator)[0],)
+                return (_times(self.carried_out(numerator)[0], 1 / self.carried_out(denominator)[0]),)
             case Summed(_, terms):
                 return _sum([self.carried_out(term) for term in terms])
             case Each(_, instances):
@@ -75,8 +80,8 @@ class GeneralAlgebra:
 
     @kept
     def normal(self, value: sp.Expr) -> sp.Expr:
-        """Multiplied out, derivatives of sums taken, each integral split into its terms."""
-        return _each_integral(value.expand(), _split).expand()
+        """Multiplied out."""
+        return value.expand()
 
 
 def _directional(value: sp.Expr, along: Mapping[sp.Symbol, sp.Expr], h: sp.Symbol) -> sp.Expr:
@@ -98,24 +103,32 @@ def _at(value: sp.Expr, time: object) -> sp.Expr:
     return value.xreplace({s: sp.Symbol(f"{s.name}{AT}{time}", real=True) for s in value.free_symbols})
 
 
+def _integral(integrand: sp.Expr, bounds: f.Bounds) -> sp.Expr:
+    """∫ integrand: itself, its coordinate renamed so that nobody outside shares it, times the mark of the region."""
+    if _is_marked(integrand):
+        raise TypeError("an integral of integrals is no part of a general proof")
+    inside = sp.Symbol(f"{bounds.symbol}{INSIDE}", real=True)
+    mark = sp.Symbol(f"{MARK}{bounds.symbol} from {bounds.lower} to {bounds.upper}", real=True)
+    return mark * integrand.xreplace({bounds.symbol: inside})
+
+
+def _is_marked(value: sp.Expr) -> bool:
+    return any(s.name.startswith(MARK) for s in value.free_symbols)
+
+
+def _times(left: sp.Expr, right: sp.Expr) -> sp.Expr:
+    """The product; that of two integrals would be read as one of their integrands."""
+    if _is_marked(left) and _is_marked(right):
+        raise TypeError("a product of integrals is no part of a general proof")
+    return left * right
+
+
 def _product(factors: list[Values]) -> Values:
     """Scalars times at most one vector."""
     vector = next((factor for factor in factors if len(factor) > 1), (sp.Integer(1),))
-    scalar = sp.Mul(*(factor[0] for factor in factors if len(factor) == 1))
-    return tuple(scalar * part for part in vector)
+    scalar = reduce(_times, (factor[0] for factor in factors if len(factor) == 1), sp.Integer(1))
+    return tuple(_times(scalar, part) for part in vector)
 
 
 def _sum(terms: list[Values]) -> Values:
     return tuple(sp.Add(*parts) for parts in zip(*terms, strict=True))
-
-
-def _each_integral(value: sp.Expr, function: Callable[[sp.Integral], sp.Expr]) -> sp.Expr:
-    return value.xreplace({integral: function(integral) for integral in value.atoms(sp.Integral)})
-
-
-def _split(integral: sp.Integral) -> sp.Expr:
-    """∫ (a f + b g) = a ∫ f + b ∫ g"""
-    limits = integral.limits[0]
-    terms = sp.Add.make_args(integral.function.expand())
-    pairs = (term.as_independent(limits[0], as_Add=False) for term in terms)
-    return sp.Add(*(constant * sp.Integral(rest, limits) for constant, rest in pairs))
