@@ -53,7 +53,7 @@ function own({ state, t, exercise, download, upload }) {
   const asks = state.assignment?.individual === true && !state.asked.seed;
   const seed = (/** @type {Event} */ event) => void exercise.individual(/** @type {HTMLInputElement} */ (event.target).value.trim());
   return html`<div class="own">
-    <label class="seed"><span>${t("homework.seed")}</span><input type="text" maxlength="64" autocomplete="off" spellcheck="false" .value=${state.asked.seed} placeholder=${t("homework.seed-none")} @change=${seed}></label>
+    <label class="field seed"><span>${t("homework.seed")}</span><input type="text" maxlength="64" autocomplete="off" spellcheck="false" .value=${state.asked.seed} placeholder=${t("homework.seed-none")} @change=${seed}></label>
     <p class="so ${asks ? "asks" : ""}" role="status">${t(asks ? "homework.seed-wanted" : "homework.seed-help")}</p>
     <div class="files-of-work"><button class="quiet framed small" @click=${download}>${t("homework.export")}</button>
       <label class="quiet framed small load"><input class="unseen" type="file" accept=".json,.toml,application/json" @change=${take}>${t("homework.import")}</label></div>
