@@ -263,6 +263,21 @@ def test_a_scene_that_does_not_exist_is_told_with_the_nearest(name: str) -> None
 
 
 @pytest.mark.parametrize(
+    ("encoding", "code", "told"),
+    [
+        pytest.param("utf-8-sig", 0, "", id="byte order mark"),
+        pytest.param("utf-16", 2, "deltaq: {file} is not in UTF-8; have your editor save it so\n", id="UTF-16"),
+    ],
+)
+def test_a_scene_as_editors_save_it(tmp_path: Path, root: Path, encoding: str, code: int, told: str) -> None:
+    file = tmp_path / "scene.toml"
+    scene = (root / "backend/deltaq/scenes/pendulum.toml").read_text(encoding="utf-8")
+    file.write_text(scene, encoding=encoding)
+    ended = command("derive", str(file))
+    assert (ended.returncode, ended.stderr) == (code, told.format(file=file))
+
+
+@pytest.mark.parametrize(
     ("field", "message"),
     [
         pytest.param("guides=3", "deltaq: /guides: An array is needed here.\n", id="no list"),

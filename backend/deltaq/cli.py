@@ -31,7 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Whoever reads has read enough, as `head` has; what is left to write must not complain either.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return UNREAD
-    except (CommandError, UnicodeDecodeError) as error:
+    except CommandError as error:
         print(f"deltaq: {error}", file=sys.stderr)
     except OSError as error:
         print(f"deltaq: {error.filename}: {error.strerror}" if error.filename else f"deltaq: {error}", file=sys.stderr)

@@ -14,7 +14,7 @@ import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homewor
 import { BLANK, createProgress, draftOf } from "../../frontend/model/homework/progress.js";
 import { assignmentOf, groupOf, pointsOf, referenceIn, sheetOfScene } from "../../frontend/model/homework/sheet.js";
 import { begin } from "../../frontend/model/homework/state.js";
-import { readTable, writeTable } from "../../frontend/model/homework/table.js";
+import { BEYOND, readTable, writeTable } from "../../frontend/model/homework/table.js";
 import { ApiError } from "../../frontend/model/api.js";
 import { createStore } from "../../frontend/model/store.js";
 import { scene, trajectory } from "./fixtures.js";
@@ -145,11 +145,29 @@ test("an assignment travels in an address, and comes from files", async () => {
   assert.equal(await assignmentIn("#a=broken", "", api, "de"), null);
 });
 
-for (const [name, text] of /** @type {const} */ ([["commas", 'Task,Answer\nequation:phi,"a, ""b"""\n'], ["semicolons", 'task;answer\r\nequation:phi;"a, ""b"""\r\n'], ["tabs", '\ufefftask\tanswer\nequation:phi\t"a, ""b"""\n\n']]))
-  test(`a table by ${name}`, () => assert.deepEqual(readTable(text), [{ task: "equation:phi", answer: 'a, "b"' }]));
+const encoder = new TextEncoder();
+const WINDOWS = Uint8Array.from("task;answer\r\nequation:phi;\xfc\r\n", (letter) => letter.charCodeAt(0));
+const UTF16 = new Uint8Array(Uint16Array.from("\ufefftask\tanswer\nequation:phi\tü\n", (letter) => letter.charCodeAt(0)).buffer);
 
-test("a table is written so that no cell is a formula of a spreadsheet", () => {
-  assert.equal(writeTable(["a", "b"], [{ a: "=1", b: 2 }, { a: 'x, "y"', b: null }]), 'a,b\n\'=1,2\n"x, ""y""",\n');
+for (const [name, data, separator, marked] of /** @type {const} */ ([
+  ["commas", 'Task,Answer\nequation:phi,"ü"\n', ",", false], ["semicolons", "task;answer\r\nequation:phi;ü\r\n", ";", false], ["tabs", "\ufefftask\tanswer\nequation:phi\tü\n\n", "\t", true],
+  ["a separator told", "sep=;\r\ntask;answer\r\nequation:phi;ü\r\n", ";", false], ["empty rows", "task;answer\r;;;\requation:phi;ü;;\r", ";", false],
+  ["Windows-1252", WINDOWS, ";", true], ["UTF-16", UTF16, "\t", true],
+]))
+  test(`a table with ${name}`, () => {
+    const table = readTable(typeof data === "string" ? encoder.encode(data) : data);
+    assert.deepEqual(table, { header: ["task", "answer"], rows: [{ task: "equation:phi", answer: "ü" }], style: { separator, marked } });
+  });
+
+test("cells in quotes, cells too few and too many", () => {
+  const { rows } = readTable(encoder.encode('task,answer\n1,"a, ""b""\nc"\n2\n3,m,x,y\n'));
+  assert.deepEqual(rows, [{ task: "1", answer: 'a, "b"\nc' }, { task: "2", answer: "" }, { task: "3", answer: "m", [BEYOND]: "x y" }]);
+});
+
+test("a table is written so that no cell is a formula of a spreadsheet, and as the other was", () => {
+  const rows = [{ a: "=1", b: 2.5 }, { a: 'x, "y"', b: null }, { a: "p;q", b: -1 }];
+  assert.equal(writeTable(["a", "b"], rows), 'a,b\n\'=1,2.5\n"x, ""y""",\np;q,-1\n');
+  assert.equal(writeTable(["a", "b"], rows, { separator: ";", marked: true }), '\ufeffa;b\n\'=1;2,5\n"x, ""y""";\n"p;q";-1\n');
 });
 
 test("both motions stand in one frame, and part at a time", () => {
@@ -277,14 +295,16 @@ test("a class: one bad answer, an unknown task or scene spoils no other", async 
   const sent = /** @type {any[]} */ ([]);
   const state = /** @type {any} */ ({ asked: { place: { lang: "en" } }, assignment: null, sheet: null, entry: null });
   const session = createClassroom({ api: /** @type {any} */ ({ post: serverOf(sent) }), state: () => state, say: (key) => key, questions: async () => null });
-  await session.grade("class.csv", "student,scene,task,answer\na,pendulum,lagrangian,1\nb,pendulum,lagrangian,bad\nc,pendulum,other,1\nd,nowhere,lagrangian,1\n");
+  await session.grade("class.csv", encoder.encode("student,scene,task,answer\na,pendulum,lagrangian,1\nb,pendulum,lagrangian,bad\nc,pendulum,other,1\nd,nowhere,lagrangian,1\ne,pendulum,lagrangian,9{,}81\n"));
   const { results, done, running } = session.get();
   assert.deepEqual(results.map(({ outcome, points, of, feedback }) => [outcome, points, of, feedback]), [
-    ["correct", 2, 2, "Not right yet."], ["invalid", 0, 2, "refused"], ["invalid", 0, 0, "homework.class-unknown"], ["invalid", 0, 0, "refused"],
+    ["correct", 2, 2, "Not right yet."], ["invalid", 0, 2, "refused"], ["invalid", 0, 0, "homework.class-unknown"], ["invalid", 0, 0, "refused"], ["invalid", 0, 0, "homework.class-cells"],
   ]);
-  assert.deepEqual([done, running], [4, false]);
-  await session.grade("other.csv", "a,b\n1,2\n");
-  assert.deepEqual([session.get().column, session.get().results.length], ["task", 0]);
+  assert.deepEqual([done, running], [5, false]);
+  for (const [text, notice, column] of [["a,b\n1,2\n", "homework.class-column", "task"], ["task,answer\n", "homework.class-empty", ""]]) {
+    await session.grade("other.csv", encoder.encode(text));
+    assert.deepEqual([session.get().notice, session.get().column, session.get().results.length], [notice, column, 0]);
+  }
 });
 
 test("a busy server is asked again, any other failure is not", async () => {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from deltaq.homework.command import check_file
 from deltaq.homework.grading import grade, read_answers
 from deltaq.homework.results import Graded, results_csv, summary
 from deltaq.homework.slips import KINDS
+from deltaq.homework.table import Row
 from deltaq.narration.catalog import keys, text
 
 TABLE = """student;scene;task;answer;syntax
@@ -24,13 +26,17 @@ zoe;pendulum;lagrange;1;
 """
 
 
+def rows_of(content: str) -> Sequence[Row]:
+    return read_answers(content.encode()).rows
+
+
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True
 
 
 def test_rows_are_graded_and_one_spoils_no_other() -> None:
-    graded = list(grade(read_answers(TABLE), None, "en"))
+    graded = list(grade(rows_of(TABLE), None, "en"))
     assert [each.outcome for each in graded] == ["correct", "wrong", "correct", "invalid"]
     assert [each.misconception for each in graded] == ["", "half-in-kinetic-energy", "", ""]
     assert [(each.points, each.of) for each in graded[:2]] == [(2.0, 2.0), (0.0, 2.0)]
@@ -38,7 +44,7 @@ def test_rows_are_graded_and_one_spoils_no_other() -> None:
 
 
 def test_summary_counts_misconceptions_by_task() -> None:
-    told = summary(grade(read_answers(TABLE), None, "en"), "en")
+    told = summary(grade(rows_of(TABLE), None, "en"), "en")
     assert "pendulum  kinetic-energy: 2/3 right" in told
     title = text("en", "homework.misconceptions.half-in-kinetic-energy.title")
     assert any(line.strip().startswith(f"{title}  █") for line in told.splitlines())
@@ -48,26 +54,51 @@ def test_summary_counts_misconceptions_by_task() -> None:
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_every_mistake_has_a_name_in_the_summary(language: str) -> None:
     kinds = [*keys(language, "homework.misconceptions"), *(f"slip:{kind}" for kind in KINDS), ""]
-    rows = [Graded("", "pendulum", "t", "wrong", kind, 0.0, 1.0, "", "") for kind in kinds]
+    rows = [Graded("", "pendulum", "t", "wrong", kind, 0.0, 1.0, "", "", "") for kind in kinds]
     assert len(summary(rows, language).splitlines()) == 1 + len(kinds)
 
 
-@pytest.mark.parametrize("separator", [",", ";", "\t"])
-def test_separators_of_spreadsheets(separator: str) -> None:
-    content = separator.join(("Task", "Answer")) + "\n" + separator.join(("kinetic-energy", "m")) + "\n"
-    assert read_answers(content) == [{"task": "kinetic-energy", "answer": "m"}]
-
-
 def test_results_hold_no_formulas_of_spreadsheets() -> None:
-    content = "student,scene,task,answer\n=HYPERLINK(1),pendulum,kinetic-energy,m\n"
-    assert "\n'=HYPERLINK(1)," in results_csv(grade(read_answers(content), None, "en"))
+    content = "student,scene,task,answer\n=HYPERLINK(1),pendulum,kinetic-energy,+m\n"
+    (_, row) = results_csv(grade(rows_of(content), None, "en")).decode().splitlines()
+    assert row.startswith("'=HYPERLINK(1),")
+    assert row.endswith(",'+m")
 
 
-@pytest.mark.parametrize("content", ["", "a,b\n1,2\n", "task\nx\n"])
-def test_table_without_its_columns(content: str) -> None:
+def test_results_are_written_as_the_answers_were(tmp_path: Path) -> None:
+    """A spreadsheet set to German: semicolons, commas in numbers, and umlauts in an encoding of its own."""
+    answers, results = tmp_path / "answers.csv", tmp_path / "results.csv"
+    header, row = "student;scene;task;answer", "Jürgen;pendulum;kinetic-energy;m*l^2*dot(phi)^2/2"
+    answers.write_bytes(f"{header}\r\n{row}\r\n;;;\r\n".encode("cp1252"))
+    check_file(answers, results, language="de")
+    mark, (_, row) = results.read_bytes()[:3], results.read_text(encoding="utf-8-sig").splitlines()
+    assert mark == b"\xef\xbb\xbf"
+    formula = r"\frac{1}{2} m \ell^{2} \dot{\varphi}^{2}"
+    assert row == f"Jürgen;pendulum;kinetic-energy;correct;;2;2;{formula};Richtig.;m*l^2*dot(phi)^2/2"
+
+
+def test_a_cell_too_many_is_told() -> None:
+    """A comma inside an answer without quotes: half of the answer must not be graded for the whole."""
+    content = "scene,task,answer,syntax\npendulum,kinetic-energy,9{,}81 m,latex\n"
+    (graded,) = grade(rows_of(content), None, "en")
+    told = "This row has more cells than the header: “latex” belongs to no column."
+    assert (graded.outcome, graded.answer) == ("invalid", "9{")
+    assert graded.feedback == f"{told} An answer that contains a separator must stand in quotes."
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [
+        pytest.param("", "answers-column", id="nothing"),
+        pytest.param("a,b\n1,2\n", "answers-column", id="other columns"),
+        pytest.param("task\nx\n", "answers-column", id="no answers"),
+        pytest.param("task,answer\n,\n", "answers-none", id="no rows"),
+    ],
+)
+def test_table_without_its_columns(content: str, code: str) -> None:
     with pytest.raises(InputError) as caught:
-        read_answers(content)
-    assert [problem.code for problem in caught.value.problems] == ["answers-column"]
+        read_answers(content.encode())
+    assert [problem.code for problem in caught.value.problems] == [code]
 
 
 def test_command_writes_results_and_shows_progress(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -110,7 +141,7 @@ task = "kinetic-energy"
 
 def test_assignment_names_tasks_by_number_and_counts_their_points(tmp_path: Path) -> None:
     path = tmp_path / "sheet.toml"
-    path.write_text(SHEET, encoding="utf-8")
+    path.write_text(SHEET, encoding="utf-8-sig")
     sheet = load_assignment(path)
     rows = [{"student": "ada", "task": "1", "answer": "ddot(phi) = -g/l*sin(phi)"}, {"task": "3", "answer": "1"}]
     graded = list(grade(rows, sheet, "en"))
@@ -152,9 +183,10 @@ def test_wrong_assignment(document: object, problems: list[tuple[str, str]]) -> 
     assert [(problem.pointer, problem.code) for problem in caught.value.problems] == problems
 
 
-def test_assignment_that_is_no_toml(tmp_path: Path) -> None:
+@pytest.mark.parametrize("content", [b"tasks = [", '# "Blätter"'.encode("cp1252")], ids=["syntax", "encoding"])
+def test_assignment_that_is_no_toml(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "sheet.toml"
-    path.write_text("tasks = [", encoding="utf-8")
+    path.write_bytes(content)
     with pytest.raises(InputError) as caught:
         load_assignment(path)
     assert [problem.code for problem in caught.value.problems] == ["assignment-syntax"]
@@ -178,7 +210,7 @@ TWO_TASKS = {
 
 
 def test_rows_of_a_student_are_a_working_in_the_order_of_their_lines() -> None:
-    graded = list(grade(read_answers(WORKING), read_assignment(TWO_TASKS), "en"))
+    graded = list(grade(rows_of(WORKING), read_assignment(TWO_TASKS), "en"))
     assert [(each.student, each.outcome, each.points) for each in graded] == [
         ("ada", "follow_through", 1.0),
         ("emmy", "wrong", 0.0),
@@ -189,6 +221,6 @@ def test_rows_of_a_student_are_a_working_in_the_order_of_their_lines() -> None:
 
 
 def test_without_the_column_every_row_stands_alone() -> None:
-    rows = [{key: value for key, value in row.items() if key != "line"} for row in read_answers(WORKING)]
+    rows = [{key: value for key, value in row.items() if key != "line"} for row in rows_of(WORKING)]
     outcomes = [each.outcome for each in grade(rows, read_assignment(TWO_TASKS), "en")]
     assert outcomes == ["wrong", "wrong", "wrong", "wrong", "invalid"]

@@ -8,6 +8,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from ..errors import CommandError
+
 
 def scene_argument(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", help="id of a built-in scene, or a TOML file")
@@ -54,7 +56,10 @@ def scene_of(given: str) -> object:
         return given
     from ..mechanics.toml import read_toml
 
-    return read_toml(Path(given).read_text(encoding="utf-8"))
+    try:
+        return read_toml(Path(given).read_text(encoding="utf-8-sig"))
+    except UnicodeDecodeError:
+        raise CommandError(f"{given} is not in UTF-8; have your editor save it so") from None
 
 
 def write(text: str, output: Path | None) -> None:

@@ -7,7 +7,9 @@ from pathlib import Path
 
 HELP = "check a table of answers"
 DESCRIPTION = """Checks the answers of a CSV table with the columns task and answer, and student, scene, syntax (plain
-or latex) and seed where wanted; writes the verdicts, and tells which mistakes were made how often."""
+or latex), seed and line where wanted; writes the verdicts, and tells which mistakes were made how often. With a column
+line the rows of a student on a scene are a working. The table may be written as spreadsheets do: with commas,
+semicolons or tabs, in UTF-8, UTF-16 or Windows-1252; the verdicts are then, too."""
 
 
 EXAMPLE = "deltaq check answers.csv --assignment sheet.toml --output verdicts.csv"

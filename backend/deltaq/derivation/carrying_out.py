@@ -2,8 +2,8 @@
 
 Two formulas are equal in general if what is left has the same normal form: products multiplied out. An integral stands
 there as its integrand, in a material coordinate of its own, times a mark: the integral is linear and the body does not
-depend on t and qᵢ, so whatever the proof does with an integral is done with the integrand. SymPy
-would differentiate integrals of its own many times slower.
+depend on t and qᵢ, so whatever the proof does with an integral is done with the integrand. SymPy would differentiate
+integrals of its own many times slower.
 """
 
 from __future__ import annotations

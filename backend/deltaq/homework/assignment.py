@@ -59,8 +59,9 @@ class Assignment:
 
 def load_assignment(path: Path) -> Assignment:
     """The assignment of a TOML or JSON file. Raises InputError that points at what is wrong."""
-    text = path.read_text(encoding="utf-8")
+    content = path.read_bytes()
     try:
+        text = content.decode("utf-8-sig")
         document = json.loads(text) if path.suffix == ".json" else tomllib.loads(text)
     except ValueError as error:
         raise RequestError(Problem("assignment-syntax", parameters={"detail": str(error)[:200]})) from None

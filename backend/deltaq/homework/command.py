@@ -21,9 +21,9 @@ def check_file(
 ) -> str:
     """Grade the answers of a CSV into `output`; the text is the summary. Raises InputError for a wrong table."""
     known = load_assignment(assignment) if assignment else None
-    rows = read_answers(answers.read_text(encoding="utf-8-sig"))
-    graded = list(_with_progress(grade(rows, known, language), len(rows), screen))
-    output.write_text(results_csv(graded), encoding="utf-8")
+    table = read_answers(answers.read_bytes())
+    graded = list(_with_progress(grade(table.rows, known, language), len(table.rows), screen))
+    output.write_bytes(results_csv(graded, table.style))
     return summary(graded, language)
 
 

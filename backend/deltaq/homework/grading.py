@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast
@@ -14,6 +12,7 @@ from ..narration.catalog import message
 from .assignment import AssignedTask, Assignment
 from .feedback import verdict_document
 from .results import Graded
+from .table import BEYOND, Table, read_table
 from .verdict import Verdict
 from .workbook import Workbook, workbook_of
 from .working import Line, Marked, Scheme, mark
@@ -22,16 +21,15 @@ NEEDED = ("task", "answer")
 SYNTAXES: Mapping[str, Syntax] = {"": "plain", "plain": "plain", "latex": "latex"}
 
 
-def read_answers(content: str) -> list[dict[str, str]]:
-    """The rows of a CSV with a header: `task`, `answer`; where wanted `student`, `scene`, `syntax`, `seed`, `line`."""
-    first = content.splitlines()[0] if content.strip() else ""
-    separator = max(",;\t", key=first.count)
-    reader = csv.DictReader(io.StringIO(content), delimiter=separator)
-    header = [name.strip().lower() for name in reader.fieldnames or ()]
-    missing = [name for name in NEEDED if name not in header]
+def read_answers(data: bytes) -> Table:
+    """The table of a file: `task`, `answer`; where wanted `student`, `scene`, `syntax`, `seed`, `line`."""
+    table = read_table(data)
+    missing = [name for name in NEEDED if name not in table.header]
     if missing:
-        raise RequestError(Problem("answers-column", parameters={"name": missing[0], "known": ", ".join(header)}))
-    return [dict(zip(header, (str(v or "") for v in row.values()), strict=False)) for row in reader]
+        raise RequestError(Problem("answers-column", parameters={"name": missing[0], "known": ", ".join(table.header)}))
+    if not table.rows:
+        raise RequestError(Problem("answers-none"))
+    return table
 
 
 def grade(rows: Iterable[Mapping[str, str]], assignment: Assignment | None, language: str) -> Iterator[Graded]:
@@ -73,10 +71,13 @@ def _attempted(row: Mapping[str, str], assignment: Assignment | None, language: 
     try:
         return _posed(row, assignment)
     except InputError as error:
-        return _refused(row.get("student", ""), row.get("scene", ""), row["task"], error, language)
+        of = (row.get("student", ""), row.get("scene", ""), row["task"])
+        return _refused(of, row["answer"], error, language)
 
 
 def _posed(row: Mapping[str, str], assignment: Assignment | None) -> Posed:
+    if BEYOND in row:
+        raise RequestError(Problem("answers-cells", parameters={"beyond": row[BEYOND][:40]}))
     student, number, seed = row.get("student", ""), row["task"].strip(), row.get("seed") or None
     if assignment is None:
         return Posed(student, {"scene": row.get("scene", "").strip()}, seed, Line(number, row["answer"], _syntax(row)))
@@ -99,9 +100,10 @@ def _number(row: Mapping[str, str]) -> float:
         return 0.0
 
 
-def _refused(student: str, scene: str, task: str, error: InputError, language: str) -> Graded:
+def _refused(of: tuple[str, str, str], answer: str, error: InputError, language: str) -> Graded:
+    """What cannot be checked: `of` says by whom, of which scene, which task."""
     told = " ".join(message(language, problem) for problem in error.problems)
-    return Graded(student, scene, task, "invalid", "", 0.0, 0.0, "", told)
+    return Graded(*of, "invalid", "", 0.0, 0.0, "", told, answer)
 
 
 def _marked(questions: Sequence[Posed], share: float, language: str) -> list[Graded]:
@@ -117,7 +119,7 @@ def _marked(questions: Sequence[Posed], share: float, language: str) -> list[Gra
     scheme = Scheme({each.line.task: each.points for each in known if each.points is not None}, share)
     marks = iter(mark(workbook, [each.line for each in known], scheme) if known else ())
     return [
-        _refused(each.student, str(each.scene["scene"]), each.line.task, errors[each.line], language)
+        _refused((each.student, str(each.scene["scene"]), each.line.task), each.line.text, errors[each.line], language)
         if each.line in errors
         else _graded(each, workbook, next(marks), language)
         for each in questions
@@ -128,7 +130,7 @@ def _graded(posed: Posed, workbook: Workbook, marked: Marked, language: str) -> 
     verdict = marked.verdict
     told = verdict_document(verdict, workbook.scene, language)
     found = (verdict.outcome, _mistake(verdict), marked.points, marked.of, verdict.understood_as, str(told["feedback"]))
-    return Graded(posed.student, workbook.scene.id, posed.line.task, *found)
+    return Graded(posed.student, workbook.scene.id, posed.line.task, *found, posed.line.text)
 
 
 def _assigned(assignment: Assignment, number: str) -> AssignedTask:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..narration.catalog import text
+from .table import Style
 
-RESULT = ("student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback")
+RESULT = ("student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback", "answer")
 BAR = 30
+PLAIN = Style()
 
 
 @dataclass(frozen=True)
@@ -27,22 +27,15 @@ class Graded:
     of: float
     understood_as: str
     feedback: str
+    answer: str
 
     def row(self) -> list[object]:
         return [getattr(self, name) for name in RESULT]
 
 
-def results_csv(graded: Iterable[Graded]) -> str:
-    """The results as CSV. A cell that a spreadsheet would take for a formula is quoted."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(RESULT)
-    writer.writerows([_harmless(cell) for cell in each.row()] for each in graded)
-    return out.getvalue()
-
-
-def _harmless(cell: object) -> object:
-    return f"'{cell}" if isinstance(cell, str) and cell[:1] in ("=", "+", "-", "@", "\t", "\r") else cell
+def results_csv(graded: Iterable[Graded], style: Style = PLAIN) -> bytes:
+    """The results as a file of CSV."""
+    return style.written(RESULT, (each.row() for each in graded))
 
 
 def summary(graded: Iterable[Graded], language: str) -> str:

@@ -2,18 +2,18 @@
 
 import { ApiError } from "../api.js";
 import { createStore } from "../store.js";
-import { checksOf, earned, missingColumn, mistakeOf, onceEach, targetOf } from "./grading.js";
-import { readTable } from "./table.js";
+import { checksOf, earned, lackOf, mistakeOf, onceEach, targetOf } from "./grading.js";
+import { BEYOND, PLAIN, readTable } from "./table.js";
 
 /** @typedef {import("./grading.js").Result} Result */
 /** @typedef {import("./grading.js").Target} Target */
 /** @typedef {import("./progress.js").Verdict} Verdict */
-/** @typedef {{name: string, total: number, done: number, running: boolean, notice: string, column: string, results: Result[]}} Class */
+/** @typedef {{name: string, total: number, done: number, running: boolean, notice: string, column: string, style: import("./table.js").Style, results: Result[]}} Class */
 
 const AT_ONCE = 12;
 
 /** @type {Class} */
-const EMPTY = { name: "", total: 0, done: 0, running: false, notice: "", column: "", results: [] };
+const EMPTY = { name: "", total: 0, done: 0, running: false, notice: "", column: "", style: PLAIN, results: [] };
 
 /** @param {{api: Pick<import("./state.js").Api, "post">, state: () => Pick<import("./state.js").State, "asked" | "assignment" | "sheet" | "entry">, say: (key: string) => string, questions: (reference: object) => Promise<string | null>}} around  `say` finds a sentence, `questions` makes a file for STACK */
 export function createClassroom({ api, state, say, questions }) {
@@ -41,15 +41,16 @@ export function createClassroom({ api, state, say, questions }) {
     }
   }
 
-  /** @param {string} name @param {string} text */
-  async function grade(name, text) {
+  /** @param {string} name @param {Uint8Array} bytes */
+  async function grade(name, bytes) {
     const mine = (turn += 1);
-    const rows = readTable(text);
-    const column = missingColumn(rows);
-    set({ ...EMPTY, name, total: rows.length, column, notice: column ? "homework.class-column" : "", running: !column });
-    if (column) return;
+    const table = readTable(bytes);
+    const { rows, style } = table;
+    const { column, notice } = lackOf(table);
+    set({ ...EMPTY, name, total: rows.length, column, notice, style, running: !notice });
+    if (notice) return;
     const { assignment, sheet, entry } = state();
-    const targets = rows.map((row) => targetOf(row, assignment, String(entry?.reference.scene ?? "")));
+    const targets = rows.map((row) => (BEYOND in row ? null : targetOf(row, assignment, String(entry?.reference.scene ?? ""))));
     const known = await tasksOf(targets);
     const checks = checksOf(rows, targets.map((target) => (target && taskOf(target, known) ? target : null)));
     const share = sheet?.followThrough ?? 0.5;
@@ -60,7 +61,7 @@ export function createClassroom({ api, state, say, questions }) {
       const some = indices.filter((i) => checks[i]);
       const found = await verdicts(some.map((i) => /** @type {object} */ (checks[i])));
       if (mine !== turn) return;
-      all.push(...indices.map((i) => resultOf(rows[i], targets[i], some.includes(i) ? found[some.indexOf(i)] : say("homework.class-unknown"), known, share)));
+      all.push(...indices.map((i) => resultOf(rows[i], targets[i], some.includes(i) ? found[some.indexOf(i)] : say(BEYOND in rows[i] ? "homework.class-cells" : "homework.class-unknown"), known, share)));
       set({ results: onceEach(all), done: all.length });
     }
     if (mine === turn) set({ running: false });

@@ -22,14 +22,17 @@ import { referenceIn } from "./sheet.js";
  * @property {string} answer
  */
 
-export const COLUMNS = ["student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback"];
+export const COLUMNS = ["student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback", "answer"];
 const NEEDED = ["task", "answer"];
 export const SLIPS = ["sign", "missing", "half", "double"];
 const MOST_LINES = 24;
 const CARRIED = 64;
 
-/** The column that is missing, or "". @param {readonly Row[]} rows */
-export const missingColumn = (rows) => NEEDED.find((name) => !rows.length || !(name in rows[0])) ?? "";
+/** What keeps a table from being graded, the key of a sentence and a column's name. @param {import("./table.js").Table} table */
+export function lackOf({ header, rows }) {
+  const column = NEEDED.find((name) => !header.includes(name)) ?? "";
+  return { column, notice: column ? "homework.class-column" : rows.length ? "" : "homework.class-empty" };
+}
 
 /**
  * Which task a row answers: by its number or id in the assignment, else by scene and id.
@@ -46,7 +49,7 @@ export function targetOf(row, assignment, scene) {
 }
 
 /** @param {Row} row */
-const answerOf = ({ answer, syntax }) => ({ syntax: syntax?.trim().toLowerCase() === "latex" ? "latex" : "plain", value: answer });
+const answerOf = ({ answer, syntax }) => ({ syntax: syntax?.trim().toLowerCase() || "plain", value: answer });
 
 /** The order of a row within a working: the column `line`, if there is one. @param {Row} row */
 const lineOf = ({ line }) => Number(line) || 0;

@@ -21,7 +21,7 @@ export function classroom(view, session) {
   const take = async (/** @type {Event} */ event) => {
     const input = /** @type {HTMLInputElement} */ (event.target);
     const [file] = input.files ?? [];
-    if (file) await session.grade(file.name, await file.text());
+    if (file) await session.grade(file.name, new Uint8Array(await file.arrayBuffer()));
     input.value = "";
   };
   return html`<section class="classroom" aria-label=${t("homework.side-class")}>
@@ -54,8 +54,8 @@ function preparing({ state, t }, session) {
 /** @param {HomeworkView} view @param {Classroom} session */
 function outcome(view, session) {
   const { t } = view;
-  const { results, name } = session.get();
-  const save = () => offer(name.replace(/\.\w+$/, "") + "-results.csv", writeTable(COLUMNS, results), "text/csv");
+  const { results, name, style } = session.get();
+  const save = () => offer(name.replace(/\.\w+$/, "") + "-results.csv", writeTable(COLUMNS, results, style), "text/csv");
   return html`
     <p class="acts"><button type="button" class="main" @click=${save}>${t("homework.class-save")}</button></p>
     <div class="key-of-outcomes">${OUTCOMES.map((one) => html`<span class="key" data-outcome=${one}><i></i>${t(`homework.status-${one}`)}</span>`)}</div>

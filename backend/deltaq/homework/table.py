@@ -1,0 +1,95 @@
+"""Tables as spreadsheets write and read them: comma, semicolon or tab between the cells, and several encodings.
+
+Where a semicolon separates the cells, the comma stands in the numbers. A table is written as the one that it answers
+was, so that whoever could open that one can open it. A cell that a spreadsheet would take for a formula is made a text.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+SEPARATORS = ",;\t"
+TOLD = "sep="  # the first line by which spreadsheets tell each other the separator
+BEYOND = "beyond the header"  # the key of cells for which the header has no name
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
+
+Row = dict[str, str]
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a table is written; `marked` says that it begins with a byte order mark, for which spreadsheets look."""
+
+    separator: str = ","
+    marked: bool = False
+
+    def written(self, header: Sequence[str], rows: Iterable[Sequence[object]]) -> bytes:
+        """The table as the bytes of a file."""
+        out = io.StringIO()
+        writer = csv.writer(out, delimiter=self.separator, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows([self._cell(value) for value in row] for row in rows)
+        return (BOM_UTF8 if self.marked else b"") + out.getvalue().encode()
+
+    def _cell(self, value: object) -> str:
+        if isinstance(value, float):
+            return f"{value:g}".replace(".", "," if self.separator == ";" else ".")
+        return f"'{value}" if str(value).startswith(FORMULA) else str(value)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Names of the columns in lower case, the rows that are not empty, and how it was written."""
+
+    header: tuple[str, ...]
+    rows: tuple[Row, ...]
+    style: Style
+
+
+def read_table(data: bytes) -> Table:
+    """The table of a file. Cells for which the header has no name stand under BEYOND."""
+    content = _decoded(data)
+    first, _, rest = content.partition("\n")
+    told = first.strip().strip('"')
+    separator = told[len(TOLD) :] if told.lower().startswith(TOLD) else ""
+    if separator in tuple(SEPARATORS):
+        content = rest
+    else:
+        separator = max(SEPARATORS, key=first.count)
+    names, *lines = [line for line in csv.reader(io.StringIO(content), delimiter=separator) if _is_filled(line)] or [[]]
+    header = tuple(name.strip().lower() for name in names)
+    return Table(header, tuple(_row(header, line) for line in lines), Style(separator, not _is_plain(data)))
+
+
+def _decoded(data: bytes) -> str:
+    """UTF-16 and UTF-8 by their marks, UTF-8 without, else what a spreadsheet in the west of Europe writes."""
+    if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+        text = data.decode("utf-16", errors="replace")
+    else:
+        try:
+            text = data.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = data.decode("cp1252", errors="replace")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _is_plain(data: bytes) -> bool:
+    """UTF-8 without a mark, as programs write it."""
+    try:
+        return not data.decode("utf-8").startswith("\ufeff")
+    except UnicodeDecodeError:
+        return False
+
+
+def _is_filled(line: Sequence[str]) -> bool:
+    return any(cell.strip() for cell in line)
+
+
+def _row(header: Sequence[str], line: Sequence[str]) -> Row:
+    cells = [*line, *[""] * (len(header) - len(line))]
+    beyond = [cell for cell in cells[len(header) :] if cell.strip()]
+    return {**dict(zip(header, cells, strict=False)), **({BEYOND: " ".join(beyond)} if beyond else {})}
