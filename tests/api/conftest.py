@@ -9,7 +9,6 @@ import pytest
 from fastapi import FastAPI
 
 from deltaq.api.app import create_app
-from deltaq.api.service import PRELOAD
 from deltaq.api.workers.worker import start_fork_server
 from deltaq.settings import Settings
 
@@ -22,7 +21,7 @@ def anyio_backend() -> str:
 @pytest.fixture(scope="session", autouse=True)
 def _fork_server() -> None:
     """The one of the service, whichever test is the first to need a worker: only the first decides what it loads."""
-    start_fork_server((PRELOAD,))
+    start_fork_server()
 
 
 @pytest.fixture(scope="session")

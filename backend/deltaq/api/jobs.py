@@ -17,7 +17,7 @@ from ..mechanics.document import examine
 from ..mechanics.toml import read_toml
 from ..narration.catalog import text
 from ..narration.outcome import explained
-from .problems import describe
+from ..narration.problems import described
 
 if TYPE_CHECKING:
     from ..lab.charts.chart import Chart
@@ -49,7 +49,7 @@ def validate(document: Document) -> Document:
     """Whether a scene document can be used, and all its errors and warnings."""
     _, problems = examine(document["scene"])
     valid = not any(problem.severity == "error" for problem in problems)
-    return {"valid": valid, "problems": describe(problems, document["lang"])}
+    return {"valid": valid, "problems": described(problems, document["lang"])}
 
 
 def read_scene_toml(document: Document) -> Document:
@@ -60,7 +60,7 @@ def read_scene_toml(document: Document) -> Document:
 def typeset_all(document: Document) -> Document:
     """What each of several expressions means, or what is wrong with it."""
     answers, problems = import_module("deltaq.narration.expressions").typeset_all(document)
-    told = (describe(one, document["lang"]) for one in problems)
+    told = (described(one, document["lang"]) for one in problems)
     return {"expressions": [{**answer, "problems": list(one)} for answer, one in zip(answers, told, strict=True)]}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 from uuid import uuid4
@@ -16,7 +16,8 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ..errors import DeltaqError, InputError, Problem, UnknownNameError
-from ..narration.catalog import message, text
+from ..narration.catalog import text
+from ..narration.problems import described
 from .languages import Language, language_of
 from .strict_json import JsonError
 from .validation import problems_of
@@ -79,14 +80,14 @@ class Report:
 
     def document(self, language: Language) -> dict[str, Any]:
         """The members of RFC 9457, and `problems` with pointer, offset, length, code and message."""
-        described = describe(self.problems, language)
+        told = described(self.problems, language)
         detail = _text(language, self.type, "detail", **self.parameters)
         return {
             "type": f"/problems/{self.type.name}",
             "title": _text(language, self.type, "title"),
             "status": self.type.status,
-            "detail": detail or " ".join(one["message"] for one in described[:3]),
-            "problems": described,
+            "detail": detail or " ".join(one["message"] for one in told[:3]),
+            "problems": told,
         }
 
     def response(self, language: Language) -> Response:
@@ -96,36 +97,12 @@ class Report:
         return Response(body, self.type.status, headers, MEDIA_TYPE)
 
 
-def describe(problems: Iterable[Problem], language: Language) -> list[dict[str, Any]]:
-    """Problems in words."""
-    return [
-        {
-            "pointer": problem.pointer,
-            "offset": problem.offset,
-            "length": problem.length,
-            "code": problem.code,
-            "severity": problem.severity,
-            "message": _message(problem, language),
-        }
-        for problem in problems
-    ]
-
-
 def _text(language: Language, kind: ProblemType, part: str, **parameters: Any) -> str:
     """Title or detail of a problem type; a type without a detail of its own is described by its problems."""
     try:
         return text(language, f"errors.type.{kind.name}.{part}", **parameters)
     except KeyError:
         return ""
-
-
-def _message(problem: Problem, language: Language) -> str:
-    """The problem in words. A code without a sentence must not turn the client's mistake into ours."""
-    try:
-        return message(language, problem)
-    except KeyError:
-        LOGGER.warning("no sentence for %s in %s", problem.code, language)
-        return problem.code
 
 
 def report_of(error: Exception) -> Report:

@@ -32,7 +32,6 @@ from .workers.pool import Pool
 
 PACKAGE = Path(__file__).parents[1]
 RESERVE = 1  # workers that slow jobs never get
-PRELOAD = "deltaq.api.workers.preload"
 
 
 @dataclass(frozen=True)
@@ -88,8 +87,8 @@ async def _shared(ask: Callable[[], Awaitable[bytes]]) -> bytes:
 def make_service(settings: Settings) -> Service:
     """A service; its workers are not started yet."""
     limits = Limits(settings.worker_memory, settings.jobs_per_worker, settings.start_timeout, settings.queue_patience)
-    pool = Pool(settings.workers, settings.queue_length, limits, (PRELOAD,), RESERVE)
-    laboratory = Pool(settings.experiment_workers, settings.experiment_queue, limits, (PRELOAD,))
+    pool = Pool(settings.workers, settings.queue_length, limits, reserve=RESERVE)
+    laboratory = Pool(settings.experiment_workers, settings.experiment_queue, limits)
     cache = Cache(Memory(settings.cache_size), *stores_of(settings))
     metrics = make_metrics({"requests": pool, "experiments": laboratory}, cache)
     return Service(settings, pool, laboratory, cache, Assets(static_root(settings.static)), metrics, Kernels())

@@ -73,6 +73,9 @@ def _port(text: str) -> int:
 
 
 def _run(listener: socket.socket, settings: Settings) -> None:
+    from ..api.workers.worker import start_fork_server
+
+    start_fork_server()  # first of all: it loads SymPy and the kernels while the web server is loaded here
     import uvicorn
 
     from ..api.app import create_app

@@ -13,7 +13,7 @@ from .outcome import Outcome
 from .problem import Floats, Problem
 from .request import Request
 from .rounding import rounded, significant
-from .stiffness import power
+from .slopes import power
 from .trajectory import Trajectory
 
 Document = dict[str, object]

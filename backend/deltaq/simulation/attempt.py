@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -71,10 +72,17 @@ class Work:
     def pair(self, resolution: float, *, returns_fine: bool) -> Attempt:
         """Two runs compared."""
         how = self.refinement
-        coarse, fine = (self._run(steps) for steps in how.pair(resolution))
+        coarse, fine = self._both(*how.pair(resolution))
         factor = how.factor_of_fine if returns_fine else how.factor_of_coarse
         found = estimate(self.problem, coarse, fine, factor)
         return Attempt(fine if returns_fine else coarse, (coarse, fine), found)
+
+    def _both(self, coarse: Steps, fine: Steps) -> tuple[Run, Run]:
+        """Two runs side by side: kernels hold no lock, so where a processor is free the second costs no time."""
+        with ThreadPoolExecutor(1) as beside:
+            second = beside.submit(self._run, coarse)
+            first = self._run(fine)
+            return second.result(), first
 
     def until(self, tolerance: float) -> list[Attempt]:
         """Pairs of runs, finer and finer, until the error is below the tolerance or refining does not help."""

@@ -14,7 +14,8 @@ import numpy as np
 from .event import Approach, Happening, event_values
 from .problem import Floats, Problem
 from .run import Run
-from .stiffness import NUDGE, accelerations
+from .slopes import accelerations
+from .stiffness import NUDGE
 
 # Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
 NEAR, FAR, SHARE = 160, 20, 0.25
@@ -44,17 +45,17 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     times, states, others = _together(problem, coarse, fine)
     difference = np.abs(others - states)
     scales = _time_scales(problem, times, states)
-    errors = factor * _spread(np.hypot(difference[:, :n], scales * difference[:, n : 2 * n]))
-    sizes = np.abs(states[:, :n])
-    errors = np.maximum(errors, _grain(problem, times, fine)[:, None] * np.maximum(1.0, sizes))
+    together = np.hypot(difference[:, :n], scales * difference[:, n : 2 * n])
+    spread = factor * _spread(np.hstack([together, difference[:, n : 2 * n]]))
+    grain, sizes = _grain(problem, times, fine)[:, None], np.abs(states[:, :n])
+    errors = np.maximum(spread[:, :n], grain * np.maximum(1.0, sizes))
     horizon = _horizon(problem, times, errors, sizes)
     if horizon is not None:
         # Beyond the horizon both runs are wrong, and their difference may shrink by chance.
         late = times >= horizon
         errors[late] = 2.0 * np.maximum.accumulate(errors[late], axis=0)
     worst = float(np.max(errors / np.maximum(1.0, sizes)))
-    rates = factor * _spread(difference[:, n : 2 * n])
-    doubts = np.hstack([errors, np.maximum(rates, _grain(problem, times, fine)[:, None])])
+    doubts = np.hstack([errors, np.maximum(spread[:, n:], grain)])
     of_event = _of_event(problem, coarse, fine, factor, doubts[-1])
     return Estimate(errors.max(axis=1), worst, horizon, of_event, _doubtful(problem, coarse, fine, times, doubts))
 
@@ -137,7 +138,7 @@ def _time_scales(problem: Problem, times: Floats, states: Floats) -> Floats:
 
 def _size(values: Floats) -> Floats:
     """Root mean square of each column."""
-    return np.asarray(np.sqrt(np.nanmean(values**2, axis=0)))
+    return np.asarray(np.sqrt(np.mean(values**2, axis=0)))
 
 
 def _spread(errors: Floats) -> Floats:

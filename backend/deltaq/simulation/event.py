@@ -15,7 +15,7 @@ import numpy as np
 
 from .kernels.watch import Watch
 from .problem import Floats, Problem
-from .stiffness import accelerations
+from .slopes import accelerations
 
 ROUNDS, PARTS = 12, 32  # each round looks at so many parts of what the one before left: 32¹² > 2⁵³
 CLOSER = 6  # rounds for a minimum, each an eighth of the part before; its value is flat

@@ -1,4 +1,4 @@
-"""What a state says of the motion: accelerations, power, and how fast its fastest part is by linearization."""
+"""How fast the fastest part of a motion is, by linearization."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .problem import Floats, Problem
+from .slopes import slopes
 
 NUDGE = 1e-6
-SMALLEST = 1e-14  # eigenvalue of M over its largest, below which M has no inverse
 DEAD = 50.0  # what shrinks by this power of 1/e or more is not worth following
 
 
@@ -49,34 +49,7 @@ def _jacobians(problem: Problem, times: Floats, states: Floats) -> Floats:
     nudges = NUDGE * np.maximum(1.0, np.abs(states))
     steps = nudges[:, :, None] * np.eye(width)
     rows = np.concatenate([states[:, None, :] + steps, states[:, None, :] - steps]).reshape(-1, width)
-    slopes = _slopes(problem, np.tile(np.repeat(times, width), 2), rows).reshape(2, count, width, width)
-    return np.asarray((slopes[0] - slopes[1]).transpose(0, 2, 1) / (2.0 * nudges[:, None, :]))
-
-
-def _slopes(problem: Problem, times: Floats, states: Floats) -> Floats:
-    return np.hstack([states[:, problem.degrees :], accelerations(problem, times, states)])
-
-
-def power(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """P = P₀ + p₁·q̈ of all that is not in E + V: other forces, guides and explicit time dependence."""
-    n = problem.degrees
-    if not problem.model.layout.is_powered or not len(times):
-        return np.zeros(len(times))
-    table = problem.model.motion.table(problem.inputs(times, states))[:, n * (n + 1) // 2 + n :]
-    return np.asarray(table[:, 0] + (table[:, 1:] * accelerations(problem, times, states)).sum(axis=1))
-
-
-def accelerations(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """q̈ at the samples, zero where M cannot be inverted."""
-    n = problem.degrees
-    table = problem.model.motion.table(problem.inputs(times, states))
-    lower = np.tril_indices(n)
-    matrices = np.zeros((len(times), n, n))
-    matrices[:, lower[0], lower[1]] = matrices[:, lower[1], lower[0]] = table[:, : len(lower[0])]
-    forcing = table[:, len(lower[0]) : len(lower[0]) + n]
-    sound = np.flatnonzero(np.isfinite(table).all(axis=1))
-    sizes = np.linalg.eigvalsh(matrices[sound])
-    sound = sound[sizes[:, 0] > SMALLEST * sizes[:, -1]]
-    result = np.zeros((len(times), n))
-    result[sound] = np.linalg.solve(matrices[sound], forcing[sound][..., None])[..., 0]
-    return result
+    ahead, behind = slopes(problem, np.tile(np.repeat(times, width), 2), rows)[:, :width].reshape(
+        2, count, width, width
+    )
+    return np.asarray((ahead - behind).transpose(0, 2, 1) / (2.0 * nudges[:, None, :]))

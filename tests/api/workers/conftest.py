@@ -6,7 +6,6 @@ from contextlib import ExitStack
 
 import pytest
 
-from deltaq.api.service import PRELOAD
 from deltaq.api.workers.lane import Limits
 from deltaq.api.workers.pool import Pool
 
@@ -21,7 +20,7 @@ def make_pool() -> Iterator[MakePool]:
         def make(size: int = 1, queue_length: int = 100, **limits: float) -> Pool:
             chosen = {"memory": 2**31, "jobs": 10_000, "start_timeout": 30.0, "patience": 30.0} | limits
             # A fork server that is started again loads what the last pool wanted.
-            pool = Pool(size, queue_length, Limits(**chosen), (PRELOAD,))
+            pool = Pool(size, queue_length, Limits(**chosen))
             pool.start()
             stack.callback(pool.stop, 0.1)
             while pool.state.ready < size:

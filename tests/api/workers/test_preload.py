@@ -19,7 +19,7 @@ from deltaq.api.workers.lane import Limits
 from deltaq.api.workers.pool import Pool
 
 async def main():
-    pool = Pool(1, 4, Limits(2**31, 10, 60.0, 60.0), ["deltaq.api.workers.preload"])
+    pool = Pool(1, 4, Limits(2**31, 10, 60.0, 60.0))
     pool.start()
     print((await pool.run(Job("tests.api.workers.jobs:birth", 60.0), None)).decode())
     pool.stop()

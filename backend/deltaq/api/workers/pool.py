@@ -14,7 +14,7 @@ from .lane import ANY_PACE, Lane, Limits
 from .message import encode_request
 from .queue import FairQueue
 from .task import Task
-from .worker import Listener, start_fork_server
+from .worker import PRELOAD, Listener, start_fork_server
 
 FAST_ALONE: tuple[Pace, ...] = ("fast",)
 
@@ -39,7 +39,7 @@ class Pool:
     """Runs jobs in `size` worker processes, and fast ones in `reserve` more; at most `queue_length` tasks wait."""
 
     def __init__(
-        self, size: int, queue_length: int, limits: Limits, modules: Sequence[str] = (), reserve: int = 0
+        self, size: int, queue_length: int, limits: Limits, modules: Sequence[str] = (PRELOAD,), reserve: int = 0
     ) -> None:
         self._tasks = FairQueue(queue_length)
         self._limits = limits

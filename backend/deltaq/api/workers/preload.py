@@ -22,6 +22,7 @@ def load() -> None:
     # A worker is one thread; and thread pools do not survive a fork.
     for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
         os.environ[variable] = "1"
+    gc.disable()  # nearly all that is made here stays
     with suppress(Exception):
         import_module("deltaq.api.jobs")
     with suppress(Exception):
@@ -30,8 +31,8 @@ def load() -> None:
         service = import_module("deltaq.simulation.service")
         if are_compiled():  # compiling them here would keep all workers waiting
             service.warm()
-    gc.collect()
     gc.freeze()  # what is there now is shared by all workers; the collector must not touch its pages
+    gc.enable()
 
 
 load()

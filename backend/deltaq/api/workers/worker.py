@@ -17,6 +17,7 @@ from .message import PART
 from .meter import Meter, processor_clock
 from .runner import run
 
+PRELOAD = "deltaq.api.workers.preload"
 _CONTEXT = get_context("forkserver")  # forks from a process of one thread; the web process has many
 _PROCESSES = Lock()  # multiprocessing keeps a list of children that is not made for several threads
 _FORK_SERVER_GONE = 255  # who would have told the exit code; it takes its workers along
@@ -109,10 +110,11 @@ def start_worker(memory: int, timeout: float) -> Worker:
     return worker
 
 
-def start_fork_server(modules: Sequence[str]) -> None:
+def start_fork_server(modules: Sequence[str] = (PRELOAD,)) -> None:
     """The process that workers are forked from; it imports these modules once, so that each worker has them at birth.
 
-    It ends with the thread that started it (see die_with_parent), so that should be the main one.
+    Returns at once, and does nothing if it runs already. It ends with the thread that started it (see
+    die_with_parent), so that should be the main one.
     """
     _CONTEXT.set_forkserver_preload(list(modules))
     forkserver.ensure_running()

@@ -132,4 +132,5 @@ METHOD = Method(
         extra_c=row(EXTRA_C),
     ),
     error_order=8,
+    memory=0.04,
 )
