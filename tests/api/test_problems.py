@@ -84,7 +84,7 @@ RUN = '"scene": "pendulum", "t_end": 1'
             invalid(problem("json-not-finite", FINITE, "/scene/coordinates/0/value")),
             id="number that is infinite",
         ),
-        pytest.param(b"", invalid(problem("missing-field", "The field body is missing.")), id="no body"),
+        pytest.param(b"", invalid(problem("request-not-object", "A JSON object is needed here.")), id="no body"),
         pytest.param(b"[]", invalid(problem("request-not-object", "A JSON object is needed here.")), id="array"),
         pytest.param(
             b"{}",
@@ -158,7 +158,7 @@ RUN = '"scene": "pendulum", "t_end": 1'
         ),
         pytest.param(
             f'{{{RUN}, "lang": "fr"}}'.encode(),
-            invalid(problem("request-not-one-of", "Allowed here: 'de' or 'en'.", "/lang")),
+            invalid(problem("request-not-one-of", "Allowed here: de, en.", "/lang")),
             id="language",
         ),
     ],
@@ -192,9 +192,16 @@ async def test_language(
 
 
 async def test_no_such_address(client: httpx.AsyncClient) -> None:
-    for path in ("/api/v1/nothing", "/nothing", "/api/v1/derivations/0123"):
+    for path in ("/api/v1/nothing", "/nothing"):
         response = await client.get(path)
         assert response.json() == document("not-found", 404, "There is nothing at this address", detail="")
+
+
+async def test_a_derivation_that_is_not_kept_says_how_to_get_it(client: httpx.AsyncClient) -> None:
+    response = await client.get(f"{DERIVATIONS}/0123")
+    told = "There is no derivation of this id, or it is no longer kept. Ask for it by POST /api/v1/derivations."
+    unknown = problem("unknown-derivation", told)
+    assert response.json() == document("unknown-name", 404, "There is nothing of this name", unknown)
 
 
 @pytest.mark.parametrize(
@@ -217,9 +224,24 @@ async def test_wrong_method(client: httpx.AsyncClient, method: str, path: str, a
     )
 
 
-async def test_not_declared_as_json(client: httpx.AsyncClient) -> None:
-    response = await client.post(SIMULATIONS, content=b'{"scene": "pendulum"}', headers={"Content-Type": "text/plain"})
-    assert response.json() == invalid(problem("request-not-object", "A JSON object is needed here."))
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param({}, id="nothing said"),
+        pytest.param({"Content-Type": "application/x-www-form-urlencoded"}, id="as curl does"),
+        pytest.param({"Content-Type": "text/plain"}, id="as a page of another origin may"),
+    ],
+)
+async def test_not_declared_as_json(client: httpx.AsyncClient, kind: dict[str, str]) -> None:
+    response = await client.post(SIMULATIONS, content=b'{"scene": "pendulum"}', headers=kind)
+    told = "Send it with the header content-type: application/json."
+    assert response.json() == document("body-not-called-json", 415, "The body is not called JSON", detail=told)
+
+
+@pytest.mark.parametrize("kind", ["application/json; charset=utf-8", "Application/JSON", "application/vnd.api+json"])
+async def test_declared_as_json(client: httpx.AsyncClient, kind: str) -> None:
+    response = await client.post(DERIVATIONS, content=b'{"scene": "pendulum"}', headers={"Content-Type": kind})
+    assert response.status_code == 200
 
 
 TOO_LARGE = document("body-too-large", 413, "The body is too large", detail="A request may hold 1048576 bytes at most.")

@@ -52,6 +52,12 @@ class StrictRequest(Request):
         return document
 
 
+def _is_json(request: Request) -> bool:
+    """Whether the body is said to be JSON. A page of another origin can say so only if it may call the API."""
+    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    return kind == "application/json" or kind.endswith("+json")
+
+
 class StrictRoute(APIRoute):
     """A route that reads its body by StrictRequest, and works only while the client is there."""
 
@@ -60,7 +66,8 @@ class StrictRoute(APIRoute):
 
         async def handle(request: Request) -> Response:
             strict = StrictRequest(request.scope, request.receive)
-            await strict.body()
+            if await strict.body() and self.body_field is not None and not _is_json(strict):
+                raise HTTPException(415)
             return await while_present(strict, handler(strict))
 
         return handle

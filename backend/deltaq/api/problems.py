@@ -44,6 +44,7 @@ NOT_FOUND = ProblemType("not-found", 404)
 METHOD_NOT_ALLOWED = ProblemType("method-not-allowed", 405)
 BODY_TOO_SLOW = ProblemType("body-too-slow", 408)
 BODY_TOO_LARGE = ProblemType("body-too-large", 413)
+BODY_NOT_CALLED_JSON = ProblemType("body-not-called-json", 415)
 UNKNOWN_HOST = ProblemType("unknown-host", 421)
 HEAD_TOO_LARGE = ProblemType("head-too-large", 431)
 QUOTA_EXCEEDED = ProblemType("quota-exceeded", 429)
@@ -66,7 +67,13 @@ _TYPES: tuple[tuple[type[Exception], ProblemType], ...] = (
     (Exception, INTERNAL_ERROR),
 )
 _TEMPORARY = frozenset({QUOTA_EXCEEDED, OVERLOADED, INTERRUPTED})
-_HTTP_TYPES = {404: NOT_FOUND, 405: METHOD_NOT_ALLOWED, 408: BODY_TOO_SLOW, 413: BODY_TOO_LARGE}
+_HTTP_TYPES = {
+    404: NOT_FOUND,
+    405: METHOD_NOT_ALLOWED,
+    408: BODY_TOO_SLOW,
+    413: BODY_TOO_LARGE,
+    415: BODY_NOT_CALLED_JSON,
+}
 
 
 @dataclass(frozen=True)

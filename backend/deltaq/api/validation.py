@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -39,6 +40,8 @@ _CODES = {
     "request-scene-type": "request-scene-type",
     "request-step-and-tolerance": "request-step-and-tolerance",
 }
+WHOLE = ("body",)  # where a body is missing
+_QUOTED = re.compile(r"'([^']*)'")
 
 
 def checked(question: Mapping[str, object], model: type[BaseModel]) -> dict[str, Any]:
@@ -53,7 +56,8 @@ def checked(question: Mapping[str, object], model: type[BaseModel]) -> dict[str,
 def problems_of(error: RequestValidationError) -> Iterator[Problem]:
     """One problem for each finding."""
     for finding in error.errors():
-        code = _CODES.get(finding["type"], "request-invalid")
+        is_empty = (finding["type"], finding["loc"]) == ("missing", WHOLE)
+        code = "request-not-object" if is_empty else _CODES.get(finding["type"], "request-invalid")
         parameters = {"field": str(finding["loc"][-1])[:64], **_parameters(finding.get("ctx", {}))}
         yield Problem(code, pointer(finding["loc"]), parameters=parameters)
 
@@ -64,4 +68,7 @@ def pointer(location: tuple[int | str, ...]) -> str:
 
 
 def _parameters(context: dict[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in context.items() if isinstance(value, (str, int, float))}
+    """What fills the sentence; of the words that are allowed Pydantic makes an English enumeration."""
+    found = {name: value for name, value in context.items() if isinstance(value, (str, int, float))}
+    words = _QUOTED.findall(str(found.get("expected", "")))
+    return {**found, "expected": ", ".join(words)} if words else found

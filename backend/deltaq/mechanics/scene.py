@@ -69,7 +69,8 @@ class Scene:
     def _guide_problems(self, pointer: str, guide: Guide) -> Iterator[Problem]:
         known = tuple(coordinate.name for coordinate in self.coordinates)
         if guide.coordinate not in known:
-            yield Problem("unknown-coordinate", f"{pointer}/coordinate", parameters={"name": guide.coordinate[:40]})
+            parameters = {"name": guide.coordinate[:40], "known": ", ".join(known)}
+            yield Problem("unknown-coordinate", f"{pointer}/coordinate", parameters=parameters)
         for name in sorted(guide.value.names & set(known)):
             yield Problem("guide-by-coordinate", f"{pointer}/value", parameters={"name": name})
 

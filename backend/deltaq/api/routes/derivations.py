@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Request, Response
-from starlette.exceptions import HTTPException
 
+from ...errors import Problem, UnknownNameError
 from ..body import StrictRoute
 from ..responses import packed
 from ..samples import BY_ID
@@ -40,5 +40,5 @@ async def get_derivation(
     """A derivation that was asked for before. It never changes; one that is no longer kept must be asked for again."""
     answer = await service_of(request).cache.find(identifier)
     if answer is None:
-        raise HTTPException(404)
+        raise UnknownNameError(Problem("unknown-derivation"))
     return packed(request, identifier, answer, f"{PREFIX}/derivations/{identifier}")
