@@ -29,11 +29,41 @@ export function failureOf(status, body) {
   };
 }
 
+const PAUSE = 1000;
+const LONGEST = 8000;
+
+/** @param {number} ms */
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/**
+ * The same call, asked again until it answers: without its texts a page has nothing to say, not even what is wrong.
+ * What the server refuses it will refuse again.
+ * @template {any[]} A @template R
+ * @param {(...given: A) => Promise<R>} call @param {typeof pause} wait @returns {(...given: A) => Promise<R>}
+ */
+function insistent(call, wait) {
+  let answered = false;
+  return async (...given) => {
+    for (let ms = PAUSE; ; ms = Math.min(2 * ms, LONGEST)) {
+      try {
+        const answer = await call(...given);
+        answered = true;
+        return answer;
+      } catch (error) {
+        const status = error instanceof ApiError ? error.failure.status : 400;
+        if (answered || (status >= 400 && status < 500)) throw error;
+        await wait(ms);
+      }
+    }
+  };
+}
+
 /**
  * @param {typeof fetch} send
+ * @param {typeof pause} [wait]
  * @param {string} [base]
  */
-export function createApi(send, base = "/api/v1") {
+export function createApi(send, wait = pause, base = "/api/v1") {
   /** @param {string} path @param {RequestInit} [options] */
   async function call(path, options) {
     const response = await send(base + path, options).catch((error) => {
@@ -60,7 +90,7 @@ export function createApi(send, base = "/api/v1") {
     /** @returns {Promise<{methods: import("./types.js").Method[]}>} */
     methods: () => call("/methods"),
     /** @param {string} lang @param {string[]} sections  besides those of every page @returns {Promise<import("./types.js").Catalog>} */
-    catalog: (lang, ...sections) => call(`/catalogs/${lang}?sections=${["page", ...sections]}`),
+    catalog: insistent((lang, ...sections) => call(`/catalogs/${lang}?sections=${["page", ...sections]}`), wait),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Derivation>} */
     derive: (body, signal) => post("/derivations", body, signal),
     /** @param {object} scene @param {string} lang @param {AbortSignal} [signal] @returns {Promise<{valid: boolean, problems: import("./types.js").Problem[]}>} */

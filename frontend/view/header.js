@@ -22,9 +22,9 @@ export function header(view) {
     <header class="top">
       ${brand(view)}
       ${sceneChooser(view)}
-      ${places(view, "scene", actions(view))}
+      ${places(view, "scene", [...actions(view), penEntry(view), appearance(view)])}
       <div class="tools">
-        ${pen(view)}
+        ${penTool(view)}
         ${language(view)}
         ${appearance(view)}
         <button class="tool" title=${t("tool.share")} aria-label=${t("tool.share")} @click=${() => session.overlay("share")}>${icon("share")}</button>
@@ -72,9 +72,20 @@ export function actions({ session, enterLecture, t }) {
 export function places({ state, t }, here, more = nothing) {
   return html`
     <button class="tool menu" popovertarget="places" title=${t("places")} aria-label=${t("places")}>${icon("menu")}</button>
-    <nav class="places" id="places" popover aria-label=${t("places")}>${PAGES.map((name) => html`
+    <nav class="places" id="places" popover aria-label=${t("places")}>
+      <a class="action home" href=${pageAddress("", state.place)}>${t("place.start")}</a>${PAGES.map((name) => html`
       <a href=${pageAddress(name, state.place)} aria-current=${name === here ? "page" : nothing}>${t(`place.${name}`)}</a>`)}${more}</nav>`;
 }
+
+/**
+ * The heading that says what is chosen, and chooses: written over a select, which cannot break its line.
+ * @param {string} label @param {string} title @param {unknown} select
+ */
+export const titleMenu = (label, title, select) => html`
+  <h1 style=${lettersOf(title)}><label class="choice"><span class="unseen">${label}</span><span class="chosen" aria-hidden="true">${title}</span>${select}${icon("chevron")}</label></h1>`;
+
+/** How large a heading may be set depends on its length. @param {string} title */
+export const lettersOf = (title) => `--letters:${title.length}`;
 
 /** Into the editor with a copy of the scene, or with one's own; and out of it. @param {View} view */
 function pen({ state, session, editor, t }) {
@@ -84,8 +95,19 @@ function pen({ state, session, editor, t }) {
     session.move({ edit: edit ? "" : "form", panel: "derivation" });
     if (!edit) editor?.copy();
   };
-  return html`<button class="tool pen" title=${label} aria-label=${label} aria-pressed=${String(edit !== "")}
-    ?disabled=${!state.scene && scene !== OWN} @click=${press}>${icon("pen")}</button>`;
+  return { label, press, pressed: String(edit !== ""), disabled: !state.scene && scene !== OWN };
+}
+
+/** @param {View} view */
+function penTool(view) {
+  const { label, press, pressed, disabled } = pen(view);
+  return html`<button class="tool pen" title=${label} aria-label=${label} aria-pressed=${pressed} ?disabled=${disabled} @click=${press}>${icon("pen")}</button>`;
+}
+
+/** @param {View} view */
+function penEntry(view) {
+  const { label, press, disabled } = pen(view);
+  return disabled ? nothing : action(label, press);
 }
 
 /** @param {import("../model/types.js").Scene} scene */
@@ -108,17 +130,15 @@ function sceneChooser({ state, session, t }) {
     void session.choose(id);
   };
   const freedoms = shown ? freedomsOf(shown) : entry?.degrees_of_freedom ?? 0;
+  const titleOf = (/** @type {import("../model/types.js").SceneEntry} */ one) => inLanguage((one.id === scene && shown?.title) || one.title, lang);
+  const select = html`
+    <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => leaveFor(chosen(e))}>
+      ${entry ? nothing : html`<option value=${scene} selected>${t("scene.choose")}</option>`}
+      ${entries.map((one) => html`<option value=${one.id} ?selected=${one.id === scene}>${titleOf(one)}</option>`)}
+    </select>`;
   return html`
     <div class="scene">
-      <h1>
-        <label class="choice">
-          <span class="unseen">${t("scene.choose")}</span>
-          <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => leaveFor(chosen(e))}>
-            ${entry ? nothing : html`<option value=${scene} selected>${t("scene.choose")}</option>`}
-            ${entries.map((s) => html`<option value=${s.id} ?selected=${s.id === scene}>${inLanguage((s.id === scene && shown?.title) || s.title, lang)}</option>`)}
-          </select>${icon("chevron")}
-        </label>
-      </h1>
+      ${titleMenu(t("scene.choose"), entry ? titleOf(entry) : t("scene.choose"), select)}
       <p class="summary">${entry ? (freedoms === 1 ? t("scene.freedoms-one") : t("scene.freedoms", { count: freedoms })) : ""}
         ${entry ? html`<span class="more">${inLanguage(state.scene?.summary, lang)}</span>` : nothing}</p>
     </div>

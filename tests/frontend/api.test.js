@@ -47,3 +47,27 @@ test("names in addresses are escaped", async () => {
   await createApi(send).scene("a/b?c", "de");
   assert.deepEqual(asked, ["/api/v1/scenes/a%2Fb%3Fc?lang=de"]);
 });
+
+test("texts are asked for until they come, other things once", async () => {
+  const answers = [new TypeError("failed to fetch"), new Response("<html>", { status: 502 }), new Response('{"page": {}}')];
+  /** @type {number[]} */
+  const waited = [];
+  const send = async () => {
+    const next = /** @type {Error | Response} */ (answers.shift());
+    if (next instanceof Error) throw next;
+    return next;
+  };
+  const api = createApi(send, async (ms) => void waited.push(ms));
+  assert.deepEqual(await api.catalog("de"), { page: {} });
+  assert.deepEqual(waited, [1000, 2000]);
+});
+
+test("texts that are refused are not asked for again, nor those that change what can be read", async () => {
+  const wait = async () => assert.fail("asked again");
+  const refused = createApi(answer(404, "{}"), wait);
+  await assert.rejects(refused.catalog("xx"), (error) => error instanceof ApiError && error.failure.status === 404);
+  const answers = [new Response("{}"), new Response("", { status: 502 })];
+  const api = createApi(async () => /** @type {Response} */ (answers.shift()), wait);
+  await api.catalog("de");
+  await assert.rejects(api.catalog("en"), (error) => error instanceof ApiError && error.failure.status === 502);
+});

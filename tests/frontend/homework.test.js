@@ -4,7 +4,7 @@ import { isComplete, joined, partsOf, placeIn } from "../../frontend/model/homew
 import { createAnswering, isCurrent, partsIn } from "../../frontend/model/homework/answering.js";
 import { assignmentIn, fragmentOfAssignment } from "../../frontend/model/homework/assignment.js";
 import { createConversion } from "../../frontend/model/homework/conversion.js";
-import { keyboardOf, shortcutsOf, written } from "../../frontend/model/homework/keys.js";
+import { columnsFor, inRows, keyboardOf, shortcutsOf, written } from "../../frontend/model/homework/keys.js";
 import { createClassroom } from "../../frontend/model/homework/classroom.js";
 import { checksOf, earned, onceEach, summaryOf, targetOf } from "../../frontend/model/homework/grading.js";
 import { patient } from "../../frontend/model/homework/patience.js";
@@ -337,4 +337,11 @@ test("a task chosen while others' values are fetched stays chosen", async () => 
   respond(answer("ada"));
   await loading;
   assert.deepEqual([store.get().entry?.key, store.get().asked.task], ["swing@ada/equation:phi", "equation:phi"]);
+});
+
+test("no key stands alone in its row", () => {
+  const counts = Array.from({ length: 50 }, (_, i) => i + 2);
+  assert.deepEqual(counts.filter((count) => count % columnsFor(count) === 1), []);
+  assert.deepEqual(counts.filter((count) => inRows(Array(count).fill(0), 8).some((row) => row.length < 2 || row.length > 8)), []);
+  assert.deepEqual(inRows([1, 2, 3, 4, 5], 3), [[1, 2, 3], [4, 5]]);
 });

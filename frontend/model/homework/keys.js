@@ -47,6 +47,16 @@ export function keyboardOf({ symbols, task, scene }) {
   ].filter(({ keys }) => keys.length > 0);
 }
 
+/** How many keys stand in a row of a phone, so that none is alone in the last. @param {number} count */
+export const columnsFor = (count) => [6, 5, 4].find((columns) => count % columns !== 1) ?? 6;
+
+/** In as few rows as will do, all of nearly the same length. @template T @param {T[]} all @param {number} most in a row @returns {T[][]} */
+export function inRows(all, most) {
+  const rows = Math.ceil(all.length / most);
+  const end = (/** @type {number} */ row) => Math.round((all.length * row) / rows);
+  return Array.from({ length: rows }, (_, row) => all.slice(end(row), end(row + 1)));
+}
+
 /** What a key does to a text field. @param {string} text @param {number} start @param {number} end of what is selected @param {string} plain */
 export function written(text, start, end, plain) {
   const [before, after = ""] = plain.split("|");

@@ -3,7 +3,7 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "../formula.js";
-import { written } from "../../model/homework/keys.js";
+import { columnsFor, written } from "../../model/homework/keys.js";
 import { mathField } from "./mathfield.js";
 
 /** @typedef {import("../../model/homework/keys.js").Key} Key */
@@ -60,7 +60,9 @@ export function keyboard(rows, t) {
   const hold = (/** @type {Event} */ event) => event.preventDefault();
   const keys = (/** @type {Key[]} */ some) => some.map((key) => html`
     <button type="button" class="key-cap" title=${key.name} aria-label=${key.name} @pointerdown=${hold} @mousedown=${hold} @click=${(/** @type {Event} */ e) => press(e, key)}>${inline(key.label)}</button>`);
-  return html`<div class="keyboard" role="group" aria-label=${t("homework.keyboard")}>${rows.map(({ id, keys: some }) => id === "greek"
-    ? html`<details class="greek"><summary>${t("homework.greek")}</summary><div class="keys">${keys(some)}</div></details>`
+  const together = rows.filter(({ id }) => id !== "greek").flatMap((row) => row.keys);
+  const columns = (/** @type {Key[]} */ some) => `--columns:${columnsFor(some.length)}`;
+  return html`<div class="keyboard" role="group" aria-label=${t("homework.keyboard")} style=${columns(together)}>${rows.map(({ id, keys: some }) => id === "greek"
+    ? html`<details class="greek" style=${columns(some)}><summary>${t("homework.greek")}</summary><div class="keys">${keys(some)}</div></details>`
     : html`<div class="keys ${id}" role="group" aria-label=${t(`homework.keys-${id}`)}>${keys(some)}</div>`)}</div>`;
 }

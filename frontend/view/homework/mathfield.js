@@ -2,6 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { Directive, directive } from "lit-html/directive.js";
+import { inRows } from "../../model/homework/keys.js";
 
 /** @typedef {{value: string, change: (latex: string) => void, enter: () => void, shortcuts: Record<string, string>}} Wiring */
 
@@ -9,6 +10,7 @@ import { Directive, directive } from "lit-html/directive.js";
 const FONTS = import.meta.resolve("katex-fonts/");
 /** Milliseconds until MathLive's keyboard has come up from below. */
 const RISE = 350;
+const IN_A_ROW = 8;
 const coarse = matchMedia("(pointer: coarse)");
 
 /** False if it cannot be had. */
@@ -29,13 +31,10 @@ export function offerKeys(rows, label) {
   if (!coarse.matches || !window.mathVirtualKeyboard) return;
   const caps = rows.filter(({ id }) => id !== "greek").flatMap(({ keys }) => keys.map((key) => ({ latex: key.label, insert: key.latex, tooltip: key.name })));
   const digits = [..."1234567890"].map((digit) => ({ label: digit, key: digit }));
-  const layout = { label, rows: [...inRows(caps), digits, ["[left]", "[right]", ",", ";", "[backspace]", "[return]"]] };
+  const layout = { label, rows: [...inRows(caps, IN_A_ROW), digits, ["[left]", "[right]", ",", ";", "[backspace]", "[return]"]] };
   window.mathVirtualKeyboard.layouts = /** @type {any} */ ([layout, "alphabetic", "greek"]);
 }
 
-const IN_A_ROW = 8;
-/** @template T @param {T[]} caps @returns {T[][]} */
-const inRows = (caps) => Array.from({ length: Math.ceil(caps.length / IN_A_ROW) }, (_, i) => caps.slice(i * IN_A_ROW, (i + 1) * IN_A_ROW));
 
 class MathField extends Directive {
   /** @type {Wiring | null} */

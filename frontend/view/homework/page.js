@@ -6,8 +6,7 @@ import { inLanguage } from "../../model/catalog.js";
 import { SIDES } from "../../model/homework/place.js";
 import { failure } from "../failure.js";
 import { prose } from "../formula.js";
-import { appearance, brand, language, places } from "../header.js";
-import { icon } from "../icons.js";
+import { appearance, brand, language, lettersOf, places, titleMenu } from "../header.js";
 import { answer } from "./answer.js";
 import { figure } from "./figure.js";
 import { tasks } from "./tasks.js";
@@ -47,7 +46,7 @@ export function page(view) {
     <header class="top">
       ${brand({ state: { place }, t })}
       ${heading(view)}
-      ${places({ state: { place }, t }, "homework")}
+      ${places({ state: { place }, t }, "homework", appearance({ state: { place }, session: view.session, t }))}
       <div class="tools">${language({ state: { place }, session: view.session, t })}${appearance({ state: { place }, session: view.session, t })}</div>
     </header>
     <main class="homework" data-side=${side}>
@@ -67,15 +66,19 @@ function heading({ state, t, exercise }) {
   const { scenes, sheet, assignment, entry } = state;
   const chosen = state.own ? "" : (entry?.scene.id ?? place.scene);
   if (assignment) {
+    const title = inLanguage(sheet?.title ?? assignment.title, lang) || t("homework.assignment");
     const leave = () => void exercise.choose(typeof entry?.reference.scene === "string" ? entry.reference.scene : "");
-    return html`<div class="scene"><h1>${inLanguage(sheet?.title ?? assignment.title, lang) || t("homework.assignment")}</h1>
+    return html`<div class="scene"><h1 style=${lettersOf(title)}>${title}</h1>
       <p class="summary">${entry ? inLanguage(entry.scene.title, lang) : ""}</p><button class="quiet small" @click=${leave}>${t("homework.leave")}</button></div>`;
   }
-  return html`<div class="scene"><h1><label class="choice"><span class="unseen">${t("scene.choose")}</span>
-      <select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => void exercise.choose(/** @type {HTMLSelectElement} */ (e.target).value)}>
-        ${scenes.some(({ id }) => id === chosen) && !state.own ? nothing : html`<option value=${chosen} selected>${inLanguage(entry?.scene.title, lang) || t("scene.choose")}</option>`}
-        ${scenes.map(({ id, title }) => html`<option value=${id} ?selected=${id === chosen && !state.own}>${inLanguage(title, lang)}</option>`)}
-      </select>${icon("chevron")}</label></h1>
+  const listed = state.own ? null : scenes.find(({ id }) => id === chosen);
+  const title = inLanguage(listed?.title ?? entry?.scene.title, lang) || t("scene.choose");
+  const select = html`
+    <select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => void exercise.choose(/** @type {HTMLSelectElement} */ (e.target).value)}>
+      ${listed ? nothing : html`<option value=${chosen} selected>${title}</option>`}
+      ${scenes.map((one) => html`<option value=${one.id} ?selected=${one === listed}>${inLanguage(one.title, lang)}</option>`)}
+    </select>`;
+  return html`<div class="scene">${titleMenu(t("scene.choose"), title, select)}
     <p class="summary">${entry ? inLanguage(entry.scene.summary, lang) : ""}</p></div>`;
 }
 

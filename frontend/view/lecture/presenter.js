@@ -3,7 +3,7 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { displayed, prose } from "../formula.js";
-import { appearance, brand, language } from "../header.js";
+import { appearance, brand, language, lettersOf } from "../header.js";
 import { icon } from "../icons.js";
 import { inLanguage } from "../../model/catalog.js";
 import { noteOf } from "../../model/lecture/notes.js";
@@ -23,10 +23,11 @@ import { indexOf } from "../../model/reveal.js";
 /** @param {PresenterView} view */
 export function page(view) {
   const { here, lines, t, state } = view;
+  const title = here ? inLanguage(here.title, state.place.lang) : t("presenter");
   return html`
     <header class="top">
       ${brand(view)}
-      <div class="scene"><h1>${here ? inLanguage(here.title, state.place.lang) : t("presenter")}</h1></div>
+      <div class="scene"><h1 style=${lettersOf(title)}>${title}</h1></div>
       ${times(view)}
       <div class="tools">${language(view)}${appearance(view)}</div>
     </header>

@@ -1,0 +1,123 @@
+"""What a designer would see at once, on every page, from a phone to a projector."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+from tests.e2e.lecture import Lecture
+
+pytestmark = pytest.mark.e2e
+
+PATIENCE = 60_000.0
+SIZES = ((360, 740), (768, 1024), (1280, 720), (1920, 1080))
+# The scene with the longest title.
+LONG = "scene=elastic-pendulum"
+PAGES = [
+    pytest.param("?", ".hero path.bob", id="start"),
+    pytest.param(f"scene?{LONG}&step=work-of-force:weight", ".steps .katex", id="scene"),
+    pytest.param(f"scene?{LONG}&view=lecture&step=virtual-displacement:bob", ".slide .katex", id="lecture mode"),
+    pytest.param("scene?scene=pendulum&edit=form", ".editor .field .katex", id="editor"),
+    pytest.param("variations?", ".steps .katex", id="variations"),
+    pytest.param("proof?", ".steps .katex", id="proof"),
+    pytest.param("labs?", ".question button.main:enabled", id="labs"),
+    pytest.param(f"homework?{LONG}", ".question h2", id="homework"),
+    pytest.param("docs?", ".calls article", id="reference"),
+    pytest.param("docs/try?", ".trial textarea", id="trial"),
+    pytest.param("help?", ".guide article", id="help"),
+    pytest.param(f"handout?{LONG}", ".paper .katex", id="handout"),
+    pytest.param("presenter?x=1", ".notice", id="presenter"),
+]
+# Words that go on behind an edge where nothing scrolls.
+CUT = """() => {
+    const LABELS = 'h1:not(:has(select)), h2, h3, h1 .chosen, button, summary, legend, label, nav a';
+    const has = (style, ...kinds) => kinds.includes(style.overflowX) || kinds.includes(style.overflowY);
+    const seen = (node) => !node.parentElement.closest('.unseen, .katex-mathml, select') && node.data.trim();
+    function rectsOf(element) {
+        const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+        const range = document.createRange();
+        const rects = [];
+        while (walker.nextNode()) {
+            if (!seen(walker.currentNode)) continue;
+            range.selectNodeContents(walker.currentNode);
+            rects.push(...range.getClientRects());
+        }
+        return rects;
+    }
+    const beyond = (frame) => (text) => text.right > frame.right + 1.5 || text.left < frame.left - 1.5
+        || text.bottom > frame.bottom + text.height / 4 || text.top < frame.top - text.height / 4;
+    function cut(element) {
+        const rects = rectsOf(element);
+        for (let around = element; around && around !== document.body; around = around.parentElement) {
+            const style = getComputedStyle(around);
+            if (has(style, 'hidden', 'clip')) return rects.some(beyond(around.getBoundingClientRect()));
+            if (has(style, 'auto', 'scroll')) return false;
+        }
+        return rects.some((text) => text.right > innerWidth + 1 || text.left < -1);
+    }
+    return [...document.querySelectorAll(LABELS)]
+        .filter((element) => element.checkVisibility() && !element.closest('.unseen') && cut(element))
+        .map((element) => `${element.tagName} ${element.className}: ${element.textContent.trim()}`);
+}"""
+
+
+@pytest.mark.parametrize("language", ["de", "en"])
+@pytest.mark.parametrize(("place", "ready"), PAGES)
+def test_no_heading_and_no_label_is_cut(lecture: Lecture, place: str, ready: str, language: str) -> None:
+    page = lecture.page
+    page.emulate_media(reduced_motion="reduce")
+    page.goto(f"{lecture.address}{place}&lang={language}")
+    page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
+    for width, height in SIZES:
+        page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_timeout(100)
+        assert page.evaluate(CUT) == [], width
+
+
+def test_a_cut_title_is_found(lecture: Lecture) -> None:
+    """The test above is able to fail."""
+    lecture.open(f"?{LONG}&lang=en")
+    lecture.page.add_style_tag(content=".chosen { max-width: 5rem }")
+    assert "SPAN chosen: Elastically suspended pendulum with an external force" in lecture.page.evaluate(CUT)
+
+
+def rows_of(page: Page, keys: str) -> list[int]:
+    """How many keys stand in each row, from the first to the last."""
+    tops: list[float] = page.locator(keys).evaluate_all("keys => keys.map(key => key.getBoundingClientRect().top)")
+    return [tops.count(top) for top in sorted(set(tops))]
+
+
+@pytest.mark.parametrize("task", ["equation:phi", "position:bob", "eigenfrequencies"])
+def test_no_key_stands_alone(lecture: Lecture, task: str) -> None:
+    page = lecture.page
+    page.goto(f"{lecture.address}homework?scene=pendulum&task={task}&lang=en")
+    page.locator(".keyboard .katex").first.wait_for(timeout=PATIENCE)
+    for width in (360, 412, 768, 1366):
+        page.set_viewport_size({"width": width, "height": 800})
+        rows = rows_of(page, ".keyboard > .keys .key-cap")
+        assert min(rows) > 1, (width, rows)
+
+
+def test_a_dialog_on_a_phone_keeps_its_margins(lecture: Lecture) -> None:
+    page = lecture.page
+    page.set_viewport_size({"width": 360, "height": 740})
+    lecture.open(f"?{LONG}&lang=de")
+    for key, dialog in (("g", "jump"), ("o", "overview"), ("?", "help")):
+        page.keyboard.press(key)
+        opened = page.locator(f"dialog.{dialog}")
+        expect(opened).to_be_visible()
+        assert opened.evaluate("e => [e.scrollLeft, e.scrollWidth - e.clientWidth]") == [0, 0], dialog
+        page.keyboard.press("Escape")
+        expect(page.locator("dialog")).to_have_count(0)
+
+
+def test_a_page_without_its_texts_waits_for_them_and_shows_its_name(page: Page, server: str) -> None:
+    catalogs = "**/api/v1/catalogs/**"
+    page.route(catalogs, lambda route: route.abort())
+    page.goto(f"{server}homework?lang=en")
+    page.wait_for_timeout(1500)
+    name = "getComputedStyle(document.getElementById('page'), '::before')"
+    assert page.evaluate(f"{name}.content") == '"δq"'
+    assert page.evaluate(f"{name}.opacity") == "1"
+    page.unroute(catalogs)
+    expect(page.locator(".question h2")).to_be_visible(timeout=PATIENCE)
+    assert page.evaluate(f"{name}.content") == "none"
