@@ -163,14 +163,16 @@ export function angle(element, stage, now, key) {
 }
 
 /**
- * A dimension line beside its two places, with extension lines; the arrow points from the first to the second.
+ * A dimension line beside its two places, so far to the left as its element says, with extension lines; the arrow points
+ * from the first to the second.
  * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
  * @returns {Figure}
  */
 export function dimension(element, stage, now, key) {
   const [from, to] = [placeOf(stage, now, element.from ?? ""), placeOf(stage, now, element.to ?? "")];
   const horizontal = Math.abs(to[0] - from[0]) > 3 * Math.abs(to[1] - from[1]);
-  const offset = /** @type {Pixel} */ (horizontal ? [0, -stage.unit * 3.2] : [-stage.unit * 4.2, 0]);
+  const aloof = (/** @type {number} */ usual) => -(Number(element.offset ?? 0) * stage.scale || usual * stage.unit);
+  const offset = /** @type {Pixel} */ (horizontal ? [0, aloof(3.2)] : [aloof(4.2), 0]);
   const [a, b] = [add(from, offset), add(/** @type {Pixel} */ (horizontal ? [to[0], from[1]] : [from[0], to[1]]), offset)];
   const span = subtract(b, a);
   const className = coordinateClass(stage.scene, element.coordinate);
