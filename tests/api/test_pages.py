@@ -20,20 +20,24 @@ from deltaq.settings import Settings
 pytestmark = pytest.mark.anyio
 
 IMPORT_MAP = '{"imports": {"lit-html": "/vendor/lit-html/lit-html.js"}}'
-INDEX = f"""<!doctype html><head><link rel="stylesheet" href="/vendor/katex/katex.css">
-<script type="importmap">{IMPORT_MAP}</script></head><script type="module" src="/app.js"></script>"""
+FRAME = f"""<!doctype html>
+<html>
+  <head>
+    <link rel="stylesheet" href="/vendor/katex/katex.css">
+    <script type="importmap">{IMPORT_MAP}</script>
+  </head>
+</html>
+"""
 
 
 @pytest.fixture
 def site(tmp_path: Path) -> Path:
     """A small front end, with files beside it that nobody may get."""
     files = {
-        "index.html": INDEX,
-        "scene.html": INDEX.replace("app", "scene"),
-        "proof.html": INDEX.replace("app", "proof"),
-        "trial.html": INDEX.replace("app", "trial"),
-        "app.js": "export const δq = 1;\n" * 100,
+        "view/frame.html": FRAME,
         "view/drawing.js": "// drawing",
+        "view/page.js": 'import { html } from "lit-html";\nimport { draw } from "./drawing.js";',
+        "app.js": "export const δq = 1;\n" * 100,
         "icon.svg": "<svg/>",
         "styles/homework.css": '@import "homework/tasks.css";\n@import "homework/answer.css";\n',
         "styles/torn.css": '@import "homework/tasks.css";\n@import "homework/lost.css";\n',
@@ -49,6 +53,9 @@ def site(tmp_path: Path) -> Path:
         "vendor/katex/fonts/a.woff2": "font",
         "vendor/katex/LICENSE": "MIT",
     }
+    for page in ("index", "scene", "proof", "trial"):
+        files[f"{page}.html"] = f'<meta name="description" content="{page}">\n'
+        files[f"{page}.js"] = 'import { page } from "./view/page.js";\nconst later = () => import("./view/later.js");\n'
     root = tmp_path / "site"
     for name, content in files.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -71,7 +78,8 @@ async def test_page_names_the_libraries_by_version(browser: httpx.AsyncClient) -
     assert page.headers["content-type"] == "text/html; charset=utf-8"
     assert re.findall(r"/vendor/[^\"]*", page.text) == [
         "/vendor/0123abcd/katex/katex.css",
-        "/vendor/0123abcd/lit-html/lit-html.js",
+        "/vendor/0123abcd/lit-html/lit-html.js",  # in the import map
+        "/vendor/0123abcd/lit-html/lit-html.js",  # asked for at once
     ]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import gzip
 import hashlib
 import re
@@ -13,8 +12,9 @@ from pathlib import Path
 
 import brotli
 
+from .page import assembled
+
 MEDIA_TYPES = {
-    ".html": "text/html; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
     ".mjs": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -33,7 +33,6 @@ ASK_AGAIN = "no-cache"
 QUALITY, BEST_QUALITY, BEST_UP_TO = 9, 10, 400_000
 
 _IMPORT = re.compile(rb'^@import "([a-z/-]+\.css)";$', re.MULTILINE)
-_IMPORT_MAP = re.compile(r'<script type="importmap"[^>]*>(.*?)</script>', re.DOTALL)
 _PAGE_NAME = re.compile(r"[a-z]+")
 _VENDOR_PATH = re.compile(r"""(?<=["'])(\.?/)?vendor/""")
 
@@ -65,11 +64,10 @@ class Assets:
         return stamp.read_text(encoding="utf-8").strip() if stamp.is_file() else "unversioned"
 
     def page(self, name: str) -> str | None:
-        """<name>.html, with the versioned addresses of the libraries; None if there is no such page."""
-        file = self.root / f"{name}.html"
-        if not _PAGE_NAME.fullmatch(name) or not _is_file(file):
+        """The page of a name, with the versioned addresses of the libraries; None if there is no such page."""
+        if not _PAGE_NAME.fullmatch(name) or not _is_file(self.root / f"{name}.html"):
             return None
-        return _VENDOR_PATH.sub(f"/vendor/{self.version}/", file.read_text(encoding="utf-8"))
+        return _VENDOR_PATH.sub(f"/vendor/{self.version}/", assembled(self.root, name))
 
     def find(self, path: str) -> Asset | None:
         """The file at an address below /, or None if there is none that may be served."""
@@ -88,14 +86,6 @@ class Assets:
 
     def _holds(self, file: Path) -> bool:
         return file.resolve().is_relative_to(self.root.resolve())
-
-
-def import_map_hash(page: str) -> str | None:
-    """What script-src must allow for the page's import map, the one inline script there is."""
-    found = _IMPORT_MAP.search(page)
-    if found is None:
-        return None
-    return "sha256-" + base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode()
 
 
 def _is_file(file: Path) -> bool:

@@ -6,7 +6,7 @@ import { themed } from "../../model/labs/figure.js";
 /** @typedef {import("../../model/labs/stream.js").Chart} Chart */
 
 /** Named in the import map, so that its address carries the version of the libraries. */
-const SOURCE = import.meta.resolve("plotly");
+const SOURCE = import.meta.resolve("plotly-with-maps");
 const CONFIG = { displayModeBar: false, displaylogo: false, responsive: false };
 const FILE = { width: 1200, height: 800, scale: 2 };
 

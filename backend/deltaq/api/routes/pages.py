@@ -11,8 +11,9 @@ from starlette.responses import RedirectResponse
 from starlette.routing import Match
 from starlette.types import Scope
 
-from ..assets import ASK_AGAIN, Asset, import_map_hash
+from ..assets import ASK_AGAIN, Asset
 from ..headers import content_security_policy
+from ..page import import_map_hash
 from ..responses import coding_for, not_modified
 from ..service import service_of
 from .common import PREFIX
