@@ -5,7 +5,7 @@ import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createBench } from "./model/labs/bench.js";
 import { withMarks } from "./model/labs/figure.js";
-import { EXAMPLES, pointOf, readQuestion, requestOf, writeQuestion } from "./model/labs/question.js";
+import { exampleOf, NOTHING, pointOf, readQuestion, requestOf, writeQuestion } from "./model/labs/question.js";
 import { experiment, file } from "./model/labs/stream.js";
 import { motionOf, written } from "./model/labs/watch.js";
 import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
@@ -52,7 +52,7 @@ const bench = createBench({
 
 /** @param {import("./model/labs/question.js").Question} question */
 function usual(question) {
-  return question.scene ? question : { ...question, ...EXAMPLES[question.lab] };
+  return question.scene ? question : { ...question, ...exampleOf(question.lab) };
 }
 
 const motion = createMotion(root, () => still.matches);
@@ -82,6 +82,8 @@ async function watch(wish) {
 
 /** @param {string} name */
 const section = (name) => /** @type {Record<string, unknown>} */ (get().catalog[name] ?? {});
+/** Every experiment that there are words for, in their order. */
+const labs = () => Object.keys(/** @type {{experiments?: object}} */ (section("labs")).experiments ?? {});
 const speech = () => translator({ ...section("page"), labs: section("labs"), ladder: section("ladder") });
 
 /** @param {string} id */
@@ -148,7 +150,7 @@ function update() {
   document.title = `δq · ${t("place.labs")}`;
   const now = chartsNow();
   render(page({
-    state: { place: { ...place, scene: bench.get().question.scene } }, session, t, bench: bench.get(), benches: starting, scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, open: (scene) => void open(scene), watch: (wish) => void watch(wish),
+    state: { place: { ...place, scene: bench.get().question.scene } }, session, t, bench: bench.get(), benches: starting, labs: labs(), scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, open: (scene) => void open(scene), watch: (wish) => void watch(wish),
     turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
     cursor: get().cursor, point: (cursor) => set({ cursor }), press: pressed,
     save: (chart, format) => void charts.save(chart, format),
@@ -184,6 +186,7 @@ async function start() {
   new ResizeObserver(update).observe(root);
   requestAnimationFrame(tick);
   void api.scenes().then(({ scenes }) => set({ scenes }), () => {});
-  await Promise.all([speak(lang()), bench.load()]);
+  const offered = speak(lang()).then(() => labs().includes(bench.get().question.lab) || bench.open(NOTHING.lab));
+  await Promise.all([offered, bench.load()]);
 }
 void start();

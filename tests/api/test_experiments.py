@@ -15,7 +15,7 @@ import pytest
 from fastapi import FastAPI
 
 from deltaq.lab.library import experiment_ids, get_experiment
-from deltaq.narration.catalog import text
+from deltaq.narration.catalog import keys, text
 from deltaq.packages import classes_of
 
 pytestmark = [pytest.mark.anyio, pytest.mark.usefixtures("laboratory")]
@@ -220,3 +220,8 @@ async def test_given_up_frees_the_bench_within_a_second(client: httpx.AsyncClien
 def test_every_experiment_has_a_title_in_both_languages(name: str) -> None:
     assert get_experiment(name).id == name
     assert len({text(lang, f"labs.experiments.{name}.summary") for lang in ("de", "en")}) == 2
+
+
+@pytest.mark.parametrize("lang", ["de", "en"])
+def test_the_menu_offers_the_experiments_that_there_are(lang: str) -> None:
+    assert sorted(keys(lang, "labs.experiments")) == sorted(experiment_ids())

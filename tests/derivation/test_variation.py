@@ -5,12 +5,13 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from deltaq.derivation.differential_expression import direction
 from deltaq.derivation.domain import Instant, Interval
 from deltaq.derivation.formula import Bounds, Explicit, Formula, Integral
 from deltaq.derivation.function_evaluation import evaluate_functions
 from deltaq.derivation.function_formula import AtTime, Boundary, Directional, FunctionFormula, LimitOfQuotient
 from deltaq.derivation.function_points import function_points
-from deltaq.derivation.functional import Functional, direction
+from deltaq.derivation.functional import Functional
 from deltaq.derivation.rules import functional as functional_rule
 from deltaq.derivation.step import Relation
 from deltaq.derivation.variation import vary

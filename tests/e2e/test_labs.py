@@ -35,6 +35,14 @@ def test_work_and_precision_answers_while_the_wish_is_dragged(lecture: Lecture) 
     expect(answer).not_to_have_text(before)
 
 
+def test_the_menu_comes_from_the_server(lecture: Lecture) -> None:
+    page = opened(lecture, "lab=alchemy&scene=pendulum").page
+    words = page.request.get(f"{lecture.address}api/v1/catalogs/en?sections=labs").json()["labs"]["experiments"]
+    assert page.locator(".kinds a").all_inner_texts() == [words[name]["title"] for name in words]
+    expect(page.locator(".kinds [aria-current=page]")).to_have_text(words["work-precision"]["title"])
+    expect(page).to_have_url(re.compile("lab=work-precision"))
+
+
 def test_another_language_tells_the_same_figures(lecture: Lecture) -> None:
     page = measured(opened(lecture, "lab=work-precision&scene=pendulum&t=3")).page
     said = page.locator("output[for=tolerance]").inner_text()

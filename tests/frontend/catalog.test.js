@@ -5,7 +5,6 @@ import { inLanguage, translator } from "../../frontend/model/catalog.js";
 import { SECTIONS } from "../../frontend/model/editor/schema.js";
 import { GUIDE } from "../../frontend/model/guide.js";
 import { COURSE } from "../../frontend/model/start/course.js";
-import { LABS } from "../../frontend/model/labs/question.js";
 import { FORMS, SHOWN } from "../../frontend/model/share.js";
 import { PAGES } from "../../frontend/model/url.js";
 import { SLIPS } from "../../frontend/model/homework/grading.js";
@@ -87,6 +86,8 @@ const EXERCISES = [
   ...["student", "task", "answer", "outcome", "points", "wrong", "invalid", "undecided"].map((key) => `homework.class-${key}`),
   ...["checking", "check", "solution", "points", "points-one", "hint", "next-hint", "compare", "moving", "mark"].map((key) => `homework.${key}`),
 ];
+
+const LABS = Object.keys(read("en", "labs").experiments);
 
 /** What the labs ask for by lab and place; charts are made by the server, with its texts. */
 const LAB = [

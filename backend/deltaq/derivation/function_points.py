@@ -9,8 +9,9 @@ from itertools import cycle, islice
 from flint import arb, ctx
 
 from ..language.spelling import spell_rate
+from .differential_expression import direction
 from .domain import Interval
-from .functional import Functional, direction
+from .functional import Functional
 from .points import Place, Point
 from .program import number
 from .verification import BITS

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 
 import sympy as sp
 
+from ..derivation.differential_expression import direction
 from ..derivation.formula import Explicit, Formula, Given, Partial, Quantity, Rate, Times
 from ..derivation.function_formula import Over
-from ..derivation.functional import direction
 from ..language.latex_printer import Typography
 from ..language.order import split_symbol
 from ..language.spelling import latex_of

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ..derivation.step import Chapter, Derivation, Step
+from .aligned import aligned
 from .catalog import filled, template, text
 from .letters import Letters, in_sentence
 from .marks import without_classes
@@ -36,7 +37,7 @@ class Narrator:
         names = self._names(step.about)
         outcome = step.about.get("outcome")
         key = f"rules.steps.{step.rule}"
-        marked = self.notation.block(step.relations)
+        marked = aligned(step.relations, self.notation.formula)
         return {
             "id": step.id,
             "rule": step.rule,

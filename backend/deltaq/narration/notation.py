@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import groupby
@@ -31,15 +30,10 @@ from ..derivation.formula import (
 )
 from ..derivation.function_formula import Called, FunctionFormula
 from ..derivation.matrix_formula import MatrixFormula
-from ..derivation.step import Relation
 from ..language.latex_printer import Typography, latex
 from .function_writing import write
-from .marks import bare
 from .matrix_writing import write_matrix
 from .symbols import SymbolTable
-
-TALL = re.compile(r"\\(?:frac|begin)\b")
-SIGNS = {"=": "=", "≠": r"\neq", "≈": r"\approx", "⇔": r"\;\Longleftrightarrow\;"}
 
 
 @dataclass(frozen=True)
@@ -94,25 +88,6 @@ class Notation:
         if isinstance(of, Explicit) and of.value.is_Symbol:
             return f"{self.value(of.value)}({self.value(time)})"
         return rf"\left.{self.formula(of)}\right|_{{t = {self.value(time)}}}"
-
-    def relation(self, relation: Relation) -> list[str]:
-        """The rows of an aligned block: the first two members share one, each further member has its own."""
-        sign = SIGNS[relation.sign]
-        texts = map(self.formula, relation.members)
-        # A member that reads like the one before says nothing.
-        first, *others = (next(alike) for _, alike in groupby(texts, bare))
-        if relation.sign == "⇔":
-            return [f"& {first}", *(rf"{sign} & {other}" for other in others)]
-        rows = [f"{'' if row else first} &{sign} {other}" for row, other in enumerate(others)]
-        return rows or [f"& {first}"]
-
-    def block(self, relations: tuple[Relation, ...]) -> str:
-        """All lines of a step."""
-        rows = [row for relation in relations for row in self.relation(relation)]
-        if not rows:
-            return ""
-        *upper, last = rows
-        return r"\begin{aligned}" + "".join(row + _gap_below(row) for row in upper) + last + r"\end{aligned}"
 
     def _partial(self, of: Formula, by: str) -> str:
         if isinstance(of, Named | Called):
@@ -197,8 +172,3 @@ class Notation:
 def _counts(term: Term) -> bool:
     """Whether a summand is worth writing: a zero is not."""
     return not (isinstance(term.formula, Explicit) and term.formula.value == 0)
-
-
-def _gap_below(row: str) -> str:
-    """The end of a row. TeX counts the gap from the line of writing, not from what hangs below it."""
-    return r" \\[0.85em] " if TALL.search(row) else r" \\[0.4em] "

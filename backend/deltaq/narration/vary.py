@@ -9,9 +9,10 @@ from typing import cast
 
 import sympy as sp
 
+from ..derivation.differential_expression import direction
 from ..derivation.domain import Instant, Interval
 from ..derivation.formula import Explicit, Formula
-from ..derivation.functional import Functional, direction
+from ..derivation.functional import Functional
 from ..derivation.rules.integration_by_parts import boundary
 from ..derivation.variation import vary
 from ..errors import ExpressionError, Problem, RequestError

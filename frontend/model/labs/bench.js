@@ -2,7 +2,7 @@
 
 import { ApiError } from "../api.js";
 import { createStore } from "../store.js";
-import { EXAMPLES, requestOf } from "./question.js";
+import { exampleOf, requestOf } from "./question.js";
 
 /** @typedef {import("./question.js").Question} Question */
 /** @typedef {import("./stream.js").Chart} Chart */
@@ -96,7 +96,7 @@ export function createBench({ run, scene, document, lang }, question) {
     open(lab) {
       stop();
       const { scene, x, y } = get().question;
-      const usual = EXAMPLES[lab] ?? {};
+      const usual = exampleOf(lab);
       const keeps = scene && lab !== "stability-map";
       edit({ lab, ...(keeps ? {} : { ...usual, parameters: {}, initial: {} }), ...(lab === "stability-map" && x && y && scene === usual.scene ? { x, y } : {}) });
       set(EMPTY);

@@ -1,7 +1,5 @@
 /** What a lab is asked: which experiment, on which scene, with which values; as an address, and as a request. */
 
-export const LABS = ["work-precision", "convergence", "energy-drift", "stability", "stability-map", "chaos", "fidelity"];
-
 /** @typedef {{parameter: string, from: number, to: number}} Side */
 /**
  * @typedef {object} Question
@@ -21,10 +19,10 @@ export const LABS = ["work-precision", "convergence", "energy-drift", "stability
  */
 
 /** @type {Question} */
-export const NOTHING = { lab: LABS[0], scene: "", duration: 0, peers: false, steps: 0, at: "state", stiffness: "", x: null, y: null, flips: true, allowed: 1, parameters: {}, initial: {} };
+export const NOTHING = { lab: "work-precision", scene: "", duration: 0, peers: false, steps: 0, at: "state", stiffness: "", x: null, y: null, flips: true, allowed: 1, parameters: {}, initial: {} };
 
-/** The scene that shows a lab best, and what else to ask there. @type {Record<string, Partial<Question>>} */
-export const EXAMPLES = {
+/** @type {Record<string, Partial<Question>>} */
+const EXAMPLES = {
   "work-precision": { scene: "double-pendulum" },
   convergence: { scene: "elastic-pendulum" },
   "energy-drift": { scene: "elastic-pendulum" },
@@ -34,15 +32,17 @@ export const EXAMPLES = {
   fidelity: { scene: "elastic-pendulum" },
 };
 
+/** The scene that shows a lab best, and what else to ask there. @param {string} lab */
+export const exampleOf = (lab) => EXAMPLES[lab] ?? { scene: "double-pendulum" };
+
 /** @param {string} query */
 export function readQuestion(query) {
   const given = new URLSearchParams(query);
   const number = (/** @type {string} */ key) => Math.max(0, Number(given.get(key)) || 0);
-  const lab = given.get("lab") ?? "";
   /** @type {Question} */
   const question = {
     ...NOTHING,
-    lab: LABS.includes(lab) ? lab : LABS[0],
+    lab: given.get("lab") || NOTHING.lab,
     scene: given.get("scene") ?? "",
     duration: number("t"),
     peers: given.get("peers") === "1",

@@ -1,6 +1,6 @@
 /** The lecture as a course: its chapters in order, each entry the address at which its subject is shown. */
 
-import { EXAMPLES, NOTHING, writeQuestion as writeLab } from "../labs/question.js";
+import { exampleOf, NOTHING, writeQuestion as writeLab } from "../labs/question.js";
 import { HOME, writePlace } from "../url.js";
 import { example } from "../variations/examples.js";
 import { writeQuestion } from "../variations/question.js";
@@ -17,7 +17,7 @@ const varied = (id) => ({ id, path: "/variations", place: {}, more: writeQuestio
 const proved = (id, step) => ({ id, path: "/proof", place: { step } });
 
 /** @param {string} id @param {string} lab @returns {Entry} */
-const measured = (id, lab) => ({ id, path: "/labs", place: {}, more: writeLab({ ...NOTHING, ...EXAMPLES[lab], lab }) });
+const measured = (id, lab) => ({ id, path: "/labs", place: {}, more: writeLab({ ...NOTHING, ...exampleOf(lab), lab }) });
 
 /** @type {Part[]} */
 export const COURSE = [

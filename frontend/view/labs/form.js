@@ -26,7 +26,7 @@ export function form(view) {
   return html`
     <form class="question" @submit=${submit}>
       ${sceneOf(view)}
-      ${OPTIONS[bench.question.lab].map((option) => option(view))}
+      ${(OPTIONS[bench.question.lab] ?? [duration]).map((option) => option(view))}
       <button class="main" type="submit" ?disabled=${!bench.scene && !bench.running}>${t(bench.running ? "labs.stop" : bench.result ? "labs.again" : "labs.start")}</button>
       ${bench.scene ? values(view, bench.scene) : nothing}
     </form>`;

@@ -2,7 +2,6 @@
 
 import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
-import { LABS } from "../../model/labs/question.js";
 import { failure } from "../failure.js";
 import { appearance, brand, language, places } from "../header.js";
 import { canvas } from "./cursor.js";
@@ -16,7 +15,7 @@ import { tolerance } from "./tolerance.js";
 /**
  * @typedef {import("../header.js").Appearance & {bench: import("../../model/labs/bench.js").Bench,
  *   benches: import("../../model/labs/bench.js").Benches, scenes: import("../../model/types.js").SceneEntry[],
- *   t: import("../page.js").View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
+ *   labs: string[], t: import("../page.js").View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
  *   save: (chart: Chart, format: "png" | "svg") => void, fetchFile: (accept: string) => void,
  *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string, open: (scene: object) => void,
  *   cursor: Cursor | null, point: (cursor: Cursor) => void, press: (chart: Chart, x: number, y: number) => void}} View
@@ -42,7 +41,7 @@ export function page(view) {
       <div class="tools">${language(view)}${appearance(view)}</div>
     </header>
     <main class="labs">
-      <nav class="kinds" aria-label=${t("labs.choose-lab")}>${LABS.map((lab) => kind(view, lab))}</nav>
+      <nav class="kinds" aria-label=${t("labs.choose-lab")}>${view.labs.map((lab) => kind(view, lab))}</nav>
       <div class="asking">${form(view)}</div>
       <div class="measured" id="measured" tabindex="-1">
         <p class="purpose">${t(`labs.experiments.${bench.question.lab}.summary`)}</p>

@@ -10,9 +10,10 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from ..differential_expression import direction
 from ..formula import Equation, Explicit, Partial
 from ..function_formula import AtTime
-from ..functional import Functional, direction
+from ..functional import Functional
 from ..step import Relation, Step
 from .integration_by_parts import boundary
 

@@ -6,8 +6,8 @@ Source: Lanczos, The Variational Principles of Mechanics, ch. II.9.
 from __future__ import annotations
 
 from ..action import Action
+from ..differential_expression import direction
 from ..formula import Explicit, Rate
-from ..functional import direction
 from ..step import Relation, Step
 
 RULE = "exchange-of-variation"

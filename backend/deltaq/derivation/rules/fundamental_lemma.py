@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..action import Action
+from ..differential_expression import direction
 from ..formula import Equation, Explicit, Plus, Term, Times
-from ..functional import direction
 from ..step import Relation, Step
 from ..terms import terms_by_source
 from .collected_variation import euler_expression

@@ -5,9 +5,10 @@ Source: Gelfand, Fomin, Calculus of Variations, §4; Lanczos, The Variational Pr
 
 from __future__ import annotations
 
+from ..differential_expression import direction
 from ..formula import Explicit, Formula, Partial, Plus, Rate, Term, Times, minus
 from ..function_formula import Boundary
-from ..functional import Functional, direction
+from ..functional import Functional
 from ..step import Relation, Step
 
 RULE = "integration-by-parts"
