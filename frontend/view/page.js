@@ -9,6 +9,7 @@ import { report } from "./report.js";
 import { values } from "./values.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
+import { OWN } from "../model/own.js";
 import { FORMULATIONS } from "../model/url.js";
 
 /**
@@ -128,10 +129,16 @@ function drawing(view) {
       <div class="readouts" aria-hidden="true"></div>
       <div class="figure-tools">${instruments?.tools(view)}</div>
       <p class="unseen" id="motion" role="status"></p>
-      ${waiting ? html`<p class="patience" role="status">${t("drawing.loading")} <small>${t("drawing.first-start")}</small></p>` : nothing}
+      ${waiting ? html`<p class="patience" role="status">${patience(view)}</p>` : nothing}
       ${state.failures.simulation && !state.failures.scene ? failure(state.failures.simulation, t("failure.simulation"), () => session.resimulate({}), t) : nothing}
     </div>
   `;
+}
+
+/** What keeps the motion waiting: the scene, or its computation. @param {View} view */
+function patience({ state, t }) {
+  if (state.place.scene === OWN && !state.scene) return t("drawing.unwritten");
+  return html`${t("drawing.loading")} <small>${t("drawing.first-start")}</small>`;
 }
 
 /** Which part a narrow screen shows below the drawing. @param {View} view */

@@ -110,7 +110,7 @@ async def test_example_of_the_documentation_is_valid(client: httpx.AsyncClient) 
         pytest.param(changed(3, "bodies", 0, "colour"), "/bodies/0/colour", "unknown-field", None, id="unknown field"),
         pytest.param(changed("l*sin(phi", "bodies", 0, "position", 0), "/bodies/0/position/0", None, 5, id="syntax"),
         pytest.param(changed("2*mas", "bodies", 0, "mass"), "/bodies/0/mass", None, 2, id="unknown name"),
-        pytest.param({}, "/coordinates", "no-free-coordinate", None, id="empty"),
+        pytest.param({}, "/coordinates", "no-coordinate", None, id="empty"),
     ],
 )
 async def test_invalid_scene_says_where(

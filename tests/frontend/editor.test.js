@@ -1,8 +1,8 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { added, numberOf, removed, renamed, shifted, written } from "../../frontend/model/editor/changes.js";
+import { added, inDimension, numberOf, ofKind, removed, renamed, shifted, written } from "../../frontend/model/editor/changes.js";
 import { marked, placed } from "../../frontend/model/editor/problems.js";
-import { fieldsOf, SECTIONS, shownFields } from "../../frontend/model/editor/schema.js";
+import { fieldsOf, isList, SECTIONS, shownFields } from "../../frontend/model/editor/schema.js";
 import { EMPTY, rowFor } from "../../frontend/model/editor/templates.js";
 import { tomlOf } from "../../frontend/model/editor/toml.js";
 import { completed, documentIn, fragmentOf, keepDraft, readDraft } from "../../frontend/model/own.js";
@@ -97,6 +97,28 @@ test("a new name is followed by all that hangs on it", () => {
   assert.deepEqual(Object.keys(next.labels), ["mass"]);
   assert.deepEqual(next.drawing.elements.slice(0, 2), [{ kind: "bob", at: "mass" }, { kind: "rod", from: "pivot", to: "mass" }]);
   assert.equal(/** @type {any} */ (renamed(scene, "bodies", 0, "pivot")).loads[1].at, "bob", "a taken name is not followed");
+});
+
+/** A row of a kind with all its fields. @param {import("../../frontend/model/editor/schema.js").Section} section @param {string} kind @param {number} dimension */
+const full = (section, kind, dimension) => ({ kind, latex: "kept", ...Object.fromEntries(fieldsOf(section, { kind }, dimension).map((field) => [field.key, isList(field) ? ["1"] : "1"])) });
+
+for (const section of SECTIONS.filter(({ kinds }) => kinds)) {
+  for (const [from, to] of Object.keys(section.kinds ?? {}).flatMap((one) => Object.keys(section.kinds ?? {}).map((other) => [one, other]))) {
+    test(`of ${from} that becomes ${to} nothing stays that the form does not show`, () => {
+      const [row] = /** @type {any} */ (ofKind({ dimension: 2, [section.key]: [full(section, from, 2)] }, section.key, 0, to))[section.key];
+      const shown = fieldsOf(section, { kind: to }, 2).map(({ key }) => key);
+      assert.deepEqual(Object.keys(row).filter((key) => !shown.includes(key)), ["kind", "latex"]);
+      assert.deepEqual([row.kind, row.name], [to, "1"]);
+    });
+  }
+}
+
+test("a rigid body in space has no angle, and three moments of inertia are no text", () => {
+  const bodies = /** @type {any} */ (SECTIONS.find(({ key }) => key === "bodies"));
+  const inPlane = { dimension: 2, bodies: [full(bodies, "rigid", 2)] };
+  const inSpace = /** @type {any} */ (inDimension(inPlane, 3));
+  assert.deepEqual(inSpace, { dimension: 3, bodies: [{ kind: "rigid", latex: "kept", name: "1", mass: "1", position: ["1"] }] });
+  assert.deepEqual(inDimension(inPlane, 2), inPlane);
 });
 
 test("what hung on a removed row goes too", () => {

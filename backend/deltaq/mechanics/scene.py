@@ -54,8 +54,10 @@ class Scene:
     def _problems(self) -> Iterator[Problem]:
         if not self.bodies:
             yield Problem("no-body", "/bodies")
-        if not self.free:
-            yield Problem("no-free-coordinate", "/guides" if self.guides else "/coordinates")
+        if not self.coordinates:
+            yield Problem("no-coordinate", "/coordinates")
+        elif not self.free:
+            yield Problem("no-free-coordinate", "/guides")
         yield from _repeated("/points", [*(p.name for p in self.points), *(b.name for b in self.bodies)])
         yield from _repeated("/loads", [load.name for load in self.loads])
         yield from _repeated("/guides", [guide.coordinate for guide in self.guides])

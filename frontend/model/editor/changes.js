@@ -1,6 +1,6 @@
 /** Changes of a scene document: each returns a new one, and what nobody touched stays as it was. */
 
-import { rowsOf, SECTIONS } from "./schema.js";
+import { dimensionOf, fieldsOf, isList, rowsOf, SECTIONS } from "./schema.js";
 import { tableOf } from "../own.js";
 
 /** @typedef {import("../own.js").SceneDocument} SceneDocument */
@@ -44,6 +44,30 @@ export function numberOf(text) {
 
 /** @param {SceneDocument} document @param {string} key @param {object} row */
 export const added = (document, key, row) => ({ ...document, [key]: [...rowsOf(document[key]), row] });
+
+/**
+ * A body or load of another kind. @param {SceneDocument} document @param {string} key @param {number} index @param {string} kind
+ */
+export const ofKind = (document, key, index, kind) => fitted(written(document, `/${key}/${index}/kind`, kind));
+
+/** In the plane or in space. @param {SceneDocument} document @param {number} dimension */
+export const inDimension = (document, dimension) => fitted({ ...document, dimension });
+
+/** Without fields that belong to other kinds or another dimension: the form does not show them, so nobody could take them away. @param {SceneDocument} document */
+function fitted(document) {
+  const sections = SECTIONS.filter(({ key, kinds }) => kinds && Array.isArray(document[key]));
+  return { ...document, ...Object.fromEntries(sections.map((section) => [section.key, rowsOf(document[section.key]).map((row) => fittedRow(section, row, dimensionOf(document)))])) };
+}
+
+/** @param {import("./schema.js").Section} section @param {any} row @param {number} dimension */
+function fittedRow(section, row, dimension) {
+  const shown = new Map(fieldsOf(section, row, dimension).map((field) => [field.key, field]));
+  const elsewhere = new Set([2, 3].flatMap((space) => Object.keys(section.kinds ?? {}).flatMap((kind) => fieldsOf(section, { kind }, space).map(({ key }) => key))));
+  return Object.fromEntries(Object.entries(row ?? {}).filter(([key, value]) => {
+    const field = shown.get(key);
+    return field ? isList(field) === Array.isArray(value) : !elsewhere.has(key);
+  }));
+}
 
 /** @param {SceneDocument} document @param {string} key @param {number} index @param {number} by */
 export function shifted(document, key, index, by) {

@@ -58,6 +58,9 @@ export function fieldsOf(section, row, dimension) {
   return [...section.fields, ...(section.kinds?.[String(row?.kind)] ?? [])];
 }
 
+/** Whether a field holds several values. @param {Field} field */
+export const isList = ({ type }) => type === "vector" || type === "material";
+
 /** The material coordinates of a row, as names. @param {any} row @returns {string[]} */
 export const materialOf = (row) => rowsOf(row?.material).map((one) => String(one?.name ?? ""));
 

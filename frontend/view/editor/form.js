@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { icon } from "../icons.js";
-import { added, removed, shifted } from "../../model/editor/changes.js";
+import { added, inDimension, ofKind, removed, shifted } from "../../model/editor/changes.js";
 import { dimensionOf, fieldsOf, rowsOf, SECTIONS } from "../../model/editor/schema.js";
 import { rowFor } from "../../model/editor/templates.js";
 import { choice, complaints, fieldOf, line } from "./field.js";
@@ -37,7 +37,7 @@ function about(sheet) {
       <div class="fields">
         ${text("title")}${text("summary")}
         ${line(sheet, "/id", t("editor.field.id"), document.id, (id) => sheet.put("/id", id), { className: "name" })}
-        ${choice(sheet, "/dimension", t("editor.field.dimension"), String(dimensionOf(document)), { options: ["2", "3"], say: (d) => t(`editor.dimension.${d}`) }, (d) => sheet.put("/dimension", Number(d)))}
+        ${choice(sheet, "/dimension", t("editor.field.dimension"), String(dimensionOf(document)), { options: ["2", "3"], say: (d) => t(`editor.dimension.${d}`) }, (d) => sheet.editing.edit(inDimension(document, Number(d))))}
       </div>
     </section>`;
 }
@@ -62,7 +62,7 @@ function card(sheet, section, row, index) {
   const { t, writing } = sheet;
   const { key, kinds } = section;
   const [first, ...others] = fieldsOf(section, row, dimensionOf(writing.document));
-  const kind = kinds && choice(sheet, `/${key}/${index}/kind`, t("editor.field.kind"), row.kind ?? "", { options: Object.keys(kinds), say: (one) => t(`editor.kind.${one}`) }, (one) => sheet.put(`/${key}/${index}/kind`, one));
+  const kind = kinds && choice(sheet, `/${key}/${index}/kind`, t("editor.field.kind"), row.kind ?? "", { options: Object.keys(kinds), say: (one) => t(`editor.kind.${one}`) }, (one) => sheet.editing.edit(ofKind(writing.document, key, index, one)));
   const asked = others.filter((field) => !field.optional);
   const beside = others.filter((field) => field.optional);
   const fields = key === "coordinates" || key === "parameters" ? others : [...asked, ...beside];
