@@ -96,6 +96,20 @@ const texts = (value) => (typeof value === "string" ? { en: value, de: value } :
 /** @param {unknown} value @returns {any[]} */
 const rows = (value) => (Array.isArray(value) ? value.filter((row) => tableOf(row)) : []);
 
+const GREEK = /^(alpha|beta|gamma|[dD]elta|epsilon|zeta|eta|(var)?theta|iota|kappa|[lL]ambda|mu|nu|[xX]i|omicron|(var)?pi|(var)?rho|(var)?sigma|tau|upsilon|(var)?phi|chi|[pP]si|[oO]mega|Gamma|Theta|Pi|Sigma|Phi|ell|varepsilon|varkappa)$/;
+
+/** A word of a name in LaTeX. @param {string} word */
+const letter = (word) => (word === "phi" || word === "epsilon" ? `\\var${word}` : GREEK.test(word) ? `\\${word}` : /^(.|\d+)$/.test(word) ? word : `\\mathrm{${word}}`);
+
+/** LaTeX of a name, as the server writes it: phi → \\varphi, y0 → y_{0}, omega_max → \\omega_{\\mathrm{max}}. @param {string} name */
+export function latexOfName(name) {
+  const [head = "", ...indices] = name.match(/[A-Za-z]+|\d+/g) ?? [];
+  return letter(head) + (indices.length ? `_{${indices.map(letter).join(",")}}` : "");
+}
+
+/** @param {any} row */
+const typeset = (row) => ({ ...row, latex: row.latex || latexOfName(String(row.name ?? "")) });
+
 /**
  * A valid document with what it leaves to be understood, so that the page can show it.
  * @param {SceneDocument} given @returns {Scene}
@@ -107,8 +121,8 @@ export function completed(given) {
     title: texts(given.title),
     summary: texts(given.summary),
     dimension: given.dimension ?? 2,
-    coordinates: rows(given.coordinates).map((row) => ({ latex: "", unit: "", value: 0, rate: 0, ...row })),
-    parameters: rows(given.parameters).map((row) => ({ latex: "", unit: "", value: 1, ...row })),
+    coordinates: rows(given.coordinates).map((row) => ({ unit: "", value: 0, rate: 0, ...typeset(row) })),
+    parameters: rows(given.parameters).map((row) => ({ unit: "", value: 1, ...typeset(row) })),
     points: rows(given.points),
     bodies: rows(given.bodies),
     loads: named(rows(given.loads)),

@@ -121,6 +121,12 @@ test("a rigid body in space has no angle, and three moments of inertia are no te
   assert.deepEqual(inDimension(inPlane, 2), inPlane);
 });
 
+for (const [name, latex] of [["phi", "\\varphi"], ["y_0", "y_{0}"], ["y0", "y_{0}"], ["omega_max", "\\omega_{\\mathrm{max}}"], ["cm", "\\mathrm{cm}"], ["varepsilon2", "\\varepsilon_{2}"], ["m1x", "m_{1,x}"], ["Psi", "\\Psi"], ["L", "L"]])
+  test(`a symbol without LaTeX of its own: ${name}`, () => {
+    const given = completed({ coordinates: [{ name }], parameters: [{ name, latex: "\\Omega" }] });
+    assert.deepEqual([given.coordinates[0].latex, given.parameters[0].latex], [latex, "\\Omega"]);
+  });
+
 test("what hung on a removed row goes too", () => {
   const next = /** @type {any} */ (removed(scene, "points", 0));
   assert.deepEqual(next.drawing.elements.map((/** @type {any} */ e) => e.kind), ["bob", "force"]);

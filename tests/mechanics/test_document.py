@@ -57,6 +57,22 @@ def test_defaults() -> None:
     assert [coordinate.name for coordinate in scene.free] == ["phi"]
 
 
+@pytest.mark.parametrize(
+    ("loads", "drawing", "vertical"),
+    [
+        pytest.param([{"kind": "gravity", "acceleration": ["0", "-g"]}], {}, "up", id="weight downwards"),
+        pytest.param([{"kind": "gravity", "acceleration": ["0", "g"]}], {}, "down", id="as in the lecture"),
+        pytest.param([{"kind": "gravity", "acceleration": ["g", "0"]}], None, "up", id="weight sideways"),
+        pytest.param([], {}, "up", id="no weight"),
+        pytest.param([{"kind": "gravity", "acceleration": ["0", "-g"]}], {"vertical": "down"}, "down", id="said"),
+    ],
+)
+def test_a_drawing_that_does_not_say_it_shows_weights_pointing_down(
+    loads: list[object], drawing: object, vertical: str
+) -> None:
+    assert read_scene({**PENDULUM, "loads": loads, "drawing": drawing}).drawing.vertical == vertical
+
+
 def test_loads_of_one_kind_are_numbered() -> None:
     document = copy.deepcopy(PENDULUM)
     put("/loads/1", copy.deepcopy(document["loads"][0]))(document)  # type: ignore[index]

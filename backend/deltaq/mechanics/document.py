@@ -139,9 +139,16 @@ def _place_names(root: Reader) -> tuple[str, ...]:
 
 
 def _drawing(root: Reader, context: Context) -> Drawing:
-    table = root.get("drawing", Mapping, {}) or {}
+    table = {"vertical": _vertical(root), **(root.get("drawing", Mapping, {}) or {})}
     reader = Reader(table, "/drawing", root.problems, context)
     return next(iter([*reader.build(read_drawing)]), Drawing())
+
+
+def _vertical(root: Reader) -> str:
+    """Where the second component grows if the drawing does not say it: so that weights point down."""
+    pulls = [table.get("acceleration") for _, table in _well_formed(root, "loads") if table.get("kind") == "gravity"]
+    second = str(pulls[0][1]).strip() if pulls and isinstance(pulls[0], list | tuple) and len(pulls[0]) > 1 else "-"
+    return "up" if second.startswith("-") or second == "0" else "down"
 
 
 def read_drawing(table: Reader) -> Drawing:

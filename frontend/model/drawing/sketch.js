@@ -103,6 +103,6 @@ function angles(scene, { coordinates, t }, paths, { from, to }) {
 export function verticalOf(scene) {
   const given = scene.drawing?.vertical;
   if (given) return given;
-  const pull = scene.loads.find((load) => load.kind === "gravity")?.acceleration?.[1]?.trim() ?? "-";
+  const pull = String(scene.loads.find((load) => load?.kind === "gravity")?.acceleration?.[1] ?? "-").trim();
   return pull.startsWith("-") || pull === "0" ? "up" : "down";
 }

@@ -5,6 +5,7 @@ import { icon } from "../icons.js";
 import { added, inDimension, ofKind, removed, shifted } from "../../model/editor/changes.js";
 import { dimensionOf, fieldsOf, rowsOf, SECTIONS } from "../../model/editor/schema.js";
 import { rowFor } from "../../model/editor/templates.js";
+import { verticalOf } from "../../model/drawing/sketch.js";
 import { choice, complaints, fieldOf, line } from "./field.js";
 
 /** @typedef {import("./editor.js").Sheet} Sheet */
@@ -96,10 +97,11 @@ function drawing(sheet) {
   const { t, writing } = sheet;
   const given = writing.document.drawing ?? {};
   const count = rowsOf(given.elements).length;
+  const vertical = verticalOf(/** @type {any} */ ({ drawing: given, loads: rowsOf(writing.document.loads) }));
   return html`
     <div class="card"><div class="fields">
-      ${choice(sheet, "/drawing", t("editor.vertical"), given.vertical ?? "up", { options: ["down", "up"], say: (one) => t(`editor.vertical.${one}`) }, (vertical) => sheet.put("/drawing/vertical", vertical))}
+      ${choice(sheet, "/drawing", t("editor.vertical"), vertical, { options: ["down", "up"], say: (one) => t(`editor.vertical.${one}`) }, (one) => sheet.put("/drawing/vertical", one))}
     </div>
     <p class="hint">${count ? t("editor.drawing-own", { count }) : t("editor.drawing-automatic")}
-      ${count ? html`<button type="button" class="quiet small" @click=${() => sheet.put("/drawing", { vertical: given.vertical ?? "up" })}>${t("editor.drawing-reset")}</button>` : nothing}</p></div>`;
+      ${count ? html`<button type="button" class="quiet small" @click=${() => sheet.put("/drawing", { vertical })}>${t("editor.drawing-reset")}</button>` : nothing}</p></div>`;
 }
