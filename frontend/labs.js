@@ -14,7 +14,7 @@ import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { dressed } from "./view/header.js";
 import { withSides } from "./view/labs/form.js";
 import { createMotion } from "./view/labs/motion.js";
-import { page } from "./view/labs/page.js";
+import { page, showOpen } from "./view/labs/page.js";
 import { createCharts } from "./view/labs/plotly.js";
 
 /** @typedef {import("./model/labs/stream.js").Chart} Chart */
@@ -142,6 +142,7 @@ const session = {
   },
 };
 
+let opened = "";
 function update() {
   const { place, catalog, scenes, dial, play } = get();
   if (!catalog.page) return;
@@ -156,6 +157,8 @@ function update() {
     save: (chart, format) => void charts.save(chart, format),
   }), root);
   motion.arrange();
+  if (opened !== bench.get().question.lab) showOpen(root);
+  opened = bench.get().question.lab;
   void charts.show(now, theme, place.lang).then(() => charts.point(now, get().cursor));
   history.replaceState(null, "", link({}));
 }

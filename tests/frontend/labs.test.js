@@ -5,6 +5,7 @@ import { cheapestFor, themed, withStep, withTolerance } from "../../frontend/mod
 import { createBench } from "../../frontend/model/labs/bench.js";
 import { titleOf } from "../../frontend/model/labs/ladder.js";
 import { NOTHING, pointOf, readQuestion, requestOf, writeQuestion } from "../../frontend/model/labs/question.js";
+import { inUnicode } from "../../frontend/model/labs/symbols.js";
 import { stepRange } from "../../frontend/model/labs/step.js";
 import { eventReader, experiment } from "../../frontend/model/labs/stream.js";
 import { motionOf, written } from "../../frontend/model/labs/watch.js";
@@ -86,6 +87,8 @@ test("a chart takes the page's colours, and puts the legend below where it is na
   const wall = themed(CHART, PALETTE, 3000, 40, "de");
   assert.equal(wall.data[0].marker.size / wide.data[0].marker.size, 40 / 16);
   assert.equal(CHART.data[0].marker?.color, "#222222");
+  const ringed = { ...CHART, data: [{ name: "a", marker: { color: "#0072b2", line: { color: "#222222", width: 3 } } }] };
+  assert.deepEqual(themed(/** @type {any} */ (ringed), PALETTE, 1000, 16, "de").data[0].marker, { color: "#0072b2", size: 6, line: { color: "ink", width: 3 } });
 });
 
 test("the crosses follow the step, and nothing else does", () => {
@@ -115,6 +118,23 @@ test("rungs are named by what they leave out", () => {
   const t = (/** @type {string} */ key, /** @type {any} */ given = {}) => `${key.split(".")[2]}(${Object.values(given)})`;
   assert.equal(titleOf({ parts: [] }, t), "full()");
   assert.equal(titleOf({ parts: [{ kind: "rigid", parameters: { load: "spring" } }, { kind: "linearized", parameters: {} }] }, t), "rigid(spring), linearized()");
+  const names = { phi: "φ", psi: "ψ", spring: { de: "Feder", en: "spring" } };
+  const parts = [{ kind: "rigid", parameters: { load: "spring" } }, { kind: "cyclic", parameters: { coordinate: "phi, psi" } }];
+  assert.equal(titleOf({ parts }, t, names, "de"), "rigid(Feder), cyclic(φ, ψ)");
+});
+
+test("symbols in a menu are letters, not their names", () => {
+  const shown = { "\\omega": "ω", "\\varphi_{1}": "φ₁", y0: "y₀", "\\ell": "ℓ", m: "m", "k_2": "k₂", "c_d": "c_d", phi1: "φ₁" };
+  assert.deepEqual(Object.keys(shown).map(inUnicode), Object.values(shown));
+});
+
+test("a legend below a narrow chart breaks its lines and has room for them", () => {
+  const chart = /** @type {any} */ ({ id: "a", data: [{ name: "Symplektisches Euler-Verfahren: nicht einmal die erste Ziffer bleibt" }], layout: {} });
+  const palette = { ink: "", muted: "", grid: "", paper: "" };
+  const [narrow, wide] = [328, 1200].map((width) => themed(chart, palette, width, 16, "de"));
+  assert.equal(narrow.data[0].name, "Symplektisches Euler-Verfahren: nicht<br>einmal die erste Ziffer bleibt");
+  assert.equal(wide.data[0].name, chart.data[0].name);
+  assert.ok(Math.abs(narrow.layout.height - wide.layout.height - 2 * 1.35 * 16) < 1e-9);
 });
 
 const SCENE = /** @type {any} */ ({ id: "pendulum", parameters: [], coordinates: [] });

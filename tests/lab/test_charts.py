@@ -8,11 +8,12 @@ import plotly.graph_objects as go
 import pytest
 
 from deltaq.lab.charts.chart import look
-from deltaq.lab.charts.words import spoken, words
+from deltaq.lab.charts.words import called, spoken, words
 from deltaq.lab.experiment import drawn
 from deltaq.lab.export import page, table
 from deltaq.lab.library import experiment_ids, get_experiment
 from deltaq.lab.peers import PEERS
+from deltaq.lab.subject import subject_of
 from deltaq.narration.catalog import keys, text
 from deltaq.simulation.kernels.motion import EVENT
 from deltaq.simulation.library import method_ids
@@ -46,6 +47,19 @@ def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str)
     assert all(chart["subject"].startswith(reports[-1].result["title"][lang]) for chart in charts)  # type: ignore[index]
     assert table(charts).count("\n") > 10
     assert page(charts, lang).count("<figure>") == len(charts)
+
+
+def test_charts_write_symbols_and_the_words_of_the_scene() -> None:
+    names = {"omega": "ω", "phi": "q₂", "suspension": {"de": "Feder", "en": "spring"}}
+    result = {"names": names}
+    assert [called(result, name) for name in ("omega", "omega, phi", "other")] == ["ω", "ω, q₂", "other"]
+    assert [spoken(called(result, "suspension"), lang) for lang in ("de", "en", "fr")] == ["Feder", "spring", "Feder"]
+    subject = subject_of({"scene": "elastic-pendulum"})
+    assert {name: subject.described["names"][name] for name in ("phi", "l", "suspension")} == {
+        "phi": "q₂",
+        "l": "ℓ",
+        "suspension": {"de": "Feder", "en": "spring"},
+    }
 
 
 def test_methods_are_told_apart_by_look() -> None:

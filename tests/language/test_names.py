@@ -7,6 +7,7 @@ from tests.language.scene_names import NAMES, problem_of
 
 from deltaq.errors import InputError, Problem
 from deltaq.language.names import Names, Symbol
+from deltaq.language.spelling import in_unicode
 
 SPELLINGS = [
     ("phi", "phi"), ("φ", "phi"), ("ϕ", "phi"), ("varphi", "phi"), (r"\varphi", "phi"), (r"\phi", "phi"),
@@ -102,3 +103,11 @@ LATEX = [
 @pytest.mark.parametrize(("name", "latex"), LATEX)
 def test_latex_of_a_name(name: str, latex: str) -> None:
     assert Symbol(name, "parameter").typeset == latex
+
+
+@pytest.mark.parametrize(
+    ("latex", "text"),
+    [(r"\varphi_{1}", "φ₁"), (r"\omega", "ω"), ("q_2", "q₂"), (r"\ell", "ℓ"), ("c_d", "c_d"), (r"\vartheta", "ϑ")],
+)
+def test_symbol_in_a_line_of_text(latex: str, text: str) -> None:
+    assert in_unicode(latex) == text

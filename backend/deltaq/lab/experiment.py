@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .charts.chart import Chart
-from .charts.words import Say, spoken, words
+from .charts.words import Say, called, spoken, words
 from .report import Document, Report
 
 
@@ -34,7 +34,8 @@ def drawn(experiment: Experiment, result: Document, text: Callable[..., str], la
 
 
 def _subject(result: Mapping[str, Any], language: str) -> str:
-    titles, values = result["title"], dict(result["parameters"])
-    values |= {f"{name}(0)": start["value"] for name, start in result["initial"].items()}
+    titles = result["title"]
+    values = {called(result, name): value for name, value in result["parameters"].items()}
+    values |= {f"{called(result, name)}(0)": start["value"] for name, start in result["initial"].items()}
     told = ", ".join(f"{name} = {spoken(value, language)}" for name, value in values.items())
     return f"{titles.get(language) or next(iter(titles.values()), result['scene'])}: {told}"

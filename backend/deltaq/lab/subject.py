@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from ..errors import Problem as Mistake
 from ..errors import RequestError, UnknownNameError
+from ..language.spelling import in_unicode, latex_of
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..simulation.fields import Fields
@@ -43,10 +44,18 @@ class Subject:
         return {
             "scene": self.scene.id,
             "title": dict(self.scene.title),
+            "names": _names(self.scene),
             "t_end": self.problem.t_end,
             "parameters": dict(values),
             "initial": {c.name: {"value": value, "rate": rate} for c, value, rate in starts},
         }
+
+
+def _names(scene: Scene) -> Document:
+    """How what the scene names is to be written: symbols of quantities, words for its parts in every language."""
+    latex = {one.name: one.latex for one in scene.coordinates} | {one.name: one.latex for one in scene.parameters}
+    words: Document = {name: dict(label) for name, label in scene.labels.items()}
+    return words | {name: in_unicode(symbol or latex_of(name)) for name, symbol in latex.items()}
 
 
 def subject_of(document: Mapping[str, object], samples: int = 501, span: float = SPAN) -> Subject:

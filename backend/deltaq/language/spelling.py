@@ -22,6 +22,11 @@ GREEK: Mapping[str, str] = MappingProxyType(
 )  # fmt: skip
 GREEK_NAMES = frozenset(GREEK.values()) | {"varphi", "varepsilon", "varpi", "varkappa"}
 SUBSCRIPTS: Mapping[str, str] = MappingProxyType(dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True)))
+_LETTERS: Mapping[str, str] = MappingProxyType(
+    {name: letter for letter, name in reversed(tuple(GREEK.items()))}
+    | {"varphi": "φ", "varepsilon": "ε", "varkappa": "κ"}
+)
+_LOWERED: Mapping[int, str] = MappingProxyType({ord(digit): low for low, digit in SUBSCRIPTS.items()})
 SUPERSCRIPTS: Mapping[str, str] = MappingProxyType(dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789", strict=True)))
 # Letters on which two dots mean a second derivative; ä, ö and ü are letters of their own.
 DOTTED_TWICE = "xywXYW"
@@ -75,3 +80,10 @@ def _letter(word: str) -> str:
 
 def _index(word: str) -> str:
     return word if word.isdigit() else _letter(word)
+
+
+def in_unicode(latex: str) -> str:
+    """A symbol as one line of text: \\varphi_{1} → φ₁, \\omega → ω; what has no sign of its own is spelt out: c_d."""
+    lettered = re.sub(r"\\([A-Za-z]+) ?", lambda found: _LETTERS.get(found[1], ""), latex)
+    lowered = re.sub(r"_\{?(\d+)\}?", lambda found: found[1].translate(_LOWERED), lettered)
+    return re.sub(r"[{}]", "", lowered)

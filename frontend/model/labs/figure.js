@@ -6,6 +6,8 @@ import { stepRange } from "./step.js";
 /** @typedef {{ink: string, muted: string, grid: string, paper: string}} Palette */
 
 const NARROW = 640;
+/** In the type size: how wide a letter of the legend is, and the symbol and margins beside it. */
+const LETTER = 0.38, BESIDE = 4.5;
 /** The type size in pixels for which charts are made. */
 const TYPE = 16;
 /** Plotly's own, where a chart says nothing. */
@@ -18,10 +20,11 @@ const INK = "#222222";
  */
 export function themed(chart, palette, width, em, lang) {
   const narrow = width < NARROW * (em / TYPE);
+  const told = narrow ? { ...chart, data: chart.data.map((trace) => broken(trace, (width - BESIDE * em) / (LETTER * em))) } : chart;
   const layout = {
     ...chart.layout,
     width,
-    height: heightOf(chart, narrow, em),
+    height: heightOf(told, narrow, em),
     margin: scaled(chart.layout.margin ?? {}, em / TYPE),
     font: { ...chart.layout.font, size: 0.8 * em, color: palette.ink },
     paper_bgcolor: "rgba(0,0,0,0)",
@@ -30,13 +33,23 @@ export function themed(chart, palette, width, em, lang) {
     legend: narrow ? { ...chart.layout.legend, orientation: "h", x: 0, y: -0.22, xanchor: "left", yanchor: "top", font: { size: 0.72 * em } } : { ...chart.layout.legend, font: { size: 0.75 * em } },
     ...axesOf(chart.layout, palette),
   };
-  return { data: chart.data.map((trace) => thickened(inked(trace, palette), em / TYPE)), layout };
+  return { data: told.data.map((trace) => thickened(inked(trace, palette), em / TYPE)), layout };
+}
+
+/** What a legend says below a narrow chart goes on in the next line. @param {any} trace @param {number} most letters in a line */
+function broken(trace, most) {
+  const lines = (trace.name ?? "").split(" ").reduce((/** @type {string[]} */ all, /** @type {string} */ word) => {
+    const longer = all.length ? `${all[all.length - 1]} ${word}` : word;
+    return all.length && longer.length <= most ? [...all.slice(0, -1), longer] : [...all, word];
+  }, []);
+  return lines.length > 1 ? { ...trace, name: lines.join("<br>") } : trace;
 }
 
 /** @param {Chart} chart @param {boolean} narrow @param {number} em */
 function heightOf(chart, narrow, em) {
-  const named = chart.data.filter((trace) => trace.name && trace.showlegend !== false).length;
-  const legend = narrow && chart.layout.showlegend !== false ? named * 1.35 * em : 0;
+  const named = chart.data.filter((trace) => trace.name && trace.showlegend !== false);
+  const lines = named.reduce((sum, { name }) => sum + name.split("<br>").length, 0);
+  const legend = narrow && chart.layout.showlegend !== false ? lines * 1.35 * em : 0;
   return 26 * em + legend;
 }
 
@@ -48,7 +61,10 @@ function axesOf(layout, palette) {
 
 /** @param {any} trace @param {Palette} palette */
 function inked(trace, palette) {
-  return trace.marker?.color === INK ? { ...trace, marker: { ...trace.marker, color: palette.ink } } : trace;
+  const { marker } = trace;
+  const shown = (/** @type {unknown} */ color) => (color === INK ? palette.ink : color);
+  if (![marker?.color, marker?.line?.color].includes(INK)) return trace;
+  return { ...trace, marker: { ...marker, color: shown(marker.color), ...(marker.line && { line: { ...marker.line, color: shown(marker.line.color) } }) } };
 }
 
 /** @param {Record<string, number>} lengths @param {number} by */

@@ -3,6 +3,8 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inLanguage } from "../../model/catalog.js";
+import { inUnicode } from "../../model/labs/symbols.js";
+import { unitText } from "../../model/numbers.js";
 import { OWN } from "../../model/own.js";
 import { inline } from "../formula.js";
 import { settled } from "../settled.js";
@@ -97,7 +99,7 @@ function stiffness(view) {
   const { stiffness: chosen } = bench.question;
   return field(view, "stiffness", html`<select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => benches.edit({ stiffness: textOf(e) })}>
     <option value="">${t("labs.stiffness-usual")}</option>
-    ${parametersOf(bench.scene).map(({ name }) => html`<option value=${name} ?selected=${name === chosen}>${name}</option>`)}</select>`);
+    ${parametersOf(bench.scene).map(({ name, latex }) => html`<option value=${name} ?selected=${name === chosen}>${inUnicode(latex || name)}</option>`)}</select>`);
 }
 
 /** @param {"x" | "y"} key @returns {(view: View) => unknown} */
@@ -110,7 +112,7 @@ const side = (key) => (view) => {
   const choose = (/** @type {Event} */ e) => put(rangeOf(parameters.find(({ name }) => name === textOf(e)) ?? parameters[0]));
   return html`
     <fieldset class="side"><legend>${t(`labs.axis-${key}`)}</legend>
-      <select aria-label=${t("labs.parameter")} .value=${live(now.parameter)} @change=${choose}>${parameters.map(({ name }) => html`<option value=${name} ?selected=${name === now.parameter}>${name}</option>`)}</select>
+      <select aria-label=${t("labs.parameter")} .value=${live(now.parameter)} @change=${choose}>${parameters.map(({ name, latex }) => html`<option value=${name} ?selected=${name === now.parameter}>${inUnicode(latex || name)}</option>`)}</select>
       <label><span class="unseen">${t("labs.from")}</span>${number(now.from, (from) => put({ from }))}</label>
       <span aria-hidden="true">…</span>
       <label><span class="unseen">${t("labs.to")}</span>${number(now.to, (to) => put({ to }))}</label>
@@ -136,10 +138,10 @@ function values(view, scene) {
   return html`
     <details class="numbers-of-scene" ?open=${changed > 0}><summary>${t("labs.values")}</summary>
       ${scene.parameters.map(({ name, latex, unit, value }) => html`<label class="field row"><span>${inline(latex || name)}</span>
-        ${number(parameters[name] ?? value, (given) => benches.edit({ parameters: { ...parameters, [name]: given } }))}<span class="unit">${unit ?? ""}</span></label>`)}
+        ${number(parameters[name] ?? value, (given) => benches.edit({ parameters: { ...parameters, [name]: given } }))}<span class="unit">${unitText(unit ?? "")}</span></label>`)}
       ${scene.coordinates.filter(({ name }) => !guided.has(name)).map(({ name, latex, unit, value, rate }) => html`
-        <label class="field row"><span>${inline(`${latex || name}(0)`)}</span>${number(initial[name]?.value ?? value, (given) => start(name, { value: given }))}<span class="unit">${unit ?? ""}</span></label>
-        <label class="field row"><span>${inline(`\\dot{${latex || name}}(0)`)}</span>${number(initial[name]?.rate ?? rate, (given) => start(name, { rate: given }))}<span class="unit">${unit ? `${unit}/s` : ""}</span></label>`)}
+        <label class="field row"><span>${inline(`${latex || name}(0)`)}</span>${number(initial[name]?.value ?? value, (given) => start(name, { value: given }))}<span class="unit">${unitText(unit ?? "")}</span></label>
+        <label class="field row"><span>${inline(`\\dot{${latex || name}}(0)`)}</span>${number(initial[name]?.rate ?? rate, (given) => start(name, { rate: given }))}<span class="unit">${unit ? unitText(`${unit}/s`) : ""}</span></label>`)}
     </details>`;
 }
 

@@ -53,6 +53,9 @@ export function page(view) {
     </main>`;
 }
 
+/** Where the labs do not all fit beside each other, the open one is in sight. @param {Element} root */
+export const showOpen = (root) => root.querySelector(".kinds [aria-current]")?.scrollIntoView({ block: "nearest", inline: "center" });
+
 /** @param {View} view @param {string} lab */
 function kind({ bench, benches, link, t }, lab) {
   const open = (/** @type {MouseEvent} */ event) => {

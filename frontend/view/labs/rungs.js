@@ -11,7 +11,7 @@ export function rungs(view) {
   if (!result) return nothing;
   const least = result.rungs.find((/** @type {any} */ rung) => rung.id === result.least);
   return html`
-    ${least ? html`<p class="verdict">${t("labs.fidelity.least", { tolerance: significant(100 * result.tolerance, 2, state.place.lang), title: titleOf(least, t) })}</p>` : nothing}
+    ${least ? html`<p class="verdict">${t("labs.fidelity.least", { tolerance: significant(100 * result.tolerance, 2, state.place.lang), title: titleOf(least, t, result.names, state.place.lang) })}</p>` : nothing}
     <table class="numbers failures">
       <caption>${t("labs.fidelity.table")}</caption>
       <thead><tr><th scope="col">${t("labs.fidelity.rung")}</th>${["degrees", "operations", "time", "error"].map((key) => html`<th scope="col">${t(`labs.fidelity.${key}`)}</th>`)}<td></td></tr></thead>
@@ -25,7 +25,7 @@ function line({ bench, t, state, open }, rung) {
   const one = bench.result?.measured.find((/** @type {any} */ each) => each.rung === rung.id) ?? {};
   const failed = rung.refused.length ? t("labs.fidelity.refused") : one.status && one.status !== "ok" ? t(`labs.status.${one.status}`) : "";
   return html`<tr class=${rung.id === bench.result?.least ? "least" : ""}>
-    <th scope="row">${titleOf(rung, t)}</th><td>${rung.degrees}</td><td>${one.operations?.total ?? ""}</td>
+    <th scope="row">${titleOf(rung, t, bench.result?.names, lang)}</th><td>${rung.degrees}</td><td>${one.operations?.total ?? ""}</td>
     <td>${one.time ? `${significant(1e3 * one.time[0], 3, lang)} ms` : ""}</td>
     <td>${one.error === undefined ? failed : `${significant(100 * one.error, 2, lang)} %`}</td>
     <td>${rung.scene ? html`<button class="quiet small" @click=${() => open(rung.scene)}>${t("labs.fidelity.open")}</button>` : nothing}</td>

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from .chart import PALETTE, Chart, Result, Trace, axis, chart
-from .words import Say
+from .words import Say, called
 
 SCALE = [[0.0, "#fde725"], [0.35, "#35b779"], [0.7, "#31688e"], [1.0, "#440154"]]
 
@@ -71,6 +71,7 @@ def _horizon(result: Result, say: Say) -> Chart:
 def _map(result: Result, say: Say) -> Chart:
     told = result["map"]
     x, y = told["x"], told["y"]
+    across, up = called(result, x["coordinate"]), called(result, y["coordinate"])
     heat = {
         "type": "heatmap",
         "x": x["values"],
@@ -80,13 +81,12 @@ def _map(result: Result, say: Say) -> Chart:
         "zmax": told["t_end"],
         "colorscale": SCALE,
         "colorbar": {"title": {"text": "t / s", "side": "right"}, "thickness": 12, "outlinewidth": 0},
-        "hovertemplate": f"{x['coordinate']} = %{{x:.3f}}<br>"
-        f"{y['coordinate']} = %{{y:.3f}}<br>t = %{{z:.2f}} s<extra></extra>",
+        "hovertemplate": f"{across} = %{{x:.3f}}<br>{up} = %{{y:.3f}}<br>t = %{{z:.2f}} s<extra></extra>",
         "meta": {"role": "flips", "x": x["coordinate"], "y": y["coordinate"]},
     }
     axes = {
-        "xaxis": axis(f"{x['coordinate']}(0) / rad", constrain="domain"),
-        "yaxis": axis(f"{y['coordinate']}(0) / rad", scaleanchor="x", constrain="domain"),
+        "xaxis": axis(f"{across}(0) / rad", constrain="domain"),
+        "yaxis": axis(f"{up}(0) / rad", scaleanchor="x", constrain="domain"),
     }
     caption = say("labs.chaos.map-caption", t_end=told["t_end"], count=len(x["values"]))
     return chart("chaos-map", say("labs.chaos.map"), caption, [heat], **axes)

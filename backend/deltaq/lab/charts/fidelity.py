@@ -6,22 +6,26 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from .chart import INK, PALETTE, SYMBOLS, Chart, Result, Trace, axis, chart, curve, grouped, name_of
-from .words import Say
+from .words import Say, called
 
 RANGE = [-10.5, 1.0]
 
 
 def charts(result: Result, say: Say) -> list[Chart]:
     """Cost against error; error against amplitude, where there are several."""
-    titles = {rung["id"]: title_of(rung, say) for rung in result["rungs"]}
+    titles = {rung["id"]: title_of(rung, result, say) for rung in result["rungs"]}
     found = [_cost(result, titles, say)] if result["measured"] else []
     return [*found, _amplitude(result, titles, say)] if result["growth"] else found
 
 
-def title_of(rung: Mapping[str, Any], say: Say) -> str:
+def title_of(rung: Mapping[str, Any], result: Result, say: Say) -> str:
     """What is left out, in words."""
-    parts = [say(f"ladder.kinds.{part['kind']}.title", **part["parameters"]) for part in rung["parts"]]
-    return ", ".join(parts) or say("ladder.kinds.full.title")
+    return ", ".join(_left_out(part, result, say) for part in rung["parts"]) or say("ladder.kinds.full.title")
+
+
+def _left_out(part: Mapping[str, Any], result: Result, say: Say) -> str:
+    named = {key: called(result, name) for key, name in part["parameters"].items()}
+    return say(f"ladder.kinds.{part['kind']}.title", **named)
 
 
 def _cost(result: Result, titles: Mapping[str, str], say: Say) -> Chart:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from .chart import FAILED, Chart, Result, Trace, axis, chart, curve, grouped, look, name_of
-from .words import Say
+from .words import Say, called
 
 
 def charts(result: Result, say: Say) -> list[Chart]:
@@ -58,9 +58,9 @@ def _eigenvalues(result: Result, say: Say) -> Trace:
 
 def _stiffness(result: Result, say: Say) -> Chart:
     traces = [trace for method, rows in grouped(result["series"]).items() for trace in _cost(method, rows, say)]
-    x_axis = axis(say("labs.stability.factor", parameter=result["stiffness"]), log=True)
+    x_axis = axis(say("labs.stability.factor", parameter=called(result, result["stiffness"])), log=True)
     y_axis = axis(say("labs.axis.evaluations"), log=True)
-    caption = say("labs.stability.stiff-caption", parameter=result["stiffness"], t_end=result["t_end"])
+    caption = say("labs.stability.stiff-caption", parameter=called(result, result["stiffness"]), t_end=result["t_end"])
     return chart("stability-stiffness", say("labs.stability.stiff-title"), caption, traces, xaxis=x_axis, yaxis=y_axis)
 
 

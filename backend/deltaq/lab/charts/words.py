@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Protocol
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 COMMA = frozenset({"de"})  # languages with a decimal comma
@@ -24,10 +24,19 @@ def words(text: Callable[..., str], language: str) -> Say:
     return say
 
 
+def called(result: Mapping[str, Any], names: str) -> Any:
+    """What the scene of a result calls something: a symbol, or a word by language; several as symbols."""
+    known = result.get("names", {})
+    several = names.split(", ")
+    return known.get(names, names) if len(several) == 1 else ", ".join(str(known.get(name, name)) for name in several)
+
+
 def spoken(value: object, language: str) -> object:
-    """Numbers with three digits, powers of ten as they are printed; whole numbers and words as they are."""
+    """Numbers with three digits, powers of ten as they are printed; a word by its language; others as they are."""
     if value is None:
         return "–"
+    if isinstance(value, Mapping):
+        return value.get(language) or next(iter(value.values()), "–")
     return _written(value, language) if isinstance(value, float) else value
 
 
