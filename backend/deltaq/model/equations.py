@@ -23,6 +23,7 @@ from .kinetic import ZERO, Vector, components, kinetic_energy
 from .loads import Work, works
 from .symbols import CLOCK, Symbols
 from .symengine_algebra import to_symengine
+from .trigonometry import shortened
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ def equations(scene: Scene) -> Equations:
     """The model of a scene."""
     symbols = Symbols.of(scene)
     guides = _Guides.of(scene, symbols)
-    kinetic = sum((kinetic_energy(part, symbols) for body in scene.bodies for part in body.kinetics), ZERO)
+    kinetic = shortened(sum((kinetic_energy(part, symbols) for body in scene.bodies for part in body.kinetics), ZERO))
     loads = works(scene, symbols)
     rows = _rows(kinetic, loads, symbols)
     count = len(symbols.free)
