@@ -130,6 +130,7 @@ function sceneChooser({ state, session, t }) {
     void session.choose(id);
   };
   const freedoms = shown ? freedomsOf(shown) : entry?.degrees_of_freedom ?? 0;
+  const about = inLanguage(state.scene?.summary, lang);
   const titleOf = (/** @type {import("../model/types.js").SceneEntry} */ one) => inLanguage((one.id === scene && shown?.title) || one.title, lang);
   const select = html`
     <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => leaveFor(chosen(e))}>
@@ -140,7 +141,7 @@ function sceneChooser({ state, session, t }) {
     <div class="scene">
       ${titleMenu(t("scene.choose"), entry ? titleOf(entry) : t("scene.choose"), select)}
       <p class="summary">${entry ? (freedoms === 1 ? t("scene.freedoms-one") : t("scene.freedoms", { count: freedoms })) : ""}
-        ${entry ? html`<span class="more">${inLanguage(state.scene?.summary, lang)}</span>` : nothing}</p>
+        ${entry && about ? html`<span class="more">${about}</span>` : nothing}</p>
     </div>
   `;
 }

@@ -6,7 +6,7 @@ import pytest
 
 from deltaq.errors import UnknownNameError
 from deltaq.homework.checking import check
-from deltaq.homework.feedback import model_answer
+from deltaq.homework.feedback import model_answer, task_document
 from deltaq.homework.quantities import QUANTITIES
 from deltaq.homework.service import tasks_request
 from deltaq.homework.workbook import workbook_of
@@ -80,3 +80,21 @@ def test_a_seed_draws_the_same_values_every_time_and_leaves_gravity() -> None:
     ]
     assert values[0] == values[1] != values[2]
     assert {each["g"] for each in values} == {9.81}
+
+
+@pytest.mark.parametrize(
+    ("scene", "language", "axes"),
+    [
+        ("pendulum", "en", "In the drawing $x$ points to the right, $y$ downwards; the origin is: pivot."),
+        ("pendulum", "de", "In der Zeichnung zeigt $x$ nach rechts, $y$ nach unten; der Bezugspunkt ist: Aufhängung."),
+        ("foucault", "en", "In the drawing $x$ points to the right, $y$ upwards; the origin is: "),
+        ("two-mass-oscillator", "en", "In the drawing $x$ points to the right, $y$ upwards."),
+        ("spherical-pendulum", "en", "In the drawing $z$ points downwards; the origin is: pivot."),
+        ("heavy-top", "en", "In the drawing $z$ points upwards; the origin is: "),
+    ],
+)
+@pytest.mark.parametrize("kind", ["position", "virtual-displacement"])
+def test_a_vector_is_asked_for_in_axes_that_are_told(scene: str, language: str, axes: str, kind: str) -> None:
+    workbook = workbook_of({"scene": scene})
+    task = next(each for each in workbook.tasks if each.quantity.kind == kind)
+    assert axes in str(task_document(task, workbook, language)["statement"])

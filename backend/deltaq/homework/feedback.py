@@ -12,6 +12,7 @@ from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..mechanics.scene import Scene
 from ..narration.catalog import message, text
+from .axes import axes_text
 from .counterexamples import rounded_text
 from .task import Task
 from .verdict import Counterexample, Verdict
@@ -153,6 +154,8 @@ def _needs(task: Task, workbook: Workbook) -> list[str]:
 def _subject(task: Task, workbook: Workbook, language: str) -> dict[str, object]:
     scene = workbook.scene
     values: dict[str, object] = {"subject": _label(task.subject, scene, language), "dimension": scene.dimension}
+    if task.quantity.form == "vector":
+        values["axes"] = axes_text(scene, language)
     if task.quantity.kind in ("linearized", "eigenfrequencies"):
         typography = Typography(scene.names)
         rest = workbook.road.rest or {}

@@ -145,10 +145,10 @@ def _drawing(root: Reader, context: Context) -> Drawing:
 
 
 def _vertical(root: Reader) -> str:
-    """Where the second component grows if the drawing does not say it: so that weights point down."""
+    """Where the last component grows if the drawing does not say it: so that weights point down."""
     pulls = [table.get("acceleration") for _, table in _well_formed(root, "loads") if table.get("kind") == "gravity"]
-    second = str(pulls[0][1]).strip() if pulls and isinstance(pulls[0], list | tuple) and len(pulls[0]) > 1 else "-"
-    return "up" if second.startswith("-") or second == "0" else "down"
+    last = str(pulls[0][-1]).strip() if pulls and isinstance(pulls[0], list | tuple) and pulls[0] else "-"
+    return "up" if last.startswith("-") or last == "0" else "down"
 
 
 def read_drawing(table: Reader) -> Drawing:

@@ -99,10 +99,10 @@ function angles(scene, { coordinates, t }, paths, { from, to }) {
   return found ? [{ kind: "angle", at: from, coordinate: found.name }] : [];
 }
 
-/** Where the second component grows: as the drawing says, else along gravity. @param {Scene} scene @returns {"up" | "down"} */
+/** Where the last component grows: as the drawing says, else along gravity. @param {Scene} scene @returns {"up" | "down"} */
 export function verticalOf(scene) {
   const given = scene.drawing?.vertical;
   if (given) return given;
-  const pull = String(scene.loads.find((load) => load?.kind === "gravity")?.acceleration?.[1] ?? "-").trim();
+  const pull = String(scene.loads.find((load) => load?.kind === "gravity")?.acceleration?.at(-1) ?? "-").trim();
   return pull.startsWith("-") || pull === "0" ? "up" : "down";
 }
