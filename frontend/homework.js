@@ -19,7 +19,7 @@ import { createStore } from "./model/store.js";
 import { startLanguage } from "./model/url.js";
 import { dressed } from "./view/header.js";
 import { linkHighlights } from "./view/highlight.js";
-import { offer } from "./view/homework/files.js";
+import { offer } from "./view/files.js";
 import { fetchMathLive, offerKeys } from "./view/homework/mathfield.js";
 import { page } from "./view/homework/page.js";
 import { createReach, createStaging } from "./view/homework/staging.js";

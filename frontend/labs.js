@@ -11,6 +11,7 @@ import { motionOf, written } from "./model/labs/watch.js";
 import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { offer } from "./view/files.js";
 import { dressed } from "./view/header.js";
 import { withSides } from "./view/labs/form.js";
 import { createMotion } from "./view/labs/motion.js";
@@ -113,11 +114,7 @@ async function fetchFile(accept) {
   const { question } = bench.get();
   const name = question.lab;
   const blob = await file(send, name, requestOf(withSides(bench.get().scene, question), documentOf(question.scene), lang()), accept);
-  const anchor = document.createElement("a");
-  anchor.href = URL.createObjectURL(blob);
-  anchor.download = `${name}-${question.scene}.${accept === "text/csv" ? "csv" : "html"}`;
-  anchor.click();
-  setTimeout(() => URL.revokeObjectURL(anchor.href), 1000);
+  offer(`${name}-${question.scene}.${accept === "text/csv" ? "csv" : "html"}`, blob, accept);
 }
 
 /** A rung as a scene of its own. @param {object} scene */

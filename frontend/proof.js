@@ -7,6 +7,7 @@ import { createLater } from "./model/later.js";
 import { createProof, PROOF } from "./model/proof.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { sheet } from "./view/bring.js";
 import { dressed } from "./view/header.js";
 import { listen } from "./view/keys.js";
 import { openDialog, overlays } from "./view/overlays.js";
@@ -33,8 +34,7 @@ function texts() {
 }
 
 const lecture = createLater(async () => {
-  const { bringStyle, open } = await import("./view/lecture/open.js");
-  await bringStyle();
+  const [{ open }] = await Promise.all([import("./view/lecture/open.js"), sheet("lecture")]);
   const about = () => ({ scene: PROOF, title: { [store.get().place.lang]: texts()("place.proof") } });
   return open({ root, session, state: store.get, about, changed: update, play() {} });
 }, update);

@@ -3,6 +3,7 @@
 import { translator } from "../model/catalog.js";
 import { createLater } from "../model/later.js";
 import { keepDraft, OWN, readDraft } from "../model/own.js";
+import { sheet } from "./bring.js";
 
 /** @typedef {import("./page.js").View} View */
 /** Milliseconds after which a motion is told: not while a slider moves. */
@@ -16,15 +17,17 @@ const REST = 1200;
  */
 export function createAside({ root, store, api, session, send, changed, play }) {
   const { get } = store;
-  const above = createLater(() => import("./overlays.js"), changed);
+  const above = createLater(async () => {
+    const [part] = await Promise.all([import("./overlays.js"), sheet("overlays")]);
+    return part;
+  }, changed);
   const editor = createLater(async () => {
-    const { open } = await import("./editor/open.js");
+    const [{ open }] = await Promise.all([import("./editor/open.js"), sheet("editor")]);
     const keep = (/** @type {import("../model/own.js").Draft} */ draft) => keepDraft(localStorage, draft);
     return open({ api, session, state: get, draft: readDraft(localStorage), keep, changed });
   }, changed);
   const lecture = createLater(async () => {
-    const { bringStyle, open } = await import("./lecture/open.js");
-    await bringStyle();
+    const [{ open }] = await Promise.all([import("./lecture/open.js"), sheet("lecture")]);
     const about = () => ({ scene: get().place.scene, title: get().scene?.title ?? {} });
     return open({ root, session, state: get, about, changed, play });
   }, changed);

@@ -3,6 +3,7 @@
 import { createLater } from "../model/later.js";
 import { translator } from "../model/catalog.js";
 import { fixed } from "../model/numbers.js";
+import { sheet } from "./bring.js";
 import { createDrawing } from "./drawing.js";
 import { createTransport } from "./player.js";
 import { createPlots } from "./plots.js";
@@ -22,8 +23,7 @@ export function createMotion({ root, state, clock, session, still, update }) {
   let begun = false;
 
   const instruments = createLater(async () => {
-    const { dress, open } = await import("./figure/open.js");
-    await dress();
+    const [{ open }] = await Promise.all([import("./figure/open.js"), sheet("instruments")]);
     return open({ root, frame: find(".drawing"), parts: /** @type {NonNullable<typeof parts>} */ (parts), state, clock, session, seek: scrub });
   }, update);
 

@@ -3,6 +3,8 @@
 import { domainsOf, layoutOf, marginsOf, rowsOf, timeScale, tracesOf } from "../model/plots.js";
 import { endOf } from "../model/trajectory.js";
 import { fixed } from "../model/numbers.js";
+import { script } from "./bring.js";
+import { coloursOf, paletteOf } from "./palette.js";
 
 /** @typedef {import("../model/types.js").Scene} Scene */
 /** @typedef {import("../model/types.js").Trajectory} Trajectory */
@@ -13,35 +15,18 @@ const SOURCE = import.meta.resolve("plotly");
 /** Milliseconds between two redraws while a slider moves. */
 const PAUSE = 100;
 
-/** Plotly, fetched only when the first plot is wanted; false if it cannot be had. @returns {Promise<boolean>} */
-function fetchPlotly() {
-  return new Promise((done) => {
-    const script = document.createElement("script");
-    script.src = SOURCE;
-    script.onload = () => done(true);
-    script.onerror = () => done(false);
-    document.head.append(script);
-  });
-}
-
 /** @param {() => void} task */
 function whenIdle(task) {
   if (window.requestIdleCallback) window.requestIdleCallback(task, { timeout: 500 });
   else task();
 }
 
-/** Colours as the style sheets have them at this moment. @param {HTMLElement} root @returns {import("../model/plots.js").Palette} */
-function paletteOf(root) {
-  const probe = document.createElement("i");
-  root.append(probe);
-  const of = (/** @type {string} */ className) => {
-    probe.className = className;
-    return getComputedStyle(probe).color;
-  };
-  const palette = { ink: of("c-ink"), muted: of("c-muted"), grid: of("c-grid"), paper: of("c-paper") };
-  const named = new Map(["energy-kinetic", "energy-potential", "energy-balance", ...Array.from({ length: 24 }, (_, i) => `q-${i}`)].map((name) => [name, of(name)]));
-  probe.remove();
-  return { ...palette, of: (className) => named.get(className) ?? palette.ink };
+/** @param {HTMLElement} root @returns {import("../model/plots.js").Palette} */
+function coloured(root) {
+  const classes = ["energy-kinetic", "energy-potential", "energy-balance", ...Array.from({ length: 24 }, (_, i) => `q-${i}`)];
+  const palette = paletteOf(root);
+  const colours = coloursOf(root, classes);
+  return { ...palette, of: (name) => colours[classes.indexOf(name)] ?? palette.ink };
 }
 
 /**
@@ -64,16 +49,16 @@ export function createPlots(root, { seek }) {
     if (x !== pointed) cursor.style.transform = `translateX(${x}px)`;
     pointed = x;
   }
-  /** @type {Promise<boolean> | null} */
+  /** Fetched when the first plot is wanted. @type {Promise<boolean> | null} */
   let plotly = null;
 
   async function redraw() {
     due = 0;
     if (!shown || !visible || root.clientWidth === 0) return;
-    plotly ??= fetchPlotly();
+    plotly ??= script(SOURCE);
     if (!(await plotly) || !shown) return;
     const { scene, trajectory, runs, duration, lang } = shown;
-    const palette = paletteOf(root);
+    const palette = coloured(root);
     const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
     const rows = rowsOf(scene, trajectory, runs.map((run) => run.trajectory));
     const layout = { ...layoutOf(rows, duration, palette, lang, root.clientHeight, em), width: root.clientWidth, height: root.clientHeight };

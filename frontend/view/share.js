@@ -2,6 +2,7 @@
 
 import { generate } from "lean-qr";
 import { html, nothing, svg } from "lit-html";
+import { offer } from "./files.js";
 import { dialog } from "./overlays.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
@@ -82,11 +83,7 @@ function code(address, t) {
 
 /** Hands a file to the browser. @param {import("../model/share.js").File | null} file */
 function save(file) {
-  if (!file) return;
-  const address = URL.createObjectURL(new Blob([file.text], { type: file.type }));
-  const link = Object.assign(document.createElement("a"), { href: address, download: file.name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+  if (file) offer(file.name, file.text, file.type);
 }
 
 /** @param {string} address @param {View["t"]} t */

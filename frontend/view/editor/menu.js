@@ -1,6 +1,7 @@
 /** Where a scene comes from and where it goes: examples, files, the link. */
 
 import { html, nothing } from "lit-html";
+import { offer } from "../files.js";
 import { icon } from "../icons.js";
 import { inLanguage } from "../../model/catalog.js";
 import { fragmentOf, tableOf } from "../../model/own.js";
@@ -69,11 +70,7 @@ async function copyLink({ writing, editing, state }) {
 /** @param {Sheet} sheet @param {"json" | "toml"} format */
 function save({ writing }, format) {
   const text = format === "json" ? (writing.text ?? jsonOf(writing.document)) : tomlOf(writing.document);
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type: format === "json" ? "application/json" : "application/toml" }));
-  link.download = `${String(writing.document.id ?? "scene").replace(/[^\w-]/g, "_") || "scene"}.${format}`;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  offer(`${String(writing.document.id ?? "scene").replace(/[^\w-]/g, "_") || "scene"}.${format}`, text, `application/${format}`);
 }
 
 /** @param {Sheet} sheet @param {Event} event */

@@ -1,4 +1,4 @@
-/** Opens the editor: its state, its sheet of styles, and its view. */
+/** Opens the editor: its state and its view. */
 
 import { createEditor } from "../../model/editor/editor.js";
 import { copyOf, EMPTY } from "../../model/editor/templates.js";
@@ -6,13 +6,6 @@ import { OWN } from "../../model/own.js";
 import { editorView } from "./editor.js";
 
 /** @typedef {import("../../model/own.js").Draft} Draft */
-
-function dress() {
-  const sheet = document.createElement("link");
-  sheet.rel = "stylesheet";
-  sheet.href = "/styles/editor.css";
-  document.head.append(sheet);
-}
 
 /** What is written when the editor opens: what was sent or chosen, and what was kept set aside. @param {import("../../model/state.js").State} state @param {Draft | null} draft @returns {Draft} */
 function firstDraft({ place, own, scene }, draft) {
@@ -28,7 +21,6 @@ function firstDraft({ place, own, scene }, draft) {
  *   state: () => import("../../model/state.js").State, draft: Draft | null, keep: (draft: Draft) => boolean, changed: () => void}} around
  */
 export function open({ api, session, state, draft, keep, changed }) {
-  dress();
   const editor = createEditor({
     api, keep, lang: () => state().place.lang, show: (document) => void session.show(document), address: (document) => void session.address(document),
   }, firstDraft(state(), draft));

@@ -31,15 +31,6 @@ import { createWhy } from "./why.js";
 /** @typedef {Around & {kinematics: () => import("../../model/kinematics/kinematics.js").Kinematics | null,
  *   now: () => import("../../model/types.js").Snapshot | null}} Bench  with what they share */
 
-/** Brings the style sheet; what is shown before it would move when it comes. */
-export function dress() {
-  const sheet = document.createElement("link");
-  sheet.rel = "stylesheet";
-  sheet.href = "/styles/instruments.css";
-  document.head.append(sheet);
-  return new Promise((done) => (sheet.onload = sheet.onerror = done));
-}
-
 /** Kinematics of what is on the page, made anew only when it changes. @param {() => State} state */
 function keeper(state) {
   /** @type {{on: unknown[], made: ReturnType<typeof kinematicsOf> | null}} */

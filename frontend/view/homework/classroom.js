@@ -5,7 +5,7 @@ import { prose } from "../formula.js";
 import { COLUMNS, SLIPS, summaryOf } from "../../model/homework/grading.js";
 import { assignmentOf } from "../../model/homework/sheet.js";
 import { writeTable } from "../../model/homework/table.js";
-import { offer } from "./files.js";
+import { offer } from "../files.js";
 
 /** @typedef {import("./page.js").HomeworkView} HomeworkView */
 /** @typedef {import("../../model/homework/classroom.js").Classroom} Classroom */

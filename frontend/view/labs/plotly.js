@@ -2,6 +2,8 @@
 
 import { mapOf, seenAt } from "../../model/labs/cursor.js";
 import { themed } from "../../model/labs/figure.js";
+import { script } from "../bring.js";
+import { paletteOf } from "../palette.js";
 
 /** @typedef {import("../../model/labs/stream.js").Chart} Chart */
 
@@ -10,38 +12,13 @@ const SOURCE = import.meta.resolve("plotly-with-maps");
 const CONFIG = { displayModeBar: false, displaylogo: false, responsive: false };
 const FILE = { width: 1200, height: 800, scale: 2 };
 
-/** @type {Promise<void> | null} */
-let fetched = null;
-
-/** @returns {Promise<void>} */
-function library() {
-  fetched ??= new Promise((done, fail) => {
-    const script = document.createElement("script");
-    script.src = SOURCE;
-    script.onload = () => done();
-    script.onerror = () => fail(new Error("no Plotly"));
-    document.head.append(script);
-  });
-  return fetched;
-}
-
-/** @param {HTMLElement} root @returns {import("../../model/labs/figure.js").Palette} */
-function paletteOf(root) {
-  const probe = document.createElement("i");
-  root.append(probe);
-  const of = (/** @type {string} */ name) => {
-    probe.className = name;
-    return getComputedStyle(probe).color;
-  };
-  const palette = { ink: of("c-ink"), muted: of("c-muted"), grid: of("c-grid"), paper: of("c-paper") };
-  probe.remove();
-  return palette;
-}
-
 /** @param {HTMLElement} root @param {(chart: Chart, x: number, y: number) => void} press  a place on a map was pressed */
 export function createCharts(root, press) {
   /** What each canvas shows, so that nothing is drawn twice. @type {WeakMap<HTMLElement, string>} */
   const shown = new WeakMap();
+  /** @type {Promise<boolean> | null} */
+  let plotly = null;
+  const library = () => (plotly ??= script(SOURCE));
 
   /** @param {HTMLElement} canvas @param {Chart} chart @param {string} look @param {string} lang */
   async function draw(canvas, chart, look, lang) {
@@ -59,7 +36,7 @@ export function createCharts(root, press) {
     /** @param {Chart[]} charts @param {string} theme @param {string} lang */
     async show(charts, theme, lang) {
       if (!charts.length) return;
-      await library();
+      if (!(await library())) return;
       for (const chart of charts) {
         const canvas = /** @type {HTMLElement | null} */ (root.querySelector(`[data-chart="${chart.id}"] .canvas`));
         if (!canvas || canvas.clientWidth === 0) continue;
@@ -77,7 +54,7 @@ export function createCharts(root, press) {
     },
     /** As it was made, dark on light. @param {Chart} chart @param {"png" | "svg"} format */
     async save(chart, format) {
-      await library();
+      if (!(await library())) return;
       await globalThis.Plotly.downloadImage({ data: chart.data, layout: { ...chart.layout, title: { text: `${chart.title}<br><sub>${chart.subject}</sub>` }, margin: { ...chart.layout.margin, t: 72 } } }, { ...FILE, format, filename: chart.id });
     },
   };

@@ -1,4 +1,4 @@
-/** Lecture mode: its keys, gestures and pointer, its style, and the line to the presenter's window. */
+/** Lecture mode: its keys, gestures and pointer, and the line to the presenter's window. */
 
 import { createSender, isId, nameOf } from "../../model/lecture/link.js";
 import { allOrNone, onwards, within } from "../../model/lecture/stops.js";
@@ -44,17 +44,6 @@ function createTouch(go) {
       if (!scrolls && Math.abs(dx) > SWIPE && Math.abs(dx) > 2 * Math.abs(dy)) go(dx < 0 ? 1 : -1);
     },
   };
-}
-
-/** Puts the style sheet of lecture mode into the page; resolves when it applies. */
-export function bringStyle() {
-  return new Promise((done) => {
-    const link = document.createElement("link");
-    link.rel = "stylesheet";
-    link.href = "/styles/lecture.css";
-    link.onload = link.onerror = done;
-    document.head.append(link);
-  });
 }
 
 /**
