@@ -39,7 +39,6 @@ _VARIANTS: Mapping[str, str] = MappingProxyType(
     }
 )  # fmt: skip
 _LATEX_OF: Mapping[str, str] = MappingProxyType({"phi": r"\varphi", "epsilon": r"\varepsilon", "ell": r"\ell"})
-_WORD = re.compile(r"[A-Za-z]+|\d+")
 
 
 @lru_cache(maxsize=1 << 12)

@@ -18,6 +18,8 @@ from ..responses import coding_for, not_modified
 from ..service import service_of
 from .common import PREFIX
 
+FRAMED = '<link rel="stylesheet" href="/styles/embed.css">'  # what a page looks like in a frame of another one
+
 
 class PageRoute(APIRoute):
     """A route of the pages: it leaves the addresses of the API to themselves, so that those know their methods."""
@@ -36,68 +38,48 @@ def start(request: Request) -> Response:
     """The start page. Scenes were here once: an address that names one leads to where they are now."""
     if "scene" in request.query_params:
         return RedirectResponse(f"/scene?{request.url.query}", 308, {"Cache-Control": ASK_AGAIN})
-    html = service_of(request).assets.page("index")
-    if html is None:
-        raise HTTPException(404)
-    return _page(request, html)
+    return _page(request, "index")
 
 
 @router.api_route("/embed", methods=["GET", "HEAD"])
 def embed(request: Request) -> Response:
     """The page of a scene for frames of other pages, which DELTAQ_FRAME_ANCESTORS names."""
-    return _framed(request, "scene")
+    return _page(request, "scene", FRAMED)
 
 
 @router.api_route("/embed/proof", methods=["GET", "HEAD"])
 def embedded_proof(request: Request) -> Response:
     """The general proof for frames of other pages."""
-    return _framed(request, "proof")
+    return _page(request, "proof", FRAMED)
 
 
 @router.api_route("/docs/try", methods=["GET", "HEAD"])
 def trial(request: Request) -> Response:
     """The page where the API is tried, below the one where it is read."""
-    html = service_of(request).assets.page("trial")
-    if html is None:
-        raise HTTPException(404)
-    return _page(request, html)
+    return _page(request, "trial")
 
 
 @router.api_route("/{path:path}", methods=["GET", "HEAD"])
 def file(request: Request, path: str) -> Response:
-    """A page by its name without suffix, or a file of the pages."""
-    assets = service_of(request).assets
-    html = assets.page(path)
-    if html is not None:
-        return _page(request, html)
-    asset = assets.find(path)
-    if asset is None:
-        raise HTTPException(404)
-    return _file(request, asset)
+    """A file of the pages, or a page by its name without suffix."""
+    asset = service_of(request).assets.find(path)
+    return _page(request, path) if asset is None else _file(request, asset)
 
 
-def _framed(request: Request, name: str) -> Response:
-    """A page as it looks in a frame of another one."""
-    html = service_of(request).assets.page(name)
+def _page(request: Request, name: str, style: str = "") -> Response:
+    """A page; its policy names the hash of its import map."""
+    service = service_of(request)
+    html = service.assets.page(name)
     if html is None:
         raise HTTPException(404)
-    return _page(request, html.replace("</head>", '<link rel="stylesheet" href="/styles/embed.css"></head>'))
-
-
-def _page(request: Request, html: str) -> Response:
-    """A page; its policy names the hash of its import map."""
+    html = html.replace("</head>", f"{style}</head>")
     inline = import_map_hash(html)
-    ancestors = service_of(request).settings.frame_ancestors
-    policy = content_security_policy(*([inline] if inline else []), frame_ancestors=ancestors)
-    return _text(request, html, "text/html", {"Content-Security-Policy": policy})
-
-
-def _text(request: Request, content: str, media_type: str, headers: dict[str, str] | None = None) -> Response:
-    etag = f'"{hashlib.sha256(content.encode()).hexdigest()[:16]}"'
-    sent = {"ETag": etag, "Cache-Control": ASK_AGAIN, **(headers or {})}
+    policy = content_security_policy(*([inline] if inline else []), frame_ancestors=service.settings.frame_ancestors)
+    etag = f'"{hashlib.sha256(html.encode()).hexdigest()[:16]}"'
+    headers = {"ETag": etag, "Cache-Control": ASK_AGAIN, "Content-Security-Policy": policy}
     if not_modified(request, etag):
-        return Response(status_code=304, headers=sent)
-    return Response(content, headers=sent, media_type=media_type)
+        return Response(status_code=304, headers=headers)
+    return Response(html, headers=headers, media_type="text/html")
 
 
 def _file(request: Request, asset: Asset) -> Response:
