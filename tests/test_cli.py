@@ -16,6 +16,7 @@ import httpx
 import pytest
 
 from deltaq import __version__
+from deltaq.api.wire.simulation import SimulationAnswer
 from deltaq.api.workers.kernels import mark_as_compiled
 from deltaq.bench import benchmark_names, run_benchmarks
 from deltaq.cli import main
@@ -247,6 +248,13 @@ def test_a_motion_that_fails_gives_its_good_part_and_the_reason() -> None:
     assert "smaller step" in ended.stderr
 
 
+def test_a_motion_as_json_says_what_the_api_says() -> None:
+    ended = command("simulate", "pendulum", "--t-end", "1", "--samples", "3", "--format", "json", "--lang", "de")
+    answer = json.loads(ended.stdout)
+    assert (answer["status"], answer["reason"]) == ("ok", "Die Bewegung ist bis zum Ende berechnet.")
+    assert SimulationAnswer.model_validate(answer).remedy == ""
+
+
 def test_an_event_is_said_in_words() -> None:
     ended = command("simulate", "string-pendulum", "--t-end", "2", "--samples", "3", "--lang", "de")
     assert ended.returncode == 2
@@ -293,7 +301,7 @@ def test_derive_says_what_is_wrong(form: str, field: str, message: str) -> None:
     assert ended.stderr.startswith(message)
 
 
-@pytest.mark.parametrize("name", ["derive", "simulate", "check", "lab", "export-stack"])
+@pytest.mark.parametrize("name", ["derive", "simulate", "check", "lab", "scenes", "export-stack"])
 def test_help_ends_with_an_example(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main([name, "--help"])

@@ -8,6 +8,7 @@ from ._common import language_argument
 
 HELP = "list the built-in scenes"
 DESCRIPTION = "Lists the built-in scenes: id, degrees of freedom, title."
+EXAMPLE = "deltaq scenes --lang de"
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:

@@ -35,13 +35,15 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Simulate, write what is right, and say what is not."""
+    from ..narration.outcome import explained
     from ..simulation.service import run as simulate
 
     question = {"t_end": options.t_end, "samples": options.samples, **question_of(options)}
-    answer: dict[str, Any] = simulate(question)
+    found: dict[str, Any] = simulate(question)
+    answer = found | explained(found, options.lang)
     write(json.dumps(answer, ensure_ascii=False) if options.format == "json" else _table(answer), options.output)
     if answer["status"] != "ok":
-        raise CommandError(_reason(answer, options.lang))
+        raise CommandError(f"{answer['reason']} {answer['remedy']}")
     print(f"deltaq: {answer['method']}, {answer['cost']['steps']} steps", file=sys.stderr)
 
 
@@ -54,10 +56,3 @@ def _table(answer: dict[str, Any]) -> str:
     writer.writerow(columns)
     writer.writerows(zip(*columns.values(), strict=True))
     return out.getvalue()
-
-
-def _reason(answer: dict[str, Any], language: str) -> str:
-    from ..narration.outcome import explained
-
-    told = explained(answer, language)
-    return f"{told['reason']} {told['remedy']}"
