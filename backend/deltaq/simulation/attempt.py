@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,8 +14,10 @@ from .method import Method
 from .problem import Floats, Problem
 from .refinement import Refinement
 from .run import Run, Steps, run
+from .side_by_side import side_by_side
 
 TRIES = 6
+BRIEF = 5_000  # right-hand sides; fewer take less time than a second thread needs to begin
 
 
 @dataclass(frozen=True)
@@ -78,11 +79,11 @@ class Work:
         return Attempt(fine if returns_fine else coarse, (coarse, fine), found)
 
     def _both(self, coarse: Steps, fine: Steps) -> tuple[Run, Run]:
-        """Two runs side by side: kernels hold no lock, so where a processor is free the second costs no time."""
-        with ThreadPoolExecutor(1) as beside:
-            second = beside.submit(self._run, coarse)
-            first = self._run(fine)
-            return second.result(), first
+        """Two runs; side by side if they may take a while, for kernels hold no lock."""
+        if coarse.tolerance == 0.0 and self.problem.t_end / fine.size * self.method.tableau.stages < BRIEF:
+            return self._run(coarse), self._run(fine)
+        of_fine, of_coarse = side_by_side(lambda: self._run(fine), lambda: self._run(coarse))
+        return of_coarse, of_fine
 
     def until(self, tolerance: float) -> list[Attempt]:
         """Pairs of runs, finer and finer, until the error is below the tolerance or refining does not help."""
