@@ -9,6 +9,7 @@ import { createClassroom } from "../../frontend/model/homework/classroom.js";
 import { checksOf, earned, onceEach, summaryOf, targetOf } from "../../frontend/model/homework/grading.js";
 import { patient } from "../../frontend/model/homework/patience.js";
 import { createExercise } from "../../frontend/model/homework/exercise.js";
+import { stepOf } from "../../frontend/model/homework/solution.js";
 import { framed, parting } from "../../frontend/model/homework/motions.js";
 import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homework/place.js";
 import { BLANK, createProgress, draftOf } from "../../frontend/model/homework/progress.js";
@@ -344,4 +345,12 @@ test("no key stands alone in its row", () => {
   assert.deepEqual(counts.filter((count) => count % columnsFor(count) === 1), []);
   assert.deepEqual(counts.filter((count) => inRows(Array(count).fill(0), 8).some((row) => row.length < 2 || row.length > 8)), []);
   assert.deepEqual(inRows([1, 2, 3, 4, 5], 3), [[1, 2, 3], [4, 5]]);
+});
+
+test("a solution is shown by the first of its steps that the derivation has, else by the last one of its chapter", () => {
+  const chapters = /** @type {any} */ ([{ id: "a", steps: [{ id: "a1" }, { id: "a2" }] }, { id: "b", steps: [{ id: "b1" }] }, { id: "c", steps: [] }]);
+  const shown = (/** @type {string} */ chapter, /** @type {string[]} */ ...steps) => stepOf(chapters, { chapter, steps })?.id;
+  assert.equal(shown("a", "x", "b1", "a1"), "b1");
+  assert.equal(shown("a", "x"), "a2");
+  assert.equal(shown("c"), undefined);
 });

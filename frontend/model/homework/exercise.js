@@ -1,9 +1,10 @@
-/** The page's course: scenes and assignments become a sheet of tasks, of which one is worked on; solution when asked for. */
+/** The page's course: scenes and assignments become a sheet of tasks, of which one is worked on. */
 
 import { attempt } from "./attempt.js";
 import { createComparison } from "./comparison.js";
 import { FIRST_SCENE } from "./place.js";
 import { referenceOf, sheetOfAssignment, sheetOfScene } from "./sheet.js";
+import { createSolution } from "./solution.js";
 import { FRESH } from "./state.js";
 
 /** @typedef {import("./place.js").Asked} Asked */
@@ -13,6 +14,13 @@ import { FRESH } from "./state.js";
 /** Whether both ask for the same sheet. @param {Asked} a @param {Asked} b */
 const isSame = (a, b) => a.seed === b.seed && a.place.scene === b.place.scene && a.place.lang === b.place.lang;
 
+/** The sheet that is asked for, in the language of the page. @param {import("./state.js").Api} api @param {import("./state.js").State} state */
+async function fetchSheet(api, { asked: { seed, place: { scene, lang } }, assignment, own }) {
+  if (assignment) return sheetOfAssignment(assignment, seed, await api.post("/assignments", { assignment, ...(seed ? { seed } : {}), lang }));
+  const reference = referenceOf(own ?? (scene || FIRST_SCENE), seed);
+  return sheetOfScene(reference, await api.post("/tasks", { ...reference, lang }));
+}
+
 /**
  * @param {import("./state.js").Store} store @param {import("./state.js").Api} api @param {import("./progress.js").Progress} progress
  * @param {import("./answering.js").Answering} answering
@@ -21,26 +29,14 @@ export function createExercise(store, api, progress, answering) {
   const { get, set } = store;
   /** @param {Partial<Asked>} patch */
   const ask = (patch) => set({ asked: { ...get().asked, ...patch } });
-  const lang = () => get().asked.place.lang;
   const { animate, ...comparison } = createComparison(store, api);
+  const solve = createSolution(store, api, answering);
   const workingKey = () => `${get().entry?.group}/~working`;
-
-  /** The sheet that is asked for, in the language of the page. */
-  async function fetchSheet() {
-    const { asked, assignment, own } = get();
-    if (assignment) {
-      const { seed } = asked;
-      const answer = await api.post("/assignments", { assignment, ...(seed ? { seed } : {}), lang: lang() });
-      return sheetOfAssignment(assignment, seed, answer);
-    }
-    const reference = referenceOf(own ?? (asked.place.scene || FIRST_SCENE), asked.seed);
-    return sheetOfScene(reference, await api.post("/tasks", { ...reference, lang: lang() }));
-  }
 
   async function load() {
     const wanted = get().asked;
     await attempt(store, get().sheet ? "trouble" : "failure", "", async () => {
-      const sheet = await fetchSheet();
+      const sheet = await fetchSheet(api, get());
       if (!isSame(get().asked, wanted)) return;
       set({ sheet });
       const { entries } = sheet;
@@ -60,25 +56,6 @@ export function createExercise(store, api, progress, answering) {
     if (!entry) return;
     if (elsewhere) void animate(entry);
     if (get().solution) void solve();
-  }
-
-  async function solve() {
-    const { entry } = get();
-    if (!entry) return;
-    await attempt(store, "trouble", "solving", async () => {
-      const { seed: _, ...reference } = entry.reference;
-      const { chapter, steps } = entry.task.solution;
-      const [answer, derivation] = await Promise.all([
-        api.post("/tasks/solution", { ...entry.reference, task: entry.task.id, lang: lang() }),
-        api.derive({ ...reference, lang: lang() }).catch(() => null),
-      ]);
-      const chapters = derivation?.chapters ?? [];
-      const shown = steps.map((id) => chapters.flatMap((one) => one.steps).find((one) => one.id === id)).find(Boolean);
-      const step = shown ?? chapters.find(({ id }) => id === chapter)?.steps.at(-1) ?? null;
-      if (get().entry?.key !== entry.key) return;
-      set({ solution: { latex: answer.latex, step } });
-      answering.keep(entry, (draft) => ({ shown: draft.shown || !draft.solved }));
-    });
   }
 
   return {
