@@ -43,7 +43,7 @@ export function page(view) {
   return html`
     <a class="skip" href="#derivation">${t("skip")}</a>
     ${header(view)}
-    <main class="desk" data-panel=${state.place.panel} data-view=${view.lecture ? "lecture" : nothing} data-beside=${state.place.beside}>
+    <main class="desk" data-panel=${state.place.panel} data-view=${view.lecture ? "lecture" : nothing} data-beside=${state.place.beside} ?data-lost=${isLost(state)}>
       ${state.place.edit ? writing(view) : view.lecture ? view.lecture.slide(view) : reading(view)}
       <section class="figure ${failures.simulation ? "failed" : ""}" aria-label=${t("drawing")}>
         ${drawing(view)}
@@ -60,6 +60,9 @@ export function page(view) {
     ${view.overlays?.(view)}
   `;
 }
+
+/** Whether there is nothing to draw, nor a scene being written that will be. @param {View["state"]} state */
+const isLost = ({ scene, failures, place }) => !scene && !place.edit && Boolean(failures.page ?? failures.scene);
 
 /** @param {View} view */
 function reading(view) {

@@ -147,7 +147,7 @@ LECTURE = (
     Place("scene-help", f"{SCENE}&step=virtual-work", BOB, key("?")),
     Place("scene-share", f"{SCENE}&step=virtual-work", BOB, click(".tools .tool:nth-of-type(2)", "dialog.share")),
     Place("editor", "scene?scene=pendulum&edit=form", ".editor .field .katex"),
-    Place("editor-text", "scene?scene=pendulum&edit=toml", ".editor textarea", seldom=True),
+    Place("editor-text", "scene?scene=pendulum&edit=toml", ".editor .toml", seldom=True),
     Place("lecture", f"{HALL}&step=virtual-displacement:bob&part=2", SLIDE),
     Place("lecture-first", HALL, SLIDE),
     Place("lecture-long", "scene?scene=triple-pendulum&view=lecture&step=equation:phi1", SLIDE),

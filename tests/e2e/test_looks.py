@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Page, expect
 from tests.e2e.lecture import Lecture
 
 pytestmark = pytest.mark.e2e
@@ -59,6 +59,12 @@ CUT = """() => {
         .map((element) => `${element.tagName} ${element.className}: ${element.textContent.trim()}`);
 }"""
 
+# Menus cut off what hangs below a line that is hardly higher than its letters.
+TIGHT = """() => [...document.querySelectorAll('select')].filter((element) => {
+    const { lineHeight, fontSize } = getComputedStyle(element);
+    return element.checkVisibility() && !element.closest('h1') && parseFloat(lineHeight) < 1.2 * parseFloat(fontSize);
+}).map((element) => element.outerHTML.slice(0, 80))"""
+
 
 @pytest.mark.parametrize("language", ["de", "en"])
 @pytest.mark.parametrize(("place", "ready"), PAGES)
@@ -71,6 +77,7 @@ def test_no_heading_and_no_label_is_cut(lecture: Lecture, place: str, ready: str
         page.set_viewport_size({"width": width, "height": height})
         page.wait_for_timeout(100)
         assert page.evaluate(CUT) == [], width
+    assert page.evaluate(TIGHT) == []
 
 
 def test_a_cut_title_is_found(lecture: Lecture) -> None:
@@ -121,3 +128,28 @@ def test_a_page_without_its_texts_waits_for_them_and_shows_its_name(page: Page, 
     page.unroute(catalogs)
     expect(page.locator(".question h2")).to_be_visible(timeout=PATIENCE)
     assert page.evaluate(f"{name}.content") == "none"
+
+
+# What is pressed, and how far the press reaches: a part drawn around it takes it, too.
+REACH = """() => {
+    const reach = (element) => {
+        const box = element.getBoundingClientRect();
+        const after = getComputedStyle(element, '::after');
+        const more = (side) => after.position === 'absolute' ? Math.max(0, -parseFloat(after[side]) || 0) : 0;
+        return Math.round(box.height + more('top') + more('bottom'));
+    };
+    return [...document.querySelectorAll('button:not(.handle), summary, .choice select, input[type=range]')]
+        .filter((element) => element.checkVisibility() && !element.closest('.unseen, h1') && reach(element) < 42)
+        .map((element) => `${element.className} ${element.textContent.trim().slice(0, 20)}: ${reach(element)}`);
+}"""
+
+
+@pytest.mark.parametrize(("place", "ready"), PAGES)
+def test_a_thumb_meets_what_it_presses(browser: Browser, server: str, place: str, ready: str) -> None:
+    context = browser.new_context(viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True)
+    page = context.new_page()
+    page.goto(f"{server}{place}&lang=de")
+    page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
+    small = page.evaluate(REACH)
+    context.close()
+    assert small == []
