@@ -21,6 +21,18 @@ def trial(lecture: Lecture) -> Lecture:
     return lecture
 
 
+def test_a_sample_is_copied_whole(lecture: Lecture) -> None:
+    page = lecture.page
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    page.goto(f"{lecture.address}docs?lang=en")
+    page.get_by_role("button", name="Copy: POST /api/v1/scenes/validate", exact=True).click()
+    call = page.locator("#validate_scene")
+    expect(call.get_by_role("status")).to_have_text("copied")
+    assert page.evaluate("navigator.clipboard.readText()") == call.locator("pre").inner_text()
+    page.get_by_role("button", name="Python").click()
+    expect(call.locator("pre")).to_contain_text("import httpx")
+
+
 def test_an_example_is_sent_and_answered(trial: Lecture) -> None:
     page = trial.page
     expect(page.locator("textarea")).to_have_value(re.compile(r'"task": "equation:phi"'))

@@ -44,18 +44,29 @@ function languages({ groups, sample, choose, t }) {
 /** Names stand between backticks. @param {string} text */
 const described = (text) => text.split("`").map((part, i) => (i % 2 ? html`<code>${part}</code>` : part));
 
+/** A sample goes to the clipboard, and beside the button it is said. @param {string} source @param {string} call @param {string} lang @param {ReferenceView["t"]} t */
+function copying(source, call, lang, t) {
+  const copy = async (/** @type {Event} */ { currentTarget }) => {
+    const told = /** @type {HTMLElement} */ (/** @type {HTMLElement} */ (currentTarget).nextElementSibling);
+    told.textContent = t(await navigator.clipboard?.writeText(source).then(() => true, () => false) ? "trial.copied" : "trial.copy-by-hand");
+  };
+  return html`<button type="button" class="quiet small" lang=${lang} aria-label=${`${t("trial.copy")}: ${call}`} @click=${copy}>${t("trial.copy")}</button><small role="status"></small>`;
+}
+
 /** @param {Call} call @param {ReferenceView} view */
 function article({ id, method, path, text, fields, samples, answers }, { t, state, sample }) {
+  const written = samples.filter(({ lang }) => lang === sample);
   return html`
     <article id=${id}>
       <h3><span class="method">${method}</span> <code>${path}</code>
-        <a class="try" lang=${state.place.lang} href=${`${pageAddress(TRIAL, state.place)}#${id}`} aria-label=${`${t("trial.try")}: ${method} ${path}`}>${t("trial.try")}</a></h3>
+        <a class="try" lang=${state.place.lang} href=${`${pageAddress(TRIAL, state.place)}#${id}`} aria-label=${`${t("trial.try")}: ${method} ${path}`}>${t("trial.try")}</a>
+        ${written.map(({ source }) => copying(source, `${method} ${path}`, state.place.lang, t))}</h3>
       <p>${described(text)}</p>
       ${fields.length ? html`
         <dl>${fields.map(({ name, kind, text: meaning, required }) => html`
           <div><dt><code>${name}</code>${required ? html` <span lang=${state.place.lang}>${t("reference.required")}</span>` : nothing}</dt>
             <dd><span class="kind">${kind}</span> ${meaning}</dd></div>`)}</dl>` : nothing}
-      ${samples.filter(({ lang }) => lang === sample).map(({ lang, source }) => html`<pre tabindex="0" aria-label=${lang}><code>${source}</code></pre>`)}
+      ${written.map(({ lang, source }) => html`<pre tabindex="0" aria-label=${lang}><code>${source}</code></pre>`)}
       <p class="answers">${answers.map(({ status, text: meaning }) => html`<span><b>${status}</b> ${meaning}</span>`)}</p>
     </article>`;
 }
