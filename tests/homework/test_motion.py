@@ -6,9 +6,9 @@ import pytest
 
 from deltaq.errors import ExpressionError
 from deltaq.homework.equality import equations
-from deltaq.homework.feedback import model_answer
 from deltaq.homework.motion import moved_scene
 from deltaq.homework.reading import read
+from deltaq.homework.statement import model_answer
 from deltaq.homework.workbook import Workbook, workbook_of
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.writing import write_scene

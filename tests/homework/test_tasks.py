@@ -6,9 +6,9 @@ import pytest
 
 from deltaq.errors import UnknownNameError
 from deltaq.homework.checking import check
-from deltaq.homework.feedback import model_answer, task_document
 from deltaq.homework.quantities import QUANTITIES
 from deltaq.homework.service import tasks_request
+from deltaq.homework.statement import model_answer, task_document
 from deltaq.homework.workbook import workbook_of
 from deltaq.mechanics.library import scene_ids
 from deltaq.mechanics.writing import write_scene

@@ -9,8 +9,8 @@ import pytest
 from deltaq.errors import Problem
 from deltaq.language.names import Names, Symbol
 from deltaq.language.parser import parse
-from deltaq.mechanics.dimensions import dimension_problems
 from deltaq.mechanics.document import examine
+from deltaq.mechanics.homogeneity import dimension_problems
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.units import Dimension, dimension_of
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..errors import Problem
 from ..language.tree import Equation, Node, Sum, Vector
-from ..mechanics.dimensions import DimensionCheck
+from ..mechanics.homogeneity import DimensionCheck
 from ..mechanics.scene import Scene
 from ..mechanics.units import dimension_of
 from .reading import Reading

@@ -1,4 +1,4 @@
-"""Verdicts and tasks as documents, their texts in one language."""
+"""What is said of an answer: its verdict as a document, the texts in one language."""
 
 from __future__ import annotations
 
@@ -7,16 +7,12 @@ from collections.abc import Iterable
 from ..errors import ExpressionError, Problem
 from ..language.latex_printer import Typography, latex
 from ..language.parser import parse
-from ..language.plain_printer import plain
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..mechanics.scene import Scene
 from ..narration.catalog import message, text
-from .axes import axes_text
 from .counterexamples import rounded_text
-from .task import Task
 from .verdict import Counterexample, Verdict
-from .workbook import Workbook
 
 Document = dict[str, object]
 
@@ -87,11 +83,11 @@ def _about(verdict: Verdict, scene: Scene, language: str) -> dict[str, str]:
 
 def about_texts(about: str, scene: Scene, language: str) -> dict[str, str]:
     """Two names mixed up (a/b), the body of a load (load:body), or one name, as a sentence calls them."""
-    parts = [_label(part, scene, language) for part in about.replace(":", "/").split("/") if part]
+    parts = [label(part, scene, language) for part in about.replace(":", "/").split("/") if part]
     return {"about": ", ".join(parts[-2:] if "/" in about else parts[-1:])}
 
 
-def _label(name: str, scene: Scene, language: str) -> str:
+def label(name: str, scene: Scene, language: str) -> str:
     """A coordinate or parameter as a formula, a body or load by its label."""
     symbol = scene.names.get(name)
     return f"${symbol.typeset}$" if symbol else scene.label(name, language)
@@ -117,64 +113,3 @@ def _typeset(name: str, scene: Scene) -> str:
     except ExpressionError:
         return name
     return latex(to_sympy(tree, Symbols(scene.names)), Typography(scene.names))
-
-
-def task_document(task: Task, workbook: Workbook, language: str) -> Document:
-    """A task with its statement, the form wanted, three hints, and where the derivation answers it."""
-    key = f"homework.tasks.{task.quantity.kind}"
-    values = _subject(task, workbook, language)
-    return {
-        "id": task.id,
-        "kind": task.quantity.kind,
-        "subject": task.subject,
-        "title": text(language, f"{key}.title", **values),
-        "statement": text(language, f"{key}.statement", **values),
-        "form": task.quantity.form,
-        "form_text": text(language, f"homework.forms.{task.quantity.form}"),
-        "components": workbook.scene.dimension if task.quantity.form == "vector" else None,
-        "points": task.quantity.points,
-        "needs": _needs(task, workbook),
-        "hints": [text(language, f"{key}.hints.{level}", **values) for level in (1, 2, 3)],
-        "solution": {"chapter": task.quantity.chapter, "steps": _steps(task, workbook)},
-    }
-
-
-def _steps(task: Task, workbook: Workbook) -> list[str]:
-    """Ids of the steps that may show the answer, the likeliest first."""
-    conserved = task.quantity.kind == "conserved" and workbook.road.conserved_of[int(task.subject) - 1]
-    return [step.format(subject=task.subject, cyclic=conserved or "") for step in task.quantity.steps]
-
-
-def _needs(task: Task, workbook: Workbook) -> list[str]:
-    """The tasks from whose answers this one is derived."""
-    known = workbook.tasks
-    return [each.id for each in known if each.quantity.kind in task.quantity.needs]
-
-
-def _subject(task: Task, workbook: Workbook, language: str) -> dict[str, object]:
-    scene = workbook.scene
-    values: dict[str, object] = {"subject": _label(task.subject, scene, language), "dimension": scene.dimension}
-    if task.quantity.form == "vector":
-        values["axes"] = axes_text(scene, language)
-    if task.quantity.kind in ("linearized", "eigenfrequencies"):
-        typography = Typography(scene.names)
-        rest = workbook.road.rest or {}
-        values["rest"] = ", ".join(f"${latex(q, typography)} = {latex(v, typography)}$" for q, v in rest.items())
-    if task.quantity.kind == "conserved":
-        coordinate = workbook.road.conserved_of[int(task.subject) - 1]
-        kind = "momentum" if coordinate else "energy"
-        values["number"] = task.subject
-        label = _label(coordinate, scene, language)
-        values["what"] = text(language, f"homework.conserved.{kind}", coordinate=label)
-    return values
-
-
-def model_answer(task: Task, workbook: Workbook) -> Document:
-    """The right answer as plain text and LaTeX, in its display form."""
-    typography = Typography(workbook.scene.names)
-    shown = workbook.shown(task)
-    ending = " = 0" if task.quantity.form in ("equation", "equations") else ""
-    return {
-        "plain": [plain(part) + ending for part in shown],
-        "latex": [latex(part, typography) + ending for part in shown],
-    }

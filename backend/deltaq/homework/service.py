@@ -13,10 +13,11 @@ from ..mechanics.requests import inside
 from ..mechanics.writing import write_scene
 from ..narration.catalog import language_in
 from .assignment import AssignedTask, read_assignment
-from .feedback import Document, model_answer, problem_documents, task_document, verdict_document
+from .feedback import Document, problem_documents, verdict_document
 from .motion import moved_scene
 from .reading import read
 from .stack.question import quiz
+from .statement import model_answer, task_document
 from .workbook import Workbook, workbook_of
 from .working import Line, Scheme, check_following, mark, wrong_among
 

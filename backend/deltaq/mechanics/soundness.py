@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 from ..errors import Problem
 from ..language.expression import Expression
 from .definedness import definedness_problems
-from .dimensions import SECOND, dimension_problems
+from .homogeneity import SECOND, dimension_problems
 from .inertia import inertia_problems
 from .integrability import integrability_problems
 from .material import Material

@@ -1,4 +1,4 @@
-"""Units and dimensions: every term of a sum has the same dimension, and the argument of a sine has none.
+"""Units, and the dimensions they measure.
 
 Source: Bureau international des poids et mesures, The International System of Units (SI Brochure), 9th ed., tables 2–7.
 """

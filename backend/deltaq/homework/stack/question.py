@@ -14,7 +14,8 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ...language.latex_printer import Typography, latex
 from ...narration.catalog import text
-from ..feedback import about_texts, task_document
+from ..feedback import about_texts
+from ..statement import task_document
 from ..task import Task
 from ..workbook import Candidate, Workbook
 from .answer_tests import ANSWER, degenerate, difference, preparation, value

@@ -1,4 +1,4 @@
-"""The dimension check: what the units of a scene say about its expressions, term by term."""
+"""Dimensional homogeneity: every term of a sum has the same dimension, and the argument of a sine has none."""
 
 from __future__ import annotations
 

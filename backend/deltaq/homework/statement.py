@@ -1,0 +1,72 @@
+"""What is said of a task: its statement, hints and right answer, the texts in one language."""
+
+from __future__ import annotations
+
+from ..language.latex_printer import Typography, latex
+from ..language.plain_printer import plain
+from ..narration.catalog import text
+from .axes import axes_text
+from .feedback import Document, label
+from .task import Task
+from .workbook import Workbook
+
+
+def task_document(task: Task, workbook: Workbook, language: str) -> Document:
+    """A task with its statement, the form wanted, three hints, and where the derivation answers it."""
+    key = f"homework.tasks.{task.quantity.kind}"
+    values = _subject(task, workbook, language)
+    return {
+        "id": task.id,
+        "kind": task.quantity.kind,
+        "subject": task.subject,
+        "title": text(language, f"{key}.title", **values),
+        "statement": text(language, f"{key}.statement", **values),
+        "form": task.quantity.form,
+        "form_text": text(language, f"homework.forms.{task.quantity.form}"),
+        "components": workbook.scene.dimension if task.quantity.form == "vector" else None,
+        "points": task.quantity.points,
+        "needs": _needs(task, workbook),
+        "hints": [text(language, f"{key}.hints.{level}", **values) for level in (1, 2, 3)],
+        "solution": {"chapter": task.quantity.chapter, "steps": _steps(task, workbook)},
+    }
+
+
+def _steps(task: Task, workbook: Workbook) -> list[str]:
+    """Ids of the steps that may show the answer, the likeliest first."""
+    conserved = task.quantity.kind == "conserved" and workbook.road.conserved_of[int(task.subject) - 1]
+    return [step.format(subject=task.subject, cyclic=conserved or "") for step in task.quantity.steps]
+
+
+def _needs(task: Task, workbook: Workbook) -> list[str]:
+    """The tasks from whose answers this one is derived."""
+    known = workbook.tasks
+    return [each.id for each in known if each.quantity.kind in task.quantity.needs]
+
+
+def _subject(task: Task, workbook: Workbook, language: str) -> dict[str, object]:
+    scene = workbook.scene
+    values: dict[str, object] = {"subject": label(task.subject, scene, language), "dimension": scene.dimension}
+    if task.quantity.form == "vector":
+        values["axes"] = axes_text(scene, language)
+    if task.quantity.kind in ("linearized", "eigenfrequencies"):
+        typography = Typography(scene.names)
+        rest = workbook.road.rest or {}
+        values["rest"] = ", ".join(f"${latex(q, typography)} = {latex(v, typography)}$" for q, v in rest.items())
+    if task.quantity.kind == "conserved":
+        coordinate = workbook.road.conserved_of[int(task.subject) - 1]
+        kind = "momentum" if coordinate else "energy"
+        values["number"] = task.subject
+        named = label(coordinate, scene, language)
+        values["what"] = text(language, f"homework.conserved.{kind}", coordinate=named)
+    return values
+
+
+def model_answer(task: Task, workbook: Workbook) -> Document:
+    """The right answer as plain text and LaTeX, in its display form."""
+    typography = Typography(workbook.scene.names)
+    shown = workbook.shown(task)
+    ending = " = 0" if task.quantity.form in ("equation", "equations") else ""
+    return {
+        "plain": [plain(part) + ending for part in shown],
+        "latex": [latex(part, typography) + ending for part in shown],
+    }
