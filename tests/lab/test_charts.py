@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from typing import Any
 
 import plotly.graph_objects as go
@@ -47,6 +49,17 @@ def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str)
     assert all(chart["subject"].startswith(reports[-1].result["title"][lang]) for chart in charts)  # type: ignore[index]
     assert table(charts).count("\n") > 10
     assert page(charts, lang).count("<figure>") == len(charts)
+
+
+@pytest.mark.parametrize("name", ["convergence", "work-precision"])
+def test_a_run_without_a_result_has_no_number_in_the_table(name: str) -> None:
+    stiff = {"scene": "elastic-pendulum", "t_end": 1.0, "parameters": {"k": 1e8}, "methods": ["explicit-euler", "rk4"]}
+    *_, last = get_experiment(name).run(stiff)
+    rows = list(csv.DictReader(io.StringIO(table(drawn(get_experiment(name), last.result, text, "en")))))
+    assert [row for row in rows if not row["curve"]] == []
+    failed = [row for row in rows if row["curve"].endswith(": no result")]
+    assert "Explicit Euler: no result" in {row["curve"] for row in failed}
+    assert {row["y"] for row in failed} == {""}
 
 
 def test_charts_write_symbols_and_the_words_of_the_scene() -> None:

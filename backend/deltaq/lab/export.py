@@ -10,7 +10,7 @@ from importlib import import_module
 from itertools import zip_longest
 from typing import Any
 
-from .charts.chart import Chart
+from .charts.chart import WITHOUT_RESULT, Chart
 
 _PAGE = """<!doctype html>
 <html lang="{lang}"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -36,18 +36,25 @@ def _figure(chart: Chart, to_html: Any, *, with_library: bool) -> str:
 
 
 def table(charts: Sequence[Chart]) -> str:
-    """All curves in one CSV: chart, curve, x, y; a map has z as well."""
+    """All curves in one CSV: chart, curve, x, y; a map has z as well.
+
+    A run without a result has no y: that of its mark is only where the mark stands. What has no name helps to read a
+    chart and is not told.
+    """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["chart", "curve", "x", "y", "z"])
     for chart in charts:
         for trace in chart["data"]:
-            writer.writerows([chart["id"], trace.get("name", ""), *row] for row in _rows(trace))
+            if "name" in trace or "z" in trace:
+                writer.writerows([chart["id"], trace.get("name", ""), *row] for row in _rows(trace))
     return out.getvalue()
 
 
 def _rows(trace: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
-    if "z" in trace:
+    if trace.get("meta") == WITHOUT_RESULT:
+        yield from ((x, "", "") for x in trace["x"])
+    elif "z" in trace:
         for y, row in zip(trace["y"], trace["z"], strict=True):
             yield from ((x, y, z) for x, z in zip(trace["x"], row, strict=True))
     else:

@@ -25,6 +25,7 @@ PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6
 SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "star", "hexagon")
 DASHES = ("solid", "dash", "dot")
 FAILED = "x-thin-open"
+WITHOUT_RESULT = {"role": "without-result"}  # the `meta` of marks that stand somewhere only to be seen
 
 
 def chart(identifier: str, title: str, caption: str, traces: Iterable[Trace], **layout: Any) -> Chart:

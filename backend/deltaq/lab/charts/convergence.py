@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from .chart import Chart, Result, Trace, axis, chart, curve, grouped, joined, look, name_of
+from .chart import WITHOUT_RESULT, Chart, Result, Trace, axis, chart, curve, grouped, joined, look, name_of
 from .words import Say
 
 RANGE = [-15.5, 2.0]
@@ -51,6 +51,8 @@ def _failed(bad: list[Mapping[str, Any]], method: str, name: str, say: Say) -> T
         "marker": {"symbol": "x-thin-open", "size": 9, "color": look(method)["color"], "line": {"width": 1.6}},
         "legendgroup": method,
         "showlegend": False,
+        "name": say("labs.without-result", name=name),
+        "meta": WITHOUT_RESULT,
     }
 
 

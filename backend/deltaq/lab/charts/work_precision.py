@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
-from .chart import FAILED, Chart, Result, Trace, axis, chart, curve, grouped, joined, look, name_of
+from .chart import FAILED, WITHOUT_RESULT, Chart, Result, Trace, axis, chart, curve, grouped, joined, look, name_of
 from .words import Say
 
 CEILING = 30.0  # where runs without an error are marked
@@ -98,6 +98,8 @@ def _failures(points: list[Mapping[str, Any]], method: str, x: str, least: float
         },
         "legendgroup": method,
         "showlegend": False,
+        "name": say("labs.without-result", name=name),
+        "meta": WITHOUT_RESULT,
     }
 
 
