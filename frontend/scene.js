@@ -9,6 +9,7 @@ import { documentIn, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { translator } from "./model/catalog.js";
 import { readPlace, startLanguage, writePlace } from "./model/url.js";
+import { expectLong } from "./view/formula.js";
 import { dressed } from "./view/header.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
 import { listen } from "./view/keys.js";
@@ -87,6 +88,7 @@ function update() {
   if (reach(place.step, still.matches)) announce(state.lines, place.step, current.t);
 }
 
+for (const event of ["pointermove", "keydown", "focusin"]) document.addEventListener(event, expectLong, { once: true });
 store.subscribe(update);
 dark.addEventListener("change", update);
 linkHighlights(root);
@@ -118,6 +120,7 @@ window.addEventListener("beforeprint", () => {
 async function start() {
   if (new URLSearchParams(location.search).get("view") === "print") return location.replace(location.href.replace("/scene", "/handout"));
   const asked = readPlace(location.search);
+  if (asked.step) void expectLong();
   const sent = await documentIn(location.hash);
   const scene = sent || location.hash === "#edit" ? OWN : asked.scene;
   const own = sent ?? (scene === OWN ? (readDraft(localStorage)?.document ?? null) : null);

@@ -22,7 +22,8 @@ export function cut(latex, where, levels = 0) {
     const closes = CLOSING.test(token);
     const bracket = depth === 0 && BRACKET.test(token);
     if (closes && bracket && passed > 0) passed -= 1;
-    else if (closes) depth -= 1;
+    // A bracket that a piece before has opened closes nothing here.
+    else if (closes) depth = Math.max(0, depth - 1);
     if (depth === 0 && where(token, pieces[pieces.length - 1])) pieces.push("");
     pieces[pieces.length - 1] += token;
     if (opens && bracket && passed < levels) passed += 1;

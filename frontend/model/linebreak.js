@@ -17,9 +17,10 @@ const HEAVY = 0.3;
 const SHORT = 6;
 const HANGING = "\\quad {}";
 
-/** The rows of an aligned formula, each with the gap that follows it. @param {string} body */
-function rowsOf(body) {
-  return parted(body, endsRow).map((row) => {
+/** The rows of a formula, aligned or not, each with the gap that follows it. @param {string} latex */
+export function rowsOf(latex) {
+  const aligned = latex.trim().match(ROWS);
+  return parted(aligned ? aligned[1] : `& ${latex}`, endsRow).map((row) => {
     const [, text, gap] = /** @type {RegExpMatchArray} */ (row.match(/^([\s\S]*?)(\\\\(?:\[[^\]]*\])?)?$/));
     return { text, gap: gap ?? "" };
   });
@@ -68,7 +69,7 @@ function closesEarly(content) {
 }
 
 /** The two sides of a row: up to its mark of alignment, and after it. @param {string} row */
-function sidesOf(row) {
+export function sidesOf(row) {
   const [head, ...rest] = cut(row, (_, before) => before.endsWith("&"));
   return rest.length ? [head, rest.join("")] : ["", head];
 }
@@ -117,18 +118,14 @@ function lined(terms, most, lead = "") {
 const linesOf = (sum, most) => lined(termsOf(sum, most), most);
 
 /**
- * The formula with rows of at most `part` of its widest one; a formula that cannot be broken comes back as it is.
+ * The rows of a formula, each at most `part` of its widest one, as far as they can be broken.
  * @param {string} latex @param {number} part between 0 and 1
  */
 export function brokenRows(latex, part) {
-  const aligned = latex.trim().match(ROWS);
-  const given = rowsOf(aligned ? aligned[1] : `& ${latex}`);
+  const given = rowsOf(latex);
   const most = part * Math.max(...given.map(({ text }) => weight(text)));
-  const rows = hung(named(given, most, sidesOf), most);
-  const lines = rows.flatMap(({ text, gap }) => {
-    const parts = broken(text, most);
-    return parts.map((line, i) => line + (i < parts.length - 1 ? " \\\\[0.2em] " : gap));
+  return hung(named(given, most, sidesOf), most).flatMap(({ text, gap }) => {
+    const lines = broken(text, most);
+    return lines.map((line, i) => ({ text: line, gap: i < lines.length - 1 ? " \\\\[0.2em] " : gap }));
   });
-  const written = lines.join("");
-  return written === given.map(({ text, gap }) => text + gap).join("") ? latex : `\\begin{aligned}${written}\\end{aligned}`;
 }

@@ -5,10 +5,10 @@ import { Directive, directive } from "lit-html/directive.js";
 
 /** Display formulas shrink to this part of their size, 11 pixels on a phone, before they scroll. */
 const SMALLEST = 0.56;
-/** Rows that would become smaller are rather broken, where that is not said otherwise. */
+/** Formulas that would become smaller are rather broken, where that is not said otherwise. */
 const BEARABLE = 0.78;
-/** Broken rows are to fit at this size. */
-const COMFORTABLE = 0.85;
+/** LaTeX of more letters is typeset row by row. */
+const LONG = 600;
 /** Milliseconds for which formulas are typeset in one go, and after which those nobody sees have waited long enough. */
 const SLICE = 8;
 const IMPATIENCE = 300;
@@ -16,11 +16,11 @@ const IMPATIENCE = 300;
 /** @param {{command: string}} context  only classes, which carry the colours, and only in LaTeX from the server */
 const onlyClasses = (context) => context.command === "\\htmlClass";
 
-/** @param {HTMLElement} element @param {string} latex @param {boolean} display */
-function typeset(element, latex, display) {
+/** @param {HTMLElement} element @param {string} latex @param {boolean} display @param {"html" | "mathml" | "htmlAndMathml"} [output]  to be seen, to be heard, or both */
+export function typeset(element, latex, display, output = "htmlAndMathml") {
   try {
     globalThis.katex.render(latex, element, {
-      displayMode: display, trust: onlyClasses, strict: "ignore", throwOnError: true, maxExpand: 1000, maxSize: 10,
+      displayMode: display, output, trust: onlyClasses, strict: "ignore", throwOnError: true, maxExpand: 1000, maxSize: 10,
     });
   } catch {
     element.textContent = latex;
@@ -32,22 +32,23 @@ const fitter = new ResizeObserver((entries) => fit(entries.map(({ target }) => /
 /** @type {WeakMap<HTMLElement, number>} */
 const fittedWidths = new WeakMap();
 
-/** What each display formula says; those that are broken into lines say it in another form. @type {WeakMap<HTMLElement, {latex: string, broken: boolean}>} */
+/** What each display formula says. @type {WeakMap<HTMLElement, string>} */
 const sources = new WeakMap();
+/** Those that are typeset row by row. @type {WeakSet<HTMLElement>} */
+const inRows = new WeakSet();
+/** How that is done is fetched when there is one. @type {typeof import("./rows.js") | null} */
+let rows = null;
 
 /** What a long step has out of sight has a size, but its content has none yet. @param {HTMLElement} element */
 const laidOut = ({ firstElementChild: content }) => !content || content.checkVisibility({ contentVisibilityAuto: true });
 
 /** Sets the sizes at which formulas fit their columns; those that would become too small go on below. @param {HTMLElement[]} elements */
 function fit(elements) {
-  const due = elements.filter((element) => element.clientWidth > 0 && fittedWidths.get(element) !== element.clientWidth && laidOut(element));
-  for (const element of due) {
-    const { latex = "", broken = false } = sources.get(element) ?? {};
-    if (broken) write(element, latex);
-  }
+  const seen = elements.filter((element) => element.clientWidth > 0 && laidOut(element));
+  rows?.arrange(seen.filter((element) => inRows.has(element)));
+  const due = seen.filter((element) => !inRows.has(element) && fittedWidths.get(element) !== element.clientWidth);
   // A lecture would rather have more lines than smaller ones.
-  const long = shrink(due).filter(({ part, bearable }) => part < bearable);
-  if (long.length) void goOnBelow(long);
+  for (const { element } of shrink(due).filter(({ part, bearable }) => part < bearable)) void giveRows(element);
 }
 
 /**
@@ -60,7 +61,7 @@ function shrink(elements) {
     const [width, needed] = [element.clientWidth, element.scrollWidth];
     const part = needed > width ? Math.floor((width / needed) * 98) / 100 : 1;
     const bearable = part < 1 ? Number(getComputedStyle(element).getPropertyValue("--bearable")) || BEARABLE : 0;
-    return { element, width, part, bearable, latex: sources.get(element)?.latex ?? "" };
+    return { element, width, part, bearable };
   });
   for (const { element, width, part } of found) {
     fittedWidths.set(element, width);
@@ -70,32 +71,19 @@ function shrink(elements) {
   return found;
 }
 
-/** How wide a row is, is only guessed before it is set: if it is wider, it is broken into shorter ones. */
-const SHARES = [1, 0.7, 0.45];
-
-/** @param {HTMLElement} element @param {string} latex @param {string} [shown] in lines, if it is broken */
-function write(element, latex, shown = latex) {
-  typeset(element, shown, true);
-  sources.set(element, { latex, broken: shown !== latex });
+/** There will be long formulas: how they are typeset is fetched before. */
+export async function expectLong() {
+  rows ??= await import("./rows.js").catch(() => null);
 }
 
-/**
- * How to break lines is fetched when a line has to be. Only so many at once that the page answers in between.
- * @param {ReturnType<typeof shrink>} long
- */
-async function goOnBelow(long, [share, ...shorter] = SHARES) {
-  const { brokenRows } = await import("../model/linebreak.js");
-  /** @type {typeof long} */
-  const longer = [];
-  while (long.length) {
-    const broken = during(SLICE, long, ({ element, part, bearable, latex }) => {
-      if (sources.get(element)?.latex === latex) write(element, latex, brokenRows(latex, (share * part) / Math.max(bearable, COMFORTABLE)));
-    });
-    const parts = shrink(broken.map(({ element }) => element)).map(({ part }) => part);
-    longer.push(...broken.filter((_, i) => parts[i] < SMALLEST));
-    if (long.length) await new Promise(requestAnimationFrame);
-  }
-  if (longer.length && shorter.length) await goOnBelow(longer, shorter);
+/** Typesets a formula row by row, as it is seen. @param {HTMLElement} element */
+async function giveRows(element) {
+  inRows.add(element);
+  const late = !rows;
+  if (late) await expectLong();
+  rows?.tell(element, sources.get(element) ?? "");
+  fitSoon(element);
+  if (late) element.dispatchEvent(new CustomEvent("grown", { bubbles: true }));
 }
 
 /**
@@ -154,7 +142,10 @@ function seek() {
   during(SLICE, sought, catchUp);
   if (sought.length) requestAnimationFrame(seek);
 }
-window.addEventListener("beforeprint", () => waitingIn(document).forEach(catchUp));
+window.addEventListener("beforeprint", () => {
+  waitingIn(document).forEach(catchUp);
+  rows?.finish();
+});
 
 class Typeset extends Directive {
   latex = "";
@@ -172,17 +163,20 @@ class Typeset extends Directive {
     this.latex = latex;
     if (unseen && !waiting.size) whenIdle(work, { timeout: IMPATIENCE });
     if (unseen) waiting.set(element, () => set(element, latex, display));
-    else set(element, latex, display);
+    else set(element, latex, display, true);
     return nothing;
   }
 }
 
-/** @param {HTMLElement} element @param {string} latex @param {boolean} display */
-function set(element, latex, display) {
+/** @param {HTMLElement} element @param {string} latex @param {boolean} display @param {boolean} [atOnce]  it is seen now */
+function set(element, latex, display, atOnce = false) {
   waiting.delete(element);
   if (!display) return typeset(element, latex, display);
-  write(element, latex);
-  fitSoon(element);
+  sources.set(element, latex);
+  const inTurn = latex.length > LONG || inRows.has(element);
+  if (!inTurn || (atOnce && !rows)) typeset(element, latex, display);
+  if (inTurn) void giveRows(element);
+  else fitSoon(element);
 }
 
 const typesetInto = directive(Typeset);

@@ -17,10 +17,11 @@ function reachChapter(root) {
 export function createReach(root) {
   let reached = "";
   let steps = 0;
-  // Full screen or a turned phone must not lose the step that is being read.
+  // Full screen, a turned phone, or a formula that comes late must not lose the step that is being read.
   const keep = () => requestAnimationFrame(() => stepElement(root, reached)?.scrollIntoView({ block: "nearest" }));
   window.addEventListener("resize", keep);
   document.addEventListener("fullscreenchange", keep);
+  root.addEventListener("grown", keep);
 
   /**
    * Scrolls a step into view when it has become the current one.

@@ -6,6 +6,9 @@ import { brokenRows } from "../../frontend/model/linebreak.js";
 
 const katex = createRequire(new URL("../../frontend/package.json", import.meta.url))("katex");
 
+/** As LaTeX. @param {string} latex @param {number} part */
+const broken = (latex, part) => `\\begin{aligned}${brokenRows(latex, part).map(({ text, gap }) => text + gap).join("")}\\end{aligned}`;
+
 const CASES = [
   ["what is short enough stays", "\\begin{aligned}a &= b\\end{aligned}", 1, "\\begin{aligned}a &= b\\end{aligned}"],
   ["a sum goes on below before a sign", "\\begin{aligned}a &= bcd + efg - hij\\end{aligned}", 0.5,
@@ -25,6 +28,8 @@ const CASES = [
     "\\begin{aligned}a &= f\\,\\Bigl(bbbb  \\\\[0.2em] & \\qquad {}+ cccc\\Bigr)\\end{aligned}"],
   ["brackets inside stay whole where that is enough", "\\begin{aligned}a &= f(bbbb (c + d) + eeee (g + h))\\end{aligned}", 0.7,
     "\\begin{aligned}a &= f(bbbb (c + d)  \\\\[0.2em] & \\qquad {}+ eeee (g + h))\\end{aligned}"],
+  ["the names of classes stay whole behind a bracket that goes on", "\\begin{aligned}a &= (bbbb + cccc dddd eeee) \\htmlClass{q-0}{ffff}\\end{aligned}", 0.3,
+    "\\begin{aligned}a &= (bbbb  \\\\[0.2em] & \\qquad {}+ cccc dddd eeee) \\htmlClass{q-0}{ffff}\\end{aligned}"],
   ["a column goes on within its brackets", "\\begin{aligned}r &= \\begin{bmatrix} bbbb + cccc \\\\ d \\end{bmatrix}\\,x\\end{aligned}", 0.7,
     "\\begin{aligned}r &= \\begin{bmatrix*}[l] bbbb  \\\\ \\quad {}+ cccc \\\\[0.6em] d \\end{bmatrix*}\\,x\\end{aligned}"],
   ["the long entries of a matrix have names, equal ones the same",
@@ -38,17 +43,16 @@ const CASES = [
 
 for (const [name, latex, part, wanted] of /** @type {[string, string, number, string][]} */ (CASES)) {
   test(`long formulas: ${name}`, () => {
-    const broken = brokenRows(latex, part);
-    assert.equal(broken, wanted);
-    katex.renderToString(broken, { displayMode: true, trust: true, strict: "ignore" });
+    assert.equal(broken(latex, part), wanted);
+    katex.renderToString(wanted, { displayMode: true, trust: true, strict: "ignore" });
   });
 }
 
 test("a matrix without a name, or of short entries, is one thing", () => {
   const matrix = "\\begin{aligned}M &= \\begin{bmatrix} a + b & c \\\\ c & d - e \\end{bmatrix}\\end{aligned}";
-  assert.equal(brokenRows(matrix, 0.2), matrix);
+  assert.equal(broken(matrix, 0.2), matrix);
   const nameless = "\\begin{aligned}m &= \\begin{bmatrix} aaaa + bbbb & c \\\\ c & d \\end{bmatrix}\\end{aligned}";
-  assert.equal(brokenRows(nameless, 0.2), nameless);
+  assert.equal(broken(nameless, 0.2), nameless);
 });
 
 test("weight counts what is seen", () => {

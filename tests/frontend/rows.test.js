@@ -1,0 +1,73 @@
+import { strict as assert } from "node:assert";
+import { createRequire } from "node:module";
+import { test } from "node:test";
+import { sizeOf } from "../../frontend/model/measure.js";
+import { planned, SMALLEST } from "../../frontend/model/rows.js";
+
+const katex = createRequire(new URL("../../frontend/package.json", import.meta.url))("katex");
+
+/** By the metrics of KaTeX's fonts and the gaps of TeX. @type {[string, string, number][]} */
+const WIDTHS = [
+  ["a sum has gaps at its sign", "a + b", 2.18],
+  ["a sign before it has none", "-b", 1.21],
+  ["an equation has larger ones", "a = b", 2.29],
+  ["a function stands off", "m \\sin\\varphi", 2.93],
+  ["a fraction is as wide as its wider part", "\\frac{a b c}{2}", 1.64],
+  ["an index is small", "m_1", 1.33],
+  ["classes take no room", "\\htmlClass{q-0}{\\varphi}", 0.65],
+  ["columns stand apart", "\\begin{bmatrix} a & b \\\\ c & d \\end{bmatrix}", 3.08],
+  ["spaces are as wide as they say", "\\qquad\\,", 2.17],
+];
+for (const [name, latex, wanted] of WIDTHS) {
+  test(`the width of a formula: ${name}`, () => assert.ok(Math.abs(sizeOf(latex).width / wanted - 1) < 0.08, `${sizeOf(latex).width} for ${wanted}`));
+}
+
+const HEIGHTS = [
+  "\\frac{\\mathrm{d}}{\\mathrm{d} t}\\left(\\frac{\\partial L}{\\partial \\dot{\\varphi}_1}\\right)", "\\frac{1}{2} m v^2", "m^{2}", "\\ddot{\\varphi}_1",
+  "\\begin{bmatrix} a & b \\\\ c & d \\end{bmatrix}", "\\begin{bmatrix} a \\\\ \\frac{a}{b} \\\\ d \\end{bmatrix}", "\\left(\\frac{\\frac{a}{b}}{c}\\right)^{2}", "\\sqrt{\\frac{g}{\\ell}}",
+];
+/** What KaTeX makes of it. @param {string} latex */
+function setHeights(latex) {
+  const [, total, below] = katex.renderToString(`{\\displaystyle ${latex}}`, { output: "html" }).match(/strut" style="height:([\d.]+)em;(?:vertical-align:-([\d.]+)em)?/);
+  return { height: Number(total) - Number(below ?? 0), depth: Number(below ?? 0) };
+}
+for (const latex of HEIGHTS) {
+  test(`how high and deep a row is: ${latex}`, () => {
+    const [wanted, found] = [setHeights(latex), sizeOf(latex)];
+    for (const side of /** @type {const} */ (["height", "depth"])) assert.ok(Math.abs(found[side] - wanted[side]) < 0.2, `${side} ${found[side]} for ${wanted[side]}`);
+  });
+}
+
+const SUM = "\\begin{aligned}E &= aaaa + bbbb - cccc + dddd \\\\[0.85em] F &= e\\end{aligned}";
+
+test("rows that fit are as the formula has them, each with the gap below it", () => {
+  const { rows, part } = planned(SUM, 40);
+  assert.equal(part, 1);
+  assert.deepEqual(rows.map(({ left, right }) => [left, right]), [["E", "= aaaa + bbbb - cccc + dddd"], ["F", "= e"]]);
+  assert.ok(rows[0].below > 1.2 && rows[1].below < 0.4);
+});
+
+test("rows that would become too small go on below, and all fit at one size", () => {
+  const { rows, part } = planned(SUM, 9);
+  assert.deepEqual(rows.map(({ left }) => left), ["E", "", "F"]);
+  assert.match(rows[1].right, /^\\qquad \{\}[+-]/);
+  assert.ok(part >= SMALLEST && part <= 1);
+});
+
+test("every row is a formula by itself, even where a bracket goes on below", () => {
+  const { rows } = planned("\\begin{aligned}V &= g (aaaa + bbbb + cccc) - \\left(dddd + eeee\\right)\\end{aligned}", 5);
+  assert.ok(rows.length > 3);
+  for (const { left, right } of rows) for (const latex of [left, `{}${right}`]) katex.renderToString(`{\\displaystyle ${latex}}`);
+});
+
+test("a lecture would rather have more rows than smaller ones", () => {
+  const room = sizeOf("E").width + sizeOf("= aaaa + bbbb - cccc + dddd").width - 1;
+  assert.equal(planned(SUM, room).rows.length, 2);
+  assert.equal(planned(SUM, room, 0.98).rows.length, 3);
+});
+
+test("what cannot be broken is one row, smaller than any", () => {
+  const { rows, part } = planned("x_{aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa}", 3);
+  assert.equal(rows.length, 1);
+  assert.ok(part < SMALLEST);
+});
