@@ -7,6 +7,7 @@ import { createHandout } from "./model/handout.js";
 import { documentIn } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { expectLong, typesetAll } from "./view/formula.js";
 import { dressed } from "./view/header.js";
 import { createDrawing } from "./view/drawing.js";
 import { page } from "./view/handout/page.js";
@@ -41,13 +42,33 @@ function update() {
   const shared = writePlace(place);
   const address = `${location.pathname}${shared}${own.length ? `${shared ? "&" : "?"}${own.join("&")}` : ""}${location.hash}`;
   const source = `${location.origin}${proof ? "/proof" : "/scene"}${shared}${location.hash}`;
-  render(page({ ...store.get(), state: { place }, session, t, print: () => window.print(), address: source }), root);
+  render(page({ ...store.get(), state: { place }, session, t, print: () => void onPaper(), address: source }), root);
   const frame = /** @type {HTMLElement | null} */ (root.querySelector(".drawing"));
   if (frame && trajectory) (drawing ??= createDrawing(frame)).show(scene, trajectory, 0);
   document.title = `δq · ${root.querySelector("h1")?.textContent ?? ""}`;
   history.replaceState(null, "", address);
 }
 
+/** Frames after which a sheet is printed as it is. */
+const PATIENCE = 240;
+
+/** Prints when every formula has found its size: one that is too wide would make the whole sheet small. */
+async function onPaper() {
+  typesetAll();
+  const isTooWide = (/** @type {Element} */ formula) => formula.scrollWidth > formula.clientWidth + 1;
+  for (let frames = 0; frames < PATIENCE && [...root.querySelectorAll(".formula")].some(isTooWide); frames += 1) await new Promise(requestAnimationFrame);
+  window.print();
+}
+
+/** Printed by the browser's own key, what had no time to go on below becomes as small as it must. */
+window.addEventListener("beforeprint", () => {
+  for (const formula of /** @type {NodeListOf<HTMLElement>} */ (root.querySelectorAll(".formula.wide"))) {
+    const fit = Number(formula.style.getPropertyValue("--fit")) || 1;
+    formula.style.setProperty("--fit", String((0.98 * fit * formula.clientWidth) / formula.scrollWidth));
+  }
+});
+
 store.subscribe(update);
 dark.addEventListener("change", update);
+void expectLong();
 void session.load();

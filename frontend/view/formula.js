@@ -10,8 +10,7 @@ const BEARABLE = 0.78;
 /** LaTeX of more letters is typeset row by row. */
 const LONG = 600;
 /** Milliseconds for which formulas are typeset in one go, and after which those nobody sees have waited long enough. */
-const SLICE = 8;
-const IMPATIENCE = 300;
+const SLICE = 8, IMPATIENCE = 300;
 
 /** @param {{command: string}} context  only classes, which carry the colours, and only in LaTeX from the server */
 const onlyClasses = (context) => context.command === "\\htmlClass";
@@ -142,10 +141,14 @@ function seek() {
   during(SLICE, sought, catchUp);
   if (sought.length) requestAnimationFrame(seek);
 }
-window.addEventListener("beforeprint", () => {
+
+/** All that still waits, at once, at its size and with its rows: for paper. */
+export function typesetAll() {
   waitingIn(document).forEach(catchUp);
+  fit([.../** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll(".formula"))]);
   rows?.finish();
-});
+}
+window.addEventListener("beforeprint", typesetAll);
 
 class Typeset extends Directive {
   latex = "";

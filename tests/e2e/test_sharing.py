@@ -174,6 +174,20 @@ def test_a_handout_is_whole_and_printed_in_light(lecture: Lecture, tmp_path: Pat
     assert (width, height) == pytest.approx((595.3, 841.9), abs=1.5)
 
 
+def test_a_sheet_that_is_printed_at_once_is_not_made_small(lecture: Lecture, tmp_path: Path) -> None:
+    """The browser makes a whole page smaller, when only one formula is wider than the paper."""
+    page = lecture.page
+    page.goto(f"{lecture.address}handout?scene=triple-pendulum&lang=en")
+    page.locator(".paper .katex").first.wait_for()
+    wide = "[...document.querySelectorAll('.formula')].filter(e => e.scrollWidth > e.clientWidth + 1 || !e.firstChild)"
+    page.evaluate(f"addEventListener('beforeprint', () => {{ window.wide = {wide}.length }})")
+    page.pdf(path=str(tmp_path / "handout.pdf"), prefer_css_page_size=True)
+    assert page.evaluate("window.wide") == 0
+    page.evaluate(f"window.print = () => {{ window.small = {wide}.length }}")
+    page.get_by_role("button", name="Print").click()
+    assert page.wait_for_function("window.small === 0")
+
+
 def test_the_general_proof_has_an_address_a_code_and_a_handout(lecture: Lecture) -> None:
     page = lecture.page
     page.goto(f"{lecture.address}proof?lang=de")
