@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from importlib.resources import files
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Locator, Page, Request, expect
@@ -66,6 +67,21 @@ def test_it_is_derived_and_moves_at_once(editor: Lecture) -> None:
     before = editor.bob_position()
     page.wait_for_timeout(400)
     assert editor.bob_position() != before
+
+
+def test_a_file_is_opened_and_the_list_closes(editor: Lecture, tmp_path: Path) -> None:
+    page = editor.page
+    file = tmp_path / "scene.toml"
+    file.write_text((files("deltaq") / "scenes" / "atwood.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    page.locator(".files summary").click()
+    with page.expect_file_chooser() as chooser:
+        page.locator(".files .load").click()
+    chooser.value.set_files(file)
+    expect(field(page, "/title").locator("input")).to_have_value("Atwood’s machine")
+    expect(page.locator(".files")).not_to_have_attribute("open", "")
+    type_into(page, "/parameters/0/value", "")
+    expect(field(page, "/parameters/0/value").locator("input")).to_have_attribute("placeholder", "1")
+    valid(page)
 
 
 def test_a_reload_loses_nothing(editor: Lecture) -> None:

@@ -61,6 +61,12 @@ export function fieldsOf(section, row, dimension) {
 /** Whether a field holds several values. @param {Field} field */
 export const isList = ({ type }) => type === "vector" || type === "material";
 
+/** What an empty field of numbers means. @type {Record<string, Record<string, string>>} */
+const STANDARD = { coordinates: { value: "0", rate: "0" }, parameters: { value: "1" } };
+
+/** @param {string} section @param {string} key */
+export const standardOf = (section, key) => STANDARD[section]?.[key] ?? "";
+
 /** The material coordinates of a row, as names. @param {any} row @returns {string[]} */
 export const materialOf = (row) => rowsOf(row?.material).map((one) => String(one?.name ?? ""));
 

@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { inline } from "../formula.js";
-import { componentsOf, dimensionOf, materialOf, rowsOf } from "../../model/editor/schema.js";
+import { componentsOf, dimensionOf, materialOf, rowsOf, standardOf } from "../../model/editor/schema.js";
 import { formulaKey } from "../../model/editor/editor.js";
 import { numberOf, renamed } from "../../model/editor/changes.js";
 import { isWarning, marked } from "../../model/editor/problems.js";
@@ -34,14 +34,14 @@ function aria({ problems }, pointer) {
   return { invalid: String(found.some((problem) => !isWarning(problem))), why: found.length ? `${idOf(pointer)}-why` : nothing };
 }
 
-/** @param {Sheet} sheet @param {string} pointer @param {string} label @param {unknown} value @param {(text: string) => void} change @param {{className?: string, mode?: string}} [look] */
-export function line(sheet, pointer, label, value, change, { className = "", mode = "text" } = {}) {
+/** @param {Sheet} sheet @param {string} pointer @param {string} label @param {unknown} value @param {(text: string) => void} change @param {{className?: string, mode?: string, standard?: string}} [look]  `standard` is what an empty field means */
+export function line(sheet, pointer, label, value, change, { className = "", mode = "text", standard = "" } = {}) {
   const text = value === undefined || value === null ? "" : String(value);
   const { invalid, why } = aria(sheet, pointer);
   return html`
     <div class="field ${className}" data-pointer=${pointer}>
       <label for=${idOf(pointer)}>${label}</label>
-      <input id=${idOf(pointer)} type="text" inputmode=${mode} autocomplete="off" autocapitalize="off" spellcheck="false" maxlength="4000"
+      <input id=${idOf(pointer)} type="text" inputmode=${mode} autocomplete="off" autocapitalize="off" spellcheck="false" maxlength="4000" placeholder=${standard}
         aria-invalid=${invalid} aria-describedby=${why} .value=${text} @input=${(/** @type {Event} */ e) => change(typed(e))}>
       ${complaints(sheet, pointer, text)}
     </div>`;
@@ -110,7 +110,7 @@ export function fieldOf(sheet, at, { key, type }) {
   if (type === "vector") return vector(sheet, pointer, label, at, key);
   if (type === "expression") return expression(sheet, pointer, label, row[key], materialOf(row));
   if (type === "material") return material(sheet, pointer, row);
-  if (type === "number") return line(sheet, pointer, label, row[key], (text) => put(numberOf(text)), { className: "narrow", mode: "decimal" });
+  if (type === "number") return line(sheet, pointer, label, row[key], (text) => put(numberOf(text)), { className: "narrow", mode: "decimal", standard: standardOf(section, key) });
   if (type === "place") return choice(sheet, pointer, label, row[key] ?? "", { options: places }, put);
   if (type === "coordinate") return choice(sheet, pointer, label, row[key] ?? "", { options: coordinates }, put);
   if (type === "flag") return choice(sheet, pointer, label, String(row[key] ?? true), { options: ["true", "false"], say: (one) => sheet.t(`editor.flag.${one}`) }, (text) => put(text === "true"));

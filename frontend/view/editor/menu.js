@@ -20,7 +20,7 @@ export function menu(sheet) {
     <div class="menu">
       ${beginnings(sheet)}
       <button class="quiet small" @click=${() => void copyLink(sheet)}>${t("editor.link")}</button>
-      <details class="files" @click=${close}>
+      <details class="files" @click=${close} @change=${close}>
         <summary>${t("editor.file")}</summary>
         <div>
           <button class="quiet" @click=${() => save(sheet, "json")}>${t("editor.save-json")}</button>
@@ -34,7 +34,7 @@ export function menu(sheet) {
 /** A choice made, the list closes. @param {Event} event */
 function close(event) {
   const details = /** @type {HTMLDetailsElement} */ (event.currentTarget);
-  if (event.target instanceof HTMLButtonElement) details.open = false;
+  if (event.type === "change" || event.target instanceof HTMLButtonElement) details.open = false;
 }
 
 /** What to start from: nothing, a built-in scene, or a scene that was set aside. @param {Sheet} sheet */

@@ -51,7 +51,7 @@ def _failed(bad: list[Mapping[str, Any]], method: str, name: str, say: Say) -> T
         "marker": {"symbol": "x-thin-open", "size": 9, "color": look(method)["color"], "line": {"width": 1.6}},
         "legendgroup": method,
         "showlegend": False,
-        "name": say("labs.without-result", name=name),
+        "name": say("labs.hover.without-result", name=name),
         "meta": WITHOUT_RESULT,
     }
 

@@ -82,7 +82,7 @@ def _cost(method: str, rows: list[Any], say: Say) -> Iterator[Trace]:
             "marker": {"symbol": FAILED, "size": 9, "color": look(method)["color"], "line": {"width": 1.6}},
             "legendgroup": method,
             "showlegend": False,
-            "name": say("labs.without-result", name=name),
+            "name": say("labs.hover.without-result", name=name),
         }
 
 

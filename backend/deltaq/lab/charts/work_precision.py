@@ -98,7 +98,7 @@ def _failures(points: list[Mapping[str, Any]], method: str, x: str, least: float
         },
         "legendgroup": method,
         "showlegend": False,
-        "name": say("labs.without-result", name=name),
+        "name": say("labs.hover.without-result", name=name),
         "meta": WITHOUT_RESULT,
     }
 
