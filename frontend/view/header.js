@@ -17,7 +17,6 @@ const chosen = (event) => /** @type {HTMLSelectElement} */ (event.target).value;
 
 /** @param {View} view */
 export function header(view) {
-  const { session, t } = view;
   return html`
     <header class="top">
       ${brand(view)}
@@ -27,10 +26,7 @@ export function header(view) {
         ${penTool(view)}
         ${language(view)}
         ${appearance(view)}
-        <button class="tool" title=${t("tool.share")} aria-label=${t("tool.share")} @click=${() => session.overlay("share")}>${icon("share")}</button>
-        <button class="tool" title=${t("tool.overview")} aria-label=${t("tool.overview")} @click=${() => session.overlay("overview")}>${icon("overview")}</button>
-        <button class="tool wide-only" title=${t("tool.lecture")} aria-label=${t("tool.lecture")} @click=${view.enterLecture}>${icon("lecture")}</button>
-        <button class="tool wide-only" title=${t("tool.help")} aria-label=${t("tool.help")} @click=${() => session.overlay("help")}>${icon("help")}</button>
+        ${buttons(view)}
       </div>
     </header>
   `;
@@ -57,9 +53,20 @@ export function brand({ state, t }) {
 const action = (label, press) => html`
   <button class="action" popovertarget="places" popovertargetaction="hide" @click=${press}>${label}</button>`;
 
+/** Above a derivation. @typedef {Pick<View, "enterLecture" | "t"> & {session: Pick<View["session"], "overlay">}} Above */
+
+/** @param {Above} view */
+export function buttons({ session, enterLecture, t }) {
+  return html`
+    <button class="tool" title=${t("tool.share")} aria-label=${t("tool.share")} @click=${() => session.overlay("share")}>${icon("share")}</button>
+    <button class="tool" title=${t("tool.overview")} aria-label=${t("tool.overview")} @click=${() => session.overlay("overview")}>${icon("overview")}</button>
+    <button class="tool wide-only" title=${t("tool.lecture")} aria-label=${t("tool.lecture")} @click=${enterLecture}>${icon("lecture")}</button>
+    <button class="tool wide-only" title=${t("tool.help")} aria-label=${t("tool.help")} @click=${() => session.overlay("help")}>${icon("help")}</button>`;
+}
+
 /**
  * What the buttons of the header do, where there is no room for them.
- * @param {Pick<View, "enterLecture" | "t"> & {session: Pick<View["session"], "overlay">}} view
+ * @param {Above} view
  */
 export function actions({ session, enterLecture, t }) {
   return [

@@ -2,9 +2,9 @@
 
 import { html, nothing } from "lit-html";
 import { failure } from "./failure.js";
-import { actions, appearance, brand, language, places } from "./header.js";
-import { icon } from "./icons.js";
+import { actions, buttons } from "./header.js";
 import { chapters, pager, steps } from "./steps.js";
+import { titled, top } from "./top.js";
 
 /**
  * @typedef {{state: import("../model/proof.js").Reading, session: import("../model/proof.js").Proof,
@@ -15,21 +15,9 @@ import { chapters, pager, steps } from "./steps.js";
 
 /** @param {ProofView} view */
 export function page(view) {
-  const { session, t } = view;
+  const { t } = view;
   return html`
-    <a class="skip" href="#derivation">${t("skip")}</a>
-    <header class="top">
-      ${brand(view)}
-      <div class="scene"><h1>${t("place.proof")}</h1><p class="summary">${t("proof.subtitle")}</p></div>
-      ${places(view, "proof", actions(view))}
-      <div class="tools">
-        ${language(view)}${appearance(view)}
-        <button class="tool" title=${t("tool.share")} aria-label=${t("tool.share")} @click=${() => session.overlay("share")}>${icon("share")}</button>
-        <button class="tool" title=${t("tool.overview")} aria-label=${t("tool.overview")} @click=${() => session.overlay("overview")}>${icon("overview")}</button>
-        <button class="tool wide-only" title=${t("tool.lecture")} aria-label=${t("tool.lecture")} @click=${view.enterLecture}>${icon("lecture")}</button>
-        <button class="tool wide-only" title=${t("tool.help")} aria-label=${t("tool.help")} @click=${() => session.overlay("help")}>${icon("help")}</button>
-      </div>
-    </header>
+    ${top(view, { main: "derivation", here: "proof", heading: titled(t("place.proof"), t("proof.subtitle")), menu: actions(view), tools: buttons(view) })}
     ${view.lecture ? html`<main class="desk" data-view="lecture" data-beside="nothing">${view.lecture.slide(view)}</main>` : reading(view)}
     ${view.above(view)}`;
 }

@@ -1,8 +1,8 @@
 /** The help: for lecturers, students and programs; and the keys. */
 
 import { html, nothing } from "lit-html";
-import { appearance, brand, language, places } from "../header.js";
 import { keytable } from "../keytable.js";
+import { titled, top } from "../top.js";
 import { GUIDE } from "../../model/guide.js";
 import { pageAddress } from "../../model/url.js";
 
@@ -12,11 +12,7 @@ import { pageAddress } from "../../model/url.js";
 export function page(view) {
   const { t } = view;
   return html`
-    <a class="skip" href="#guide">${t("skip")}</a>
-    <header class="top">
-      ${brand(view)}<div class="scene"><h1>${t("guide.title")}</h1><p class="summary">${t("guide.subtitle")}</p></div>
-      ${places(view, "help")}<div class="tools">${language(view)}${appearance(view)}</div>
-    </header>
+    ${top(view, { main: "guide", here: "help", heading: titled(t("guide.title"), t("guide.subtitle")) })}
     <main class="reference guide" id="guide" tabindex="-1">
       <nav aria-label=${t("guide.parts")}><ul>${[...GUIDE.map(({ id }) => id), "keys"].map((id) => html`<li><a href=${`#${id}`}>${t(`guide.${id}`)}</a></li>`)}</ul></nav>
       <div class="calls">${GUIDE.map((part) => section(part, view))}

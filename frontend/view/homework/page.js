@@ -6,7 +6,8 @@ import { inLanguage } from "../../model/catalog.js";
 import { SIDES } from "../../model/homework/place.js";
 import { failure } from "../failure.js";
 import { prose } from "../formula.js";
-import { appearance, brand, language, lettersOf, places, titleMenu } from "../header.js";
+import { appearance, lettersOf, titleMenu } from "../header.js";
+import { top } from "../top.js";
 import { answer } from "./answer.js";
 import { figure } from "./figure.js";
 import { tasks } from "./tasks.js";
@@ -41,14 +42,9 @@ import { working } from "./working.js";
 export function page(view) {
   const { state, t } = view;
   const { place, side } = state.asked;
+  const shown = { state: { place }, session: view.session, t };
   return html`
-    <a class="skip" href="#work">${t("homework.skip")}</a>
-    <header class="top">
-      ${brand({ state: { place }, t })}
-      ${heading(view)}
-      ${places({ state: { place }, t }, "homework", appearance({ state: { place }, session: view.session, t }))}
-      <div class="tools">${language({ state: { place }, session: view.session, t })}${appearance({ state: { place }, session: view.session, t })}</div>
-    </header>
+    ${top(shown, { main: "work", skip: t("homework.skip"), here: "homework", heading: heading(view), menu: appearance(shown) })}
     <main class="homework" data-side=${side}>
       ${tasks(view)}
       <div class="work" id="work" tabindex="-1">

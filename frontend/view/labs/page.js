@@ -3,7 +3,7 @@
 import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
 import { failure } from "../failure.js";
-import { appearance, brand, language, places } from "../header.js";
+import { titled, top } from "../top.js";
 import { canvas } from "./cursor.js";
 import { form } from "./form.js";
 import { motion } from "./motion.js";
@@ -33,13 +33,7 @@ const BELOW = { stability: failures, fidelity: rungs };
 export function page(view) {
   const { t, bench } = view;
   return html`
-    <a class="skip" href="#measured">${t("skip")}</a>
-    <header class="top">
-      ${brand(view)}
-      <div class="scene"><h1>${t("place.labs")}</h1><p class="summary">${t("labs.lead")}</p></div>
-      ${places(view, "labs")}
-      <div class="tools">${language(view)}${appearance(view)}</div>
-    </header>
+    ${top(view, { main: "measured", here: "labs", heading: titled(t("place.labs"), t("labs.lead")) })}
     <main class="labs">
       <nav class="kinds" aria-label=${t("labs.choose-lab")}>${view.labs.map((lab) => kind(view, lab))}</nav>
       <div class="asking">${form(view)}</div>

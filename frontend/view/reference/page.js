@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { failure } from "../failure.js";
-import { appearance, brand, language, places } from "../header.js";
+import { titled, top } from "../top.js";
 import { pageAddress } from "../../model/url.js";
 
 /** @typedef {import("../../model/reference.js").Call} Call */
@@ -17,11 +17,7 @@ const TRIAL = "docs/try";
 export function page(view) {
   const { groups, t } = view;
   return html`
-    <a class="skip" href="#reference">${t("skip")}</a>
-    <header class="top">
-      ${brand(view)}<div class="scene"><h1>${t("place.docs")}</h1><p class="summary">${t("reference.subtitle", { version: view.version })}</p></div>
-      ${places(view, "docs")}<div class="tools">${language(view)}${appearance(view)}</div>
-    </header>
+    ${top(view, { main: "reference", here: "docs", heading: titled(t("place.docs"), t("reference.subtitle", { version: view.version })) })}
     <main class="reference" id="reference" tabindex="-1">
       ${view.failure ? failure(view.failure, t("failure.page"), view.reload, t) : nothing}
       <nav aria-label=${t("reference.subjects")}><ul>${groups.map(({ subject }) => html`<li><a href=${`#${subject}`}>${subject}</a></li>`)}</ul>

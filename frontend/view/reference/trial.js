@@ -3,8 +3,8 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { failure } from "../failure.js";
-import { appearance, brand, language, places } from "../header.js";
 import { icon } from "../icons.js";
+import { titled, top } from "../top.js";
 import { curlOf } from "../../model/trial.js";
 import { pageAddress } from "../../model/url.js";
 
@@ -25,11 +25,7 @@ const valueOf = ({ target }) => /** @type {HTMLInputElement} */ (target).value;
 export function page(view) {
   const { t } = view;
   return html`
-    <a class="skip" href="#trial">${t("skip")}</a>
-    <header class="top">
-      ${brand(view)}<div class="scene"><h1>${t("trial")}</h1><p class="summary">${t("trial.subtitle")}</p></div>
-      ${places(view, "docs")}<div class="tools">${language(view)}${appearance(view)}</div>
-    </header>
+    ${top(view, { main: "trial", here: "docs", heading: titled(t("trial"), t("trial.subtitle")) })}
     <main class="trial" id="trial" tabindex="-1">
       ${view.failure ? failure(view.failure, t("failure.page"), view.reload, t) : nothing}
       ${view.call ? html`${request(view.call, view)}${answer(view)}` : nothing}

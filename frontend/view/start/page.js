@@ -1,8 +1,8 @@
 /** The start page: a moving pendulum, the lecture as a course, the scenes, and everything else there is. */
 
 import { html } from "lit-html";
-import { appearance, brand, language, places } from "../header.js";
 import { icon } from "../icons.js";
+import { top } from "../top.js";
 import { inLanguage } from "../../model/catalog.js";
 import { COURSE, addressOf } from "../../model/start/course.js";
 import { HOME, PAGES, pageAddress, writePlace } from "../../model/url.js";
@@ -18,8 +18,7 @@ export const HERO = "elastic-pendulum";
 export function page(view) {
   const { t } = view;
   return html`
-    <a class="skip" href="#course">${t("start.skip")}</a>
-    <header class="top">${brand(view)}${places(view, "")}<div class="tools">${language(view)}${appearance(view)}</div></header>
+    ${top(view, { main: "course", skip: t("start.skip") })}
     <main class="start">
       ${opening(view)}
       <section id="course" aria-labelledby="course-title"><h2 id="course-title">${t("start.course")}</h2>

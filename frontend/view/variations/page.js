@@ -1,10 +1,10 @@
 /** The page "Variations": the question to the left, the answer and the h-slider to the right. */
 
 import { html } from "lit-html";
-import { appearance, brand, language, places } from "../header.js";
 import { form } from "./form.js";
 import { contents, derivation, summary, understood } from "./result.js";
 import { slider } from "./slider.js";
+import { titled, top } from "../top.js";
 
 /**
  * @typedef {import("../header.js").Appearance & {asking: import("../../model/variations/lab.js").Asking,
@@ -17,13 +17,7 @@ import { slider } from "./slider.js";
 export function page(view) {
   const { t } = view;
   return html`
-    <a class="skip" href="#answer">${t("skip")}</a>
-    <header class="top">
-      ${brand(view)}
-      <div class="scene"><h1>${t("place.variations")}</h1><p class="summary">${t("variations.subtitle")}</p></div>
-      ${places(view, "variations")}
-      <div class="tools">${language(view)}${appearance(view)}</div>
-    </header>
+    ${top(view, { main: "answer", here: "variations", heading: titled(t("place.variations"), t("variations.subtitle")) })}
     <main class="variations">
       <div class="asking">${form(view)}${understood(view)}${summary(view)}</div>
       <div class="answer" id="answer" tabindex="-1">
