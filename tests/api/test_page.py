@@ -10,7 +10,7 @@ from deltaq.api.assets import Assets
 from deltaq.api.page import FRAME, assembled, imported, names
 from deltaq.api.service import static_root
 
-NAMED = {"lib": "/vendor/lib/lib.js", "lib/": "/vendor/lib/"}
+NAMED = (("lib", "/vendor/lib/lib.js"), ("lib/", "/vendor/lib/"))
 SITE = static_root("")
 PAGES = sorted(file.stem for file in SITE.glob("*.html"))
 

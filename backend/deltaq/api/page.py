@@ -9,13 +9,15 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import os
 import re
-from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 from posixpath import dirname, join, normpath
 
 FRAME = "view/frame.html"
+
+Names = tuple[tuple[str, str], ...]
 
 _IMPORT_MAP = re.compile(r'<script type="importmap"[^>]*>(.*?)</script>', re.DOTALL)
 _IMPORT = re.compile(r'(?:^|;)(?:import|export)\b[^;]*?\bfrom ?"([^"]+)"', re.MULTILINE)
@@ -41,28 +43,30 @@ def import_map_hash(page: str) -> str | None:
     return "sha256-" + base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode()
 
 
-def names(page: str) -> dict[str, str]:
+def names(page: str) -> Names:
     """The import map of a page: addresses by the names that modules use for them."""
     found = _IMPORT_MAP.search(page)
-    return json.loads(found[1])["imports"] if found else {}
+    return tuple(json.loads(found[1])["imports"].items()) if found else ()
 
 
-def imported(root: Path, module: str, named: dict[str, str]) -> set[str]:
+def imported(root: Path, module: str, named: Names) -> set[str]:
     """The addresses of all modules that one leads to; those that are fetched later, by import(), do not count."""
     found: set[str] = set()
     waiting = [module]
     while waiting:
-        for address in _imports(root, waiting.pop(), named):
-            if address not in found:
-                found.add(address)
-                waiting.append(address)
+        module = waiting.pop()
+        file = f"{root}{module}"
+        modified = os.stat(file).st_mtime_ns  # noqa: PTH116  a Path takes longer, and a page has dozens of modules
+        fresh = _imports(file, module, named, modified) - found
+        found |= fresh
+        waiting += fresh
     return found
 
 
-def _imports(root: Path, module: str, named: dict[str, str]) -> Iterator[str]:
-    file = root / module.lstrip("/")
-    for name in _names_in(file, file.stat().st_mtime_ns):
-        yield _address(name, module, named)
+@lru_cache(maxsize=1024)
+def _imports(file: str, module: str, named: Names, _modified: int) -> frozenset[str]:
+    """What a module itself imports; read again when it has been modified."""
+    return frozenset(_address(name, module, dict(named)) for name in _IMPORT.findall(Path(file).read_text("utf-8")))
 
 
 def _address(name: str, module: str, named: dict[str, str]) -> str:
@@ -73,9 +77,3 @@ def _address(name: str, module: str, named: dict[str, str]) -> str:
         return named[name]
     folder, _, rest = name.partition("/")
     return named[f"{folder}/"] + rest
-
-
-@lru_cache(maxsize=1024)
-def _names_in(file: Path, _modified: int) -> tuple[str, ...]:
-    """What a module imports; read again when it has been modified."""
-    return tuple(_IMPORT.findall(file.read_text(encoding="utf-8")))
