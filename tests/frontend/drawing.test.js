@@ -21,6 +21,14 @@ test("where the second component grows upwards, it does so on the screen", () =>
   assert.deepEqual(stageOf(up, trajectory, square(400)).project([1, 1]), [300, 100]);
 });
 
+for (const [acceleration, vertical, down] of /** @type {const} */ ([["g", "down", true], ["-g", "up", true], ["-g", "down", false], ["g", "up", false], ["0", "up", true]]))
+  test(`weights point where the scene says: ${acceleration} with the last component growing ${vertical}`, () => {
+    const given = /** @type {any} */ ({ ...scene, loads: [{ kind: "gravity", name: "weight", acceleration: ["0", acceleration] }], drawing: { ...scene.drawing, vertical, elements: [{ kind: "weight", at: "bob" }] } });
+    const { labels } = figureAt(0, given);
+    const bob = stageOf(given, trajectory, square(400)).project(/** @type {number[]} */ (trajectory.positions.bob[0]));
+    assert.equal(labels[0].at[1] > bob[1], down);
+  });
+
 test("a view that the motion leaves is widened about its centre, and not without end", () => {
   const far = (/** @type {number} */ x) => ({ ...trajectory, positions: { bob: [[x, 0]] } });
   assert.deepEqual(viewOf(scene, far(1.9)), [-2, 2, -2, 2]);

@@ -1,6 +1,7 @@
 /** What is written into a drawing: forces, weights, angles, dimensions. */
 
 import { add, arrowHead, at as pixel, fromDown, lengthOf, line, normal, scaled, sliverFromDown, subtract, unit, wrapped } from "./geometry.js";
+import { pullOf, verticalOf } from "./sketch.js";
 import { coordinateClass, latexOf, placeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
@@ -84,7 +85,7 @@ export function forceLatex(load) {
 export function weight(element, stage, now, key) {
   const load = stage.scene.loads.find((candidate) => candidate.kind === "gravity");
   const from = placeOf(stage, now, element.at ?? "");
-  const vector = scaled(stage.down, stage.unit * 4.2);
+  const vector = scaled(stage.down, stage.unit * (stage.once("falls", () => falls(stage.scene)) ? 4.2 : -4.2));
   const className = `load load-${load?.name ?? "weight"}`;
   const label = add(from, add(vector, [stage.unit * 0.65, -stage.unit * 0.5]));
   return {
@@ -92,6 +93,9 @@ export function weight(element, stage, now, key) {
     labels: [{ key, latex: weightLatex(element, stage, load), at: label, className, start: true }],
   };
 }
+
+/** Whether gravity pulls down on the screen: a drawing turned over shows what the scene says. @param {import("../types.js").Scene} scene */
+const falls = (scene) => pullOf(scene) !== (verticalOf(scene) === "down" ? -1 : 1);
 
 /** m g where mass and acceleration are plain names, else G. @param {Element} element @param {Stage} stage @param {Load | undefined} load */
 function weightLatex(element, stage, load) {

@@ -99,10 +99,11 @@ function angles(scene, { coordinates, t }, paths, { from, to }) {
   return found ? [{ kind: "angle", at: from, coordinate: found.name }] : [];
 }
 
-/** Where the last component grows: as the drawing says, else along gravity. @param {Scene} scene @returns {"up" | "down"} */
-export function verticalOf(scene) {
-  const given = scene.drawing?.vertical;
-  if (given) return given;
-  const pull = String(scene.loads.find((load) => load?.kind === "gravity")?.acceleration?.at(-1) ?? "-").trim();
-  return pull.startsWith("-") || pull === "0" ? "up" : "down";
+/** Along the last component gravity pulls to greater values, 1, to smaller ones, −1, or not at all. @param {Scene} scene */
+export function pullOf(scene) {
+  const pull = String(scene.loads.find((load) => load?.kind === "gravity")?.acceleration?.at(-1) ?? "0").trim();
+  return pull === "0" ? 0 : pull.startsWith("-") ? -1 : 1;
 }
+
+/** Where the last component grows: as the drawing says, else along gravity. @param {Scene} scene @returns {"up" | "down"} */
+export const verticalOf = (scene) => scene.drawing?.vertical || (pullOf(scene) > 0 ? "down" : "up");
