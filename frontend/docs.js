@@ -36,9 +36,9 @@ async function load() {
 let arrived = false;
 function update() {
   const { place, catalog, groups } = get();
+  dressed(place, dark.matches);
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.reference) });
-  dressed(place, dark.matches);
   document.title = `δq · ${t("place.docs")}`;
   const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
   const choose = (/** @type {string} */ sample) => set({ sample });

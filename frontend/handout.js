@@ -35,9 +35,9 @@ let drawing = null;
 /** What is drawn, typeset and named, once everything is there. */
 function update() {
   const { place, catalog, scene, trajectory, substeps } = store.get();
+  dressed(place, dark.matches);
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture) });
-  dressed(place, dark.matches);
   const own = [proof && `${PROVING}=${encodeURIComponent(proof)}`, substeps ? "" : `${SUBSTEPS}=no`].filter(Boolean);
   const shared = writePlace(place);
   const address = `${location.pathname}${shared}${own.length ? `${shared ? "&" : "?"}${own.join("&")}` : ""}${location.hash}`;
@@ -71,4 +71,5 @@ window.addEventListener("beforeprint", () => {
 store.subscribe(update);
 dark.addEventListener("change", update);
 void expectLong();
+update();
 void session.load();

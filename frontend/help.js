@@ -22,9 +22,9 @@ const speech = createSpeech(store, createApi(fetch.bind(globalThis)), (task) => 
 let arrived = false;
 function update() {
   const { place, catalog } = get();
+  dressed(place, dark.matches);
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture), .../** @type {object} */ (catalog.guide) });
-  dressed(place, dark.matches);
   document.title = `δq · ${t("place.help")}`;
   const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
   render(page({ state: { place }, session, t }), root);

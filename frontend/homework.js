@@ -152,9 +152,9 @@ async function fetchFormulas() {
 let wanted = false;
 function update() {
   const { asked: { place, side }, catalog, entry } = get();
+  dressed(place, dark.matches);
   if (!catalog.page) return;
   const current = view();
-  dressed(place, dark.matches);
   document.title = `δq · ${current.t("place.homework")}`;
   render(page(current), root);
   staging.show(get(), still.matches);

@@ -36,9 +36,9 @@ async function language(lang) {
 
 function update() {
   const { place, catalog, scenes } = get();
+  dressed(place, dark.matches);
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.start) });
-  dressed(place, dark.matches);
   document.title = t("title");
   render(page({ state: { place }, session: { language, move }, scenes, t }), root);
   motions.watch(root);

@@ -142,9 +142,9 @@ const session = {
 let opened = "";
 function update() {
   const { place, catalog, scenes, dial, play } = get();
+  const theme = dressed(place, dark.matches);
   if (!catalog.page) return;
   const t = speech();
-  const theme = dressed(place, dark.matches);
   document.title = `δq · ${t("place.labs")}`;
   const now = chartsNow();
   render(page({

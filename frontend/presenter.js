@@ -58,9 +58,9 @@ const actions = {
 
 function update() {
   const { place, catalog } = get();
+  dressed(place, dark.matches);
   if (!catalog.page || !catalog.lecture) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture) });
-  dressed(place, dark.matches);
   document.title = `δq · ${t("presenter")}`;
   render(page({ ...get(), state: { place }, session: actions, t }), root);
   history.replaceState(null, "", `${location.pathname}?with=${isId(id) ? id : ""}${writePlace(place).replace("?", "&")}`);

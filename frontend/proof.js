@@ -83,9 +83,9 @@ function more() {
 function update() {
   const state = store.get();
   const { place, catalog, overlay } = state;
+  dressed(place, dark.matches);
   if (!catalog.page && !state.failure) return;
   const t = texts();
-  dressed(place, dark.matches);
   document.title = `δq · ${t("place.proof")}`;
   render(page({ state, session, link, follow, t, fullscreen, enterLecture, lecture: lecturing(), above }), root);
   if (overlay === "share") void sharing.want();
@@ -107,4 +107,7 @@ listen(document, {
   substeps: () => toggleSubsteps(root, store.get().place.step),
 });
 if (new URLSearchParams(location.search).get("view") === "print") location.replace(`/handout?proof=${PROOF}&lang=${store.get().place.lang}`);
-else void session.load();
+else {
+  update();
+  void session.load();
+}

@@ -75,11 +75,11 @@ function update() {
   const current = view();
   const { state } = current;
   const { place } = state;
+  const theme = dressed(place, dark.matches);
   // A page that opens as a lecture shows nothing before that would move.
   if (place.view && !current.lecture && !state.failures.page && !root.querySelector("main")) return void aside.lecture.want();
   if (!state.catalog.page && !state.failures.page) return;
   clock.setSpeed(place.speed);
-  const theme = dressed(place, dark.matches);
   document.title = current.t("title");
   render(page(current), root);
   aside.update();

@@ -77,9 +77,9 @@ const actions = {
 
 function update() {
   const { place, catalog, call, draft } = get();
+  dressed(place, dark.matches);
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.reference) });
-  dressed(place, dark.matches);
   document.title = `δq · ${t("trial")}`;
   const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
   render(page({ ...get(), ...actions, state: { place }, session, t }), root);

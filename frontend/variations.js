@@ -96,9 +96,9 @@ function address() {
 let arrived = false;
 function update() {
   const { place, catalog } = get();
+  dressed(place, dark.matches);
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.variations) });
-  dressed(place, dark.matches);
   document.title = `δq · ${t("place.variations")}`;
   render(page({ state: { place }, asking: lab.get(), lab, session, t, link, follow, size: chartSize() }), root);
   observe();

@@ -153,3 +153,11 @@ def test_a_thumb_meets_what_it_presses(browser: Browser, server: str, place: str
     small = page.evaluate(REACH)
     context.close()
     assert small == []
+
+
+@pytest.mark.parametrize("place", ["?", "scene?", "proof?", "labs?", "homework?", "handout?", "variations?"])
+def test_a_page_wears_its_theme_before_it_has_its_texts(page: Page, server: str, place: str) -> None:
+    """In a dark hall nothing flashes."""
+    page.route("**/api/v1/catalogs/**", lambda route: route.abort())
+    page.goto(f"{server}{place}&lang=de&theme=dark")
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")

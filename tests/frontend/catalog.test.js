@@ -94,7 +94,7 @@ const LAB = [
   ...LABS.flatMap((lab) => [`labs.experiments.${lab}.title`, `labs.experiments.${lab}.summary`]),
   ...["duration", "steps", "at", "at-state", "at-rest", "stiffness", "axis-x", "axis-y"].map((key) => `labs.${key}`),
 ];
-const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`).concat("ladder.");
+const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`).concat("ladder.", "labs.without-result");
 
 /** What sharing asks for by form of file and by what a frame shows. */
 const SHARE = [...FORMS.map((form) => `share.${form}`), ...SHOWN.map((shown) => `share.show-${shown || "both"}`)];
