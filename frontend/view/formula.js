@@ -71,9 +71,7 @@ function shrink(elements) {
 }
 
 /** There will be long formulas: how they are typeset is fetched before. */
-export async function expectLong() {
-  rows ??= await import("./rows.js").catch(() => null);
-}
+export const expectLong = async () => (rows ??= await import("./rows.js").catch(() => null));
 
 /** Typesets a formula row by row, as it is seen. @param {HTMLElement} element */
 async function giveRows(element) {
@@ -123,9 +121,15 @@ const catchUp = (/** @type {HTMLElement} */ element) => {
 
 const waitingIn = (/** @type {Node} */ place) => [...waiting.keys()].filter((element) => place.contains(element));
 
-/** A formula of a long step has been scrolled to. @param {EventTarget | null} target */
+/** A formula of a long step, or the whole step, has been scrolled to. @param {EventTarget | null} target */
 export function fitSeen(target) {
   if (target instanceof HTMLElement && sources.has(target)) fitSoon(target);
+  rows?.wake();
+}
+
+/** A formula, or a step with some, has gone out of sight. @param {EventTarget | null} target */
+export function leave(target) {
+  if (target instanceof HTMLElement) rows?.rest(sources.has(target) ? [target] : target.querySelectorAll(".formula"));
 }
 
 /** Formulas that somebody sees now. @type {HTMLElement[]} */
@@ -162,6 +166,8 @@ class Typeset extends Directive {
   update(part, [latex, display, later]) {
     const element = /** @type {HTMLElement} */ (part.element);
     const unseen = later && !element.closest("details[open]");
+    // A step that was far may be near now.
+    rows?.wake();
     if (latex === this.latex && (unseen || !waiting.has(element))) return nothing;
     this.latex = latex;
     if (unseen && !waiting.size) whenIdle(work, { timeout: IMPATIENCE });

@@ -55,7 +55,8 @@ export function createPlots(root, { seek }) {
   async function redraw() {
     due = 0;
     if (!shown || !visible || root.clientWidth === 0) return;
-    plotly ??= script(SOURCE);
+    // A slow processor has enough to do with the library: the curves are drawn in another task.
+    plotly ??= script(SOURCE).then((come) => new Promise((resolve) => setTimeout(resolve, 0, come)));
     if (!(await plotly) || !shown) return;
     const { scene, trajectory, runs, duration, lang } = shown;
     const palette = coloured(root);

@@ -103,6 +103,17 @@ function fill({ cell, latex }) {
   else cell.replaceChildren();
 }
 
+/** Formulas that have gone out of sight: when they are seen again, they are drawn one after the other. @param {Iterable<HTMLElement>} elements */
+export function rest(elements) {
+  for (const element of elements) {
+    const formula = held.get(element);
+    if (!formula?.width) continue;
+    formula.grid.classList.add("resting");
+    unfinished.add(element);
+  }
+  wake();
+}
+
 /** A few rows of those formulas that are seen, and then what can be heard of all; rows of others wait until they are seen. */
 function slice() {
   asked = false;
@@ -111,7 +122,8 @@ function slice() {
   complete.splice(0).forEach(correct);
   for (const element of unfinished) if (!element.isConnected) unfinished.delete(element);
   const seen = [...unfinished].filter(isSeen);
-  for (const element of seen) if (inTime()) fillOf(element, inTime);
+  const resting = seen.find((element) => held.get(element)?.grid.classList.contains("resting"));
+  for (const element of resting ? [resting] : seen) if (inTime()) fillOf(element, inTime);
   for (const element of unsaid) {
     if (!inTime()) break;
     unsaid.delete(element);
@@ -122,14 +134,16 @@ function slice() {
 
 /** @param {HTMLElement} element @param {() => boolean} inTime */
 function fillOf(element, inTime) {
-  const due = held.get(element)?.due ?? [];
+  const { due, grid } = /** @type {Held} */ (held.get(element));
+  grid.classList.remove("resting");
   while (due.length && inTime()) fill(/** @type {Due} */ (due.shift()));
   if (due.length) return;
   unfinished.delete(element);
   complete.push(element);
 }
 
-function wake() {
+/** Goes on in the next frame. */
+export function wake() {
   if (!asked) requestAnimationFrame(slice);
   asked = true;
 }
@@ -137,7 +151,7 @@ function wake() {
 /** Rows that are wider than was estimated become smaller. @param {HTMLElement} element */
 function correct(element) {
   const { clientWidth: width, scrollWidth: needed } = element;
-  if (needed > width) resize(element, Number(element.style.getPropertyValue("--fit")) * (width / needed));
+  if (needed > width) resize(element, (Number(element.style.getPropertyValue("--fit")) || 1) * (width / needed));
 }
 
 /** All there is, at once: for paper. */

@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
-import { displayed, fitSeen, prose, typesetWithin } from "./formula.js";
+import { displayed, fitSeen, leave, prose, typesetWithin } from "./formula.js";
 import { icon } from "./icons.js";
 import { indexOf } from "../model/reveal.js";
 
@@ -15,9 +15,9 @@ import { indexOf } from "../model/reveal.js";
 /** So many steps before the current one are laid out at once, so that scrolling to it arrives; those before when they are seen. */
 const NEAR = 3;
 
-/** A far step has been scrolled to, or details have been opened. @param {Event} event */
+/** A far step or its formula has been scrolled to or left, or details have been opened. @param {Event} event */
 function comesIntoView(event) {
-  if (/** @type {{skipped?: boolean}} */ (event).skipped) return;
+  if (/** @type {{skipped?: boolean}} */ (event).skipped) return leave(event.target);
   typesetWithin(/** @type {Node} */ (event.currentTarget));
   fitSeen(event.target);
 }
@@ -106,7 +106,7 @@ export function chapters(view) {
   `;
 }
 
-/** Back, where we are, on. @param {View} view */
+/** Back, where we are, on; all steps are a task of their own, after what the press itself costs. @param {View} view */
 export function pager(view) {
   const { state, session, t } = view;
   const total = state.lines.length;
@@ -119,7 +119,7 @@ export function pager(view) {
         <span class="track"><span class="done" style="transform:scaleX(${total ? position / total : 0})"></span></span>
         <span class="count">${total ? `${position} / ${total}` : ""}</span>
       </div>
-      <button class="quiet minor" ?disabled=${last} @click=${() => session.go(total)}>${t("step.all")}</button>
+      <button class="quiet minor" ?disabled=${last} @click=${() => setTimeout(session.go, 0, total)}>${t("step.all")}</button>
       <button class="main" ?disabled=${last} @click=${() => session.go(1)}><span>${t("step.next")}</span>${icon("next")}</button>
     </footer>
   `;
