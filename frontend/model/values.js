@@ -5,7 +5,8 @@ import { decimalsOf, niceFloor } from "./numbers.js";
 /** @typedef {import("./types.js").Scene} Scene */
 /** @typedef {import("./types.js").Changes} Changes */
 /** @typedef {{key: string, group: "initial" | "parameter", field: "value" | "rate", name: string, latex: string,
- *   unit: string, className: string, value: number, min: number, max: number, step: number, decimals: number}} Slider */
+ *   unit: string, className: string, value: number, min: number, max: number, step: number, decimals: number,
+ *   least: number, most: number}} Slider  from `min` to `max` it slides; what is typed may go on to `least` and `most` */
 
 /** @type {Changes} */
 export const UNCHANGED = { initial: {}, parameters: {} };
@@ -26,8 +27,8 @@ export function slidersOf(scene, changes) {
     const [low, high] = coordinateRange(coordinate);
     const fastest = niceFloor(Math.max(high - low, 1)) * 2.5;
     return [
-      slider({ ...shared, field: "value", latex: `${latex}(0)`, unit }, now.value, low, high),
-      slider({ ...shared, field: "rate", latex: `${dotted(latex)}(0)`, unit: `${unit}/s` }, now.rate, -fastest, fastest),
+      slider({ ...shared, field: "value", latex: `${latex}(0)`, unit }, now.value, [low, high], [coordinate.min, coordinate.max]),
+      slider({ ...shared, field: "rate", latex: `${dotted(latex)}(0)`, unit: `${unit}/s` }, now.rate, [-fastest, fastest]),
     ];
   });
   return [...initial, ...scene.parameters.map((parameter) => parameterSlider(parameter, changes))];
@@ -51,27 +52,27 @@ function parameterSlider(parameter, changes) {
   const shared = { group: /** @type {const} */ ("parameter"), field: /** @type {const} */ ("value"), name, className: "" };
   const low = parameter.min ?? Math.min(0, 4 * value);
   const high = parameter.max ?? Math.max(1, 4 * value);
-  return slider({ ...shared, latex: parameter.latex || name, unit }, changes.parameters[name] ?? value, low, high);
+  return slider({ ...shared, latex: parameter.latex || name, unit }, changes.parameters[name] ?? value, [low, high], [parameter.min ?? low, parameter.max]);
 }
 
 /**
  * @param {Pick<Slider, "group" | "field" | "name" | "latex" | "unit" | "className">} about
- * @param {number} value @param {number} min @param {number} max
+ * @param {number} value @param {[number, number]} range @param {[(number | null)?, (number | null)?]} bounds  that the scene sets
  * @returns {Slider}
  */
-function slider(about, value, min, max) {
+function slider(about, value, [min, max], [least, most] = []) {
   const step = niceFloor((max - min) / 100 || 1);
-  return { ...about, key: `${about.group}-${about.name}-${about.field}`, value, min, max, step, decimals: decimalsOf(step) };
+  return { ...about, key: `${about.group}-${about.name}-${about.field}`, value, min, max, step, decimals: decimalsOf(step), least: least ?? -Infinity, most: most ?? Infinity };
 }
 
 /**
- * The changes after one slider has moved; a number outside of its range is held at the range's end.
+ * The changes after one slider has moved; a number outside of the bounds that the scene sets is held there.
  * @param {Scene} scene @param {Changes} changes @param {Slider} moved @param {number} value
  * @returns {Changes}
  */
 export function changed(scene, changes, moved, value) {
   if (!Number.isFinite(value)) return changes;
-  const held = Math.max(moved.min, Math.min(moved.max, value));
+  const held = Math.max(moved.least, Math.min(moved.most, value));
   if (moved.group === "parameter") {
     return { ...changes, parameters: { ...changes.parameters, [moved.name]: held } };
   }

@@ -47,14 +47,15 @@ function size({ parameter, min, max, value }, { state, session, t }) {
 function row(slider, { session, t }) {
   const kind = slider.group === "parameter" ? "values.parameter" : slider.field === "rate" ? "values.rate" : "values.value";
   const label = t(kind, { name: slider.name });
-  const filled = (slider.value - slider.min) / (slider.max - slider.min || 1);
+  const filled = Math.max(0, Math.min(1, (slider.value - slider.min) / (slider.max - slider.min || 1)));
+  const bound = (/** @type {number} */ number) => (Number.isFinite(number) ? number : nothing);
   const moved = (/** @type {Event} */ e) => session.slide(slider, Number(/** @type {HTMLInputElement} */ (e.target).value));
   return html`
     <div class="row ${slider.className}" data-slider=${slider.key}>
       <span class="symbol" title=${label}>${inline(slider.latex)}</span>
       <input type="range" aria-label=${label} min=${slider.min} max=${slider.max} step=${slider.step}
         style="--filled:${filled}" .value=${live(String(slider.value))} @input=${moved}>
-      <input type="number" aria-label=${`${label} (${unitText(slider.unit)})`} min=${slider.min} max=${slider.max} step="any"
+      <input type="number" aria-label=${`${label} (${unitText(slider.unit)})`} min=${bound(slider.least)} max=${bound(slider.most)} step="any"
         .value=${settled(String(Number(slider.value.toFixed(Math.max(slider.decimals, 2)))))} @change=${moved}>
       <span class="unit">${unitText(slider.unit)}</span>
     </div>

@@ -36,7 +36,14 @@ test("one change keeps the others", () => {
   assert.equal(isChanged(UNCHANGED), false);
 });
 
-test("what is typed outside of the range is held at its end; what is no number changes nothing", () => {
+test("what is typed may leave the range that nobody set: a scene of one's own has sliders from its values", () => {
+  assert.equal(changed(scene, UNCHANGED, sliderOf("parameter-g-value"), 99).parameters.g, 99);
+  assert.equal(changed(scene, UNCHANGED, sliderOf("parameter-g-value"), -1).parameters.g, 0);
+  assert.deepEqual(changed(scene, UNCHANGED, sliderOf("initial-phi-value"), 7).initial.phi, { value: 7, rate: 0 });
+  assert.equal(changed(scene, UNCHANGED, sliderOf("initial-phi-rate"), -500).initial.phi.rate, -500);
+});
+
+test("what is typed outside of the scene's bounds is held there; what is no number changes nothing", () => {
   assert.equal(changed(scene, UNCHANGED, sliderOf("parameter-m-value"), 99).parameters.m, 5);
   assert.equal(changed(scene, UNCHANGED, sliderOf("parameter-m-value"), NaN), UNCHANGED);
 });
