@@ -121,15 +121,12 @@ const catchUp = (/** @type {HTMLElement} */ element) => {
 
 const waitingIn = (/** @type {Node} */ place) => [...waiting.keys()].filter((element) => place.contains(element));
 
-/** A formula of a long step, or the whole step, has been scrolled to. @param {EventTarget | null} target */
-export function fitSeen(target) {
-  if (target instanceof HTMLElement && sources.has(target)) fitSoon(target);
+/** A formula of a long step has been scrolled to; or it, or a whole step, has gone out of sight. @param {EventTarget | null} target @param {boolean} [gone] */
+export function fitSeen(target, gone = false) {
+  if (!(target instanceof HTMLElement)) return;
+  if (gone) rows?.rest(sources.has(target) ? [target] : target.querySelectorAll(".formula"));
+  else if (sources.has(target)) fitSoon(target);
   rows?.wake();
-}
-
-/** A formula, or a step with some, has gone out of sight. @param {EventTarget | null} target */
-export function leave(target) {
-  if (target instanceof HTMLElement) rows?.rest(sources.has(target) ? [target] : target.querySelectorAll(".formula"));
 }
 
 /** Formulas that somebody sees now. @type {HTMLElement[]} */

@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
-import { displayed, fitSeen, leave, prose, typesetWithin } from "./formula.js";
+import { displayed, fitSeen, prose, typesetWithin } from "./formula.js";
 import { icon } from "./icons.js";
 import { indexOf } from "../model/reveal.js";
 
@@ -17,7 +17,7 @@ const NEAR = 3;
 
 /** A far step or its formula has been scrolled to or left, or details have been opened. @param {Event} event */
 function comesIntoView(event) {
-  if (/** @type {{skipped?: boolean}} */ (event).skipped) return leave(event.target);
+  if (/** @type {{skipped?: boolean}} */ (event).skipped) return fitSeen(event.target, true);
   typesetWithin(/** @type {Node} */ (event.currentTarget));
   fitSeen(event.target);
 }
