@@ -126,6 +126,9 @@ function entriesOf({ scenes, scene, place }) {
   return [{ id: OWN, title: scene.title, summary: scene.summary, degrees_of_freedom: freedomsOf(scene) }, ...scenes];
 }
 
+/** Whether a title may still come: nobody is asked to choose what has been chosen. @param {View["state"]} state */
+const isComing = ({ scenes, failures }) => !scenes.length && !failures.page;
+
 /** @param {View} view */
 function sceneChooser({ state, session, t }) {
   const { lang, scene } = state.place;
@@ -146,7 +149,7 @@ function sceneChooser({ state, session, t }) {
     </select>`;
   return html`
     <div class="scene">
-      ${titleMenu(t("scene.choose"), entry ? titleOf(entry) : t("scene.choose"), select)}
+      ${titleMenu(t("scene.choose"), entry ? titleOf(entry) : isComing(state) ? "" : t("scene.choose"), select)}
       <p class="summary">${entry ? (freedoms === 1 ? t("scene.freedoms-one") : t("scene.freedoms", { count: freedoms })) : ""}
         ${entry && about ? html`<span class="more">${about}</span>` : nothing}</p>
     </div>
