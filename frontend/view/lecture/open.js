@@ -110,20 +110,25 @@ export function open({ root, session, state, about, changed, play }) {
     changed();
   }
 
+  const shown = () => state().place.step || state().lines[0]?.step.id;
+  const explained = () => state().place.why === shown();
+
   /** The law of the step that is shown, and what it changes. */
   function why() {
-    const { place, lines } = state();
-    const step = place.step || lines[0]?.step.id;
-    session.move({ why: place.why === step ? "" : step });
+    session.move({ why: explained() ? "" : shown() });
   }
 
   const touch = createTouch(go);
+  /** What keys mean here besides what they always mean. @type {Record<string, () => void>} */
+  const keys = {
+    ArrowDown: () => step(1), ArrowUp: () => step(-1), e: () => stopAt(allOrNone(state().lines, state().place)),
+    t: () => session.move({ pace: state().place.pace ? "" : "substeps" }), d: turn, h: pointOut, l: leave, w: why,
+  };
   return {
     go, present, leave,
-    /** What keys mean here besides what they always mean. @type {Record<string, () => void>} */
-    keys: {
-      ArrowDown: () => step(1), ArrowUp: () => step(-1), e: () => stopAt(allOrNone(state().lines, state().place)),
-      t: () => session.move({ pace: state().place.pace ? "" : "substeps" }), d: turn, h: pointOut, l: leave, w: why,
+    /** Those, and Esc while a law is open: it closes that first. */
+    get keys() {
+      return { ...keys, ...(explained() ? { Escape: why } : {}) };
     },
     slide: (/** @type {import("./slide.js").Shown} */ view) => slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch }),
     /** Called when anything has changed. */
