@@ -6,10 +6,6 @@ import { sizeOf } from "./measure.js";
 /** @typedef {{left: string, right: string, above: number, below: number}} Row  above and below the baseline, in em */
 /** @typedef {{rows: Row[], part: number}} Plan  part: of their size, at which the rows fit */
 
-/** Rows that would become smaller than this are rather broken, where that is not said otherwise. */
-export const BEARABLE = 0.78;
-/** Formulas shrink to this part of their size, 11 pixels on a phone, before they scroll. */
-export const SMALLEST = 0.56;
 /** Broken rows are to fit at this size. */
 const COMFORTABLE = 0.85;
 /** Terms are counted by their letters when rows are broken: what is still too wide is broken into shorter ones. */
@@ -40,16 +36,18 @@ function fitted(given, room) {
 
 /**
  * The rows of a formula in a place `room` em wide; they are broken where they would become too small.
- * @param {string} latex @param {number} room @param {number} [bearable] part of their size @returns {Plan}
+ * @param {string} latex @param {number} room
+ * @param {{bearable: number, smallest: number}} least  parts of their size: rows are rather broken than smaller than is bearable, and again where they are still smaller than the smallest
+ * @returns {Plan}
  */
-export function planned(latex, room, bearable = BEARABLE) {
+export function planned(latex, room, { bearable, smallest }) {
   const whole = fitted(rowsOf(latex), room);
   if (whole.part >= bearable) return whole;
   const share = whole.part / Math.max(bearable, COMFORTABLE);
   let best = whole;
   for (const one of SHARES) {
     best = fitted(brokenRows(latex, one * share), room);
-    if (best.part >= SMALLEST) break;
+    if (best.part >= smallest) break;
   }
   return best;
 }

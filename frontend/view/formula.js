@@ -4,9 +4,9 @@ import { html, nothing } from "lit-html";
 import { Directive, directive } from "lit-html/directive.js";
 
 /** Display formulas shrink to this part of their size, 11 pixels on a phone, before they scroll. */
-const SMALLEST = 0.56;
+export const SMALLEST = 0.56;
 /** Formulas that would become smaller are rather broken, where that is not said otherwise. */
-const BEARABLE = 0.78;
+export const BEARABLE = 0.78;
 /** LaTeX of more letters is typeset row by row. */
 const LONG = 600;
 /** Milliseconds for which formulas are typeset in one go, and after which those nobody sees have waited long enough. */

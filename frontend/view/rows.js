@@ -1,7 +1,7 @@
 /** Long formulas: their rows have their places at once and are typeset a few to a frame, where they are seen. */
 
-import { typeset } from "./formula.js";
-import { planned, SMALLEST } from "../model/rows.js";
+import { BEARABLE, SMALLEST, typeset } from "./formula.js";
+import { planned } from "../model/rows.js";
 
 /** @typedef {{cell: HTMLElement, latex: string}} Due  a cell, and what is to stand in it */
 /** @typedef {{latex: string, width: number, grid: HTMLElement, said: HTMLElement, due: Due[]}} Held  a formula, the width for which it was planned, and what is missing yet */
@@ -64,7 +64,8 @@ function plan(element) {
   const width = element.clientWidth;
   if (!formula || !width || formula.width === width) return;
   const style = getComputedStyle(element);
-  const { rows, part } = planned(formula.latex, roomOf(element, style), Number(style.getPropertyValue("--bearable")) || undefined);
+  const bearable = Number(style.getPropertyValue("--bearable")) || BEARABLE;
+  const { rows, part } = planned(formula.latex, roomOf(element, style), { bearable, smallest: SMALLEST });
   formula.width = width;
   resize(element, part);
   place(formula, rows);

@@ -2,7 +2,7 @@ import { strict as assert } from "node:assert";
 import { createRequire } from "node:module";
 import { test } from "node:test";
 import { sizeOf } from "../../frontend/model/measure.js";
-import { planned, SMALLEST } from "../../frontend/model/rows.js";
+import { planned } from "../../frontend/model/rows.js";
 
 const katex = createRequire(new URL("../../frontend/package.json", import.meta.url))("katex");
 
@@ -38,36 +38,37 @@ for (const latex of HEIGHTS) {
   });
 }
 
+const LEAST = { bearable: 0.78, smallest: 0.56 };
 const SUM = "\\begin{aligned}E &= aaaa + bbbb - cccc + dddd \\\\[0.85em] F &= e\\end{aligned}";
 
 test("rows that fit are as the formula has them, each with the gap below it", () => {
-  const { rows, part } = planned(SUM, 40);
+  const { rows, part } = planned(SUM, 40, LEAST);
   assert.equal(part, 1);
   assert.deepEqual(rows.map(({ left, right }) => [left, right]), [["E", "= aaaa + bbbb - cccc + dddd"], ["F", "= e"]]);
   assert.ok(rows[0].below > 1.2 && rows[1].below < 0.4);
 });
 
 test("rows that would become too small go on below, and all fit at one size", () => {
-  const { rows, part } = planned(SUM, 9);
+  const { rows, part } = planned(SUM, 9, LEAST);
   assert.deepEqual(rows.map(({ left }) => left), ["E", "", "F"]);
   assert.match(rows[1].right, /^\\qquad \{\}[+-]/);
-  assert.ok(part >= SMALLEST && part <= 1);
+  assert.ok(part >= LEAST.smallest && part <= 1);
 });
 
 test("every row is a formula by itself, even where a bracket goes on below", () => {
-  const { rows } = planned("\\begin{aligned}V &= g (aaaa + bbbb + cccc) - \\left(dddd + eeee\\right)\\end{aligned}", 5);
+  const { rows } = planned("\\begin{aligned}V &= g (aaaa + bbbb + cccc) - \\left(dddd + eeee\\right)\\end{aligned}", 5, LEAST);
   assert.ok(rows.length > 3);
   for (const { left, right } of rows) for (const latex of [left, `{}${right}`]) katex.renderToString(`{\\displaystyle ${latex}}`);
 });
 
 test("a lecture would rather have more rows than smaller ones", () => {
   const room = sizeOf("E").width + sizeOf("= aaaa + bbbb - cccc + dddd").width - 1;
-  assert.equal(planned(SUM, room).rows.length, 2);
-  assert.equal(planned(SUM, room, 0.98).rows.length, 3);
+  assert.equal(planned(SUM, room, LEAST).rows.length, 2);
+  assert.equal(planned(SUM, room, { ...LEAST, bearable: 0.98 }).rows.length, 3);
 });
 
 test("what cannot be broken is one row, smaller than any", () => {
-  const { rows, part } = planned("x_{aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa}", 3);
+  const { rows, part } = planned("x_{aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa}", 3, LEAST);
   assert.equal(rows.length, 1);
-  assert.ok(part < SMALLEST);
+  assert.ok(part < LEAST.smallest);
 });
