@@ -68,7 +68,7 @@ function heading({ state, t, exercise }) {
       <p class="summary">${entry ? inLanguage(entry.scene.title, lang) : ""}</p><button class="quiet small" @click=${leave}>${t("homework.leave")}</button></div>`;
   }
   const listed = state.own ? null : scenes.find(({ id }) => id === chosen);
-  const title = inLanguage(listed?.title ?? entry?.scene.title, lang) || t("scene.choose");
+  const title = inLanguage(listed?.title ?? entry?.scene.title, lang) || (scenes.length || state.failure ? t("scene.choose") : "");
   const select = html`
     <select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => void exercise.choose(/** @type {HTMLSelectElement} */ (e.target).value)}>
       ${listed ? nothing : html`<option value=${chosen} selected>${title}</option>`}
