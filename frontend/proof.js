@@ -76,7 +76,7 @@ const above = (view) => (view.state.overlay === "share" ? sharing.part?.sharePro
 
 /** What keys mean in a lecture; nothing stands beside a proof that D could change, and its steps are laws themselves. */
 function more() {
-  const { d: _beside, w: _why, ...keys } = lecturing()?.keys ?? /** @type {Record<string, () => void>} */ ({});
+  const { d: _beside, w: _why, ...keys } = /** @type {Record<string, () => void>} */ (lecturing()?.keys ?? {});
   return keys;
 }
 
