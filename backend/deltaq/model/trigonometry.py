@@ -6,6 +6,7 @@ back in each derivative, so that a right-hand side without them is a fraction of
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import comb, prod
 
 import symengine as se
@@ -23,26 +24,24 @@ def shortened(expression: Expr) -> Expr:
     if _terms(expression) > MOST_TERMS:
         return expression
     found = expanded = se.expand(expression)
-    angles = sorted((each.args[0] for each in expanded.atoms(se.sin)), key=str)
+    squares = {sine**2: se.cos(sine.args[0]) ** 2 for sine in expanded.atoms(se.sin)}
     before = None
-    while found != before:
-        before = found
-        for angle in angles:
-            found = _joined(found, angle)
+    while found != before:  # the pairs of one angle may make those of another
+        before, found = found, _joined(found, squares)
     return expression if found == expanded else found
 
 
-def _joined(total: Expr, angle: Expr) -> Expr:
-    """A sum with the pairs of one angle replaced."""
-    sine, cosine = se.sin(angle) ** 2, se.cos(angle) ** 2
-    terms = set(total.args if total.is_Add else ())
-    change = []
-    for term in terms:
-        if sine in (term.args if term.is_Mul else (term,)):
+def _joined(total: Expr, squares: Mapping[Expr, Expr]) -> Expr:
+    """A sum with its pairs replaced; `squares` has the cos² of every sin²."""
+    terms, changes = dict.fromkeys(total.args if total.is_Add else ()), []
+    for term in tuple(terms):
+        for sine in (part for part in (term.args if term.is_Mul else (term,)) if part in squares):
             factor = term / sine
-            if factor * cosine in terms:
-                change += [factor, -term, -factor * cosine]
-    return se.Add(total, *change)
+            partner = factor * squares[sine]
+            if term in terms and partner in terms:
+                del terms[term], terms[partner]
+                changes += [factor, -term, -partner]
+    return se.Add(total, *changes)
 
 
 def _terms(expression: Expr) -> int:
