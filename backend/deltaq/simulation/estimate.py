@@ -138,7 +138,7 @@ def _time_scales(problem: Problem, times: Floats, states: Floats) -> Floats:
 
 def _size(values: Floats) -> Floats:
     """Root mean square of each column."""
-    return np.asarray(np.sqrt(np.mean(values**2, axis=0)))
+    return np.asarray(np.linalg.norm(values, axis=0) / np.sqrt(len(values)))
 
 
 def _spread(errors: Floats) -> Floats:
@@ -154,7 +154,8 @@ def _spread(errors: Floats) -> Floats:
 
 def _largest_within(errors: Floats, reach: int) -> Floats:
     """The largest value up to `reach` samples away, by windows that double."""
-    window, size, width = np.pad(errors, ((reach, reach), (0, 0))), 1, 2 * reach + 1
+    window, size, width = np.zeros((len(errors) + 2 * reach, errors.shape[1])), 1, 2 * reach + 1
+    window[reach:-reach] = errors
     while 2 * size <= width:
         window = np.maximum(window[:-size], window[size:])
         size *= 2
