@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import re
 import sys
 
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import expect, sync_playwright
 from tests.e2e.browser import FLAGS, chromium
 from tests.e2e.lecture import Lecture
 
 PLACE = "?scene=elastic-pendulum&lang=en&theme=light&step=virtual-displacement:bob"
-MOTION = 2400  # milliseconds until the pendulum stands well
+WELL = re.compile(r"^4\.[0-5]\d s")  # the time of the motion at which the pendulum stands well
 
 
 def take(address: str, file: str) -> None:
@@ -19,7 +20,7 @@ def take(address: str, file: str) -> None:
         page = browser.new_page(viewport={"width": 1366, "height": 768})
         Lecture(page, address).open(PLACE)
         page.locator(".js-plotly-plot").first.wait_for()
-        page.wait_for_timeout(MOTION)
+        expect(page.locator("output.time")).to_have_text(WELL)
         page.screenshot(path=file)
         browser.close()
 
