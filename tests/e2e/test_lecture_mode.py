@@ -71,6 +71,28 @@ def test_substeps_come_one_by_one_and_have_an_address(hall: Lecture) -> None:
     expect(page.locator(".slide .part")).to_have_count(0)
 
 
+INTERRUPTED = "() => document.querySelector('.slide .scroll').scrollTo({ top: 0, behavior: 'instant' })"
+GROWN = "() => (document.querySelector('.slide .part').style.paddingTop = '60rem')"
+
+
+@pytest.mark.parametrize("disturb", [pytest.param(INTERRUPTED, id="given up"), pytest.param(GROWN, id="grown")])
+def test_the_newest_substep_stays_in_sight_until_somebody_scrolls(hall: Lecture, disturb: str) -> None:
+    page = hall.page
+    for shown in (1, 2, 3):
+        page.keyboard.press("ArrowDown")
+        expect(page.locator(".slide .part")).to_have_count(shown)
+    newest = page.locator(".slide .part").last
+    expect(newest).to_be_in_viewport(ratio=0.98)
+    page.evaluate(disturb)
+    expect(newest).to_be_in_viewport(ratio=0.98)
+    page.locator(".slide .part").last.hover()
+    page.mouse.wheel(0, -4000)
+    page.evaluate(GROWN)
+    expect(newest).not_to_be_in_viewport()
+    page.evaluate(INTERRUPTED)
+    expect(page.locator(".slide .title")).to_be_in_viewport()
+
+
 def test_a_remote_with_two_buttons_reaches_the_substeps(hall: Lecture) -> None:
     page = hall.page
     page.keyboard.press("t")

@@ -2,6 +2,7 @@
 
 import { createSender, isId, nameOf } from "../../model/lecture/link.js";
 import { allOrNone, onwards, within } from "../../model/lecture/stops.js";
+import { createNewest } from "./newest.js";
 import { slide } from "./slide.js";
 import { createSpot } from "./spot.js";
 
@@ -60,20 +61,7 @@ function createTouch(go) {
 export function open({ root, session, state, about, changed, play }) {
   const id = lineId();
   const spot = createSpot(root);
-
-  /** The substep that was last brought into sight. @type {Element | null} */
-  let seen = null;
-
-  /** The newest substep is what is talked about, however one came to it. */
-  function reachPart() {
-    const newest = [...root.querySelectorAll(".slide .part")].at(-1) ?? null;
-    if (newest && newest !== seen) {
-      const behavior = seen ? "smooth" : "instant";
-      // Where it ends is known when the fonts of its formulas are there.
-      void document.fonts.ready.then(() => requestAnimationFrame(() => newest.scrollIntoView({ block: "nearest", behavior })));
-    }
-    seen = newest;
-  }
+  const reachNewest = createNewest(root);
 
   const stopAt = (/** @type {import("../../model/lecture/stops.js").Stop} */ { step, part }) => session.goTo(step, part);
   const go = (/** @type {number} */ by) => stopAt(onwards(state().lines, state().place, by, state().place.pace));
@@ -134,7 +122,7 @@ export function open({ root, session, state, about, changed, play }) {
     /** Called when anything has changed. */
     update() {
       sender.tell();
-      reachPart();
+      reachNewest();
       if (!state().place.view) spot.off();
     },
   };
