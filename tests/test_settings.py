@@ -43,6 +43,9 @@ def test_lists_are_separated_by_commas() -> None:
         pytest.param("DELTAQ_WORKERS", "many", "DELTAQ_WORKERS must be a number, not 'many'", id="not a number"),
         pytest.param("DELTAQ_WORKERS", "0", "DELTAQ_WORKERS must be at least 1", id="no workers"),
         pytest.param("DELTAQ_QUEUE_LENGTH", "-5", "DELTAQ_QUEUE_LENGTH must be at least 1", id="negative"),
+        pytest.param("DELTAQ_EXPERIMENT_WORKERS", "0", "DELTAQ_EXPERIMENT_WORKERS must be at least 1", id="no lab"),
+        pytest.param("DELTAQ_SIMULATION_DEADLINE", "-1", "DELTAQ_SIMULATION_DEADLINE must be above 0", id="no time"),
+        pytest.param("DELTAQ_QUEUE_PATIENCE", "nan", "DELTAQ_QUEUE_PATIENCE must be above 0", id="time that is none"),
         pytest.param(
             "DELTAQ_WORKER_MEMORY",
             "300000000",

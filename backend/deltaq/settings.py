@@ -78,9 +78,12 @@ class Settings:
 
 
 def _mistakes(given: Settings) -> Iterator[str]:
-    for name in ("workers", "queue_length", "jobs_per_worker"):
+    for name in ("workers", "queue_length", "jobs_per_worker", "experiment_workers", "experiment_queue"):
         if getattr(given, name) < 1:
             yield f"{name.upper()} must be at least 1"
+    for name in (f.name for f in fields(given) if f.name.endswith(("_deadline", "_timeout", "_patience"))):
+        if not getattr(given, name) > 0:
+            yield f"{name.upper()} must be above 0"
     if given.worker_memory < 1024 * MEBIBYTE:
         yield f"WORKER_MEMORY must be at least {1024 * MEBIBYTE}: the libraries need it"
     if given.log_level not in LOG_LEVELS:

@@ -90,6 +90,32 @@ async def test_computation_ends_when_nobody_waits_any_more(monkeypatch: pytest.M
     assert (compute.runs, again.runs) == (1, 1)
 
 
+async def test_who_asks_while_a_computation_is_given_up_gets_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flights, "GRACE", 0.0)
+    cache, again, ended = Cache(Memory(10_000)), Counter(b"again"), asyncio.Event()
+
+    async def slow_to_end(_tell: Hear) -> bytes:
+        try:
+            await asyncio.Event().wait()
+        finally:
+            ended.set()
+            await asyncio.sleep(0.02)
+        return b"never"
+
+    gone = asyncio.create_task(cache.get("k", slow_to_end))
+    await asyncio.sleep(0)
+    gone.cancel()
+    await ended.wait()
+    again.may_end.clear()
+    asking = asyncio.create_task(cache.get("k", again))
+    await asyncio.sleep(0.05)  # the end of the first is no end of the second
+    late = asyncio.create_task(cache.get("k", again))
+    await asyncio.sleep(0)
+    again.may_end.set()
+    assert await asyncio.gather(asking, late) == [b"again", b"again"]
+    assert again.runs == 1
+
+
 async def test_who_asks_again_at_once_gets_the_computation_under_way(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(flights, "GRACE", 0.05)
     cache, compute = Cache(Memory(10_000)), Counter()

@@ -49,6 +49,23 @@ def test_modules_that_one_leads_to(tmp_path: Path, files: dict[str, str], found:
     assert imported(tmp_path, "/a.js", NAMED) == found
 
 
+@pytest.mark.parametrize(
+    ("name", "address"),
+    [
+        pytest.param("./gone.js", "/gone.js", id="beside it"),
+        pytest.param("lib/gone.js", "/vendor/lib/gone.js", id="in a library"),
+        pytest.param("nobody/gone.js", "nobody/gone.js", id="by a name that the import map lacks"),
+    ],
+)
+def test_a_page_comes_without_what_is_not_there(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, name: str, address: str
+) -> None:
+    (tmp_path / "a.js").write_text(f'import {{ b }} from "./b.js";\nimport {{ g }} from "{name}";\n', encoding="utf-8")
+    (tmp_path / "b.js").write_text("", encoding="utf-8")
+    assert imported(tmp_path, "/a.js", NAMED) == {"/b.js"}
+    assert caplog.messages == [f"the page imports {address}, which is not there"]
+
+
 def test_a_page_is_the_frame_with_its_own_lines_and_modules(tmp_path: Path) -> None:
     (tmp_path / "view").mkdir()
     (tmp_path / FRAME).write_text("<html>\n  <head>\n    <title>δq</title>\n  </head>\n</html>\n", encoding="utf-8")
@@ -68,8 +85,9 @@ def test_a_page_is_the_frame_with_its_own_lines_and_modules(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_every_page_of_the_site(page: str) -> None:
+def test_every_page_of_the_site(page: str, caplog: pytest.LogCaptureFixture) -> None:
     modules = imported(SITE, f"/{page}.js", names((SITE / FRAME).read_text(encoding="utf-8")))
+    assert caplog.messages == []  # else it imports what is not there
     assert [address for address in modules if Assets(SITE).find(address.lstrip("/")) is None] == []
     typesets = any(
         "globalThis.katex" in (SITE / address.lstrip("/")).read_text(encoding="utf-8") for address in modules

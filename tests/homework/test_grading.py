@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -164,6 +165,14 @@ def test_assignment_names_tasks_by_number_and_counts_their_points(tmp_path: Path
                 ("/tasks/0/task", "missing-field"),
             ],
             id="several at once",
+        ),
+        *(
+            pytest.param(
+                {"format": 1, "tasks": [{"scene": "pendulum", "task": "lagrangian", "points": points}]},
+                [("/tasks/0/points", "request-not-number")],
+                id=f"points {name}",
+            )
+            for name, points in (("no number", "3"), ("not finite", math.nan), ("beyond all numbers", 10**400))
         ),
         pytest.param(
             {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:psi"}]},

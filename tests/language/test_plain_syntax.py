@@ -211,6 +211,8 @@ REFUSED = [
     ("sin^2", "argument-expected", 0, 3, {"function": "sin"}),
     ("sin^-1 phi", "inverse-function", 0, 6, {"function": "sin"}),
     ("sin^(-1)(phi)", "inverse-function", 0, 8, {"function": "sin"}),
+    ("sin^(1 + m)(phi)", "function-power", 0, 11, {"function": "sin"}),
+    ("sin^(-m)(phi)", "function-power", 0, 8, {"function": "sin"}),
     ("sin^{2}(phi)", "unexpected-character", 4, 1, {"character": "{"}),
     ("sin^x(phi)", "function-power", 0, 5, {"function": "sin"}),
     ("sin^(1/2)(phi)", "function-power", 0, 9, {"function": "sin"}),

@@ -288,7 +288,25 @@ WRONG = [
         Problem("unknown-kind", "/drawing/elements/0/kind", parameters={"kind": "unicorn"}),
         id="unknown element",
     ),
-    pytest.param(put("/drawing/view", [1, 0, 0, 1]), Problem("invalid-view", "/drawing/view"), id="view inside out"),
+    *(
+        pytest.param(put("/drawing/view", view), Problem("invalid-view", "/drawing/view"), id=f"view {name}")
+        for name, view in (
+            ("inside out", [1, 0, 0, 1]),
+            ("of three numbers", [0, 1, 0]),
+            ("with a word", [0, 1, 0, "b"]),
+            ("with a flag", [0, True, 0, 1]),
+            ("beyond all numbers", [0, 10**400, 0, 1]),
+            ("infinite", [0, math.inf, 0, 1]),
+        )
+    ),
+    *(
+        pytest.param(
+            put("/drawing/elements/0", {"kind": "rod", "from": "pivot", "to": "bob", "width": width}),
+            Problem("not-finite", "/drawing/elements/0/width"),
+            id=f"width {name}",
+        )
+        for name, width in (("infinite", math.inf), ("beyond all numbers", 10**400))
+    ),
 ]
 
 

@@ -29,8 +29,8 @@ def bob(*position: str, mass: str = "m") -> list[dict[str, object]]:
     return [{"name": "bob", "kind": "particle", "mass": mass, "position": list(position)}]
 
 
-def rigid(inertia: str) -> list[dict[str, object]]:
-    body = {"name": "bob", "kind": "rigid", "mass": "m", "position": ["x", "0"], "inertia": inertia, "angle": "phi"}
+def rigid(inertia: str, angle: str = "phi") -> list[dict[str, object]]:
+    body = {"name": "bob", "kind": "rigid", "mass": "m", "position": ["x", "0"], "inertia": inertia, "angle": angle}
     return [body]
 
 
@@ -114,6 +114,15 @@ CASES = [
         (Problem("inertia-not-positive", "/bodies/0/inertia", parameters={"name": "bob", "value": "-1"}),),
         id="negative inertia",
     ),
+    *(
+        pytest.param(
+            change, (Problem("position-with-rate", pointer, parameters={"coordinate": "phi"}),), id=f"rate in {pointer}"
+        )
+        for change, pointer in (
+            ({"bodies": rigid("m*l^2", "t*dot(phi)")}, "/bodies/0/angle"),
+            ({"loads": [{"kind": "moment", "angle": "t*dot(phi)", "moment": "m*l^2"}]}, "/loads/0/angle"),
+        )
+    ),
     pytest.param(
         {"bodies": rod("m/l*(1 - 2*s/l)")},
         (Problem("density-not-positive", "/bodies/0/density", parameters={"name": "rod", "value": "-0.774597"}),),
@@ -137,6 +146,27 @@ CASES = [
         },
         (Problem("divergent-integral", "/loads/0/density", parameters={"name": "s"}),),
         id="load with a pole",
+    ),
+    *(
+        pytest.param(
+            {"loads": [load]},
+            (Problem("acceleration-in-scene", f"/loads/0/{field}", parameters={"coordinate": "phi"}),),
+            id=f"acceleration in the {field} of a {load['kind']}",
+        )
+        for load, field in (
+            ({"kind": "force", "at": "bob", "force": ["m*l*ddot(phi)", "0"]}, "force/0"),
+            ({"kind": "moment", "angle": "phi", "moment": "m*l^2*ddot(phi)"}, "moment"),
+            ({"kind": "dissipation", "function": "m*l^2*ddot(phi)*dot(phi)"}, "function"),
+            (
+                {
+                    "kind": "distributed",
+                    "material": [{"name": "s", "from": "0", "to": "l"}],
+                    "position": ["x + s", "0"],
+                    "density": ["0", "m*ddot(phi)"],
+                },
+                "density/1",
+            ),
+        )
     ),
     pytest.param(
         {"bodies": rod("m/l", "l", "0")},

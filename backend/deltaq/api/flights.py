@@ -53,11 +53,6 @@ class Flight:
     task: asyncio.Task[bytes]
     audience: Audience
 
-    def give_up(self) -> None:
-        """End it if still nobody waits."""
-        if not self.audience:
-            self.task.cancel()
-
 
 class Flights:
     """The computations under way, by key. Used from one event loop."""
@@ -74,18 +69,29 @@ class Flights:
         finally:
             flight.audience.leave(hear)
             if not flight.audience and not flight.task.done():
-                asyncio.get_running_loop().call_later(GRACE, flight.give_up)
+                asyncio.get_running_loop().call_later(GRACE, self._give_up, key, flight)
 
     def _begin(self, key: str, compute: Compute) -> Flight:
         audience = Audience()
         flight = self._flights[key] = Flight(asyncio.ensure_future(_awaited(compute, audience.tell)), audience)
-        flight.task.add_done_callback(lambda task: self._end(key, task))
+        flight.task.add_done_callback(lambda _: self._end(key, flight))
         return flight
 
-    def _end(self, key: str, task: asyncio.Task[bytes]) -> None:
-        self._flights.pop(key, None)
-        if not task.cancelled():
-            task.exception()  # mark as seen: those who waited may all be gone
+    def _give_up(self, key: str, flight: Flight) -> None:
+        """End it if still nobody waits. It takes a moment to end, and who asks meanwhile must get another one."""
+        if not flight.audience:
+            self._forget(key, flight)
+            flight.task.cancel()
+
+    def _end(self, key: str, flight: Flight) -> None:
+        self._forget(key, flight)
+        if not flight.task.cancelled():
+            flight.task.exception()  # mark as seen: those who waited may all be gone
+
+    def _forget(self, key: str, flight: Flight) -> None:
+        """The next who asks begins another; one that has begun already stays."""
+        if self._flights.get(key) is flight:
+            del self._flights[key]
 
 
 async def _awaited(compute: Compute, tell: Hear) -> bytes:

@@ -9,12 +9,14 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import logging
 import os
 import re
 from functools import lru_cache
 from pathlib import Path
 from posixpath import dirname, join, normpath
 
+LOGGER = logging.getLogger("deltaq.api")
 FRAME = "view/frame.html"
 
 Names = tuple[tuple[str, str], ...]
@@ -50,13 +52,21 @@ def names(page: str) -> Names:
 
 
 def imported(root: Path, module: str, named: Names) -> set[str]:
-    """The addresses of all modules that one leads to; those that are fetched later, by import(), do not count."""
+    """The addresses of all modules that one leads to; those that are fetched later, by import(), do not count.
+
+    What is imported and not there is told in the log, and the page comes without it.
+    """
     found: set[str] = set()
     waiting = [module]
     while waiting:
         module = waiting.pop()
         file = f"{root}{module}"
-        modified = os.stat(file).st_mtime_ns  # noqa: PTH116  a Path takes longer, and a page has dozens of modules
+        try:
+            modified = os.stat(file).st_mtime_ns  # noqa: PTH116  a Path takes longer, and a page has dozens of modules
+        except FileNotFoundError:
+            LOGGER.error("the page imports %s, which is not there", module)  # noqa: TRY400  its trace tells no more
+            found.discard(module)
+            continue
         fresh = _imports(file, module, named, modified) - found
         found |= fresh
         waiting += fresh
@@ -76,4 +86,4 @@ def _address(name: str, module: str, named: dict[str, str]) -> str:
     if name in named:
         return named[name]
     folder, _, rest = name.partition("/")
-    return named[f"{folder}/"] + rest
+    return named.get(f"{folder}/", f"{folder}/") + rest

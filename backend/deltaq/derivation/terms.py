@@ -97,6 +97,6 @@ def _rank(system: System, term: sp.Expr) -> tuple[int, str]:
     """Accelerations first, then rates, then the rest; stable within each."""
     symbols = term.free_symbols
     if symbols & {system.acceleration(name) for name in system.coordinates}:
-        return 0, sp.default_sort_key(term).__repr__()
+        return 0, repr(sp.default_sort_key(term))
     moving = symbols & {system.rate(name) for name in system.coordinates}
     return (1 if moving else 2), ""

@@ -24,7 +24,7 @@ class Counterexample:
 
 @dataclass(frozen=True)
 class Slip:
-    """One term that differs from what it should be: `factor` −1 is a wrong sign, 0 a missing term, 2 or ½ a factor."""
+    """One term that differs from what it should be: by its sign, a factor 2 or ½, or it is missing (`slips.KINDS`)."""
 
     kind: str
     term: str

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..simulation.kernels.motion import FINE, STEP_LIMIT
+from ..simulation.kernels.motion import FINE, NEWTON_FAILED, STEP_LIMIT
 from ..simulation.method import Method
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Run, Steps, run
@@ -117,7 +117,7 @@ class _Trial:
         if not math.isfinite(h):
             return ""
         outcomes = [int(one.result.outcome) for one in self._pair(1.02 * h)]
-        return "newton_failed" if any(code not in (FINE, STEP_LIMIT, 4) for code in outcomes) else "grows"
+        return "newton_failed" if NEWTON_FAILED in outcomes else "grows"
 
     def _pair(self, h: float) -> tuple[Run, Run]:
         n, t_end = self.problem.degrees, STEPS * h

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from .functions import FUNCTIONS
 from .tokens import Token, between, fail
-from .tree import Call, Name, Node, Number, Power, Product, Quotient, Rate, Span, walk
+from .tree import Call, Name, Negation, Node, Number, Power, Product, Rate, Span, walk
 
 if TYPE_CHECKING:
     from .grammar import Grammar
@@ -120,4 +120,4 @@ class Arguments:
 
 
 def _is_minus_one(node: Node) -> bool:
-    return any(isinstance(n, Number) and n.value == 1 for n in walk(node)) and not isinstance(node, (Quotient, Number))
+    return isinstance(node, Negation) and isinstance(node.operand, Number) and node.operand.value == 1

@@ -15,6 +15,7 @@ from flint import fmpq
 
 from . import fourier
 from .fourier import ONE, STILL, Form, Monomial
+from .generators import rational
 from .normal_form import Reader
 from .order import Order, split_symbol
 from .trigonometry import shortest
@@ -41,7 +42,7 @@ class Arrangement:
             inverse: Form = {(fourier.raised(content, -1), STILL, False): self._number(form)}
             inner = self._gathered(fourier.multiply(form, inverse))
             if inner.is_Add:
-                return sympy.Mul(1 / _rational(self._number(form)), self._reader.monomial(content), inner)
+                return sympy.Mul(1 / rational(self._number(form)), self._reader.monomial(content), inner)
         return self._gathered(form)
 
     def _shortened(self, form: Form) -> Form:
@@ -87,9 +88,9 @@ class Arrangement:
         numbers = [number for _, number in terms]
         shared = numbers[0] if len(terms) > 1 and all(abs(n) == abs(numbers[0]) for n in numbers) else 1
         summed = sympy.Add(
-            *(_rational(number / shared) * self._reader.monomial(fourier.times(mono, rest)) for mono, number in terms)
+            *(rational(number / shared) * self._reader.monomial(fourier.times(mono, rest)) for mono, number in terms)
         )
-        return _rational(shared), self._reader.monomial(common), summed
+        return rational(shared), self._reader.monomial(common), summed
 
     def _kind(self, name: str) -> int:
         return 0 if name in self._reader.bases else split_symbol(name)[0]
@@ -105,7 +106,7 @@ class Arrangement:
             kinds = [(self._kind(name), exponent) for name, exponent in mono]
             if any(kind > _RATE for kind, _ in kinds):
                 return ONE
-            degrees.add(sum(_size(e) for kind, e in kinds if kind))
+            degrees.add(sum(fourier.size(e) for kind, e in kinds if kind))
         if len(form) == 1 or degrees not in _FACTORED:
             return ONE
         return tuple(pair for pair in _common([mono for mono, _, _ in form]) if self._is_parameter(pair[0]))
@@ -120,13 +121,5 @@ class Arrangement:
 def _common(monomials: list[Monomial]) -> Monomial:
     """The greatest monomial that divides all of them."""
     first, *rest = map(dict, monomials)
-    lowest = {name: min([e, *(m.get(name, 0) for m in rest)], key=_size) for name, e in first.items()}
+    lowest = {name: min([e, *(m.get(name, 0) for m in rest)], key=fourier.size) for name, e in first.items()}
     return tuple(sorted((name, e) for name, e in lowest.items() if isinstance(e, int) and e > 0))
-
-
-def _size(exponent: Any) -> float:
-    return float(exponent) if isinstance(exponent, int) else int(exponent.p) / int(exponent.q)
-
-
-def _rational(number: Any) -> Any:
-    return sympy.Integer(number) if isinstance(number, int) else sympy.Rational(int(number.p), int(number.q))

@@ -160,11 +160,12 @@ def leading(form: Form) -> Term:
 def _rank(term: Term) -> tuple[Any, ...]:
     mono, phase, sine = term
     return (
-        tuple((name, -_sortable(e)) for name, e in mono),
-        tuple((m, -_sortable(c)) for m, c in phase),
+        tuple((name, -size(e)) for name, e in mono),
+        tuple((m, -size(c)) for m, c in phase),
         sine,
     )
 
 
-def _sortable(value: Any) -> float:
+def size(value: Any) -> float:
+    """An exponent or a number in a phase as a float."""
     return float(value) if isinstance(value, int) else int(value.p) / int(value.q)

@@ -40,7 +40,7 @@ class Generators:
 
     def reduced_roots(self, form: Form) -> Form:
         """Whole powers of primes taken into the coefficients: √2·√2 = 2."""
-        if not any(name.isdigit() and not 0 < _size(e) < 1 for mono, _, _ in form for name, e in mono):
+        if not any(name.isdigit() and not 0 < fourier.size(e) < 1 for mono, _, _ in form for name, e in mono):
             return form
         return fourier.add(self._reduced_root(term, coefficient) for term, coefficient in form.items())
 
@@ -95,26 +95,23 @@ class Generators:
         """cos(phase) or sin(phase) in SymPy."""
         if not phase:
             return sympy.S.One
-        angle = sympy.Add(*(_rational(c) * self.monomial(mono) for mono, c in phase))
+        angle = sympy.Add(*(rational(c) * self.monomial(mono) for mono, c in phase))
         return sympy.sin(angle) if sine else sympy.cos(angle)
 
     @kept
     def monomial(self, mono: Monomial) -> Any:
         """A monomial in SymPy."""
-        return sympy.Mul(*(self.generator(name) ** _rational(e) for name, e in mono))
+        return sympy.Mul(*(self.generator(name) ** rational(e) for name, e in mono))
 
     def generator(self, name: str) -> Any:
         """What a generator stands for."""
         return self.expression(self.bases[name]) if name in self.bases else self.meaning[name]
 
 
-def _size(exponent: Any) -> float:
-    return float(exponent) if isinstance(exponent, int) else int(exponent.p) / int(exponent.q)
-
-
 def _floor(exponent: Any) -> int:
     return exponent if isinstance(exponent, int) else int(exponent.p) // int(exponent.q)
 
 
-def _rational(exponent: Any) -> Any:
+def rational(exponent: Any) -> Any:
+    """A number of a form in SymPy."""
     return sympy.Integer(exponent) if isinstance(exponent, int) else sympy.Rational(int(exponent.p), int(exponent.q))

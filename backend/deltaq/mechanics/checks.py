@@ -1,4 +1,4 @@
-"""What the frozen types of this package check about themselves."""
+"""What the frozen types of this package check about themselves, and what reading their documents needs."""
 
 from __future__ import annotations
 
@@ -68,3 +68,19 @@ def range_problems(value: float, low: float | None, high: float | None) -> Itera
         yield Problem("empty-range", "/max", parameters={"min": low, "max": high})
     elif (low is not None and value < low) or (high is not None and value > high):
         yield Problem("outside-range", "/value", parameters={"value": value, "min": str(low), "max": str(high)})
+
+
+def as_float(value: object) -> float:
+    """A number of a document; infinite where it is too large, NaN where it is none."""
+    try:
+        return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else math.nan
+    except OverflowError:
+        return math.inf
+
+
+def default_name(kinds: list[str], index: int, joint: str) -> str:
+    """A thing without a name is called by its kind, with a number where there are several of the kind: gravity-2,
+    particle2; things that are of no kind have no such name.
+    """
+    kind = kinds[index]
+    return kind if not kind or kinds.count(kind) < 2 else f"{kind}{joint}{kinds[: index + 1].count(kind)}"

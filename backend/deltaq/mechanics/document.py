@@ -11,6 +11,7 @@ from ..errors import InputError, Problem, SceneError
 from ..language.names import Kind, Names, Symbol, is_name
 from ..packages import classes_of
 from .bodies import Body
+from .checks import as_float
 from .coordinate import Coordinate
 from .drawing import Drawing, Element, Vertical
 from .event import Event
@@ -154,8 +155,7 @@ def _vertical(root: Reader) -> str:
 def read_drawing(table: Reader) -> Drawing:
     vertical = cast("Vertical", table.text("vertical", "up"))
     view = table.get("view", list, []) or []
-    numbers = tuple(float(number) if isinstance(number, int | float) else float("nan") for number in view)
-    return Drawing(vertical, numbers or None, _each(table.tables("elements"), Element.read))
+    return Drawing(vertical, tuple(map(as_float, view)) or None, _each(table.tables("elements"), Element.read))
 
 
 def read_coordinate(table: Reader) -> Coordinate:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -81,4 +82,5 @@ class Drawing:
     def _view_is_box(self) -> bool:
         if self.view is None:
             return True
-        return len(self.view) == 4 and self.view[0] < self.view[1] and self.view[2] < self.view[3]
+        is_box = len(self.view) == 4 and self.view[0] < self.view[1] and self.view[2] < self.view[3]
+        return is_box and all(map(math.isfinite, self.view))

@@ -14,6 +14,8 @@ from functools import partial
 from ..errors import Problem
 from ..language.expression import Expression
 from ..language.floats import evaluate
+from ..language.spelling import spell_rate
+from .mass import GAUSS
 from .material import Material
 from .scene import Scene
 
@@ -21,7 +23,6 @@ DEPTH = 50
 PANELS = 3
 TOLERANCE = 1e-3  # of the sum over the panels
 GROWTH = 1e6  # a part that is found so much larger grows without end
-GAUSS = ((0.5 - math.sqrt(0.15), 5 / 18), (0.5, 8 / 18), (0.5 + math.sqrt(0.15), 5 / 18))  # on the unit interval
 
 Function = Callable[[float], float]
 
@@ -29,7 +30,7 @@ Function = Callable[[float], float]
 def integrability_problems(scene: Scene) -> Iterator[Problem]:
     """The densities of continua and distributed forces that cannot be integrated along a material coordinate."""
     values = {p.name: p.value for p in scene.parameters} | {c.name: c.value + 0.3 for c in scene.coordinates}
-    values |= {f"dot({c.name})": c.rate + 0.3 for c in scene.coordinates} | {"t": 0.3}
+    values |= {spell_rate(c.name, 1): c.rate + 0.3 for c in scene.coordinates} | {"t": 0.3}
     for key, things in {"bodies": scene.bodies, "loads": scene.loads}.items():
         for index, thing in enumerate(things):
             material, density = getattr(thing, "material", ()), getattr(thing, "density", ())

@@ -6,6 +6,7 @@ by a harmless value so that the rest can still be looked at.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -17,6 +18,7 @@ from ..language.expression import Expression
 from ..language.names import Names
 from ..language.parser import parse
 from ..language.tree import Number
+from .checks import as_float, default_name
 
 T = TypeVar("T")
 NOT_OF: Mapping[type, str] = {
@@ -77,18 +79,15 @@ class Reader:
         return bool(self.get(key, bool, default))
 
     def number(self, key: str, default: float) -> float:
-        return self._float(key, self.get(key, (float, int), default), default)
+        found = as_float(self.get(key, (float, int), default))
+        if math.isfinite(found):
+            return found
+        self.complain("not-finite", key)
+        return default
 
     def bound(self, key: str) -> float | None:
         self.used.add(key)
         return None if self.table.get(key) is None else self.number(key, 0.0)
-
-    def _float(self, key: str, value: float | None, default: float) -> float:
-        try:
-            return float(default if value is None else value)
-        except OverflowError:
-            self.complain("not-finite", key)
-            return default
 
     def translated(self, key: str) -> Mapping[str, str]:
         """A text by language; one without a language is for all."""
@@ -119,7 +118,11 @@ class Reader:
         ]
         return tuple(
             Reader(
-                value, f"{pointer}/{i}", self.problems, context or self.context, default_name=_numbered(kinds, i, joint)
+                value,
+                f"{pointer}/{i}",
+                self.problems,
+                context or self.context,
+                default_name=default_name(kinds, i, joint),
             )
             for i, value in enumerate(values)
             if isinstance(value, Mapping)
@@ -143,12 +146,17 @@ class Reader:
         return parsed + (NOTHING,) * (dimension - len(parsed))
 
     def position(self, key: str) -> tuple[Expression, ...]:
-        """A position field r(q, t): it must not depend on rates."""
-        components = self.vector(key)
-        for i, component in enumerate(components):
-            for rate in sorted(component.rates):
-                self.complain("position-with-rate", f"{key}/{i}", coordinate=rate)
-        return components
+        """A position field r(q, t)."""
+        return tuple(self._without_rates(part, f"{key}/{i}") for i, part in enumerate(self.vector(key)))
+
+    def angle(self, key: str) -> Expression:
+        """An angle φ(q, t); of one that depends on rates δφ would be more than Σ ∂φ/∂q δq."""
+        return self._without_rates(self.expression(key), key)
+
+    def _without_rates(self, expression: Expression, key: str) -> Expression:
+        for rate in sorted(expression.rates):
+            self.complain("position-with-rate", key, coordinate=rate)
+        return expression
 
     def place(self, key: str) -> str:
         name = self.text(key)
@@ -189,11 +197,3 @@ class Reader:
         for key in sorted(self.table.keys() - self.used):
             near = get_close_matches(key, self.used, n=1)
             self.complain("unknown-field", escaped(key), field=key[:40], suggestion=near[0] if near else "")
-
-
-def _numbered(kinds: list[str], index: int, joint: str) -> str:
-    """A thing without a name is called by its kind, with a number where there are several of the kind: gravity-2,
-    particle2; things that are of no kind have no such name.
-    """
-    kind = kinds[index]
-    return kind if not kind or kinds.count(kind) < 2 else f"{kind}{joint}{kinds[: index + 1].count(kind)}"

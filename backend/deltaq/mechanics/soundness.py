@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 
 from ..errors import Problem
 from ..language.expression import Expression
+from ..language.tree import Rate, walk
 from .definedness import definedness_problems
 from .homogeneity import SECOND, dimension_problems
 from .inertia import inertia_problems
@@ -30,8 +31,9 @@ def soundness_problems(scene: Scene) -> Iterator[Problem]:
     found = tuple(expressions(scene))
     yield from _idle_parameters(scene, found)
     yield from _units(scene, found)
+    accelerated = tuple(_accelerations(found))
     undefined = tuple(definedness_problems(scene, ((field.pointer, field.expression) for field in found)))
-    yield from undefined or tuple(inertia_problems(scene)) or integrability_problems(scene)
+    yield from accelerated or undefined or tuple(inertia_problems(scene)) or integrability_problems(scene)
 
 
 def expressions(scene: Scene) -> Iterator[Field]:
@@ -71,6 +73,14 @@ def _idle_parameters(scene: Scene, found: tuple[Field, ...]) -> Iterator[Problem
         if parameter.name not in used:
             parameters = {"name": parameter.name}
             yield Problem("unused-parameter", f"/parameters/{index}", parameters=parameters, severity="warning")
+
+
+def _accelerations(found: tuple[Field, ...]) -> Iterator[Problem]:
+    """In M q̈ = f(q, q̇, t) accelerations stand with the masses only: a force that holds one is no f."""
+    for field in found:
+        nodes = (node for node in walk(field.expression.tree) if isinstance(node, Rate) and node.order > 1)
+        for name in sorted({node.name for node in nodes}):
+            yield Problem("acceleration-in-scene", field.pointer, parameters={"coordinate": name})
 
 
 def _units(scene: Scene, found: tuple[Field, ...]) -> Iterator[Problem]:

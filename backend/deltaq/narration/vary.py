@@ -21,6 +21,7 @@ from ..language.plain_printer import plain
 from ..language.spelling import latex_of, spell_rate
 from .catalog import language_in
 from .function_notation import FunctionNotation, FunctionSymbols, FunctionTypography
+from .function_writing import NEIGHBOUR
 from .marks import Wrap, in_class, unmarked
 from .narrator import Narrator
 from .quotient_answer import quotient_answer
@@ -75,7 +76,7 @@ def _mark(names: Names, wrap: Wrap) -> Wrap:
     numbers = {function: index for index, function in enumerate(names.coordinates)}
 
     def mark(name: str, latex: str) -> str:
-        base = name.rstrip(")").rpartition("(")[2].rstrip("ʹʺʰ")
+        base = name.rstrip(")").rpartition("(")[2].rstrip(NEIGHBOUR)
         if base not in numbers:
             return latex
         return wrap(f"q-{numbers[base]}{' variation' if 'delta(' in name else ''}", latex)

@@ -36,7 +36,7 @@ class Step(Answer):
     rule: str = Field(description="the law", examples=["virtual-displacement"])
     title: str
     text: str
-    latex: str = Field(examples=["\\delta T = m\\ell^2\\dot{\\varphi}\\,\\delta\\dot{\\varphi}"])
+    latex: str = Field(examples=["\\delta E = m\\ell^2\\dot{\\varphi}\\,\\delta\\dot{\\varphi}"])
     marked: str = Field(description="the same with \\htmlClass hooks that tell which term is what")
     verified: bool = Field(description="whether an independent route confirmed the step")
     sources: tuple[str, ...] = Field(description="bodies and loads that the terms come from")

@@ -73,7 +73,7 @@ class ConservedQuantity(Sum):
 
 
 class JacobiEnergy(Sum):
-    """∂T/∂q̇·q̇ − L."""
+    """Σ q̇ ∂L/∂q̇ − L."""
 
     equals_energy: bool = Field(description="whether it is kinetic + potential energy")
 

@@ -25,6 +25,7 @@ PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6
 SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "star", "hexagon")
 DASHES = ("solid", "dash", "dot")
 FAILED = "x-thin-open"
+CEILING = 30.0  # the error at which runs without one are marked
 WITHOUT_RESULT = {"role": "without-result"}  # the `meta` of marks that stand somewhere only to be seen
 
 
@@ -87,6 +88,23 @@ def curve(name: str, x: Sequence[Any], y: Sequence[Any], method: str, **more: An
         "line": {"color": style["color"], "dash": style["dash"], "width": 1.6},
         "marker": {"color": style["color"], "symbol": style["symbol"], "size": 7},
         "legendgroup": method,
+    } | more
+
+
+def crosses(x: Sequence[Any], y: Sequence[Any], texts: Sequence[str], method: str, say: Say, **more: Any) -> Trace:
+    """Marks of runs of a method that gave no result."""
+    color = look(method)["color"]
+    return {
+        "type": "scatter",
+        "mode": "markers",
+        "x": list(x),
+        "y": list(y),
+        "text": list(texts),
+        "hoverinfo": "text",
+        "marker": {"symbol": FAILED, "size": 9, "color": color, "line": {"width": 1.6, "color": color}},
+        "legendgroup": method,
+        "showlegend": False,
+        "name": say("labs.hover.without-result", name=name_of(method, say)),
     } | more
 
 

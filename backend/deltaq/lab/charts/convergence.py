@@ -6,7 +6,21 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from .chart import WITHOUT_RESULT, Chart, Result, Trace, axis, chart, curve, grouped, joined, look, name_of
+from .chart import (
+    CEILING,
+    WITHOUT_RESULT,
+    Chart,
+    Result,
+    Trace,
+    axis,
+    chart,
+    crosses,
+    curve,
+    grouped,
+    joined,
+    look,
+    name_of,
+)
 from .words import Say
 
 RANGE = [-15.5, 2.0]
@@ -41,19 +55,9 @@ def _hover(name: str, step: float, outcome: str, say: Say) -> str:
 
 
 def _failed(bad: list[Mapping[str, Any]], method: str, name: str, say: Say) -> Trace:
-    return {
-        "type": "scatter",
-        "mode": "markers",
-        "x": [point["step"] for point in bad],
-        "y": [30.0] * len(bad),
-        "text": [_hover(name, p["step"], say(f"labs.status.{p['status']}"), say) for p in bad],
-        "hoverinfo": "text",
-        "marker": {"symbol": "x-thin-open", "size": 9, "color": look(method)["color"], "line": {"width": 1.6}},
-        "legendgroup": method,
-        "showlegend": False,
-        "name": say("labs.hover.without-result", name=name),
-        "meta": WITHOUT_RESULT,
-    }
+    steps = [point["step"] for point in bad]
+    texts = [_hover(name, p["step"], say(f"labs.status.{p['status']}"), say) for p in bad]
+    return crosses(steps, [CEILING] * len(bad), texts, method, say, meta=WITHOUT_RESULT)
 
 
 def _triangles(result: Result) -> Iterator[Trace]:
@@ -78,14 +82,11 @@ def _triangle(point: Mapping[str, Any], order: int, color: str) -> Trace:
         "mode": "lines+text",
         "x": [left, x, x, left],
         "y": [low, y, low, low],
-        "text": ["", "", "", ""],
+        "text": ["", f" {order}" if math.isfinite(low) else "", "", ""],
+        "textposition": "bottom right",
         "line": {"color": color, "width": 1},
         "hoverinfo": "skip",
         "showlegend": False,
         "fill": "toself",
         "opacity": 0.6,
-    } | {
-        "mode": "lines+text",
-        "text": ["", f" {order}" if math.isfinite(low) else "", "", ""],
-        "textposition": "bottom right",
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from .chart import FAILED, Chart, Result, Trace, axis, chart, curve, grouped, look, name_of
+from .chart import Chart, Result, Trace, axis, chart, crosses, curve, grouped, name_of
 from .words import Say, called
 
 
@@ -72,18 +72,8 @@ def _cost(method: str, rows: list[Any], say: Say) -> Iterator[Trace]:
     )
     bad = [row for row in rows if row["status"] != "ok"]
     if bad:
-        yield {
-            "type": "scatter",
-            "mode": "markers",
-            "x": [row["factor"] for row in bad],
-            "y": [max(row["evaluations"], 1) for row in bad],
-            "text": [_hover(name, row, say) for row in bad],
-            "hoverinfo": "text",
-            "marker": {"symbol": FAILED, "size": 9, "color": look(method)["color"], "line": {"width": 1.6}},
-            "legendgroup": method,
-            "showlegend": False,
-            "name": say("labs.hover.without-result", name=name),
-        }
+        places = [row["factor"] for row in bad], [max(row["evaluations"], 1) for row in bad]
+        yield crosses(*places, [_hover(name, row, say) for row in bad], method, say)
 
 
 def _hover(name: str, row: dict[str, Any], say: Say) -> str:

@@ -6,10 +6,23 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
-from .chart import FAILED, WITHOUT_RESULT, Chart, Result, Trace, axis, chart, curve, grouped, joined, look, name_of
+from .chart import (
+    CEILING,
+    FAILED,
+    WITHOUT_RESULT,
+    Chart,
+    Result,
+    Trace,
+    axis,
+    chart,
+    crosses,
+    curve,
+    grouped,
+    joined,
+    name_of,
+)
 from .words import Say
 
-CEILING = 30.0  # where runs without an error are marked
 RANGE = [-15.5, 2.0]  # decades of the error
 
 
@@ -76,31 +89,23 @@ def _failures(points: list[Mapping[str, Any]], method: str, x: str, least: float
 
     What failed before anything was counted stands at the `least` of what was.
     """
-    name, style = name_of(method, say), look(method)
+    name = name_of(method, say)
     bad = [point for point in points if point["error"] is None and point["status"] != "too_slow"]
     slow = [(a, b) for a, b in pairwise(points) if b["status"] == "too_slow"]
     places = [(point[x] or least, CEILING, point) for point in bad]
     places += [(1.6 * (a[x] or least), a["error"] or CEILING, b) for a, b in slow]
     if not places:
         return
-    yield {
-        "type": "scatter",
-        "mode": "markers",
-        "x": [place[0] for place in places],
-        "y": [place[1] for place in places],
-        "text": [_hover(place[2], name, say) for place in places],
-        "hoverinfo": "text",
-        "marker": {
-            "color": style["color"],
-            "size": 9,
-            "line": {"width": 1.6, "color": style["color"]},
-            "symbol": ["triangle-right" if p["status"] == "too_slow" else FAILED for _, _, p in places],
-        },
-        "legendgroup": method,
-        "showlegend": False,
-        "name": say("labs.hover.without-result", name=name),
-        "meta": WITHOUT_RESULT,
-    }
+    trace = crosses(
+        [x for x, _, _ in places],
+        [y for _, y, _ in places],
+        [_hover(point, name, say) for _, _, point in places],
+        method,
+        say,
+        meta=WITHOUT_RESULT,
+    )
+    symbols = ["triangle-right" if point["status"] == "too_slow" else FAILED for _, _, point in places]
+    yield trace | {"marker": trace["marker"] | {"symbol": symbols}}
 
 
 def _hover(point: Mapping[str, Any], name: str, say: Say) -> str:

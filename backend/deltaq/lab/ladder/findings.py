@@ -83,7 +83,7 @@ class Cost:
 
 @dataclass(frozen=True)
 class Deviation:
-    """How far a rung is from the full model over time (`deviation.py` has the norm).
+    """How far a rung is from the full model over time (`distance.py` has the norm).
 
     `errors` are in metres, one for each of `times`; `largest` is the largest of them and `relative` that as a part of
     the extent of the full motion, None where that stands still. `floor` is what the integration itself may err by.

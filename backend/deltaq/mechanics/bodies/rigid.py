@@ -43,7 +43,7 @@ class RigidBody:
     def read(cls, table: Reader) -> RigidBody:
         name, mass, position = table.name(), table.expression("mass"), table.position("position")
         if table.named.dimension == 2:
-            return cls(name, mass, position, table.expression("inertia"), table.expression("angle"))
+            return cls(name, mass, position, table.expression("inertia"), table.angle("angle"))
         inertia, omega = table.vector("inertia"), table.vector("angular_velocity")
         return cls(name, mass, position, inertia, None, omega)
 

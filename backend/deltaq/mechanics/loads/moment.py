@@ -24,7 +24,7 @@ class FreeMoment:
 
     @classmethod
     def read(cls, table: Reader) -> FreeMoment:
-        return cls(table.name(), table.expression("angle"), table.expression("moment"))
+        return cls(table.name(), table.angle("angle"), table.expression("moment"))
 
     def contributions(self, _places: Places, _bodies: tuple[Body, ...], /) -> tuple[Moment, ...]:
         return (Moment(self.name, self.angle.tree, self.moment.tree),)
