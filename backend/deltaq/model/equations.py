@@ -18,6 +18,7 @@ import symengine as se
 
 from ..language.expression import Expression
 from ..mechanics.scene import Scene
+from .convected import convected
 from .functions import Expr
 from .kinetic import ZERO, Vector, components, kinetic_energy
 from .loads import Work, works
@@ -91,18 +92,11 @@ class _Row:
 
 
 def _rows(kinetic: Expr, loads: tuple[Work, ...], symbols: Symbols) -> tuple[_Row, ...]:
-    return tuple(
-        _row(name, kinetic, sum((load.forces[index] for load in loads), ZERO), symbols)
-        for index, name in enumerate(symbols.moving)
-    )
-
-
-def _row(name: str, kinetic: Expr, force: Expr, symbols: Symbols) -> _Row:
-    rates = symbols.rates
-    momentum = kinetic.diff(rates[name])
-    mass = tuple(momentum.diff(rates[other]) for other in symbols.moving)
-    convected = sum((momentum.diff(symbols.values[other]) * rates[other] for other in symbols.moving), ZERO)
-    return _Row(rates[name], mass, force - convected + kinetic.diff(symbols.values[name]))
+    rates = tuple(symbols.rates[name] for name in symbols.moving)
+    mass = tuple(tuple(momentum.diff(rate) for rate in rates) for momentum in map(kinetic.diff, rates))
+    rest = convected(mass, tuple(symbols.values[name] for name in symbols.moving), rates)
+    forces = (sum((load.forces[i] for load in loads), ZERO) for i in range(len(rates)))
+    return tuple(map(_Row, rates, mass, (force - b for force, b in zip(forces, rest, strict=True))))
 
 
 def _power(rows: tuple[_Row, ...], loads: tuple[Work, ...], guides: _Guides, count: int) -> tuple[Expr, Vector]:
