@@ -87,6 +87,17 @@ def test_blanks_between_factors_do_no_harm(lecture: Lecture, task: str, typed: s
     _check(page, "correct")
 
 
+def test_a_bracket_is_never_left_alone(lecture: Lecture) -> None:
+    page = _open(lecture)
+    field = _math_field(page)
+    page.keyboard.type("m sin(x)", delay=30)
+    left = []
+    for _ in range(5):
+        page.keyboard.press("Backspace")
+        left.append(field.evaluate("field => field.getValue('latex-without-placeholders')"))
+    assert left == [r"m\sin\left(x\right)", r"m\sin\left(\right)", r"m\sin", "m", ""]
+
+
 def test_reload_and_language_keep_everything(lecture: Lecture) -> None:
     page = _open(lecture)
     _answer_as_text(page, FALLING)

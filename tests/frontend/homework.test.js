@@ -5,6 +5,7 @@ import { createAnswering, isCurrent, partsIn } from "../../frontend/model/homewo
 import { assignmentIn, fragmentOfAssignment } from "../../frontend/model/homework/assignment.js";
 import { createConversion } from "../../frontend/model/homework/conversion.js";
 import { columnsFor, inRows, keyboardOf, shortcutsOf, written } from "../../frontend/model/homework/keys.js";
+import { paired } from "../../frontend/model/homework/fences.js";
 import { createClassroom } from "../../frontend/model/homework/classroom.js";
 import { checksOf, earned, onceEach, summaryOf, targetOf } from "../../frontend/model/homework/grading.js";
 import { patient } from "../../frontend/model/homework/patience.js";
@@ -354,3 +355,13 @@ test("a solution is shown by the first of its steps that the derivation has, els
   assert.equal(shown("a", "x"), "a2");
   assert.equal(shown("c"), undefined);
 });
+
+for (const [name, latex, backward, wanted] of /** @type {[string, string, boolean, {latex: string, shift: number} | null][]} */ ([
+  ["nothing is broken", String.raw`\sin\left(q_2\right)`, true, null],
+  ["from the right the caret steps in", String.raw`\sin\left(q_2\right.+1`, true, { latex: String.raw`\sin\left(q_2\right)+1`, shift: 0 }],
+  ["from within the pair goes", String.raw`\sin\left.x\right)\delta x`, true, { latex: String.raw`\sin x\delta x`, shift: -1 }],
+  ["the inner pair of two", String.raw`\left(a+\left.b\right]\right)`, true, { latex: String.raw`\left(a+b\right)`, shift: -1 }],
+  ["forwards from the left the caret steps in", String.raw`\left.x\right]`, false, { latex: String.raw`\left[x\right]`, shift: 0 }],
+  ["forwards from within the pair goes", String.raw`\left(x\right.y`, false, { latex: "xy", shift: -1 }],
+]))
+  test(`a bracket is deleted: ${name}`, () => assert.deepEqual(paired(latex, backward), wanted));

@@ -16,13 +16,13 @@ def verdict(scene: str, task: str, answer: str, language: str = "en") -> dict[st
 @pytest.mark.parametrize(
     ("answer", "term"),
     [
-        pytest.param("ddot(phi) = phi", "phi", id="the right side"),
-        pytest.param("ddot(phi) + g*phi = 1", "g*phi", id="a term of the left side"),
+        pytest.param("ddot(phi) = phi", r"\varphi", id="the right side"),
+        pytest.param("ddot(phi) + g*phi = 1", r"g \varphi", id="a term of the left side"),
         pytest.param("l*ddot(phi) + g*sin(phi) = m - g", "m", id="a term of the right side"),
     ],
 )
 def test_the_term_of_another_unit_is_named(answer: str, term: str) -> None:
-    assert f"“{term}”" in verdict("pendulum", "equation:phi", answer)["feedback"]
+    assert f"The term ${term}$ has" in verdict("pendulum", "equation:phi", answer)["feedback"]
 
 
 @pytest.mark.parametrize(
@@ -53,3 +53,19 @@ def test_states_are_told_in_symbols_and_the_languages_numbers(language: str, tol
 def test_the_acceleration_that_differs_is_named() -> None:
     answer = "(M + m)*ddot(x) + m*l*cos(phi)*ddot(phi) - m*l*sin(phi)*dot(phi)^2 = 0; l*ddot(phi) + g*sin(phi) = 0"
     assert r"your answer gives $\ddot{x} = 0.4462$" in verdict("cart-pendulum", "equations", answer)["feedback"]
+
+
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [
+        pytest.param("de", "Komponente $y$: Bei ", id="de"),
+        pytest.param("en", "Component $y$: at ", id="en"),
+    ],
+)
+def test_the_component_that_differs_is_named(language: str, told: str) -> None:
+    assert told in verdict("pendulum", "position:bob", "[l*sin(phi), l]", language)["feedback"]
+
+
+def test_units_are_told_with_raised_exponents() -> None:
+    told = verdict("elastic-pendulum", "generalized-force:phi", "m*g*sin(phi)")["feedback"]
+    assert "has the unit kg m s⁻²; what is asked for has kg m² s⁻²." in told

@@ -80,5 +80,5 @@ def test_misconceptions_are_told_and_explained() -> None:
     assert len(kinds) >= 30
     for language in ("de", "en"):
         told = catalog(language)["homework"]["misconceptions"]  # type: ignore[index]
-        assert set(told) == {kind.id for kind in kinds} | {"wrong-dimension"}
+        assert set(told) == {kind.id for kind in kinds} | {"wrong-dimension", "other-unit"}
     assert all(kind.__doc__ and not kind.__doc__.startswith(kind.__name__) for kind in kinds)

@@ -9,7 +9,7 @@ from ..language.latex_printer import Typography, latex
 from ..language.parser import Syntax
 from .counterexamples import counterexample
 from .diagnosis import Diagnosis, diagnose, own_term
-from .dimensions import dimension_problem
+from .dimensions import Told, other_unit, unlike_terms
 from .equality import Match, Parts, equation
 from .partwise import part_outcomes
 from .reading import Reading, read
@@ -33,7 +33,7 @@ def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
     parts = part_outcomes(workbook, task, reading.parts)
     if match.equal is None:
         return Verdict("undecided", shown, parts=parts)
-    return replace(_wrong(workbook, task, reading, match, shown), parts=parts)
+    return replace(_wrong(workbook, task, reading, match, shown, syntax), parts=parts)
 
 
 def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
@@ -61,17 +61,25 @@ def _solved(workbook: Workbook, task: Task, given: Parts) -> Match:
     return Match(equal=False)
 
 
-def _wrong(workbook: Workbook, task: Task, reading: Reading, match: Match, shown: str) -> Verdict:
+def _wrong(workbook: Workbook, task: Task, reading: Reading, match: Match, shown: str, syntax: Syntax) -> Verdict:
     given, right = reading.parts, workbook.right(task)
     if match.remark == "degenerate":
         return Verdict("wrong", shown, match.remark)
     example = counterexample(task, given, right, workbook.road)
-    unit = dimension_problem(reading, workbook.scene)
     found = Diagnosis() if match.remark else diagnose(workbook, task, given)
-    if unit is not None and not found.misconceptions:
-        told = {key: str(value) for key, value in unit.parameters.items()}
-        return Verdict("wrong", shown, "", ("wrong-dimension",), counterexample=example, parameters=told)
+    units = None if found.misconceptions else _units(workbook, task, reading, syntax, alone=found.slip is None)
+    if units:
+        identifier, told = units
+        return Verdict("wrong", shown, "", (identifier,), counterexample=example, parameters=told)
+    typography = Typography(workbook.scene.names)
     slip = own_term(found.slip) if found.slip else None
-    told_slip = Slip(slip.kind, latex(slip.term, Typography(workbook.scene.names))) if slip else None
+    told_slip = Slip(slip.kind, latex(slip.term, typography)) if slip else None
     about = found.about[0] if found.about else ""
     return Verdict("wrong", shown, match.remark, found.misconceptions, about, told_slip, example)
+
+
+def _units(workbook: Workbook, task: Task, reading: Reading, syntax: Syntax, *, alone: bool) -> Told | None:
+    """Terms that cannot be added come first; another unit than the one asked for, where no slip explains it."""
+    unlike = unlike_terms(reading, workbook.scene, syntax)
+    measured = alone and task.quantity.form in ("expression", "vector") and task.quantity.kind != "conserved"
+    return unlike or (other_unit(reading, workbook.shown(task), workbook.scene) if measured else None)

@@ -48,8 +48,9 @@ def _values(
     if task.quantity.form in ("equation", "equations"):
         yield from _accelerations(given, right, road, state)
         return
+    numbered = task.quantity.form == "vector"
     for index, (a, b) in enumerate(zip(given, right, strict=False), 1):
-        yield str(index) if len(right) > 1 else "", _at(a, state), _at(b, state)
+        yield str(index) if numbered else "", _at(a, state), _at(b, state)
 
 
 def _accelerations(

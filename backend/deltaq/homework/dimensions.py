@@ -1,26 +1,66 @@
-"""Terms whose units do not fit together: the first thing to say about an answer that has them."""
+"""Terms whose units do not fit together, or not to what is asked for: the first thing to say about such an answer."""
 
 from __future__ import annotations
 
-from ..errors import Problem
+from ..errors import ExpressionError, Problem
+from ..language.latex_printer import Typography, latex
+from ..language.parser import Syntax, parse
+from ..language.plain_printer import plain
+from ..language.symbols import Symbols
+from ..language.sympy_algebra import to_sympy
 from ..language.tree import Equation, Node, Sum, Vector
 from ..mechanics.homogeneity import DimensionCheck
 from ..mechanics.scene import Scene
-from ..mechanics.units import dimension_of
+from ..mechanics.units import Dimension, dimension_of
+from .equality import Parts
 from .reading import Reading
 
+Told = tuple[str, dict[str, str]]
+RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
-def dimension_problem(reading: Reading, scene: Scene) -> Problem | None:
-    """The first term of an answer whose dimension differs from that of the terms before it."""
-    units = {c.name: dimension_of(c.unit) for c in scene.coordinates} | {"t": dimension_of("s")}
-    units |= {p.name: dimension_of(p.unit) for p in scene.parameters}
+
+def unlike_terms(reading: Reading, scene: Scene, syntax: Syntax) -> Told | None:
+    """What is told of the first term whose dimension differs from that of the terms before it."""
     for text, tree in reading.trees:
         for part in _sums(tree):
-            check = DimensionCheck(units, text, [])
+            check = DimensionCheck(_units(scene), text, [])
             check.of(part)
-            if check.problems:
-                return check.problems[0]
+            for problem in check.problems:
+                return "wrong-dimension", _told(problem, scene, syntax)
     return None
+
+
+def other_unit(reading: Reading, right: Parts, scene: Scene) -> Told | None:
+    """What is told of an answer whose terms fit together, but whose dimension is not that of the right one."""
+    check = DimensionCheck(_units(scene), "", [])
+    known = (check.of(parse(plain(part), scene.names).tree) for part in right)
+    expected = next((each for each in known if isinstance(each, Dimension)), None)
+    for _, tree in reading.trees if expected else ():
+        for found in map(check.of, _sums(tree)):
+            if expected and isinstance(found, Dimension) and not found.fits(expected):
+                return "other-unit", {"found": _raised(str(found)), "expected": _raised(str(expected))}
+    return None
+
+
+def _units(scene: Scene) -> dict[str, Dimension | None]:
+    units = {c.name: dimension_of(c.unit) for c in scene.coordinates} | {"t": dimension_of("s")}
+    return units | {p.name: dimension_of(p.unit) for p in scene.parameters}
+
+
+def _told(problem: Problem, scene: Scene, syntax: Syntax) -> dict[str, str]:
+    """The term as a formula, the units with raised exponents."""
+    told = {key: _raised(str(value)) for key, value in problem.parameters.items()}
+    term = str(problem.parameters["term"])
+    try:
+        typeset = latex(to_sympy(parse(term, scene.names, syntax).tree, Symbols(scene.names)), Typography(scene.names))
+    except ExpressionError:
+        return told | {"term": f"“{term}”"}
+    return told | {"term": f"${typeset}$"}
+
+
+def _raised(unit: str) -> str:
+    """kg m s^-2 → kg m s⁻²"""
+    return " ".join(base + exponent.translate(RAISED) for base, _, exponent in (w.partition("^") for w in unit.split()))
 
 
 def _sums(tree: Node) -> list[Node]:

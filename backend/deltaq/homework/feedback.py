@@ -14,6 +14,7 @@ from ..narration.catalog import message, text
 from .counterexamples import rounded_text
 from .verdict import Counterexample, Verdict
 
+AXES = "xyz"
 Document = dict[str, object]
 
 
@@ -68,7 +69,11 @@ def _told(example: Counterexample, scene: Scene, language: str) -> str:
     state = ", ".join(f"${_typeset(name, scene)} = {_number(v, language)}$" for name, v in example.state.items())
     what = f"{_typeset(example.of, scene)} = " if example.of and not example.of.isdecimal() else ""
     yours, right = (f"${what}{_number(value, language)}$" for value in (example.yours, example.right))
-    return text(language, "homework.feedback.counterexample", state=state, yours=yours, right=right)
+    told = {"state": state, "yours": yours, "right": right}
+    if example.of.isdecimal():
+        component = AXES[int(example.of) - 1]
+        return text(language, "homework.feedback.counterexample-component", component=component, **told)
+    return text(language, "homework.feedback.counterexample", **told)
 
 
 def _number(value: float, language: str) -> str:

@@ -108,12 +108,18 @@ def _after_label(task: Task, text: str, names: Names, syntax: Syntax) -> int:
 
 def _parsed(text: str, piece: tuple[int, int], names: Names, syntax: Syntax) -> tuple[str, Node, Any]:
     start, end = piece
-    source = text[start:end].rstrip(" ,.")
+    source = _without_ending(text[start:end])
     try:
         tree = parse(source, names, syntax).tree
         return source, tree, to_sympy(tree, Symbols(names))
     except ExpressionError as error:
         raise ExpressionError(*(_moved(problem, start) for problem in error.problems)) from None
+
+
+def _without_ending(text: str) -> str:
+    """Without the stop or comma of a sentence; the dot of \\right. is a bracket that is not drawn."""
+    source = text.rstrip(" ,.")
+    return source + "." * (source.endswith("\\right") and text.startswith(".", len(source)))
 
 
 def _moved(problem: Problem, start: int) -> Problem:

@@ -78,7 +78,7 @@ class Cursor:
         if token.kind == "close" and self.previous.kind == "open":
             fail("empty-brackets", between(self.previous.span, token.span))
         if token.kind == "close" and not self.previous.is_operator(",", ";", "+", "-", "*", "/", "^", "="):
-            fail("unopened-bracket", token.span, bracket=token.text)
+            fail("unopened-bracket", token.span, bracket=self.slice(token.span))
         fail("unexpected-symbol", token.span, symbol=self.slice(token.span))
 
     def slice(self, span: Span) -> str:

@@ -38,14 +38,22 @@ def read_sized(lexer: LatexLexer, size: str, start: int) -> None:
     """\\left, \\right and the like: what they enlarge follows."""
     character = lexer.source.next()
     right = size in ("right", "mright")
-    if character == "." and right and lexer.brackets:
+    if character == ".":
         lexer.source.at += 1
-        del lexer.found[lexer.brackets.pop()]
+        if right and lexer.brackets:
+            _end_system(lexer)
     elif character == "|" or lexer.source.peek_command() in ("vert", "lvert", "rvert"):
         lexer.source.at += 1 if character == "|" else len(lexer.source.peek_command()) + 1
         _bar(lexer, size, lexer.since(start))
     elif character == "" or character not in "()[]\\":
         fail("missing-argument", Span(start, len(size) + 1), name="\\" + size)
+
+
+def _end_system(lexer: LatexLexer) -> None:
+    """A brace before the lines of a system needs no other; a parenthesis without the other is a slip that is told."""
+    span = lexer.found[lexer.brackets[-1]].span
+    if lexer.source.text[span.offset : span.offset + span.length] in ("\\{", "\\lbrace"):
+        del lexer.found[lexer.brackets.pop()]
 
 
 def _bar(lexer: LatexLexer, size: str, span: Span) -> None:

@@ -10,6 +10,7 @@ from ..errors import Problem
 from ..language.expression import Expression
 from ..language.tree import (
     Call,
+    Differential,
     Name,
     Negation,
     Node,
@@ -19,6 +20,8 @@ from ..language.tree import (
     Quotient,
     Rate,
     Sum,
+    TimeDerivative,
+    Variation,
 )
 from .units import ONE, Dimension
 
@@ -42,11 +45,10 @@ class DimensionCheck:
         match node:
             case Number() | Name(name="pi"):
                 return NUMBER
-            case Name(name=name):
-                return self.units.get(name)
-            case Rate(name=name, order=order):
-                unit = self.units.get(name)
-                return None if unit is None else unit.times(SECOND.to(Fraction(-order)))
+            case Name() | Differential() | Rate() | Variation():
+                return self._quantity(node)
+            case TimeDerivative(operand=operand):
+                return self._product([self.of(operand), SECOND.to(Fraction(-1))])
             case Negation(operand=operand):
                 return self.of(operand)
             case Sum(terms=terms):
@@ -61,6 +63,11 @@ class DimensionCheck:
                 return self._call(function, arguments)
             case _:
                 return None
+
+    def _quantity(self, node: Name | Differential | Rate | Variation) -> Dimension | None:
+        unit = self.units.get(node.name)
+        order = node.order if isinstance(node, Rate | Variation) else 0
+        return None if unit is None else unit.times(SECOND.to(Fraction(-order)))
 
     def expect(self, node: Node, wanted: Dimension) -> None:
         """Complains about the node, or about its terms, if the dimension is another than its field wants."""

@@ -33,7 +33,7 @@ export function answer(view) {
   };
   return html`
     <form class="answering" aria-label=${t("homework.answer")} @submit=${check} @focusin=${remember}>
-      <div class="answer-head"><h3>${t("homework.answer")}</h3><span class="wanted">${entry.task.form_text}</span>${syntaxes(view)}</div>
+      <div class="answer-head"><h3>${t("homework.answer")}</h3>${wanted(view, entry)}${syntaxes(view)}</div>
       ${fields(view, entry)}
       ${understood(view, entry)}
       ${keyboard(view.keys, t)}
@@ -44,6 +44,12 @@ export function answer(view) {
       <p class="notice-line" role="status">${state.notice ? t(state.notice) : nothing}</p>
       ${failureLine(view)}
     </form>`;
+}
+
+/** What to write, where the fields do not say so: components have a field each. @param {HomeworkView} view @param {Entry} entry */
+function wanted({ state }, entry) {
+  const single = partsIn(entry, state.draft).length === 1;
+  return single || entry.task.form !== "vector" ? html`<span class="wanted">${entry.task.form_text}</span>` : nothing;
 }
 
 /** @param {HomeworkView} view */

@@ -2,6 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { Directive, directive } from "lit-html/directive.js";
+import { paired } from "../../model/homework/fences.js";
 import { inRows } from "../../model/homework/keys.js";
 
 /** @typedef {{value: string, change: (latex: string) => void, enter: () => void, shortcuts: Record<string, string>}} Wiring */
@@ -35,7 +36,6 @@ export function offerKeys(rows, label) {
   window.mathVirtualKeyboard.layouts = /** @type {any} */ ([layout, "alphabetic", "greek"]);
 }
 
-
 class MathField extends Directive {
   /** @type {Wiring | null} */
   wiring = null;
@@ -61,7 +61,10 @@ class MathField extends Directive {
 
   /** @param {import("mathlive").MathfieldElement} field */
   connect(field) {
-    field.addEventListener("input", () => this.wiring?.change((this.held = field.getValue("latex-without-placeholders"))));
+    field.addEventListener("input", (event) => {
+      keepPairs(field, /** @type {InputEvent} */ (event).inputType);
+      this.wiring?.change((this.held = field.getValue("latex-without-placeholders")));
+    });
     field.addEventListener("keydown", (event) => {
       if (event.key === "Enter") this.wiring?.enter();
       if (event.key === " " && !event.ctrlKey) blank(field, event);
@@ -80,6 +83,16 @@ function whenMounted(field, task) {
   requestAnimationFrame(() => {
     if (field.isConnected) task();
   });
+}
+
+/** @param {import("mathlive").MathfieldElement} field @param {string} inputType */
+function keepPairs(field, inputType) {
+  if (!inputType?.startsWith("deleteContent")) return;
+  const mended = paired(field.getValue("latex"), inputType === "deleteContentBackward");
+  if (!mended) return;
+  const { position } = field;
+  field.setValue(mended.latex, { silenceNotifications: true });
+  field.position = position + mended.shift;
 }
 
 /** What a blank does not lead out of: brackets, and what is still empty. */

@@ -11,6 +11,7 @@ import { stepAddress } from "../../model/homework/place.js";
 /** @typedef {import("./page.js").HomeworkView} HomeworkView */
 /** @typedef {import("../../model/homework/progress.js").Verdict} Verdict */
 
+const AXES = ["", "x", "y", "z"];
 const MOVING = ["kinetic-energy", "potential-energy", "lagrangian", "momentum", "generalized-force", "equation", "equations"];
 const ICONS = /** @type {const} */ ({ correct: "verified", follow_through: "verified", wrong: "close", undecided: "help", invalid: "help" });
 
@@ -61,7 +62,8 @@ function example({ state, t }, { values, latex = {}, of, yours, right }) {
   const { lang } = state.asked.place;
   const given = (/** @type {number} */ value) => value.toLocaleString(lang, { maximumSignificantDigits: 4 });
   const number = (/** @type {number} */ value) => significant(value, 4, lang);
-  const what = latex[of] && !/^\d+$/.test(of) ? html`${inline(latex[of])} = ` : nothing;
+  const component = AXES[Number(of)];
+  const what = component ? html`${inline(component)}: ` : latex[of] ? html`${inline(latex[of])} = ` : nothing;
   return html`<details class="example"><summary>${icon("chevron")}${t("homework.example")}</summary>
     <p class="state">${Object.entries(values).map(([name, value]) => html`<span>${latex[name] ? inline(latex[name]) : name} = ${given(value)}</span>`)}</p>
     <dl class="numbers"><div><dt>${t("homework.yours")}</dt><dd>${what}${number(yours)}</dd></div><div><dt>${t("homework.right")}</dt><dd>${what}${number(right)}</dd></div></dl>
