@@ -5,7 +5,7 @@ import { ApiError, createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { groupsOf } from "./model/reference.js";
 import { createSpeech } from "./model/speech.js";
-import { createStore } from "./model/store.js";
+import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { dressed } from "./view/header.js";
 import { page } from "./view/reference/page.js";
@@ -40,7 +40,7 @@ function update() {
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.reference) });
   document.title = `δq · ${t("place.docs")}`;
-  const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
+  const session = { language: speech.speak, move: mover(store) };
   const choose = (/** @type {string} */ sample) => set({ sample });
   render(page({ ...get(), state: { place }, session, t, reload: load, choose }), root);
   history.replaceState(null, "", location.pathname + writePlace(place) + location.hash);

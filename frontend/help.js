@@ -4,7 +4,7 @@ import { render } from "lit-html";
 import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createSpeech } from "./model/speech.js";
-import { createStore } from "./model/store.js";
+import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { dressed } from "./view/header.js";
 import { page } from "./view/guide/page.js";
@@ -16,7 +16,7 @@ const store = createStore({
   place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
 });
-const { get, set } = store;
+const { get } = store;
 const speech = createSpeech(store, createApi(fetch.bind(globalThis)), (task) => task().catch(() => {}), ["guide", "lecture"]);
 
 let arrived = false;
@@ -26,7 +26,7 @@ function update() {
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture), .../** @type {object} */ (catalog.guide) });
   document.title = `δq · ${t("place.help")}`;
-  const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
+  const session = { language: speech.speak, move: mover(store) };
   render(page({ state: { place }, session, t }), root);
   history.replaceState(null, "", location.pathname + writePlace(place) + location.hash);
   if (!arrived && location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();

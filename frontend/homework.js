@@ -17,6 +17,8 @@ import { createWorking } from "./model/homework/working.js";
 import { documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { startLanguage } from "./model/url.js";
+import { follow } from "./view/links.js";
+import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { linkHighlights } from "./view/highlight.js";
 import { offer } from "./view/files.js";
@@ -109,12 +111,7 @@ function view() {
     draftOf: (key) => (key === entry?.key ? state.draft : progress.draft(key)),
     ownStep: (step) => (state.own ? stepAddress(OWN, step, state.asked.place) + fragment : ""),
     link: (patch) => location.pathname + writeAsked({ ...state.asked, ...patch }) + (state.assignment || state.own ? fragment : ""),
-    follow(event, go) {
-      const { ctrlKey, metaKey, shiftKey } = /** @type {MouseEvent} */ (event);
-      if (ctrlKey || metaKey || shiftKey) return;
-      event.preventDefault();
-      go();
-    },
+    follow,
   };
 }
 
@@ -171,14 +168,7 @@ clock.subscribe(staging.move);
 dark.addEventListener("change", update);
 linkHighlights(root);
 
-let before = 0;
-/** @param {number} now */
-function tick(now) {
-  clock.advance((now - before) / 1000);
-  before = now;
-  requestAnimationFrame(tick);
-}
-requestAnimationFrame(tick);
+everyFrame(clock.advance);
 
 async function start() {
   const { asked } = get();

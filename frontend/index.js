@@ -4,8 +4,9 @@ import { render } from "lit-html";
 import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createSamples } from "./model/start/sample.js";
-import { createStore } from "./model/store.js";
+import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { createMotions } from "./view/start/motions.js";
 import { HERO, page } from "./view/start/page.js";
@@ -24,8 +25,7 @@ const { get, set } = store;
 const samples = createSamples(api, () => get().place.lang);
 const motions = createMotions(samples.ask, { still: () => still.matches, always: HERO });
 
-/** @param {Partial<import("./model/types.js").Place>} patch */
-const move = (patch) => set({ place: { ...get().place, ...patch } });
+const move = mover(store);
 
 /** @param {string} lang */
 async function language(lang) {
@@ -45,14 +45,6 @@ function update() {
   history.replaceState(null, "", location.pathname + writePlace(place) + location.hash);
 }
 
-let before = 0;
-/** @param {number} now */
-function tick(now) {
-  motions.advance((now - before) / 1000);
-  before = now;
-  requestAnimationFrame(tick);
-}
-
 // Scenes stood at this address once: one that was shared in the fragment is shown where scenes are now.
 if (/^#(s=|edit$)/.test(location.hash)) location.replace(`/scene${location.search}${location.hash}`);
 else {
@@ -60,7 +52,7 @@ else {
   dark.addEventListener("change", update);
   root.addEventListener("pointerover", ({ target }) => motions.point(target));
   root.addEventListener("focusin", ({ target }) => motions.point(target));
-  requestAnimationFrame(tick);
+  everyFrame(motions.advance);
   void language(get().place.lang);
   void api.scenes({ summaries: true }).then(({ scenes }) => set({ scenes }), () => {});
 }

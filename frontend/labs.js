@@ -9,9 +9,10 @@ import { exampleOf, NOTHING, pointOf, readQuestion, requestOf, writeQuestion } f
 import { experiment, file } from "./model/labs/stream.js";
 import { motionOf, written } from "./model/labs/watch.js";
 import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
-import { createStore } from "./model/store.js";
+import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { offer } from "./view/files.js";
+import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { withSides } from "./view/labs/form.js";
 import { createMotion } from "./view/labs/motion.js";
@@ -37,8 +38,7 @@ const store = createStore({
 const { get, set } = store;
 let own = /** @type {import("./model/own.js").SceneDocument | null} */ (null);
 
-/** @param {Partial<import("./model/types.js").Place>} patch */
-const move = (patch) => set({ place: { ...get().place, ...patch } });
+const move = mover(store);
 const lang = () => get().place.lang;
 
 /** A scene for a request: its id, or the viewer's own as a document. @param {string} id */
@@ -170,21 +170,13 @@ const starting = {
   },
 };
 
-let before = 0;
-/** @param {number} now */
-function tick(now) {
-  motion.advance((now - before) / 1000);
-  before = now;
-  requestAnimationFrame(tick);
-}
-
 async function start() {
   own = (await documentIn(location.hash)) ?? readDraft(localStorage)?.document ?? null;
   store.subscribe(update);
   bench.subscribe(update);
   dark.addEventListener("change", update);
   new ResizeObserver(update).observe(root);
-  requestAnimationFrame(tick);
+  everyFrame(motion.advance);
   void api.scenes().then(({ scenes }) => set({ scenes }), () => {});
   const offered = speak(lang()).then(() => labs().includes(bench.get().question.lab) || bench.open(NOTHING.lab));
   await Promise.all([offered, bench.load()]);

@@ -8,7 +8,7 @@ import { keepNotes, readNotes, withNote } from "./model/lecture/notes.js";
 import { STOPPED, toggled } from "./model/lecture/timer.js";
 import { linesOf } from "./model/reveal.js";
 import { createSpeech } from "./model/speech.js";
-import { createStore } from "./model/store.js";
+import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { dressed } from "./view/header.js";
 import { listen } from "./view/keys.js";
@@ -38,8 +38,7 @@ function hear(here) {
   set({ here, ...(here.chapters ? { lines: linesOf(here.chapters) } : {}) });
 }
 
-/** @param {Partial<import("./model/types.js").Place>} patch */
-const move = (patch) => set({ place: { ...get().place, ...patch } });
+const move = mover(store);
 const wish = (/** @type {import("./model/lecture/link.js").Wish} */ wanted) => line?.wish(wanted);
 
 const actions = {

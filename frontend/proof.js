@@ -8,6 +8,7 @@ import { createProof, PROOF } from "./model/proof.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { sheet } from "./view/bring.js";
+import { follow } from "./view/links.js";
 import { dressed } from "./view/header.js";
 import { listen } from "./view/keys.js";
 import { openDialog, overlays } from "./view/overlays.js";
@@ -46,14 +47,6 @@ const link = (/** @type {Partial<import("./model/types.js").Place>} */ patch) =>
 
 /** The address of the same step as a page. */
 const whole = () => location.href.replace("/embed/", "/");
-
-/** @param {Event} event @param {() => void} go */
-function follow(event, go) {
-  const { ctrlKey, metaKey, shiftKey } = /** @type {MouseEvent} */ (event);
-  if (ctrlKey || metaKey || shiftKey) return;
-  event.preventDefault();
-  go();
-}
 
 function fullscreen() {
   void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.());

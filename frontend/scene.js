@@ -10,6 +10,8 @@ import { createStore } from "./model/store.js";
 import { translator } from "./model/catalog.js";
 import { readPlace, startLanguage, writePlace } from "./model/url.js";
 import { expectLong } from "./view/formula.js";
+import { follow } from "./view/links.js";
+import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
 import { listen } from "./view/keys.js";
@@ -61,12 +63,7 @@ function view() {
     t: translator({ ...section("page"), ...section("editor"), ...section("lecture"), ...section("figure") }),
     methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,
     link: (patch) => location.pathname + writePlace({ ...state.place, ...patch }) + ((patch.scene ?? state.place.scene) === OWN ? state.fragment : ""),
-    follow(event, go) {
-      const { ctrlKey, metaKey, shiftKey } = /** @type {MouseEvent} */ (event);
-      if (ctrlKey || metaKey || shiftKey) return;
-      event.preventDefault();
-      go();
-    },
+    follow,
     reload: () => void session.start(state.place),
   };
 }
@@ -100,14 +97,7 @@ listen(document, {
   substeps: () => toggleSubsteps(root, store.get().place.step),
 });
 
-let before = 0;
-/** @param {number} now */
-function tick(now) {
-  clock.advance((now - before) / 1000);
-  before = now;
-  requestAnimationFrame(tick);
-}
-requestAnimationFrame(tick);
+everyFrame(clock.advance);
 
 /** On paper the drawing keeps the size for which its labels were placed, made smaller where a sheet is narrower. */
 window.addEventListener("beforeprint", () => {

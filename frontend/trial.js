@@ -5,7 +5,7 @@ import { ApiError, createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { groupsOf } from "./model/reference.js";
 import { createSpeech } from "./model/speech.js";
-import { createStore } from "./model/store.js";
+import { createStore, mover } from "./model/store.js";
 import { ask, draftIn, draftOf, fragmentOf, sendingOf } from "./model/trial.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { dressed } from "./view/header.js";
@@ -81,7 +81,7 @@ function update() {
   if (!catalog.page) return;
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.reference) });
   document.title = `δq · ${t("trial")}`;
-  const session = { language: speech.speak, move: (/** @type {Partial<import("./model/types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } }) };
+  const session = { language: speech.speak, move: mover(store) };
   render(page({ ...get(), ...actions, state: { place }, session, t }), root);
   history.replaceState(null, "", location.pathname + writePlace(place) + (call ? fragmentOf(call, draft) : location.hash));
 }

@@ -3,11 +3,12 @@
 import { render } from "lit-html";
 import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
-import { createStore } from "./model/store.js";
+import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { example } from "./model/variations/examples.js";
 import { createLab } from "./model/variations/lab.js";
 import { readQuestion, writeQuestion } from "./model/variations/question.js";
+import { follow } from "./view/links.js";
 import { dressed } from "./view/header.js";
 import { page } from "./view/variations/page.js";
 
@@ -27,8 +28,7 @@ const store = createStore({
 const { get, set } = store;
 const lab = createLab({ vary: api.vary, lang: () => get().place.lang }, readQuestion(location.search) ?? example("identity"), size > 0 ? size : FIRST_SIZE);
 
-/** @param {Partial<import("./model/types.js").Place>} patch */
-const move = (patch) => set({ place: { ...get().place, ...patch } });
+const move = mover(store);
 
 /** @param {string} lang */
 async function speak(lang) {
@@ -57,14 +57,6 @@ function link(patch) {
   const { question, size } = lab.get();
   const place = writePlace({ ...get().place, ...patch });
   return `${location.pathname}${place}${place ? "&" : "?"}${writeQuestion(question)}${size === FIRST_SIZE ? "" : `&h=${size}`}`;
-}
-
-/** @param {Event} event @param {() => void} go */
-function follow(event, go) {
-  const { ctrlKey, metaKey, shiftKey } = /** @type {MouseEvent} */ (event);
-  if (ctrlKey || metaKey || shiftKey) return;
-  event.preventDefault();
-  go();
 }
 
 /** Two charts beside each other where there is room for them, else one below the other. */

@@ -3,6 +3,7 @@
 import { ApiError } from "./api.js";
 import { linesOf } from "./reveal.js";
 import { completed, OWN } from "./own.js";
+import { mover } from "./store.js";
 import { readChanges } from "./values.js";
 
 /** @typedef {import("./types.js").Failure} Failure */
@@ -27,8 +28,9 @@ const SAMPLES = 501;
  * @param {import("./api.js").Api} api
  * @param {import("./own.js").SceneDocument | null} own  the viewer's own scene, if it is that
  */
-export function createHandout({ get, set }, api, own) {
-  const move = (/** @type {Partial<import("./types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } });
+export function createHandout(store, api, own) {
+  const { get, set } = store;
+  const move = mover(store);
 
   /** @returns {Promise<Partial<Sheet>>} */
   async function proven() {

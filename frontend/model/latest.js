@@ -15,22 +15,25 @@ export function latestOnly(work, pause, time = { now: () => Date.now(), wait: (m
 
   async function run() {
     running = true;
-    while (next) {
-      await time.wait(Math.max(0, started + pause - time.now()));
-      const { wish } = next ?? {};
-      if (wish === undefined) break;
-      next = null;
-      started = time.now();
-      await work(wish, control.signal);
+    try {
+      while (next) {
+        await time.wait(Math.max(0, started + pause - time.now()));
+        const { wish } = next ?? {};
+        if (wish === undefined) break;
+        next = null;
+        started = time.now();
+        await work(wish, control.signal);
+      }
+    } finally {
+      running = false;
     }
-    running = false;
   }
 
   return {
-    /** @param {W} wish */
-    ask(wish) {
+    /** Ends when nothing waits any more; what waits already is taken care of. @param {W} wish */
+    async ask(wish) {
       next = { wish };
-      if (!running) void run();
+      if (!running) await run();
     },
     /** As `ask`, unless something newer waits. @param {W} wish */
     offer(wish) {

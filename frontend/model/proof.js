@@ -2,6 +2,7 @@
 
 import { ApiError } from "./api.js";
 import { indexOf, linesOf, moved } from "./reveal.js";
+import { mover } from "./store.js";
 
 /** @typedef {import("./types.js").Failure} Failure */
 /**
@@ -20,8 +21,9 @@ export const PROOF = "dalembert-lagrange";
  * @param {ReturnType<typeof import("./store.js").createStore<Reading>>} store
  * @param {Pick<import("./api.js").Api, "proof" | "catalog">} api
  */
-export function createProof({ get, set }, api) {
-  const move = (/** @type {Partial<import("./types.js").Place>} */ patch) => set({ place: { ...get().place, ...patch } });
+export function createProof(store, api) {
+  const { get, set } = store;
+  const move = mover(store);
 
   async function load() {
     const { lang } = get().place;

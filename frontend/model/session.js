@@ -1,105 +1,28 @@
 /** What the page does: choosing, revealing, changing, simulating. No DOM; views call these functions. */
 
-import { ApiError } from "./api.js";
-import { requestOf, sceneOf } from "./request.js";
-import { linesOf, moved } from "./reveal.js";
+import { createAdjustments } from "./adjustments.js";
+import { createAttempts } from "./attempts.js";
+import { createDerivations } from "./derivations.js";
+import { fragmentOf, OWN } from "./own.js";
+import { requestOf } from "./request.js";
+import { moved } from "./reveal.js";
 import { createSimulations } from "./simulations.js";
-import { changed, readChanges, UNCHANGED, writeChanges } from "./values.js";
 import { createSpeech } from "./speech.js";
-import { NO_FAILURES, preferred } from "./state.js";
-import { completed, fragmentOf, OWN } from "./own.js";
+import { preferred } from "./state.js";
+import { mover } from "./store.js";
+import { createSubject } from "./subject.js";
 
-/** @typedef {import("./types.js").Failure} Failure */
 /** @typedef {import("./state.js").State} State */
+/** @typedef {import("./types.js").Place} Place */
 
 /**
- * @param {ReturnType<typeof import("./store.js").createStore<State>>} store
- * @param {import("./api.js").Api} api
- * @param {import("./clock.js").Clock} clock
+ * The steps on the page, and what lies above it.
+ * @param {import("./state.js").Store} store @param {(section: string) => void} need
  */
-export function createSession(store, api, clock) {
+function createReading(store, need) {
   const { get, set } = store;
-  /** @param {Partial<import("./types.js").Place>} patch */
-  const move = (patch) => set({ place: { ...get().place, ...patch } });
-  /** @param {keyof State["failures"]} part @param {Failure | null} failure */
-  const fail = (part, failure) => set({ failures: { ...get().failures, [part]: failure } });
-
-  const asked = () => sceneOf(get());
-
-  /** Runs a task; what goes wrong is kept for the view of its part. @param {keyof State["failures"]} part @param {() => Promise<void>} task */
-  async function attempt(part, task) {
-    try {
-      await task();
-      fail(part, null);
-    } catch (error) {
-      if (error instanceof ApiError) fail(part, error.failure);
-      else if (/** @type {Error} */ (error).name !== "AbortError") throw error;
-    }
-  }
-
-  const simulations = createSimulations(store, api, clock, (task) => attempt("simulation", task));
-
-  async function derive() {
-    const { lang, formulation, n } = get().place;
-    const scene = asked();
-    await attempt("derivation", async () => {
-      const derivation = await api.derive({ scene, lang, formulation, ...(n ? { parameters: { n } } : {}) });
-      const { place } = get();
-      if (asked() !== scene || place.lang !== lang || place.formulation !== formulation || place.n !== n) return;
-      const lines = linesOf(derivation.chapters);
-      set({ derivation, lines });
-      move({ step: moved(lines, get().place.step, 0) });
-    });
-  }
-
-  /** @param {import("./types.js").Changes} changes */
-  function change(changes) {
-    set({ changes });
-    move({ set: writeChanges(changes) });
-    simulations.ask();
-  }
-
-  /** @param {string} id @param {string} [step] @param {number} [n] @param {string} [changes] as the address has them */
-  async function choose(id, step = "", n = 0, changes = "") {
-    simulations.cancel();
-    clock.seek(0);
-    set({ scene: null, derivation: null, lines: [], trajectory: null, runs: [], changes: readChanges(changes), failures: NO_FAILURES });
-    move({ scene: id, step, n, set: changes, ...(id === get().place.scene ? {} : { part: 0, vary: "", runs: "", at: 0 }) });
-    simulations.ask();
-    await attempt("scene", async () => {
-      const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang, n);
-      const [scene] = await Promise.all([document, derive()]);
-      if (get().place.scene === id && get().place.n === n) set({ scene });
-    });
-  }
-
-  const { speak, need, needFor } = createSpeech(store, api, (task) => attempt("page", task), ["methods"]);
-
+  const move = mover(store);
   return {
-    /** @param {import("./types.js").Place} place */
-    async start(place, own = /** @type {import("./own.js").SceneDocument | null} */ (null)) {
-      set({ place, own, fragment: own ? await fragmentOf(own) : "" });
-      const listed = attempt("page", async () => {
-        const [{ scenes }, { methods }] = await Promise.all([api.scenes(), api.methods()]);
-        set({ scenes, methods });
-      });
-      needFor(place);
-      const spoken = speak(place.lang);
-      if (!place.scene || place.method) await listed;
-      const scene = place.scene || preferred(get().scenes);
-      await Promise.all([listed, spoken, ...(scene && (scene !== OWN || own) ? [choose(scene, place.step, place.n, place.set)] : [])]);
-    },
-    choose,
-    /** Shows the viewer's own scene; what is on the page stays until the new is there. @param {import("./own.js").SceneDocument} own */
-    async show(own) {
-      set({ own, changes: UNCHANGED });
-      move({ set: "" });
-      if (get().place.scene !== OWN) return choose(OWN);
-      simulations.ask();
-      await derive();
-    },
-    /** The address of a scene while it is written. @param {import("./own.js").SceneDocument} own */
-    address: async (own) => set({ fragment: await fragmentOf(own) }),
     /** @param {number} by */
     go: (by) => move({ step: moved(get().lines, get().place.step, by), part: 0 }),
     /** @param {string} step @param {number} [part] */
@@ -107,9 +30,55 @@ export function createSession(store, api, clock) {
       move({ step, part });
       set({ overlay: "" });
     },
+    /** @param {State["overlay"]} overlay */
+    overlay(overlay) {
+      need("lecture");
+      set({ overlay: get().overlay === overlay ? "" : overlay });
+    },
+  };
+}
+
+/**
+ * What begins with a place: the lists, the texts and the scene, each as early as it can.
+ * @param {import("./state.js").Store} store @param {import("./api.js").Api} api @param {import("./state.js").Attempt} attempt
+ * @param {ReturnType<typeof createSpeech>} speech @param {ReturnType<typeof createSubject>["choose"]} choose
+ */
+function createStart({ get, set }, api, attempt, { speak, needFor }, choose) {
+  /** @param {Place} place @param {import("./own.js").SceneDocument | null} own */
+  return async (place, own = null) => {
+    set({ place, own, fragment: own ? await fragmentOf(own) : "" });
+    const listed = attempt("page", async () => {
+      const [{ scenes }, { methods }] = await Promise.all([api.scenes(), api.methods()]);
+      set({ scenes, methods });
+    });
+    needFor(place);
+    const spoken = speak(place.lang);
+    if (!place.scene || place.method) await listed;
+    const scene = place.scene || preferred(get().scenes);
+    await Promise.all([listed, spoken, ...(scene && (scene !== OWN || own) ? [choose(scene, place.step, place.n, place.set)] : [])]);
+  };
+}
+
+/**
+ * @param {import("./state.js").Store} store
+ * @param {import("./api.js").Api} api
+ * @param {import("./clock.js").Clock} clock
+ */
+export function createSession(store, api, clock) {
+  const move = mover(store);
+  const attempt = createAttempts(store);
+  const simulations = createSimulations(store, api, clock, (task) => attempt("simulation", task));
+  const derive = createDerivations(store, api, attempt);
+  const subject = createSubject(store, api, attempt, { derive, simulations, rewind: () => clock.seek(0) });
+  const speech = createSpeech(store, api, (task) => attempt("page", task), ["methods"]);
+  return {
+    ...subject, ...createAdjustments(store, simulations.ask), ...createReading(store, speech.need),
+    start: createStart(store, api, attempt, speech, subject.choose),
+    /** Texts that are wanted from now on. */
+    need: speech.need,
     /** @param {string} lang */
     async language(lang) {
-      await speak(lang);
+      await speech.speak(lang);
       await derive();
       simulations.ask();
     },
@@ -118,35 +87,20 @@ export function createSession(store, api, clock) {
       move({ formulation });
       await derive();
     },
-    /** @param {Partial<import("./types.js").Place>} patch */
+    /** @param {Partial<Place>} patch */
     move(patch) {
-      needFor(patch);
+      speech.needFor(patch);
       move(patch);
     },
-    /** @param {Partial<import("./types.js").Place>} patch how to simulate */
+    /** @param {Partial<Place>} patch how to simulate */
     resimulate(patch) {
       move(patch);
       simulations.ask();
     },
-    /** @param {import("./values.js").Slider} slider @param {number} value */
-    slide(slider, value) {
-      const { scene, changes } = get();
-      if (!scene) return;
-      change(changed(scene, changes, slider, value));
-    },
-    change,
     /** A motion beside the present one. @param {import("./types.js").Changes} changes @param {string} method */
-    run: (changes, method) => api.simulate(requestOf(get(), changes, method)),
+    run: (changes, method) => api.simulate(requestOf(store.get(), changes, method)),
     /** @param {State["runs"]} runs */
-    compare: (runs) => set({ runs }),
-    reset: () => change(UNCHANGED),
-    /** Texts that are wanted from now on. */
-    need,
-    /** @param {State["overlay"]} overlay */
-    overlay(overlay) {
-      need("lecture");
-      set({ overlay: get().overlay === overlay ? "" : overlay });
-    },
+    compare: (runs) => store.set({ runs }),
   };
 }
 

@@ -31,14 +31,14 @@ export function createSimulations({ get, set }, api, clock, attempt) {
   /** @param {object} request @param {AbortSignal} signal */
   async function simulate(request, signal) {
     set({ simulating: true });
-    await attempt(async () => {
+    const done = attempt(async () => {
       const trajectory = await api.simulate(request, signal);
       if (signal.aborted) return;
       set({ trajectory, ...shownWith(request) });
       clock.setEnd(endOf(trajectory));
       refine(request, trajectory);
     });
-    set({ simulating: false });
+    await done.finally(() => set({ simulating: false }));
   }
 
   /** The viewer's own scene changes on the page together with its motion. @param {any} request */
@@ -51,7 +51,7 @@ export function createSimulations({ get, set }, api, clock, attempt) {
   return {
     cancel: latest.cancel,
     ask() {
-      if (sceneOf(get())) latest.ask(requestOf(get(), get().changes, get().place.method));
+      if (sceneOf(get())) void latest.ask(requestOf(get(), get().changes, get().place.method));
     },
   };
 }

@@ -23,6 +23,9 @@ import { UNCHANGED } from "./values.js";
  * @property {import("./types.js").Overlay} overlay
  */
 
+/** @typedef {ReturnType<typeof import("./store.js").createStore<State>>} Store */
+/** @typedef {(part: keyof State["failures"], task: () => Promise<void>) => Promise<void>} Attempt  runs a task; what goes wrong is kept for the view of its part */
+
 /** @type {State["failures"]} */
 export const NO_FAILURES = { page: null, scene: null, derivation: null, simulation: null, export: null };
 

@@ -35,3 +35,10 @@ export function createStore(initial, later = queueMicrotask) {
     },
   };
 }
+
+/**
+ * What changes parts of the place that a store holds.
+ * @template {{place: import("./types.js").Place}} S
+ * @param {{get: () => S, set: (patch: Partial<S>) => void}} store
+ */
+export const mover = ({ get, set }) => (/** @type {Partial<import("./types.js").Place>} */ patch) => set(/** @type {Partial<S>} */ ({ place: { ...get().place, ...patch } }));

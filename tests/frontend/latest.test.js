@@ -40,6 +40,18 @@ test("an offer gives way to what waits, and is taken up where nothing does", asy
   assert.deepEqual(done, ["first", "newer", "offer"]);
 });
 
+test("a wish that fails does not keep those after it waiting", async () => {
+  /** @type {string[]} */
+  const done = [];
+  const queue = latestOnly(async (/** @type {string} */ wish) => {
+    if (wish === "bad") throw new TypeError(wish);
+    done.push(wish);
+  }, 0, steppedTime());
+  await assert.rejects(queue.ask("bad"), new TypeError("bad"));
+  await queue.ask("good");
+  assert.deepEqual(done, ["good"]);
+});
+
 test("starts are a pause apart", async () => {
   const time = steppedTime();
   /** @type {number[]} */

@@ -64,7 +64,7 @@ export function createAnswering(store, api, progress) {
     if (!entry) return;
     const parts = partsIn(entry, draft);
     if (isEmpty(parts)) set({ reading: null });
-    else if (isComplete(parts, entry.task.form)) readings.ask({ entry, syntax: draft.syntax, value: valueOf(entry, draft) });
+    else if (isComplete(parts, entry.task.form)) void readings.ask({ entry, syntax: draft.syntax, value: valueOf(entry, draft) });
   }
 
   /** The student's own wrong answers to earlier tasks of the scene: what follows from them is no new mistake. @param {Entry} entry */
