@@ -1,0 +1,30 @@
+/** KaTeX into the DOM; what it refuses is shown as plain text. */
+
+/** Display formulas shrink to this part of their size, 11 pixels on a phone, before they scroll. */
+export const SMALLEST = 0.56;
+/** Formulas that would become smaller are rather broken, where that is not said otherwise. */
+const BEARABLE = 0.78;
+
+/** @param {{command: string}} context  only classes, which carry the colours, and only in LaTeX from the server */
+const onlyClasses = (context) => context.command === "\\htmlClass";
+
+/** @param {HTMLElement} element @param {string} latex @param {boolean} display @param {"html" | "mathml" | "htmlAndMathml"} [output]  to be seen, to be heard, or both */
+export function typeset(element, latex, display, output = "htmlAndMathml") {
+  try {
+    globalThis.katex.render(latex, element, {
+      displayMode: display, output, trust: onlyClasses, strict: "ignore", throwOnError: true, maxExpand: 1000, maxSize: 10,
+    });
+  } catch {
+    element.textContent = latex;
+    element.classList.add("untypeset");
+  }
+}
+
+/** How small a formula may become where it stands. @param {CSSStyleDeclaration} style */
+export const bearableIn = (style) => Number(style.getPropertyValue("--bearable")) || BEARABLE;
+
+/** Sets a formula to a part of its size; below the smallest one it scrolls. @param {HTMLElement} element @param {number} part */
+export function resize(element, part) {
+  element.style.setProperty("--fit", String(Math.max(SMALLEST, part)));
+  element.classList.toggle("wide", part < SMALLEST);
+}
