@@ -164,7 +164,8 @@ def built(project: Path, target: str, folder: Path) -> Path:
 @pytest.mark.slow
 def test_source_archive_makes_the_very_same_wheel(root: Path, tmp_path: Path) -> None:
     with tarfile.open(built(root, "sdist", tmp_path / "sdist")) as archive:
-        archive.extractall(tmp_path / "unpacked", filter="data")
+        archive.extraction_filter = getattr(tarfile, "data_filter", None)  # none before Python 3.11.4
+        archive.extractall(tmp_path / "unpacked")
     (unpacked,) = (tmp_path / "unpacked").iterdir()
     shutil.copytree(root / "frontend/vendor", unpacked / "frontend/vendor")  # else npm would fetch it
     wheels = [built(project, "wheel", tmp_path / name) for project, name in ((root, "own"), (unpacked, "theirs"))]

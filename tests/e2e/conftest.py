@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
-from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.browser import NoBrowser, chromium, launch
 from tests.e2e.lecture import Lecture
 
 
@@ -54,19 +54,21 @@ PATIENCE = 60_000.0
 expect.set_options(timeout=20_000)
 
 
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Without a browser the end of a run says so once, with the number of tests; a fixture would say it for each."""
+    if "browser" not in getattr(item, "fixturenames", ()):
+        return
+    try:
+        chromium()
+    except NoBrowser as error:
+        end = pytest.fail if "CHROMIUM_PATH" in os.environ else pytest.skip
+        end(f"NO BROWSER, SO THE PAGE IS NOT TESTED: {error}")
+
+
 @pytest.fixture(scope="module")  # its event loop must have ended before asynchronous tests begin in the same process
 def browser() -> Iterator[Browser]:
-    path = chromium()
-    if path is None:
-        pytest.skip(
-            "NO BROWSER, SO THE PAGE IS NOT TESTED: set CHROMIUM_PATH, or put chromium on PATH, "
-            "or let npm fetch @sparticuz/chromium"
-        )
     with sync_playwright() as playwright:
-        # The fetched browser brings its libraries along, unpacked beside it.
-        environment: dict[str, str | float | bool] = {**os.environ}
-        environment["LD_LIBRARY_PATH"] = f"{Path(path).parent}:{os.environ.get('LD_LIBRARY_PATH', '')}"
-        browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS), env=environment)
+        browser = launch(playwright)
         yield browser
         browser.close()
 

@@ -14,7 +14,7 @@ from itertools import pairwise
 from statistics import quantiles
 
 from playwright.sync_api import Browser, CDPSession, Page, sync_playwright
-from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.browser import launch
 from tests.e2e.lecture import Lecture
 
 SLOWER, FRAMES = 4, 240
@@ -92,7 +92,7 @@ def moving(browser: Browser, address: str, scene: str) -> Frames:
 
 def main(address: str, *scenes: str) -> None:
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        browser = launch(playwright)
         print(f"{'one circle':20} {bare(browser)}", flush=True)
         for scene in scenes or SCENES:
             print(f"{scene:20} {moving(browser, address, scene)}", flush=True)

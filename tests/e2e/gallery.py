@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from playwright.sync_api import Browser, Page, sync_playwright
-from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.browser import launch
 from tests.e2e.places import PATIENCE, PLACES, Place
 
 PHONE, TABLET, LAPTOP, DESKTOP, WALL = (360, 740), (768, 1024), (1366, 768), (1920, 1080), (3840, 2160)
@@ -92,7 +92,7 @@ def take(browser: Browser, address: str, folder: Path, place: Place, view: View)
 def main(address: str, folder: Path, words: list[str]) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        browser = launch(playwright)
         for place, view in chosen(words):
             take(browser, address, folder, place, view)
         browser.close()

