@@ -8,12 +8,12 @@ from collections.abc import Iterator
 from time import perf_counter
 
 import httpx
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser
 from tests.api.hostile import LINES, Walk, ask, judged
 from tests.benchmarks import bench_load
 from tests.benchmarks.targets import REPEATS, Target
 from tests.e2e import frames
-from tests.e2e.browser import launch
+from tests.e2e.browser import started
 from tests.e2e.lecture import Lecture
 from tests.serving import PATIENT, served
 
@@ -23,8 +23,7 @@ HOSTILE = 3000  # texts, spread over all places of all calls but the experiments
 
 def pages() -> Iterator[Target]:
     """A warm service and a real browser."""
-    with served(**PATIENT) as service, sync_playwright() as playwright:
-        browser = launch(playwright)
+    with served(**PATIENT) as service, started() as browser:
         first_step(browser, service.address)
         first = statistics.median(first_step(browser, service.address) for _ in range(REPEATS))
         yield Target("first step readable", "< 1 s", f"{first:.2f} s", first < 1.0, "python -m tests.e2e.opening")
@@ -34,7 +33,6 @@ def pages() -> Iterator[Target]:
             told = f"{p95:.1f} ms ({', '.join(f'{each.p95:.1f}' for each in found)})"
             what = f"frames of {scene}, processor slowed 4 ×, 95th percentile"
             yield Target(what, "< 20 ms", told, p95 < 20.0, "python -m tests.e2e.frames")
-        browser.close()
 
 
 def first_step(browser: Browser, address: str) -> float:
@@ -50,11 +48,9 @@ def first_step(browser: Browser, address: str) -> float:
 
 def before_the_first_plot() -> Iterator[Target]:
     """Everything but Plotly that a page has fetched when its plots stand."""
-    with served(**PATIENT) as service, sync_playwright() as playwright:
-        browser = launch(playwright)
+    with served(**PATIENT) as service, started() as browser:
         lecture = Lecture(browser.new_page(), service.address)
         size = sum(lecture.bytes_before_the_first_plot().values())
-        browser.close()
     what, command = "bytes before the first plot", "pytest tests/e2e -k bytes"
     yield Target(what, "< 300 kB", f"{size / 1000:.0f} kB", size < 300_000, command)
 

@@ -7,11 +7,13 @@ import os
 import shutil
 import subprocess
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from playwright.sync_api import Browser, Playwright
+import playwright
+from playwright.sync_api import Browser, sync_playwright
 from tests.frontend.node import node_folder, run
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
@@ -62,12 +64,24 @@ class Program:
         return "" if told.returncode == 0 else (told.stderr.strip() or f"exit code {told.returncode}").splitlines()[0]
 
 
-def launch(playwright: Playwright) -> Browser:
-    """The browser of this machine, started; NoBrowser if there is none."""
+@contextmanager
+def started() -> Iterator[Browser]:
+    """The browser of this machine; NoBrowser if there is none."""
     found = chromium()
     # Of what playwright hands over it changes nothing.
     environment: dict[str, str | float | bool] = {**found.environment}
-    return playwright.chromium.launch(executable_path=found.path, args=list(FLAGS), env=environment)
+    _drive()
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=found.path, args=list(FLAGS), env=environment)
+        yield browser
+        browser.close()
+
+
+def _drive() -> None:
+    """The node that playwright brings needs a library that a bare system lacks, libatomic; then ours drives it."""
+    own = Path(playwright.__file__).parent / "driver" / "node"
+    if Program(str(own)).fault() and (folder := node_folder()):
+        os.environ.setdefault("PLAYWRIGHT_NODEJS_PATH", str(folder / "node"))
 
 
 @cache

@@ -8,8 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import sync_playwright
-from tests.e2e.browser import launch
+from tests.e2e.browser import started
 
 from deltaq.lab.experiment import drawn
 from deltaq.lab.library import get_experiment
@@ -48,14 +47,12 @@ def layout_of(chart: dict[str, Any], ink: str, grid: str) -> dict[str, Any]:
 def main() -> None:
     """Measure, draw for both grounds, write."""
     chart = measured()
-    with sync_playwright() as playwright:
-        browser = launch(playwright)
+    with started() as browser:
         for name, inks in INKS.items():
             page = browser.new_page(viewport=SIZE)
             page.add_script_tag(path=PLOTLY)
             svg = page.evaluate(DRAW, [chart["data"], layout_of(chart, *inks), SIZE])
             (ROOT / f".github/chart-{name}.svg").write_text(svg, encoding="utf-8")
-        browser.close()
     print(chart["subject"], chart["caption"], sep="\n")
 
 

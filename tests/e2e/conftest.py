@@ -13,8 +13,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
-from tests.e2e.browser import NoBrowser, chromium, launch
+from playwright.sync_api import Browser, Page, expect
+from tests.e2e.browser import NoBrowser, chromium, started
 from tests.e2e.lecture import Lecture
 
 
@@ -67,10 +67,8 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 
 @pytest.fixture(scope="module")  # its event loop must have ended before asynchronous tests begin in the same process
 def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        browser = launch(playwright)
+    with started() as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture

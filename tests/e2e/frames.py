@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from statistics import quantiles
 
-from playwright.sync_api import Browser, CDPSession, Page, sync_playwright
-from tests.e2e.browser import launch
+from playwright.sync_api import Browser, CDPSession, Page
+from tests.e2e.browser import started
 from tests.e2e.lecture import Lecture
 
 SLOWER, FRAMES = 4, 240
@@ -91,12 +91,10 @@ def moving(browser: Browser, address: str, scene: str) -> Frames:
 
 
 def main(address: str, *scenes: str) -> None:
-    with sync_playwright() as playwright:
-        browser = launch(playwright)
+    with started() as browser:
         print(f"{'one circle':20} {bare(browser)}", flush=True)
         for scene in scenes or SCENES:
             print(f"{scene:20} {moving(browser, address, scene)}", flush=True)
-        browser.close()
 
 
 if __name__ == "__main__":

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from playwright.sync_api import Browser, Page, sync_playwright
-from tests.e2e.browser import launch
+from playwright.sync_api import Browser, Page
+from tests.e2e.browser import started
 from tests.e2e.places import PATIENCE, PLACES, Place
 
 PHONE, TABLET, LAPTOP, DESKTOP, WALL = (360, 740), (768, 1024), (1366, 768), (1920, 1080), (3840, 2160)
@@ -91,11 +91,9 @@ def take(browser: Browser, address: str, folder: Path, place: Place, view: View)
 
 def main(address: str, folder: Path, words: list[str]) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    with sync_playwright() as playwright:
-        browser = launch(playwright)
+    with started() as browser:
         for place, view in chosen(words):
             take(browser, address, folder, place, view)
-        browser.close()
 
 
 if __name__ == "__main__":

@@ -11,8 +11,8 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass
 
-from playwright.sync_api import Browser, Page, Request, sync_playwright
-from tests.e2e.browser import launch
+from playwright.sync_api import Browser, Page, Request
+from tests.e2e.browser import started
 
 SLOWER = 4
 WATCHED = 10_000  # milliseconds; what is fetched without being asked for has come by then
@@ -106,13 +106,11 @@ def _found(page: Page, sent: list[Request]) -> Opening:
 
 def main(address: str, *names: str) -> None:
     print(f"{'':20} {'first':>7} {'largest':>7} {'shift':>8} {'blocking':>9} {'longest':>8} {'requests':>9} {'kB':>7}")
-    with sync_playwright() as playwright:
-        browser = launch(playwright)
+    with started() as browser:
         for network, conditions in (("own", None), ("slow 4G", SLOW_4G)):
             for name in names or PAGES:
                 opening = open_page(browser, address + PAGES[name], conditions)
                 print(f"{name:12} {network:7} {opening}", *opening.shifted, sep="\n    ", flush=True)
-        browser.close()
 
 
 if __name__ == "__main__":

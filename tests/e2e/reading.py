@@ -10,8 +10,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 
-from playwright.sync_api import Browser, Page, sync_playwright
-from tests.e2e.browser import launch
+from playwright.sync_api import Browser, Page
+from tests.e2e.browser import started
 from tests.e2e.lecture import Lecture
 
 SLOWER, TURNS, STRIDES, SETTLED = 4, 20, 40, 2500
@@ -72,11 +72,9 @@ def read(browser: Browser, address: str, query: str) -> str:
 
 
 def main(address: str, *queries: str) -> None:
-    with sync_playwright() as playwright:
-        browser = launch(playwright)
+    with started() as browser:
         for query in queries or QUERIES:
             print(read(browser, address, query), flush=True)
-        browser.close()
 
 
 if __name__ == "__main__":

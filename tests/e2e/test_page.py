@@ -37,7 +37,7 @@ def test_no_formula_is_wider_than_its_column(lecture: Lecture) -> None:
     """Not even when it was measured before its fonts had come; far steps and closed details are typeset in the end."""
     lecture.open("?scene=elastic-pendulum&lang=en&theme=projector&step=equation:phi")
     cut = "e => e.scrollWidth > e.clientWidth + 1"
-    assert lecture.page.wait_for_function(f"![...document.querySelectorAll('.step:not(.far) .formula')].some({cut})")
+    lecture.page.wait_for_function(f"() => ![...document.querySelectorAll('.step:not(.far) .formula')].some({cut})")
     empty = lecture.page.locator(".formula:empty, .step .math:empty")
     expect(empty).to_have_count(0)
     details = lecture.page.locator(".step:not(.far) details").last

@@ -92,7 +92,7 @@ def test_the_line_of_html_shows_the_place_at_its_height(
         expect(frame.locator(part).first).to_be_visible()
     for part in hidden:
         expect(frame.locator(part).first).to_be_hidden()
-    page.wait_for_function("window.heard && window.heard.step === 'virtual-displacement:bob'")
+    page.wait_for_function("() => window.heard && window.heard.step === 'virtual-displacement:bob'")
     page.wait_for_timeout(500)
     inner = "document.querySelector('iframe').contentDocument.documentElement"
     assert page.evaluate(f"{inner}.scrollHeight <= {inner}.clientHeight"), "nothing is to be scrolled within the frame"
@@ -111,23 +111,23 @@ def test_the_proof_goes_into_a_course_page(lecture: Lecture) -> None:
     expect(frame.locator(".step[aria-current]")).to_have_attribute("data-step", "general-product-rule")
     expect(frame.locator(".top")).to_be_hidden()
     expect(frame.locator("html")).to_have_attribute("data-theme", "dark")
-    page.wait_for_function("window.heard && window.heard.step === 'general-product-rule' && window.heard.height > 700")
+    page.wait_for_function("() => window.heard && window.heard.step === 'general-product-rule' && window.heard.height > 700")
     before = page.evaluate("window.heard.height")
     frame.locator(".pager .main").click()
-    page.wait_for_function(f"window.heard.height > {before}")
+    page.wait_for_function(f"() => window.heard.height > {before}")
     inner = "document.querySelector('iframe').contentDocument.documentElement"
-    page.wait_for_function(f"{inner}.scrollHeight <= {inner}.clientHeight")
+    page.wait_for_function(f"() => {inner}.scrollHeight <= {inner}.clientHeight")
     expect(frame.locator(".home a")).to_have_attribute("href", re.compile(r"/proof\?step=(?!general-product-rule)"))
 
 
 def test_a_frame_grows_with_its_steps(shared: Lecture) -> None:
     page = shared.page
     course(page, shared.address, page.get_by_label("derivation and motion").input_value())
-    page.wait_for_function("window.heard && window.heard.step === 'virtual-displacement:bob'")
+    page.wait_for_function("() => window.heard && window.heard.step === 'virtual-displacement:bob'")
     page.wait_for_timeout(400)
     before = page.evaluate("window.heard.height")
     page.frame_locator("iframe").locator(".pager .main").click()
-    page.wait_for_function(f"window.heard.height > {before}")
+    page.wait_for_function(f"() => window.heard.height > {before}")
 
 
 @pytest.mark.parametrize("path", ["embed?scene=pendulum", "embed/proof"])
@@ -185,7 +185,7 @@ def test_a_sheet_that_is_printed_at_once_is_not_made_small(lecture: Lecture, tmp
     assert page.evaluate("window.wide") == 0
     page.evaluate(f"window.print = () => {{ window.small = {wide}.length }}")
     page.get_by_role("button", name="Print").click()
-    assert page.wait_for_function("window.small === 0")
+    page.wait_for_function("() => window.small === 0")
 
 
 def test_the_general_proof_has_an_address_a_code_and_a_handout(lecture: Lecture) -> None:
