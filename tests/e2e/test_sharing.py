@@ -111,7 +111,9 @@ def test_the_proof_goes_into_a_course_page(lecture: Lecture) -> None:
     expect(frame.locator(".step[aria-current]")).to_have_attribute("data-step", "general-product-rule")
     expect(frame.locator(".top")).to_be_hidden()
     expect(frame.locator("html")).to_have_attribute("data-theme", "dark")
-    page.wait_for_function("() => window.heard && window.heard.step === 'general-product-rule' && window.heard.height > 700")
+    page.wait_for_function(
+        "() => window.heard && window.heard.step === 'general-product-rule' && window.heard.height > 700"
+    )
     before = page.evaluate("window.heard.height")
     frame.locator(".pager .main").click()
     page.wait_for_function(f"() => window.heard.height > {before}")
