@@ -12,6 +12,7 @@ import { keyboardOf, shortcutsOf } from "./model/homework/keys.js";
 import { patient } from "./model/homework/patience.js";
 import { readAsked, stepAddress, writeAsked } from "./model/homework/place.js";
 import { createProgress } from "./model/homework/progress.js";
+import { createTrail, retrace } from "./model/homework/trail.js";
 import { begin } from "./model/homework/state.js";
 import { createWorking } from "./model/homework/working.js";
 import { documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
@@ -22,7 +23,7 @@ import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { linkHighlights } from "./view/highlight.js";
 import { offer } from "./view/files.js";
-import { fetchMathLive, offerKeys } from "./view/homework/mathfield.js";
+import { fetchMathLive, low, offerKeys } from "./view/homework/mathfield.js";
 import { page } from "./view/homework/page.js";
 import { createReach, createStaging } from "./view/homework/staging.js";
 
@@ -96,6 +97,9 @@ async function upload(file) {
 /** What the keyboard of a task offers is made once for it. @type {{entry: unknown, keys: import("./model/homework/keys.js").Row[], shortcuts: Record<string, string>}} */
 let offered = { entry: null, keys: [], shortcuts: {} };
 
+/** Whether the address brings along what is worked on. */
+const own = () => Boolean(get().assignment || get().own);
+
 /** @returns {import("./view/homework/page.js").HomeworkView} */
 function view() {
   const state = get();
@@ -110,15 +114,12 @@ function view() {
     t: translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.exercises) }),
     draftOf: (key) => (key === entry?.key ? state.draft : progress.draft(key)),
     ownStep: (step) => (state.own ? stepAddress(OWN, step, state.asked.place) + fragment : ""),
-    link: (patch) => location.pathname + writeAsked({ ...state.asked, ...patch }) + (state.assignment || state.own ? fragment : ""),
+    link: (patch) => location.pathname + writeAsked({ ...state.asked, ...patch }) + (own() ? fragment : ""),
     follow,
   };
 }
 
-/** Written only when it is another one: it would call off a way that has just been taken. @param {string} wanted */
-function address(wanted) {
-  if (wanted !== location.pathname + location.search + location.hash) history.replaceState(null, "", wanted);
-}
+const trail = createTrail(history, location);
 
 /** The tasks on the page as questions of STACK. @param {object} reference */
 async function questions(reference) {
@@ -156,7 +157,7 @@ function update() {
   render(page(current), root);
   staging.show(get(), still.matches);
   reach(get(), still.matches);
-  address(current.link({}));
+  trail(current.link({}), entry?.key ?? "");
   if (side === "class") void openClassroom();
   if (!entry || wanted) return;
   wanted = true;
@@ -166,6 +167,8 @@ function update() {
 store.subscribe(update);
 clock.subscribe(staging.move);
 dark.addEventListener("change", update);
+low.addEventListener("change", () => offerKeys(offered.keys, "δq"));
+addEventListener("popstate", () => (location.hash === (own() ? fragment : "") && retrace(get(), exercise, location.search)) || location.reload());
 linkHighlights(root);
 
 everyFrame(clock.advance);

@@ -98,6 +98,20 @@ def test_a_bracket_is_never_left_alone(lecture: Lecture) -> None:
     assert left == [r"m\sin\left(x\right)", r"m\sin\left(\right)", r"m\sin", "m", ""]
 
 
+def test_back_leads_to_the_task_before(lecture: Lecture) -> None:
+    page = _open(lecture)
+    _answer_as_text(page, RIGHT)
+    page.locator(".task").nth(2).click()
+    expect(page).to_have_url(re.compile("task=virtual-work"))
+    page.go_back()
+    expect(page).to_have_url(re.compile("task=equation:phi"))
+    expect(page.locator("textarea.entry")).to_have_value(RIGHT)
+    page.locator("h1 select").select_option("atwood")
+    expect(page.locator(".question h2")).to_contain_text("Position", timeout=PATIENCE)
+    page.go_back()
+    expect(page.locator("textarea.entry")).to_have_value(RIGHT, timeout=PATIENCE)
+
+
 def test_reload_and_language_keep_everything(lecture: Lecture) -> None:
     page = _open(lecture)
     _answer_as_text(page, FALLING)
@@ -310,5 +324,15 @@ def test_with_a_finger_the_keys_of_the_task_come_up_below_the_field(browser: Bro
     expect(page.locator(".understood-as .katex").first).to_be_visible(timeout=PATIENCE)
     assert field.evaluate("field => field.value") == r"\ddot{\varphi}"
     expect(field).to_be_in_viewport()
+    caps.filter(has_text=re.compile(r"^\W*a\W*2\W*$")).tap()
+    assert field.evaluate("field => field.value") == r"\ddot{\varphi}^2"
+    page.set_viewport_size({"width": 740, "height": 360})  # held across, the field is still seen above the keys
+    page.wait_for_timeout(600)
+    field.tap()
+    page.wait_for_timeout(600)
+    keys, written = page.locator(".MLK__rows").first.bounding_box(), field.bounding_box()
+    assert keys
+    assert written
+    assert written["y"] + written["height"] <= keys["y"]
     assert lecture.complaints == []
     context.close()

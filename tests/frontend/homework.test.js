@@ -16,6 +16,7 @@ import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homewor
 import { BLANK, createProgress, draftOf } from "../../frontend/model/homework/progress.js";
 import { assignmentOf, groupOf, pointsOf, referenceIn, sheetOfScene } from "../../frontend/model/homework/sheet.js";
 import { begin } from "../../frontend/model/homework/state.js";
+import { createTrail } from "../../frontend/model/homework/trail.js";
 import { BEYOND, readTable, writeTable } from "../../frontend/model/homework/table.js";
 import { ApiError } from "../../frontend/model/api.js";
 import { createStore } from "../../frontend/model/store.js";
@@ -365,3 +366,24 @@ for (const [name, latex, backward, wanted] of /** @type {[string, string, boolea
   ["forwards from within the pair goes", String.raw`\left(x\right.y`, false, { latex: "xy", shift: -1 }],
 ]))
   test(`a bracket is deleted: ${name}`, () => assert.deepEqual(paired(latex, backward), wanted));
+
+test("each task is a place of its own in the browser's history, and a sheet on its way is none", () => {
+  /** @type {string[]} */
+  const calls = [];
+  const place = { pathname: "/homework", search: "", hash: "" };
+  const go = (/** @type {string} */ kind) => (/** @type {unknown} */ _, /** @type {string} */ __, /** @type {string | URL | null | undefined} */ to) => {
+    calls.push(`${kind} ${to}`);
+    place.search = String(to).replace("/homework", "");
+  };
+  const trail = createTrail({ pushState: go("push"), replaceState: go("replace") }, place);
+  trail("/homework?lang=en", "");
+  trail("/homework?task=a", "a");
+  trail("/homework?task=a", "a");
+  trail("/homework?task=a&theme=dark", "a");
+  trail("/homework?task=", "");
+  trail("/homework?task=b", "b");
+  place.search = "?task=a";
+  trail("/homework?task=a", "a");
+  trail("/homework?task=c", "c");
+  assert.deepEqual(calls, ["replace /homework?lang=en", "replace /homework?task=a", "replace /homework?task=a&theme=dark", "push /homework?task=b", "push /homework?task=c"]);
+});

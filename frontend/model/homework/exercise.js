@@ -12,7 +12,7 @@ import { FRESH } from "./state.js";
 /** @typedef {import("./sheet.js").Assignment} Assignment */
 
 /** Whether both ask for the same sheet. @param {Asked} a @param {Asked} b */
-const isSame = (a, b) => a.seed === b.seed && a.place.scene === b.place.scene && a.place.lang === b.place.lang;
+export const isSame = (a, b) => a.seed === b.seed && a.place.scene === b.place.scene && a.place.lang === b.place.lang;
 
 /** The sheet that is asked for, in the language of the page. @param {import("./state.js").Api} api @param {import("./state.js").State} state */
 async function fetchSheet(api, { asked: { seed, place: { scene, lang } }, assignment, own }) {

@@ -12,7 +12,7 @@ const GREEK = ["alpha", "beta", "gamma", "delta", "epsilon", "theta", "lambda", 
 const key = (label, latex, plain, name = plain) => ({ label, latex, plain, name });
 
 const OPERATIONS = [
-  key("\\tfrac{a}{b}", "\\frac{#@}{#?}", "/", "a/b"), key("a^2", "#@^2", "^2"), key("a^n", "#@^{#?}", "^"), key("\\sqrt{a}", "\\sqrt{#0}", "sqrt(|)"),
+  key("\\tfrac{a}{b}", "\\frac{#@}{#?}", "/", "a/b"), key("a^2", "^2", "^2"), key("a^n", "^{#?}", "^"), key("\\sqrt{a}", "\\sqrt{#0}", "sqrt(|)"),
   key("(\\,)", "\\left(#0\\right)", "(|)", "( )"), key("\\sin", "\\sin\\left(#0\\right)", "sin(|)"), key("\\cos", "\\cos\\left(#0\\right)", "cos(|)"),
   key("\\cdot", "\\cdot", "*"), key("+", "+", " + "), key("-", "-", " - "),
 ];

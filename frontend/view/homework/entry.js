@@ -44,7 +44,10 @@ function strike(root, key) {
     field.setSelectionRange(caret, caret);
     field.dispatchEvent(new Event("input", { bubbles: true }));
   } else if (field) {
-    /** @type {import("mathlive").MathfieldElement} */ (field).insert(key.latex, { focus: true, feedback: false });
+    const formula = /** @type {import("mathlive").MathfieldElement} */ (field);
+    // What is selected becomes the base of a power. Else MathLive takes what stands before, but not a letter with a dot.
+    const latex = formula.selectionIsCollapsed ? key.latex : key.latex.replace(/^\^/, "#@^");
+    formula.insert(latex, { focus: true, feedback: false });
   }
 }
 

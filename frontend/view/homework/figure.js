@@ -50,6 +50,7 @@ function given({ state, t }) {
   const guided = new Set((entry.scene.guides ?? []).map(({ coordinate }) => coordinate));
   const free = coordinates.flatMap(({ name, latex, unit }, index) => (guided.has(name) ? [] : [{ latex: latex || name, unit, index }]));
   return html`<div class="given"><h2>${t("homework.given")}</h2>
+    <p class="about">${inLanguage(entry.scene.summary, lang)}</p>
     <dl>
       <div><dt>${t("homework.coordinates")}</dt><dd>${free.map(({ latex, unit, index }) => html`<span class="item">${inline(latex, `q-${index}`)}${unit ? html` <span class="unit">${unitText(unit)}</span>` : nothing}</span>`)}</dd></div>
       ${guides.length ? html`<div><dt>${t("homework.guides")}</dt><dd>${guides.map((guide) => html`<span class="item">${inline(guide)}</span>`)}</dd></div>` : nothing}

@@ -12,6 +12,9 @@ const FONTS = import.meta.resolve("katex-fonts/");
 /** Milliseconds until MathLive's keyboard has come up from below. */
 const RISE = 350;
 const IN_A_ROW = 8;
+const IN_A_LONG_ROW = 14;
+/** A phone held across: fewer rows leave room for the field above them. */
+export const low = matchMedia("(max-height: 480px) and (min-width: 560px)");
 const coarse = matchMedia("(pointer: coarse)");
 
 /** False if it cannot be had. */
@@ -32,7 +35,8 @@ export function offerKeys(rows, label) {
   if (!coarse.matches || !window.mathVirtualKeyboard) return;
   const caps = rows.filter(({ id }) => id !== "greek").flatMap(({ keys }) => keys.map((key) => ({ latex: key.label, insert: key.latex, tooltip: key.name })));
   const digits = [..."1234567890"].map((digit) => ({ label: digit, key: digit }));
-  const layout = { label, rows: [...inRows(caps, IN_A_ROW), digits, ["[left]", "[right]", ",", ";", "[backspace]", "[return]"]] };
+  const acts = ["[left]", "[right]", ",", ";", "[backspace]", "[return]"];
+  const layout = { label, rows: low.matches ? [...inRows(caps, IN_A_LONG_ROW), [...digits, ...acts]] : [...inRows(caps, IN_A_ROW), digits, acts] };
   window.mathVirtualKeyboard.layouts = /** @type {any} */ ([layout, "alphabetic", "greek"]);
 }
 

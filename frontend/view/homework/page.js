@@ -74,8 +74,7 @@ function heading({ state, t, exercise }) {
       ${listed ? nothing : html`<option value=${chosen} selected>${title}</option>`}
       ${scenes.map((one) => html`<option value=${one.id} ?selected=${one === listed}>${inLanguage(one.title, lang)}</option>`)}
     </select>`;
-  return html`<div class="scene">${titleMenu(t("scene.choose"), title, select)}
-    <p class="summary">${entry ? inLanguage(entry.scene.summary, lang) : ""}</p></div>`;
+  return html`<div class="scene">${titleMenu(t("scene.choose"), title, select)}</div>`;
 }
 
 /** @param {HomeworkView} view */
