@@ -50,8 +50,8 @@ class Program:
             return dict(os.environ)
         beside = Path(self.path).parent
         libraries = (str(beside), str(beside / "al2023" / "lib"), os.environ.get("LD_LIBRARY_PATH", ""))
-        fonts = {} if Path("/etc/fonts").is_dir() else {"FONTCONFIG_PATH": str(beside / "fonts")}
-        return {**os.environ, **fonts, "LD_LIBRARY_PATH": ":".join(filter(None, libraries))}
+        # Fontconfig takes what is in `fonts` of this folder to those of the system.
+        return {**os.environ, "XDG_DATA_HOME": str(beside), "LD_LIBRARY_PATH": ":".join(filter(None, libraries))}
 
     def fault(self) -> str:
         """What it says when it does not start; nothing when it does."""
