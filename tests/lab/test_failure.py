@@ -81,7 +81,7 @@ def test_what_stiffness_costs_explicit_methods_and_not_implicit_ones() -> None:
     assert isinstance(series, list)
     spent = {(row["method"], row["factor"]): row["evaluations"] for row in series if row["status"] == "ok"}
     assert spent["dop853", 1.0] < 2 * spent["radau-5", 1.0]
-    assert spent["dop853", 1e5] > 5 * spent["radau-5", 1e5]
+    assert spent["dop853", 1e5] > 4 * spent["radau-5", 1e5]
     failed = {row["method"] for row in series if row["status"] != "ok"}
     for name in failed:
         assert [row["status"] for row in series if row["method"] == name].index("ok") == 0

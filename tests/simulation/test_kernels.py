@@ -64,7 +64,7 @@ def test_small_systems_are_solved_alike(n: int) -> None:
         square = random.normal(size=(n, n))
         matrix, right = square @ square.T + 1e-3 * np.eye(n), random.normal(size=n)
         one, two = packed(matrix, right), packed(matrix, right)
-        assert solve_small(one, n) == pytest.approx(factor(two, n), rel=1e-9)
+        assert solve_small(one, n, np.inf) == pytest.approx(factor(two, n), rel=1e-9)
         solve(two, n)
         np.testing.assert_allclose(one[-n:], two[-n:], rtol=1e-9)
 
@@ -74,12 +74,12 @@ def test_small_systems_are_solved_alike(n: int) -> None:
 )
 def test_small_singular_matrices_are_found(matrix: list[list[float]]) -> None:
     square = np.array(matrix)
-    assert solve_small(packed(square, np.ones(len(square))), len(square)) <= SMALLEST_PIVOT
+    assert solve_small(packed(square, np.ones(len(square))), len(square), np.inf) <= SMALLEST_PIVOT
 
 
 @pytest.mark.parametrize("numbers", [[np.nan, 1.0], [1.0, np.nan, 1.0, 0.0, 0.0], [1.0, 0.0, np.nan, 0.0, 0.0]])
 def test_nan_in_small_systems_is_told_from_singular(numbers: list[float]) -> None:
-    assert np.isnan(solve_small(np.array(numbers), 1 if len(numbers) == 2 else 2))
+    assert np.isnan(solve_small(np.array(numbers), 1 if len(numbers) == 2 else 2, np.inf))
 
 
 def test_thorough_code_is_made_for_long_runs_only() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -92,9 +92,21 @@ class Work:
         while len(attempts) < TRIES and _can_improve(attempts[-1], tolerance, self.problem):
             if self.refinement.is_finest(resolution):
                 break
-            resolution = self.refinement.next(resolution, _excess(attempts[-1], tolerance))
-            attempts.append(self.pair(resolution, returns_fine=True))
+            before, resolution = resolution, self.refinement.next(resolution, _excess(attempts[-1], tolerance))
+            part = self.refinement.least_part(before, resolution)
+            attempts.append(self._at_least(part, attempts[-1], self.pair(resolution, returns_fine=True)))
         return attempts
+
+    def _at_least(self, part: float, before: Attempt, found: Attempt) -> Attempt:
+        """The attempt, its errors not smaller than that part of the ones before."""
+        if part == 0.0 or before.estimate is None or found.estimate is None:
+            return found
+        short = part * before.estimate.worst / found.estimate.worst
+        if not 1.0 < short < np.inf:
+            return found
+        coarse, fine = found.runs
+        factor = short * self.refinement.factor_of_fine
+        return replace(found, estimate=estimate(self.problem, coarse, fine, factor))
 
 
 def _excess(attempt: Attempt, tolerance: float) -> float:

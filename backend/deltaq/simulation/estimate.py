@@ -126,11 +126,11 @@ def _time_scales(problem: Problem, times: Floats, states: Floats) -> Floats:
 
     Where a fast motion rides on a slow one, the former is the scale of the fast and the latter that of the slow.
     """
-    n = problem.degrees
-    drift = states[:, n : 2 * n].mean(axis=0)
-    swing = states[:, :n] - drift * times[:, None]
-    value, rate = _size(swing - swing.mean(axis=0)), _size(states[:, n : 2 * n] - drift)
-    acceleration = _size(accelerations(problem, times, states))
+    n, rates = problem.degrees, states[:, problem.degrees : 2 * problem.degrees]
+    drift = rates.mean(axis=0)
+    swing = states[:, :n] - times[:, None] * drift
+    sizes = _size(np.hstack([swing - swing.mean(axis=0), rates - drift, accelerations(problem, times, states)]))
+    value, rate, acceleration = sizes[:n], sizes[n : 2 * n], sizes[2 * n :]
     fast = np.divide(rate, acceleration, out=np.zeros(n), where=acceleration > 0)
     slow = np.divide(value, rate, out=np.zeros(n), where=rate > 0)
     return np.asarray(np.maximum(fast, slow))
@@ -138,7 +138,7 @@ def _time_scales(problem: Problem, times: Floats, states: Floats) -> Floats:
 
 def _size(values: Floats) -> Floats:
     """Root mean square of each column."""
-    return np.asarray(np.linalg.norm(values, axis=0) / np.sqrt(len(values)))
+    return np.asarray(np.sqrt(np.einsum("ij,ij->j", values, values) / len(values)))
 
 
 def _spread(errors: Floats) -> Floats:

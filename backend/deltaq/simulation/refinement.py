@@ -25,6 +25,10 @@ class Refinement(Protocol):
     def factor_of_coarse(self) -> float: ...
     @property
     def factor_of_fine(self) -> float: ...
+    def least_part(self, before: float, resolution: float) -> float:
+        """How much of the error with the resolution before is left with this one at least; 0 if the runs tell."""
+        ...
+
     def first(self, tolerance: float) -> float: ...
     def pair(self, resolution: float) -> tuple[Steps, Steps]: ...
     def next(self, resolution: float, excess: float) -> float: ...
@@ -35,12 +39,18 @@ class Refinement(Protocol):
 class ByTolerance:
     """Adaptive methods. The error is about proportional to the local tolerance; runs are a factor of 10 apart.
 
-    The difference is the error of the coarse run; taken for the error of the fine one it is on the safe side.
+    The difference is the error of the coarse run; taken for the error of the fine one it is on the safe side. Next to
+    the finest tolerance it is not: there rounding has its part, as large in both runs and in some ways the same (that
+    of a constant of the model, say), and chaos magnifies it. An error that falls faster there than the tolerance does
+    so by chance.
     """
 
     t_end: float
     factor_of_coarse: float = 1.15
     factor_of_fine: float = 1.15
+
+    def least_part(self, before: float, resolution: float) -> float:
+        return resolution / before if resolution < 10.0 * FINEST_TOLERANCE else 0.0
 
     def first(self, tolerance: float) -> float:
         return max(0.1 * tolerance, FINEST_TOLERANCE)
@@ -72,6 +82,9 @@ class ByStep:
     @property
     def factor_of_fine(self) -> float:
         return float(max(0.3, 3.0 / (2**self.order - 1)))
+
+    def least_part(self, _before: float, _resolution: float) -> float:
+        return 0.0
 
     def first(self, tolerance: float) -> float:
         guess = float((tolerance / USUAL_TOLERANCE) ** (1.0 / self.order))

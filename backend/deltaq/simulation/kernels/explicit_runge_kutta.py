@@ -9,7 +9,7 @@ from .extension import sample, watch_extension
 from .loop import Result, begin, interruption, later
 from .motion import FINE, STEP_UNDERFLOW, Floats, Motion
 from .step import Room, Weights, accept, attempt
-from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, patience, shrunk, tells_apart
+from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, level, patience, shrunk, tells_apart
 from .watch import Watch
 
 
@@ -43,7 +43,14 @@ def integrate(
         return Result(outcome, 1, 0, 0, 1, t)
     is_adaptive = control.tolerance > 0.0
     h = first_step(motion, control, t, room) if is_adaptive else control.step
-    filled, steps, rejected, evaluations, before, growth = variable(1), 0, 0, 1 + is_adaptive, 1e-4, LARGEST_GROWTH
+    filled, steps, rejected, evaluations, before, growth = (
+        variable(1),
+        0,
+        0,
+        1 + is_adaptive,
+        level(1e-4),
+        LARGEST_GROWTH,
+    )
     held_back = variable(0)
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps + rejected, watch)
@@ -54,7 +61,7 @@ def integrate(
         evaluations += end
         error = error_norm(weights.error, control.tolerance, h, motion.degrees, room) if is_adaptive else 0.0
         if outcome == FINE and error <= 1.0:
-            held_back, outcome = patience(control, held_back, steps, finish - t, h, room)
+            held_back, outcome = patience(control, held_back, steps, finish - t, h, motion.degrees, room)
             if outcome != FINE:
                 break
             filled, extra = sample(motion, weights, t, h, times, out, filled, room)
@@ -64,8 +71,9 @@ def integrate(
             accept(end, room)
             steps += 1
             t, lost_time = later(t, h, lost_time)
-            h = grown(control, h, error, before, growth)
-            before, growth = max(error, 1e-4), LARGEST_GROWTH
+            now = level(error)
+            h = grown(control, h, now, before, growth)
+            before, growth = max(now, level(1e-4)), LARGEST_GROWTH
         elif is_adaptive:
             rejected += 1
             growth = 1.0

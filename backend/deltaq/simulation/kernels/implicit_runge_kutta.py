@@ -15,7 +15,7 @@ from .motion import FINE, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion
 from .newton import SLOW
 from .phase import Phase, momenta
 from .stages import ImplicitWeights, predict
-from .step_control import Control, grown, shrunk, tells_apart
+from .step_control import Control, grown, level, shrunk, tells_apart
 from .watch import Watch, look_at, seen
 
 
@@ -52,7 +52,7 @@ def next_step(control: Control, h: float, error: float) -> float:
     """The size after an accepted step; the same again where it would hardly grow, which saves a decomposition."""
     if control.tolerance == 0.0:
         return control.step
-    wanted = grown(control, h, max(error, 1e-6), 1.0, 5.0)
+    wanted = grown(control, h, level(max(error, 1e-6)), 0.0, 5.0)
     return h if h <= wanted <= 1.2 * h else wanted
 
 

@@ -83,8 +83,11 @@ def solve(m: Floats, n: int) -> None:
 
 
 @inner
-def solve_small(m: Floats, n: int) -> float:
-    """`factor` and `solve` for one or two coordinates, with as few divisions as can be."""
+def solve_small(m: Floats, n: int, known: float) -> float:
+    """`factor` and `solve` for one or two coordinates, with as few divisions as can be.
+
+    `known` is the smallest ratio so far, and what is returned if this one is not smaller.
+    """
     if n == 1:
         first = m[0]
         m[1] /= first
@@ -93,7 +96,9 @@ def solve_small(m: Floats, n: int) -> float:
     determinant, largest = a * c - b * b, max(a, c)
     inverse = 1.0 / determinant
     m[3], m[4] = (c * f - b * g) * inverse, (a * g - b * f) * inverse
-    ratio = determinant / (a * largest)  # the second pivot is determinant / a
+    if a >= known * largest and determinant >= known * largest * a and a > 0.0:  # the second pivot is determinant / a
+        return known
+    ratio = determinant / (a * largest)
     if np.isnan(ratio) and not (a == 0.0 or largest == 0.0):
         return float(ratio)
     return float(min(ratio, a / largest)) if a > 0.0 else 0.0
@@ -102,24 +107,30 @@ def solve_small(m: Floats, n: int) -> float:
 @inner
 def slope(motion: Motion, t: float, state: Floats, out: Floats) -> int:
     """d/dt of the state (q, q̇, ∫P dt) into `out`; returns FINE, SINGULAR or NOT_FINITE."""
-    n = motion.degrees
-    for i in range(2 * n):
+    for i in range(2 * motion.degrees):
         motion.inputs[i] = state[i]
-    motion.inputs[2 * n] = t
-    call(motion.address, motion.data, motion.outputs, motion.inputs)
+    return slope_here(motion, t, out)
+
+
+@inner
+def slope_here(motion: Motion, t: float, out: Floats) -> int:
+    """`slope` at the state that stands in the inputs already."""
+    n, inputs, outputs = motion.degrees, motion.inputs, motion.outputs
+    inputs[2 * n] = t
+    call(motion.address, motion.data, outputs, inputs)
     first = n * (n + 1) // 2
-    ratio = solve_small(motion.outputs, n) if n <= 2 else factor(motion.outputs, n)
+    ratio = solve_small(outputs, n, motion.conditioning[0]) if n <= 2 else factor(outputs, n)
     if not ratio > SMALLEST_PIVOT:
         return NOT_FINITE if np.isnan(ratio) else SINGULAR
     motion.conditioning[0] = min(motion.conditioning[0], ratio)
     if n > 2:
-        solve(motion.outputs, n)
+        solve(outputs, n)
     for i in range(n):
-        out[i] = state[n + i]
-        out[n + i] = motion.outputs[first + i]
+        out[i] = inputs[n + i]
+        out[n + i] = outputs[first + i]
     if motion.is_powered:
-        power = motion.outputs[first + n]
+        power = outputs[first + n]
         for i in range(n):
-            power += motion.outputs[first + n + 1 + i] * motion.outputs[first + i]
+            power += outputs[first + n + 1 + i] * outputs[first + i]
         out[2 * n] = power
     return FINE

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiler import inner, variable
-from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, slope
+from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, slope, slope_here
 
 LARGEST_VALUE = 1e15  # beyond, nothing in a mechanical scene has a meaning
 
@@ -53,14 +53,16 @@ def make_room(state: Floats, weights: Weights) -> Room:
 @inner
 def stages(motion: Motion, a: Floats, c: Floats, first: int, t: float, h: float, room: Room) -> int:
     """Slopes number `first` and on, one for each row of a; returns how it went."""
-    width = room.old.size
+    n, old, stage, slopes, inputs = motion.degrees, room.old, room.stage, room.slopes, motion.inputs
     for s in range(c.size):
-        for d in range(width):
-            change = 0.0
+        for d in range(n):  # no slope depends on ∫P dt
+            value, rate = 0.0, 0.0
             for j in range(first + s):
-                change += a[s, j] * room.slopes[j, d]
-            room.stage[d] = room.old[d] + h * change
-        outcome = slope(motion, t + c[s] * h, room.stage, room.slopes[first + s])
+                value += a[s, j] * slopes[j, d]
+                rate += a[s, j] * slopes[j, n + d]
+            stage[d] = inputs[d] = old[d] + h * value
+            stage[n + d] = inputs[n + d] = old[n + d] + h * rate
+        outcome = slope_here(motion, t + c[s] * h, room.slopes[first + s])
         if outcome != FINE:
             return outcome
     return FINE

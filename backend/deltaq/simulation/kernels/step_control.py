@@ -41,14 +41,14 @@ def error_norm(error: Floats, tolerance: float, h: float, degrees: int, room: Ro
     """
     fine, coarse = 0.0, 0.0
     for d in range(2 * degrees):
-        scale = tolerance * max(1.0, abs(room.old[d]), abs(room.new[d]))
+        weight = 1.0 / (tolerance * max(1.0, abs(room.old[d]), abs(room.new[d])))
         first, second = 0.0, 0.0
         for j in range(error.shape[1]):
             first += error[0, j] * room.slopes[j, d]
             if error.shape[0] > 1:
                 second += error[1, j] * room.slopes[j, d]
-        fine += (first / scale) ** 2
-        coarse += (second / scale) ** 2
+        fine += (first * weight) ** 2
+        coarse += (second * weight) ** 2
     joined = fine + 0.01 * coarse if error.shape[0] > 1 else fine
     return h * fine / np.sqrt(joined * 2 * degrees) if joined > 0.0 else 0.0
 
@@ -77,12 +77,18 @@ def first_step(motion: Motion, control: Control, t: float, room: Room) -> float:
 
 
 @inner
-def grown(control: Control, h: float, error: float, before: float, growth: float) -> float:
-    """The next step after an accepted one: PI control by this error and the one before, growing by `growth` at most."""
+def level(error: float) -> float:
+    """The logarithm of an error, which PI control reckons with; hardly any error counts like 1e-10."""
+    return float(np.log(max(error, 1e-10)))
+
+
+@inner
+def grown(control: Control, h: float, now: float, before: float, growth: float) -> float:
+    """The next step after an accepted one, by the levels of this error and the one before; at most `growth` times h."""
     if control.tolerance == 0.0:
         return control.step
     power = 1.0 / control.error_order - 0.75 * control.memory
-    factor = SAFETY * max(error, 1e-10) ** (-power) * before**control.memory
+    factor = SAFETY * np.exp(control.memory * before - power * now)
     return float(min(h * min(max(factor, LARGEST_SHRINK), growth), control.largest_step))
 
 
@@ -101,22 +107,24 @@ def tells_apart(control: Control, t: float, h: float) -> bool:
 
 
 @inner
-def is_held_back(control: Control, h: float, room: Room) -> bool:
+def is_held_back(control: Control, h: float, degrees: int, room: Room) -> bool:
     """Whether stability, not accuracy, limits the step: h times the size of the Jacobian is at its bound.
 
     The size is that of slope over distance between the last stage and the new state (Hairer, Wanner II, IV.2).
     """
     bend, distance, end = 0.0, 0.0, control.stages
-    for d in range(room.old.size):
+    for d in range(2 * degrees):
         bend += (room.slopes[end, d] - room.slopes[end - 1, d]) ** 2
         distance += (room.new[d] - room.stage[d]) ** 2
     return bool(distance > 0.0 and h * h * bend > control.stability**2 * distance)
 
 
 @inner
-def patience(control: Control, held_back: int, steps: int, left: float, h: float, room: Room) -> tuple[int, int]:
+def patience(
+    control: Control, held_back: int, steps: int, left: float, h: float, degrees: int, room: Room
+) -> tuple[int, int]:
     """How many steps were held back by stability, and STIFF if so many that the end cannot be reached."""
     if control.tolerance == 0.0:
         return variable(0), FINE
-    held_back = held_back + 1 if is_held_back(control, h, room) else max(held_back - 10, 0)
+    held_back = held_back + 1 if is_held_back(control, h, degrees, room) else max(held_back - 10, 0)
     return held_back, STIFF if held_back >= MANY and steps + left / h > control.step_limit else FINE
