@@ -44,6 +44,13 @@ def sleep(document: Any) -> Any:
     return {"slept": document}
 
 
+def wait_at(document: Any) -> Any:
+    """Until the file of this name is there."""
+    while not Path(document).exists():
+        time.sleep(0.005)
+    return "open"
+
+
 def spin(document: Any) -> Any:
     """A computation that no Python signal handler can interrupt."""
     return 10 ** (10**9)

@@ -34,6 +34,14 @@ async def run(pool: Pool, name: str, document: Any = None, deadline: float = 30.
     return json.loads(await pool.run(job(name, deadline), document))
 
 
+async def held(pool: Pool, door: Path) -> asyncio.Task[Any]:
+    """A job that a worker is at, and that ends when something is at the door."""
+    holding = asyncio.create_task(run(pool, "wait_at", str(door)))
+    while not pool.state.busy:
+        await asyncio.sleep(0.005)
+    return holding
+
+
 def is_alive(pid: int) -> bool:
     try:
         status = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8")
@@ -191,13 +199,15 @@ async def test_killed_while_idle_costs_nothing(make_pool: MakePool) -> None:
     assert (await run(pool, "pid"))["pid"] != old
 
 
-async def test_killed_while_busy_is_repeated(make_pool: MakePool) -> None:
-    pool = make_pool()
+async def test_killed_while_busy_is_repeated(make_pool: MakePool, tmp_path: Path) -> None:
+    pool, door = make_pool(), tmp_path / "door"
     old = (await run(pool, "pid"))["pid"]
-    running = asyncio.create_task(run(pool, "sleep", 0.3))
-    await asyncio.sleep(0.1)
+    running = await held(pool, door)
     os.kill(old, signal.SIGKILL)
-    assert await running == {"slept": 0.3}
+    while old in pool.pids:
+        await asyncio.sleep(0.005)
+    door.touch()
+    assert await running == "open"
 
 
 @pytest.mark.parametrize(
@@ -247,40 +257,40 @@ async def test_no_answer_is_lost_or_wrong_while_workers_are_killed(make_pool: Ma
     assert await run(pool, "echo", "still there") == "still there"
 
 
-async def test_full_queue_refuses_at_once(make_pool: MakePool) -> None:
-    pool = make_pool(1, queue_length=2)
-    await run(pool, "echo")
-    running = asyncio.create_task(run(pool, "sleep", 0.5))
-    await asyncio.sleep(0.1)
+async def test_full_queue_refuses_at_once(make_pool: MakePool, tmp_path: Path) -> None:
+    pool, door = make_pool(1, queue_length=2), tmp_path / "door"
+    running = await held(pool, door)
     waiting = [asyncio.create_task(run(pool, "echo", number)) for number in range(2)]
     await asyncio.sleep(0)
-    begin = time.monotonic()
+    refused = run(pool, "echo")
     with pytest.raises(Overloaded, match="the queue is full"):
-        await run(pool, "echo")
-    assert time.monotonic() - begin < 0.1
-    assert await asyncio.gather(running, *waiting) == [{"slept": 0.5}, 0, 1]
+        refused.send(None)  # it waits for nothing
+    door.touch()
+    assert await asyncio.gather(running, *waiting) == ["open", 0, 1]
 
 
-async def test_job_that_waited_too_long_is_refused(make_pool: MakePool) -> None:
-    pool = make_pool(1, patience=0.2)
-    await run(pool, "echo")
-    running = asyncio.create_task(run(pool, "sleep", 0.5))
-    await asyncio.sleep(0.1)
+async def test_job_that_waited_too_long_is_refused(make_pool: MakePool, tmp_path: Path) -> None:
+    pool, door = make_pool(1, patience=1.0), tmp_path / "door"
+    running = await held(pool, door)
+    late = asyncio.create_task(run(pool, "echo"))
+    await asyncio.sleep(1.1)
+    door.touch()
     with pytest.raises(Overloaded, match="waited too long"):
-        await run(pool, "echo")
-    assert await running == {"slept": 0.5}
+        await late
+    assert await running == "open"
 
 
 async def test_job_that_nobody_waits_for_any_more_is_not_run(make_pool: MakePool, tmp_path: Path) -> None:
-    pool = make_pool()
-    await run(pool, "echo")
-    running = asyncio.create_task(run(pool, "sleep", 0.3))
-    await asyncio.sleep(0.1)
-    marker = tmp_path / "marker"
+    pool, door, marker = make_pool(), tmp_path / "door", tmp_path / "marker"
+    running = await held(pool, door)
     given_up = asyncio.create_task(run(pool, "kill_self_once", {"marker": str(marker), "times": 0}))
-    await asyncio.sleep(0.05)
+    while not pool.state.waiting:
+        await asyncio.sleep(0.005)
     given_up.cancel()
-    assert await running == {"slept": 0.3}
+    with pytest.raises(asyncio.CancelledError):
+        await given_up
+    door.touch()
+    assert await running == "open"
     assert await run(pool, "echo", 1) == 1
     assert not marker.exists()
 
@@ -325,9 +335,11 @@ async def test_stop_refuses_what_waits_and_leaves_no_process(make_pool: MakePool
     pool = make_pool(2)
     pids = {(await run(pool, "pid"))["pid"] for _ in range(20)} | set(pool.pids)
     running = [asyncio.create_task(run(pool, "sleep", 60)) for _ in range(2)]
-    await asyncio.sleep(0.2)
+    while pool.state.busy < 2:
+        await asyncio.sleep(0.005)
     waiting = asyncio.create_task(run(pool, "echo"))
-    await asyncio.sleep(0.05)
+    while not pool.state.waiting:
+        await asyncio.sleep(0.005)
     await asyncio.to_thread(pool.stop, 0.1)
     with pytest.raises(Overloaded, match="the service is stopping"):
         await waiting
