@@ -36,3 +36,14 @@ export function inLanguage(texts, lang) {
   if (!texts) return "";
   return texts[lang] ?? texts.en ?? Object.values(texts)[0] ?? "";
 }
+
+/**
+ * What a point, body or load is called: its label, else the word for the kind of what has no name of its own, else the name.
+ * @param {Record<string, Record<string, string>> | undefined} labels @param {string} name @param {string} lang @param {Translate} t
+ */
+export function called(labels, name, lang, t) {
+  const label = inLanguage(labels?.[name], lang);
+  const [, kind, number = ""] = /^([a-z]+)-?(\d*)$/.exec(name) ?? [];
+  const word = t(`kinds.${kind}`);
+  return label || (word === `kinds.${kind}` ? name : `${word} ${number}`.trim());
+}

@@ -1,7 +1,7 @@
 import { strict as assert } from "node:assert";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
-import { inLanguage, translator } from "../../frontend/model/catalog.js";
+import { called, inLanguage, translator } from "../../frontend/model/catalog.js";
 import { SECTIONS } from "../../frontend/model/editor/schema.js";
 import { GUIDE } from "../../frontend/model/guide.js";
 import { COURSE } from "../../frontend/model/start/course.js";
@@ -104,7 +104,10 @@ for (const [name, asked] of Object.entries({ labs: LAB, editor: EDITOR, variatio
 }
 
 test("every text that is there is used", () => {
-  const composed = ["theme.", "motion.", "tools.", "why.", "player.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical.", ...CHARTS];
+  const composed = ["theme.", "motion.", "tools.", "why.", "player.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical.", "kinds.", ...CHARTS];
   const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...SHARE, ...LAB, ...EXERCISES, ...HELP].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });
+
+for (const [name, lang, wanted] of [["gravity", "de", "Gewicht"], ["spring-2", "de", "Feder 2"], ["spring-2", "en", "spring 2"], ["bob", "de", "bob"], ["suspension", "de", "Aufhängung"], ["friction-3b", "en", "friction-3b"]])
+  test(`${name} is called ${wanted} (${lang})`, () => assert.equal(called({ suspension: { de: "Aufhängung", en: "suspension" } }, name, lang, translator(catalogs[lang])), wanted));

@@ -171,6 +171,7 @@ ACCEPTED = [
     ("x = y; ", "x = y"),
     ("phi(t)", "phi"),
     ("phi(t) + x(t)", "x + phi"),
+    ("phi''(t) + m*phi'(t)", "ddot(phi) + m*dot(phi)"),
     ("(x)(t)", "x*t"),
     ("exp(1)", "exp(1)"),
     ("s^2 + omega^2", "s^2 + omega^2"),

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from ..mechanics.scene import Scene
 from ..narration.catalog import text
+from ..narration.things import called
 
 
 def axes_text(scene: Scene, language: str) -> str:
     """A sentence on the axes, and the origin where a labelled point stands in it."""
     direction = text(language, f"homework.axes.{scene.dimension}-{scene.drawing.vertical}")
     at_zero = [point.name for point in scene.points if all(part.text.strip() == "0" for part in point.position)]
-    origin = next((scene.label(name, language) for name in at_zero if name in scene.labels), "")
+    origin = next((called(scene, name, language) for name in at_zero if name in scene.labels), "")
     return f"{direction}; {text(language, 'homework.axes.origin', place=origin)}." if origin else f"{direction}."

@@ -11,6 +11,7 @@ from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..mechanics.scene import Scene
 from ..narration.catalog import message, text
+from ..narration.things import called
 from .counterexamples import rounded_text
 from .verdict import Counterexample, Verdict
 
@@ -95,7 +96,7 @@ def about_texts(about: str, scene: Scene, language: str) -> dict[str, str]:
 def label(name: str, scene: Scene, language: str) -> str:
     """A coordinate or parameter as a formula, a body or load by its label."""
     symbol = scene.names.get(name)
-    return f"${symbol.typeset}$" if symbol else scene.label(name, language)
+    return f"${symbol.typeset}$" if symbol else called(scene, name, language)
 
 
 def _example(example: Counterexample | None, scene: Scene) -> Document | None:

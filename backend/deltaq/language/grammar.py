@@ -140,7 +140,7 @@ class Grammar:
         span = between(operand.span, self.cursor.take().span)
         if isinstance(operand, Number):
             fail("prime-of-number", span)
-        return self.operators.time_derivative(operand, span)
+        return self.operators.prime(operand, span)
 
     def _sum(self, left: Node) -> Node:
         terms = [left]

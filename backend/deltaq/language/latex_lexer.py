@@ -19,15 +19,17 @@ from .spelling import GREEK, GREEK_NAMES, SUPERSCRIPTS
 from .tokens import Token, fail
 from .tree import Span
 
+FENCES = (("$$", "$$"), ("$", "$"), (r"\[", r"\]"), (r"\(", r"\)"))
+
 
 def latex_tokens(text: str, names: Names) -> Iterator[Token]:
     """Yield the tokens of LaTeX `text`, an "end" token last."""
     stripped = text.strip()
     start = text.find(stripped) if stripped else 0
     end = start + len(stripped)
-    for fence in ("$$", "$"):
-        if len(stripped) > 2 * len(fence) and stripped.startswith(fence) and stripped.endswith(fence):
-            start, end = start + len(fence), end - len(fence)
+    for opening, closing in FENCES:
+        if len(stripped) > 2 * len(opening) and stripped.startswith(opening) and stripped.endswith(closing):
+            start, end = start + len(opening), end - len(closing)
             break
     yield from LatexLexer(text, names, (start, end), 0).tokens()
     yield Token("end", "", Span(len(text), 0))
@@ -190,6 +192,7 @@ _HANDLERS: Mapping[str, Callable[[LatexLexer, str, int], None]] = MappingProxyTy
         **dict.fromkeys(("dot", "ddot", "dddot"), read_accent),
         "begin": structures.read_environment,
         "exponentialE": structures.read_exponential,
+        "boxed": structures.read_boxed,
         **dict.fromkeys(("quad", "qquad"), lambda lexer, _name, _start: separate(lexer)),
     }
 )

@@ -113,6 +113,11 @@ def read_exponential(lexer: LatexLexer, _name: str, start: int) -> None:
     read_exponential_power(lexer, start)
 
 
+def read_boxed(lexer: LatexLexer, name: str, start: int) -> None:
+    """\\boxed{…}: a frame around a result says nothing about it."""
+    lexer.found += lexer.within(lexer.source.argument(lexer.since(start), "\\" + name))
+
+
 def read_environment(lexer: LatexLexer, _name: str, start: int) -> None:
     """Matrices become vectors; aligned equations and cases a system."""
     name, inside = lexer.source.environment(start)

@@ -42,14 +42,23 @@ class Operators:
         """A symbol. `phi(t)` is the coordinate φ as a function of time, not φ·t."""
         token = self._cursor.take()
         node = self._cursor.made(Name(token.text, token.span))
-        if self._kind(token.text) == "coordinate" and self._is_of_time():
-            for _ in range(3):
-                self._cursor.take()
+        if self._kind(token.text) == "coordinate":
+            self._of_time()
         return node
 
-    def _is_of_time(self) -> bool:
+    def prime(self, operand: Node, span: Span) -> Node:
+        """φ′, or φ′(t), which is the rate as a function of time."""
+        node = self.time_derivative(operand, span)
+        if isinstance(node, Rate):
+            self._of_time()
+        return node
+
+    def _of_time(self) -> None:
+        """Step over `(t)` after what depends on time anyway."""
         ahead = [self._cursor.ahead(i) for i in range(3)]
-        return ahead[0].kind == "open" and ahead[0].text == "(" and ahead[1].text == "t" and ahead[2].kind == "close"
+        if ahead[0].kind == "open" and ahead[0].text == "(" and ahead[1].text == "t" and ahead[2].kind == "close":
+            for _ in ahead:
+                self._cursor.take()
 
     def _kind(self, name: str) -> str:
         symbol = self._cursor.names.get(name)

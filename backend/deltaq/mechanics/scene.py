@@ -115,10 +115,6 @@ class Scene:
         """Names of what is no place: loads and continua."""
         return {load.name for load in self.loads} | {body.name for body in self.bodies}
 
-    def label(self, name: str, language: str) -> str:
-        """What a point, body or load is called in a sentence; its name where there is no label."""
-        return self.labels.get(name, {}).get(language, name)
-
     def __reduce__(self) -> tuple[object, ...]:
         # A mapping proxy cannot be pickled; the cached properties need not be.
         fields = (self.id, dict(self.title), dict(self.summary), self.dimension, self.coordinates, self.parameters)

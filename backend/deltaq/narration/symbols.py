@@ -11,6 +11,7 @@ from typing import Protocol
 from ..derivation.formula import Quantity
 from ..mechanics.scene import Scene
 from .letters import Letters, in_symbol, letters_of
+from .things import called
 
 NUMBERED = re.compile(r"q_\{?(\d+)\}?")
 
@@ -118,7 +119,7 @@ class QuantitySymbols:
         return pattern if kind in ALWAYS_INDEXED else in_symbol(pattern, self.letters)
 
     def label(self, name: str) -> str:
-        return self.scene.label(name, self.language)
+        return called(self.scene, name, self.language)
 
     def is_varied(self, name: str) -> bool:
         return any(coordinate.name == name for coordinate in self.scene.free)

@@ -2,7 +2,7 @@
 
 import { html, render } from "lit-html";
 import { nearest } from "../../model/kinematics/hand.js";
-import { inLanguage } from "../../model/catalog.js";
+import { called } from "../../model/catalog.js";
 import { createGrip } from "./grip.js";
 
 /** @typedef {import("../../model/types.js").Pixel} Pixel */
@@ -59,7 +59,7 @@ export function createHand(bench, virtual) {
   return {
     /** For those who use keys: a button at each place. @param {import("../page.js").View} view */
     handles({ state, t }) {
-      const name = (/** @type {string} */ place) => inLanguage(state.scene?.labels?.[place], state.place.lang) || place;
+      const name = (/** @type {string} */ place) => called(state.scene?.labels, place, state.place.lang, t);
       render(grip.places().map((place) => html`<button class="handle ${state.scene?.bodies.some((body) => body.name === place) ? `body-${place}` : ""}" data-place=${place} aria-label=${t("hand.handle", { place: name(place) })}
         @keydown=${(/** @type {KeyboardEvent} */ event) => press(event, place)}></button>`), handles);
     },

@@ -4,7 +4,7 @@ import { html } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "../formula.js";
 import { layerIn } from "./layer.js";
-import { inLanguage } from "../../model/catalog.js";
+import { called } from "../../model/catalog.js";
 import { decimalsOf, fixed, unitText } from "../../model/numbers.js";
 import { differences, LONGEST, reachOf, readChoice, writeChoice } from "../../model/virtual/choice.js";
 import { virtualFigure } from "../../model/virtual/figure.js";
@@ -115,7 +115,7 @@ function panel({ state, session, t }, free, { delta, dt }, { choose, follow, loa
       </ul>
       <div class="heading"><h2>${t("virtual.work")} ${inline("\\mathbf F\\cdot\\delta\\mathbf r")}</h2></div>
       <div class="bars">
-        ${loads.map((load) => bar(load, inLanguage(state.scene?.labels?.[load], lang) || load, `load-${load}`))}
+        ${loads.map((load) => bar(load, called(state.scene?.labels, load, lang, t), `load-${load}`))}
         ${bar("", inline("\\delta W"), "whole")}
       </div>
     </section>

@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { prose } from "../formula.js";
-import { inLanguage } from "../../model/catalog.js";
+import { called } from "../../model/catalog.js";
 import { originsOf } from "../../model/figure/origins.js";
 
 /** @typedef {import("../page.js").View} View */
@@ -58,9 +58,9 @@ export function createWhy(state) {
 }
 
 /** A body or load by name; pointed at or focused, it lights up everywhere. @param {string} name "load:weight" @param {View} view */
-function chip(name, { state }) {
+function chip(name, { state, t }) {
   const [kind, id] = name.split(":");
-  return html`<button class="source-chip quiet small ${kind}-${id}">${inLanguage(state.scene?.labels?.[id], state.place.lang) || id}</button>`;
+  return html`<button class="source-chip quiet small ${kind}-${id}">${called(state.scene?.labels, id, state.place.lang, t)}</button>`;
 }
 
 /** What the marks on the terms mean, and from which steps they come. @param {Origins | undefined} origins @param {string | undefined} own number of the step @param {View} view */
