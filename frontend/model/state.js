@@ -17,6 +17,7 @@ import { UNCHANGED } from "./values.js";
  * @property {import("./reveal.js").Line[]} lines  the derivation's steps in order
  * @property {import("./types.js").Trajectory | null} trajectory
  * @property {import("./types.js").Changes} changes
+ * @property {{key: string, asked: number} | null} held  a number typed beyond what the scene allows, and the slider that holds it
  * @property {{page: Failure | null, scene: Failure | null, derivation: Failure | null, simulation: Failure | null, export: Failure | null}} failures
  * @property {import("./figure/runs.js").Run[]} runs  motions kept beside the present one
  * @property {boolean} simulating
@@ -32,7 +33,7 @@ export const NO_FAILURES = { page: null, scene: null, derivation: null, simulati
 /** @type {State} */
 export const START = {
   place: HOME, catalog: {}, scenes: [], methods: [], scene: null, own: null, fragment: "", derivation: null, lines: [],
-  trajectory: null, changes: UNCHANGED, runs: [], failures: NO_FAILURES, simulating: false, overlay: "",
+  trajectory: null, changes: UNCHANGED, held: null, runs: [], failures: NO_FAILURES, simulating: false, overlay: "",
 };
 
 /** The scene shown first: the lecture's main example, else any. @param {import("./types.js").SceneEntry[]} scenes */

@@ -18,7 +18,7 @@ export function createSubject(store, api, attempt, { derive, rewind, simulations
   async function choose(id, step = "", n = 0, changes = "") {
     simulations.cancel();
     rewind();
-    set({ scene: null, derivation: null, lines: [], trajectory: null, runs: [], changes: readChanges(changes), failures: NO_FAILURES });
+    set({ scene: null, derivation: null, lines: [], trajectory: null, runs: [], changes: readChanges(changes), held: null, failures: NO_FAILURES });
     move({ scene: id, step, n, set: changes, ...(id === get().place.scene ? {} : { part: 0, vary: "", runs: "", at: 0 }) });
     simulations.ask();
     await attempt("scene", async () => {
@@ -31,7 +31,7 @@ export function createSubject(store, api, attempt, { derive, rewind, simulations
     choose,
     /** Shows the viewer's own scene; what is on the page stays until the new is there. @param {import("./own.js").SceneDocument} own */
     async show(own) {
-      set({ own, changes: UNCHANGED });
+      set({ own, changes: UNCHANGED, held: null });
       move({ set: "" });
       if (get().place.scene !== OWN) return choose(OWN);
       simulations.ask();

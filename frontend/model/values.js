@@ -65,6 +65,15 @@ function slider(about, value, [min, max], [least, most] = []) {
   return { ...about, key: `${about.group}-${about.name}-${about.field}`, value, min, max, step, decimals: decimalsOf(step), least: least ?? -Infinity, most: most ?? Infinity };
 }
 
+/** @param {Slider} slider @param {number} value */
+export const heldAt = ({ least, most }, value) => Math.max(least, Math.min(most, value));
+
+/** What the scene allows, as one reads it: 0.2 … 2, or ≥ 0.2. @param {Slider} slider @param {string} lang */
+export function rangeText({ least, most }, lang) {
+  const [low, high] = [least, most].map((bound) => bound.toLocaleString(lang, { maximumSignificantDigits: 6 }));
+  return Number.isFinite(least) ? (Number.isFinite(most) ? `${low} … ${high}` : `≥ ${low}`) : `≤ ${high}`;
+}
+
 /**
  * The changes after one slider has moved; a number outside of the bounds that the scene sets is held there.
  * @param {Scene} scene @param {Changes} changes @param {Slider} moved @param {number} value
@@ -72,7 +81,7 @@ function slider(about, value, [min, max], [least, most] = []) {
  */
 export function changed(scene, changes, moved, value) {
   if (!Number.isFinite(value)) return changes;
-  const held = Math.max(moved.least, Math.min(moved.most, value));
+  const held = heldAt(moved, value);
   if (moved.group === "parameter") {
     return { ...changes, parameters: { ...changes.parameters, [moved.name]: held } };
   }

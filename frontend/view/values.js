@@ -4,7 +4,7 @@ import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "./formula.js";
 import { settled } from "./settled.js";
-import { isChanged, slidersOf } from "../model/values.js";
+import { heldAt, isChanged, rangeText, slidersOf } from "../model/values.js";
 import { unitText } from "../model/numbers.js";
 
 /** @typedef {import("./page.js").View} View */
@@ -44,20 +44,38 @@ function size({ parameter, min, max, value }, { state, session, t }) {
 }
 
 /** @param {Slider} slider @param {View} view */
-function row(slider, { session, t }) {
+function row(slider, { state, session, t }) {
   const kind = slider.group === "parameter" ? "values.parameter" : slider.field === "rate" ? "values.rate" : "values.value";
   const label = t(kind, { name: slider.name });
   const filled = Math.max(0, Math.min(1, (slider.value - slider.min) / (slider.max - slider.min || 1)));
   const bound = (/** @type {number} */ number) => (Number.isFinite(number) ? number : nothing);
   const moved = (/** @type {Event} */ e) => session.slide(slider, Number(/** @type {HTMLInputElement} */ (e.target).value));
+  const typed = (/** @type {Event} */ e) => {
+    const field = /** @type {HTMLInputElement} */ (e.target);
+    const asked = field.valueAsNumber;
+    session.slide(slider, asked);
+    field.value = textOf(slider, Number.isFinite(asked) ? heldAt(slider, asked) : slider.value);
+  };
+  const hint = hintOf(slider, state, t);
   return html`
     <div class="row ${slider.className}" data-slider=${slider.key}>
       <span class="symbol" title=${label}>${inline(slider.latex)}</span>
       <input type="range" aria-label=${label} min=${slider.min} max=${slider.max} step=${slider.step}
         style="--filled:${filled}" .value=${live(String(slider.value))} @input=${moved}>
       <input type="number" aria-label=${`${label} (${unitText(slider.unit)})`} min=${bound(slider.least)} max=${bound(slider.most)} step="any"
-        .value=${settled(String(Number(slider.value.toFixed(Math.max(slider.decimals, 2)))))} @change=${moved}>
+        aria-describedby=${hint ? `hint-${slider.key}` : nothing} .value=${settled(textOf(slider, slider.value))} @change=${typed}>
       <span class="unit">${unitText(slider.unit)}</span>
+      <span class="hint" id=${`hint-${slider.key}`} role="status">${hint}</span>
     </div>
   `;
+}
+
+/** @param {Slider} slider @param {number} value */
+const textOf = ({ decimals }, value) => String(Number(value.toFixed(Math.max(decimals, 2))));
+
+/** A number beyond what the scene allows: typed, it is held; given by a link, it is taken as it is. Either is told. @param {Slider} slider @param {View["state"]} state @param {View["t"]} t */
+function hintOf(slider, { held, place: { lang } }, t) {
+  const range = rangeText(slider, lang);
+  if (held?.key === slider.key) return t("values.held", { asked: held.asked.toLocaleString(lang, { maximumSignificantDigits: 6 }), range });
+  return heldAt(slider, slider.value) === slider.value ? "" : t("values.outside", { range });
 }

@@ -228,3 +228,16 @@ def test_one_picture_at_a_time(lecture: Lecture) -> None:
         page.get_by_role("button", name="One picture back").click()
     expect(page.locator(".time")).to_have_text("0.96 s")
     expect(page).to_have_url(re.compile("at=0.96"))
+
+
+def test_a_number_beyond_the_range_of_the_scene_is_told(lecture: Lecture) -> None:
+    lecture.open("?scene=elastic-pendulum&lang=en&set=l:3")
+    length = lecture.page.locator("[data-slider=parameter-l-value]")
+    expect(length.locator(".hint")).to_have_text("Outside of 0.2 … 2.")
+    length.locator("input[type=number]").fill("7")
+    length.locator("input[type=number]").press("Enter")
+    expect(length.locator(".hint")).to_have_text("7 is out of range: 0.2 … 2.")
+    expect(length.locator("input[type=number]")).to_have_value("2")
+    length.locator("input[type=number]").fill("1.5")
+    length.locator("input[type=number]").press("Enter")
+    expect(length.locator(".hint")).to_have_text("")

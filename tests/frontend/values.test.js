@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { changed, dotted, isChanged, slidersOf, readChanges, UNCHANGED, writeChanges } from "../../frontend/model/values.js";
+import { changed, dotted, isChanged, rangeText, slidersOf, readChanges, UNCHANGED, writeChanges } from "../../frontend/model/values.js";
 import { scene } from "./fixtures.js";
 
 const sliderOf = (/** @type {string} */ key) => /** @type {import("../../frontend/model/values.js").Slider} */ (slidersOf(scene, UNCHANGED).find((s) => s.key === key));
@@ -47,6 +47,9 @@ test("what is typed outside of the scene's bounds is held there; what is no numb
   assert.equal(changed(scene, UNCHANGED, sliderOf("parameter-m-value"), 99).parameters.m, 5);
   assert.equal(changed(scene, UNCHANGED, sliderOf("parameter-m-value"), NaN), UNCHANGED);
 });
+
+for (const [bounds, lang, text] of /** @type {const} */ ([[[0.2, 2], "de", "0,2 … 2"], [[0.2, Infinity], "en", "≥ 0.2"], [[-Infinity, 1500], "de", "≤ 1.500"]]))
+  test(`the range is told as ${text}`, () => assert.equal(rangeText({ ...sliderOf("parameter-m-value"), least: bounds[0], most: bounds[1] }, lang), text));
 
 const DOTS = [["q_1", "\\dot{q}_1"], ["\\varphi", "\\dot{\\varphi}"], ["x", "\\dot{x}"], ["q_{12}", "\\dot{q}_{12}"], ["x'", "\\dot{x'}"]];
 for (const [latex, expected] of DOTS) {
