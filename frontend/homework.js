@@ -26,6 +26,7 @@ import { offer } from "./view/files.js";
 import { fetchMathLive, low, offerKeys } from "./view/homework/mathfield.js";
 import { page } from "./view/homework/page.js";
 import { createReach, createStaging } from "./view/homework/staging.js";
+import { keeper } from "./view/keeper.js";
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -36,7 +37,7 @@ const { get, set } = store;
 const { post, simulate, ...rest } = createApi(fetch.bind(globalThis));
 const api = { ...rest, post: patient(post), simulate: patient(simulate) };
 const clock = createClock();
-const progress = createProgress(localStorage);
+const progress = createProgress(keeper());
 const answering = createAnswering(store, api, progress);
 const exercise = createExercise(store, api, progress, answering);
 const working = createWorking(store, api, progress, exercise);
@@ -176,7 +177,7 @@ everyFrame(clock.advance);
 async function start() {
   const { asked } = get();
   const [assignment, sent] = await Promise.all([assignmentIn(location.hash, "", api, asked.place.lang), documentIn(location.hash)]);
-  const own = sent ?? (asked.place.scene === OWN && !assignment ? (readDraft(localStorage)?.document ?? null) : null);
+  const own = sent ?? (asked.place.scene === OWN && !assignment ? (readDraft(keeper())?.document ?? null) : null);
   fragment = own ? await fragmentOf(own) : location.hash;
   const scene = own ? OWN : asked.place.scene === OWN ? "" : asked.place.scene;
   await Promise.all([speak(asked.place.lang), exercise.start({ ...asked, place: { ...asked.place, scene } }, assignment, own)]);

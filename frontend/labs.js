@@ -7,13 +7,14 @@ import { createBench } from "./model/labs/bench.js";
 import { withMarks } from "./model/labs/figure.js";
 import { exampleOf, NOTHING, pointOf, readQuestion, requestOf, writeQuestion } from "./model/labs/question.js";
 import { experiment, file } from "./model/labs/stream.js";
-import { motionOf, written } from "./model/labs/watch.js";
+import { createWatch, motionOf, written } from "./model/labs/watch.js";
 import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { offer } from "./view/files.js";
 import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
+import { keeper } from "./view/keeper.js";
 import { withSides } from "./view/labs/form.js";
 import { createMotion } from "./view/labs/motion.js";
 import { page, showOpen } from "./view/labs/page.js";
@@ -58,27 +59,25 @@ function usual(question) {
 
 const motion = createMotion(root, () => still.matches);
 const charts = createCharts(root, pressed);
+const watching = createWatch(api);
 
 /** @param {Chart} chart @param {number} x @param {number} y */
 function pressed(chart, x, y) {
   const map = chart.data.find((trace) => trace.meta?.role === "map" || trace.meta?.role === "flips")?.meta;
-  if (map) void watch(pointOf(bench.get().question, map, x, y));
+  if (map) watch(pointOf(bench.get().question, map, x, y));
 }
 
 /** Simulates and plays what a chart points at. @param {import("./model/labs/watch.js").Wish} wish */
-async function watch(wish) {
+function watch(wish) {
   const { question, scene } = bench.get();
   if (!scene) return;
   const { method, step = 0 } = wish;
   const title = method ? speech()("labs.played-method", { method: methodTitle(method), step: step.toPrecision(3) }) : speech()("labs.played-point", { values: written(wish) });
   const told = (/** @type {string} */ status) => set({ play: { title, status, address: "" } });
-  try {
-    const trajectory = await api.simulate(motionOf(question, wish, documentOf(question.scene), lang()));
+  void watching.ask(motionOf(question, wish, documentOf(question.scene), lang()), (trajectory) => {
     told(trajectory.status === "ok" ? "" : trajectory.reason ?? "");
     queueMicrotask(() => motion.begin(scene, trajectory));
-  } catch (error) {
-    told(/** @type {Error} */ (error).message);
-  }
+  }, (error) => told(/** @type {Error} */ (error).message || speech()("failure.unreachable")));
 }
 
 /** @param {string} name */
@@ -113,8 +112,8 @@ function link(patch) {
 async function fetchFile(accept) {
   const { question } = bench.get();
   const name = question.lab;
-  const blob = await file(send, name, requestOf(withSides(bench.get().scene, question), documentOf(question.scene), lang()), accept);
-  offer(`${name}-${question.scene}.${accept === "text/csv" ? "csv" : "html"}`, blob, accept);
+  const request = requestOf(withSides(bench.get().scene, question), documentOf(question.scene), lang());
+  await file(send, name, request, accept).then((blob) => offer(`${name}-${question.scene}.${accept === "text/csv" ? "csv" : "html"}`, blob, accept), bench.fail);
 }
 
 /** A rung as a scene of its own. @param {object} scene */
@@ -148,7 +147,7 @@ function update() {
   document.title = `δq · ${t("place.labs")}`;
   const now = chartsNow();
   render(page({
-    state: { place: { ...place, scene: bench.get().question.scene } }, session, t, bench: bench.get(), benches: starting, labs: labs(), scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, open: (scene) => void open(scene), watch: (wish) => void watch(wish),
+    state: { place: { ...place, scene: bench.get().question.scene } }, session, t, bench: bench.get(), benches: starting, labs: labs(), scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, open: (scene) => void open(scene), watch,
     turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
     cursor: get().cursor, point: (cursor) => set({ cursor }), press: pressed,
     save: (chart, format) => void charts.save(chart, format),
@@ -160,18 +159,34 @@ function update() {
   history.replaceState(null, "", link({}));
 }
 
+/** What was pointed at goes with the charts on which it stood. */
+function clear() {
+  watching.forget();
+  set({ play: null, cursor: null, dial: { ...get().dial, step: 0 } });
+}
+
 /** The bench, whose maps begin with the sides that the form shows. */
 const starting = {
   ...bench,
   start() {
-    set({ play: null, cursor: null, dial: { ...get().dial, step: 0 } });
+    clear();
     if (bench.get().question.lab === "stability-map") bench.edit(withSides(bench.get().scene, bench.get().question));
     return bench.start();
+  },
+  /** @param {string} lab */
+  open(lab) {
+    clear();
+    bench.open(lab);
+  },
+  /** @param {string} scene */
+  choose(scene) {
+    clear();
+    bench.choose(scene);
   },
 };
 
 async function start() {
-  own = (await documentIn(location.hash)) ?? readDraft(localStorage)?.document ?? null;
+  own = (await documentIn(location.hash)) ?? readDraft(keeper())?.document ?? null;
   store.subscribe(update);
   bench.subscribe(update);
   dark.addEventListener("change", update);

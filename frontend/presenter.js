@@ -11,6 +11,7 @@ import { createSpeech } from "./model/speech.js";
 import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { dressed } from "./view/header.js";
+import { keeper } from "./view/keeper.js";
 import { listen } from "./view/keys.js";
 import { page } from "./view/lecture/presenter.js";
 
@@ -25,7 +26,7 @@ const store = createStore({
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
   here: /** @type {import("./model/lecture/link.js").Here | null} */ (null),
   lines: /** @type {import("./model/reveal.js").Line[]} */ ([]),
-  notes: readNotes(localStorage), timer: STOPPED, now: Date.now(),
+  notes: readNotes(keeper()), timer: STOPPED, now: Date.now(),
 });
 const { get, set } = store;
 const speech = createSpeech(store, createApi(fetch.bind(globalThis)), (task) => task().catch(() => {}), ["lecture"]);
@@ -48,7 +49,7 @@ const actions = {
     const place = get().here?.place;
     if (!place) return;
     const notes = withNote(get().notes, place.scene, place.step, text);
-    keepNotes(localStorage, notes);
+    keepNotes(keeper(), notes);
     set({ notes });
   },
   toggleTimer: () => set({ timer: toggled(get().timer, Date.now()), now: Date.now() }),

@@ -14,6 +14,7 @@ import { follow } from "./view/links.js";
 import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
+import { keeper } from "./view/keeper.js";
 import { listen } from "./view/keys.js";
 import { linkHighlights } from "./view/highlight.js";
 import { createAside } from "./view/aside.js";
@@ -113,7 +114,7 @@ async function start() {
   if (asked.step) void expectLong();
   const sent = await documentIn(location.hash);
   const scene = sent || location.hash === "#edit" ? OWN : asked.scene;
-  const own = sent ?? (scene === OWN ? (readDraft(localStorage)?.document ?? null) : null);
+  const own = sent ?? (scene === OWN ? (readDraft(keeper())?.document ?? null) : null);
   const edit = scene === OWN && !own ? "form" : location.hash === "#edit" ? "form" : asked.edit;
   await session.start({ ...asked, scene, edit, lang: startLanguage(asked.lang, navigator.languages) }, own);
 }

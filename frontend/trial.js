@@ -3,6 +3,7 @@
 import { render } from "lit-html";
 import { ApiError, createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
+import { newest } from "./model/latest.js";
 import { groupsOf } from "./model/reference.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore, mover } from "./model/store.js";
@@ -25,7 +26,7 @@ const store = createStore(START);
 const { get, set } = store;
 const api = createApi(fetch.bind(globalThis));
 const speech = createSpeech(store, api, (task) => task().catch(() => {}), ["reference"]);
-let waiting = new AbortController();
+const renew = newest();
 
 /** The call and the draft that the address names. */
 function arrive() {
@@ -46,15 +47,14 @@ async function load() {
 async function send() {
   const { call, draft } = get();
   if (!call) return;
-  waiting.abort();
-  const { signal } = (waiting = new AbortController());
+  const signal = renew();
   set({ coming: { state: "waiting" } });
   const answer = await ask(fetch.bind(globalThis), sendingOf(call, draft), signal, () => performance.now()).catch(() => null);
   if (!signal.aborted) set({ coming: answer ? { state: "answered", answer } : { state: "unreachable" } });
 }
 
 function stop() {
-  waiting.abort();
+  renew();
   set({ coming: { state: "stopped" } });
 }
 
@@ -63,7 +63,7 @@ const actions = {
   /** @param {string} id */
   choose(id) {
     const call = get().groups.flatMap((group) => group.calls).find((one) => one.id === id) ?? null;
-    waiting.abort();
+    renew();
     if (call) set({ call, draft: draftOf(call), coming: { state: "empty" } });
   },
   /** @param {Partial<import("./model/trial.js").Draft>} patch */

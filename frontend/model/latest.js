@@ -1,6 +1,7 @@
-/** Requests while a slider is dragged: one at a time, at most one per `pause`, and always the latest wish. */
+/** Of many wishes the latest: one request at a time while a slider is dragged, or each in the place of the one before. */
 
 /**
+ * Requests while a slider is dragged: one at a time, at most one per `pause`, and always the latest wish.
  * @template W
  * @param {(wish: W, signal: AbortSignal) => Promise<void>} work
  * @param {number} pause milliseconds between two starts
@@ -45,5 +46,15 @@ export function latestOnly(work, pause, time = { now: () => Date.now(), wait: (m
       control.abort();
       control = new AbortController();
     },
+  };
+}
+
+/** Signals of which only the last one stands: each new one aborts the one before. @returns {() => AbortSignal} */
+export function newest() {
+  let control = new AbortController();
+  return () => {
+    control.abort();
+    control = new AbortController();
+    return control.signal;
   };
 }

@@ -61,6 +61,9 @@ export function niceFloor(x) {
   return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
 }
 
+/** The unit of a rate. @param {string} unit of what changes */
+export const perSecond = (unit) => `${unit || "1"}/s`;
+
 /**
  * A unit as it is printed: "m/s^2" becomes "m/s²".
  * @param {string} unit

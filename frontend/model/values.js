@@ -1,6 +1,6 @@
 /** The adjustable numbers of a scene: parameters and initial values, as sliders. */
 
-import { decimalsOf, niceFloor } from "./numbers.js";
+import { decimalsOf, niceFloor, perSecond } from "./numbers.js";
 
 /** @typedef {import("./types.js").Scene} Scene */
 /** @typedef {import("./types.js").Changes} Changes */
@@ -28,7 +28,7 @@ export function slidersOf(scene, changes) {
     const fastest = niceFloor(Math.max(high - low, 1)) * 2.5;
     return [
       slider({ ...shared, field: "value", latex: `${latex}(0)`, unit }, now.value, [low, high], [coordinate.min, coordinate.max]),
-      slider({ ...shared, field: "rate", latex: `${dotted(latex)}(0)`, unit: `${unit}/s` }, now.rate, [-fastest, fastest]),
+      slider({ ...shared, field: "rate", latex: `${dotted(latex)}(0)`, unit: perSecond(unit) }, now.rate, [-fastest, fastest]),
     ];
   });
   return [...initial, ...scene.parameters.map((parameter) => parameterSlider(parameter, changes))];

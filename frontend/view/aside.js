@@ -4,6 +4,7 @@ import { translator } from "../model/catalog.js";
 import { createLater } from "../model/later.js";
 import { keepDraft, OWN, readDraft } from "../model/own.js";
 import { sheet } from "./bring.js";
+import { keeper } from "./keeper.js";
 
 /** @typedef {import("./page.js").View} View */
 /** Milliseconds after which a motion is told: not while a slider moves. */
@@ -23,8 +24,8 @@ export function createAside({ root, store, api, session, send, changed, play }) 
   }, changed);
   const editor = createLater(async () => {
     const [{ open }] = await Promise.all([import("./editor/open.js"), sheet("editor")]);
-    const keep = (/** @type {import("../model/own.js").Draft} */ draft) => keepDraft(localStorage, draft);
-    return open({ api, session, state: get, draft: readDraft(localStorage), keep, changed });
+    const keep = (/** @type {import("../model/own.js").Draft} */ draft) => keepDraft(keeper(), draft);
+    return open({ api, session, state: get, draft: readDraft(keeper()), keep, changed });
   }, changed);
   const lecture = createLater(async () => {
     const [{ open }] = await Promise.all([import("./lecture/open.js"), sheet("lecture")]);

@@ -3,6 +3,7 @@
 import { figureOf, withDrawing } from "../model/drawing/figure.js";
 import { stageOf } from "../model/drawing/stage.js";
 import { snapshotAt } from "../model/trajectory.js";
+import { typeset } from "./typesetting.js";
 
 /** @typedef {import("../model/types.js").Shape} Shape */
 /** @typedef {import("../model/types.js").Label} Label */
@@ -66,18 +67,9 @@ function updateShape(path, { d, at, opacity }, last) {
 
 /** @param {HTMLElement} element @param {Label} label @param {Partial<Label>} last */
 function updateLabel(element, { latex, at, start, opacity }, last) {
-  if (latex !== last.latex) typeset(element, latex);
+  if (latex !== last.latex) typeset(element, latex, false, "html");
   if (!same(at, last.at)) element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) translate(${start ? "0" : "-50%"}, -50%)`;
   if (opacity !== last.opacity) element.style.opacity = String(opacity ?? 1);
-}
-
-/** @param {HTMLElement} element @param {string} latex */
-function typeset(element, latex) {
-  try {
-    globalThis.katex.render(latex, element, { strict: "ignore", output: "html", maxExpand: 1000, maxSize: 10 });
-  } catch {
-    element.textContent = latex;
-  }
 }
 
 /**

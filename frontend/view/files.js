@@ -1,4 +1,4 @@
-/** Files offered to be kept. */
+/** What is offered to be taken away: files, and texts for the clipboard. */
 
 /** Milliseconds after which a browser has surely begun to keep it. */
 const KEPT = 10_000;
@@ -9,3 +9,6 @@ export function offer(name, content, type) {
   Object.assign(document.createElement("a"), { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), KEPT);
 }
+
+/** False where the browser has no clipboard for the page, as over plain HTTP, or refuses it. @param {string} text @returns {Promise<boolean>} */
+export const toClipboard = async (text) => (await navigator.clipboard?.writeText(text).then(() => true, () => false)) ?? false;

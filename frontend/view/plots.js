@@ -5,6 +5,7 @@ import { endOf } from "../model/trajectory.js";
 import { fixed } from "../model/numbers.js";
 import { script } from "./bring.js";
 import { coloursOf, paletteOf } from "./palette.js";
+import { typeset } from "./typesetting.js";
 
 /** @typedef {import("../model/types.js").Scene} Scene */
 /** @typedef {import("../model/types.js").Trajectory} Trajectory */
@@ -137,7 +138,7 @@ function legend(row, top) {
   for (const curve of row.curves.filter(({ beside }) => !beside)) {
     const name = document.createElement("span");
     name.className = `key ${curve.className}`;
-    globalThis.katex.render(curve.latex, name, { throwOnError: false, strict: "ignore", maxExpand: 1000, maxSize: 10 });
+    typeset(name, curve.latex, false);
     line.append(name);
   }
   const unit = document.createElement("span");

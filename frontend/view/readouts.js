@@ -2,6 +2,7 @@
 
 import { fixed, unitText } from "../model/numbers.js";
 import { atMost, digitsIn } from "./digits.js";
+import { typeset } from "./typesetting.js";
 import { blendAt, scalarAt } from "../model/trajectory.js";
 
 /** @typedef {import("../model/types.js").Scene} Scene */
@@ -48,7 +49,7 @@ function fieldsIn(root, scene, trajectory, lang) {
     const [symbol, value] = [document.createElement("span"), document.createElement("span")];
     line.className = `q-${scene.coordinates.indexOf(coordinate)}`;
     value.className = "number";
-    globalThis.katex.render(`${coordinate.latex || coordinate.name} =`, symbol, { throwOnError: false, strict: "ignore", output: "html" });
+    typeset(symbol, `${coordinate.latex || coordinate.name} =`, false, "html");
     line.append(symbol, value);
     root.append(line);
     const digits = digitsIn(value);

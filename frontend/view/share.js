@@ -2,7 +2,7 @@
 
 import { generate } from "lean-qr";
 import { html, nothing, svg } from "lit-html";
-import { offer } from "./files.js";
+import { offer, toClipboard } from "./files.js";
 import { dialog } from "./overlays.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
@@ -64,7 +64,7 @@ const fragment = ({ place, fragment }) => (place.scene === "own" ? fragment : ""
 function copied(text, label, t) {
   const copy = async (/** @type {Event} */ { currentTarget }) => {
     const button = /** @type {HTMLElement} */ (currentTarget);
-    const done = await navigator.clipboard?.writeText(text).then(() => true, () => false);
+    const done = await toClipboard(text);
     const field = /** @type {HTMLInputElement} */ (button.previousElementSibling);
     if (!done) field.select();
     /** @type {HTMLElement} */ (button.nextElementSibling).textContent = t(done ? "share.copied" : "share.copy-by-hand");

@@ -336,3 +336,28 @@ def test_with_a_finger_the_keys_of_the_task_come_up_below_the_field(browser: Bro
     assert written["y"] + written["height"] <= keys["y"]
     assert lecture.complaints == []
     context.close()
+
+
+REFUSING = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('refused', 'SecurityError'); }})"
+
+
+@pytest.mark.parametrize(
+    ("path", "opened"),
+    [
+        pytest.param("homework?scene=pendulum&lang=en", ".question h2", id="homework"),
+        pytest.param("labs?lang=en", ".invitation", id="labs"),
+        pytest.param("presenter?with=abcdef&lang=en", "main.presenter", id="presenter"),
+        pytest.param("scene?scene=own&lang=en", "form.form", id="editor"),
+    ],
+)
+def test_a_page_opens_where_the_browser_refuses_to_keep_anything(lecture: Lecture, path: str, opened: str) -> None:
+    lecture.page.add_init_script(REFUSING)
+    lecture.page.goto(lecture.address + path)
+    lecture.page.locator(opened).first.wait_for(timeout=PATIENCE)
+
+
+def test_what_is_typed_and_not_kept_is_said_to_be_so(lecture: Lecture) -> None:
+    lecture.page.add_init_script(REFUSING)
+    page = _open(lecture)
+    _answer_as_text(page, RIGHT)
+    expect(page.locator(".answering .wrong")).to_contain_text("keep")

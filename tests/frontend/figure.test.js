@@ -31,6 +31,7 @@ test("a run is named by what sets it apart", () => {
     ["m = 2", "q_2(0) = 1"], ["m = 1", "q_2(0) = 0.5"], ["m = 1", "q_2(0) = 1"],
   ]);
   assert.deepEqual(differences([asked(""), asked("", "rk4")], scene), [[], []]);
+  assert.deepEqual(differences([asked("phi:1:0.5"), asked("")], scene), [["\\dot{q}_2(0) = 0.5"], ["\\dot{q}_2(0) = 0"]]);
 });
 
 test("the curves of another run are dashed, in the row of the same quantity, over its own times", () => {

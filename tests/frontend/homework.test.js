@@ -342,6 +342,24 @@ test("a task chosen while others' values are fetched stays chosen", async () => 
   assert.deepEqual([store.get().entry?.key, store.get().asked.task], ["swing@ada/equation:phi", "equation:phi"]);
 });
 
+test("of two files that are opened one after the other the last one is on the page, however late the first one's tasks come, or its failure", async () => {
+  /** @type {Record<string, {done: (answer: any) => void, fail: (error: any) => void}>} */
+  const asked = {};
+  const post = (/** @type {string} */ path, /** @type {any} */ body) => (path === "/assignments" ? new Promise((done, fail) => { asked[body.assignment.title.en] = { done, fail }; }) : Promise.resolve(null));
+  const api = /** @type {any} */ ({ post, simulate: async () => trajectory });
+  const store = createStore(begin(readAsked("?lang=en")));
+  const progress = createProgress(storage());
+  const exercise = createExercise(store, api, progress, createAnswering(store, api, progress));
+  const named = (/** @type {string} */ en) => ({ format: 1, title: { en }, tasks: [{ scene: "swing", task: "lagrangian" }] });
+  const answer = (/** @type {string} */ en) => ({ title: { en }, follow_through: 0.5, tasks: [{ scene, symbols, task: { ...task, id: "lagrangian" } }] });
+  const loading = ["broken", "first", "second"].map((name) => exercise.assign(named(name)));
+  asked.second.done(answer("second"));
+  asked.first.done(answer("first"));
+  asked.broken.fail(new ApiError({ title: "refused", detail: "", problems: [], status: 422 }));
+  await Promise.all(loading);
+  assert.deepEqual([store.get().sheet?.title, store.get().failure], [{ en: "second" }, null]);
+});
+
 test("no key stands alone in its row", () => {
   const counts = Array.from({ length: 50 }, (_, i) => i + 2);
   assert.deepEqual(counts.filter((count) => count % columnsFor(count) === 1), []);

@@ -1,5 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
+import { ApiError } from "../../frontend/model/api.js";
 import { mapOf, middleOf, moved, seenAt } from "../../frontend/model/labs/cursor.js";
 import { cheapestFor, themed, withStep, withTolerance } from "../../frontend/model/labs/figure.js";
 import { createBench } from "../../frontend/model/labs/bench.js";
@@ -8,7 +9,7 @@ import { NOTHING, pointOf, readQuestion, requestOf, writeQuestion } from "../../
 import { inUnicode } from "../../frontend/model/labs/symbols.js";
 import { stepRange } from "../../frontend/model/labs/step.js";
 import { eventReader, experiment } from "../../frontend/model/labs/stream.js";
-import { motionOf, written } from "../../frontend/model/labs/watch.js";
+import { createWatch, motionOf, written } from "../../frontend/model/labs/watch.js";
 
 const TEXT = 'event: part\ndata: {"done":1}\n\nevent: result\ndata: {"experiment":"chaos"}\n\n';
 const EVENTS = [{ kind: "part", data: { done: 1 } }, { kind: "result", data: { experiment: "chaos" } }];
@@ -114,6 +115,22 @@ test("what is watched keeps the question's values unless it has its own", () => 
   assert.equal(written({ parameters: { l: 0.123456 }, initial: { phi: { value: 1 } } }), "l = 0.1235, phi = 1");
 });
 
+test("what is pointed at last is played, however late what was pointed at before comes", async () => {
+  /** @type {((answer: any) => void)[]} */
+  const answers = [];
+  const watching = createWatch({ simulate: () => new Promise((done) => answers.push(done)) });
+  /** @type {any[]} */
+  const played = [];
+  const asked = [1, 2, 3].map(() => watching.ask({}, (found) => played.push(found), () => played.push("failed")));
+  for (const which of [1, 2, 0]) answers[which](which);
+  await Promise.all(asked);
+  const forgotten = watching.ask({}, (found) => played.push(found), () => played.push("failed"));
+  watching.forget();
+  answers[3](3);
+  await forgotten;
+  assert.deepEqual(played, [2]);
+});
+
 test("rungs are named by what they leave out", () => {
   const t = (/** @type {string} */ key, /** @type {any} */ given = {}) => `${key.split(".")[2]}(${Object.values(given)})`;
   assert.equal(titleOf({ parts: [] }, t), "full()");
@@ -158,6 +175,15 @@ test("the bench shows parts, then the result; stopped, it keeps what was measure
   ends[1]();
   await second;
   assert.deepEqual([bench.get().running, bench.get().stopped, bench.get().charts.length, bench.get().result], [false, "stopped", 1, null]);
+});
+
+test("a file that cannot be had is told, and what was measured stays", async () => {
+  const run = async () => ({ experiment: "chaos", charts: ["c"] });
+  const bench = createBench(/** @type {any} */ ({ run, scene: async () => SCENE, document: (/** @type {string} */ id) => id, lang: () => "en" }), { ...NOTHING, scene: "pendulum" });
+  await bench.start();
+  const failure = { title: "Busy", detail: "", problems: [], status: 503 };
+  bench.fail(new ApiError(failure));
+  assert.deepEqual([bench.get().failure, bench.get().charts], [failure, ["c"]]);
 });
 
 test("the same question is measured anew, another one is not", async () => {

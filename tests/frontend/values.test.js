@@ -22,6 +22,12 @@ test("ranges come from the scene, else from the value; an angle has a full turn"
   assert.deepEqual([sliderOf("initial-phi-value").min, sliderOf("initial-phi-value").max], [-Math.PI, Math.PI]);
 });
 
+test("the rate of what has no unit has one", () => {
+  const [angle, bare] = ["rad", ""].map((unit) => ({ ...scene.coordinates[1], unit }));
+  const units = (/** @type {typeof angle} */ coordinate) => slidersOf({ ...scene, coordinates: [coordinate], parameters: [] }, UNCHANGED).map(({ unit }) => unit);
+  assert.deepEqual([units(angle), units(bare)], [["rad", "rad/s"], ["", "1/s"]]);
+});
+
 test("a slider carries the colour of its coordinate", () => {
   assert.equal(sliderOf("initial-phi-rate").className, "q-1");
   assert.equal(sliderOf("parameter-m-value").className, "");

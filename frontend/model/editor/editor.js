@@ -1,5 +1,6 @@
 /** The scene that is being written: kept at once, checked when the hand rests, shown as soon as it is valid. */
 
+import { newest } from "../latest.js";
 import { createStore } from "../store.js";
 import { shownFields } from "./schema.js";
 import { tableOf } from "../own.js";
@@ -40,7 +41,7 @@ export function createEditor({ api, lang, show, address, keep }, draft) {
   /** @type {SceneDocument | null} */
   let shown = null;
   let timer = /** @type {ReturnType<typeof setTimeout> | undefined} */ (undefined);
-  let control = new AbortController();
+  const renew = newest();
 
   /** @param {Partial<Writing>} patch @param {number} rest */
   function take(patch, rest) {
@@ -49,9 +50,8 @@ export function createEditor({ api, lang, show, address, keep }, draft) {
     set({ kept: keep({ document, text, earlier }) });
     address(document);
     clearTimeout(timer);
-    control.abort();
-    control = new AbortController();
-    timer = setTimeout(() => void check(control.signal), rest);
+    const signal = renew();
+    timer = setTimeout(() => void check(signal), rest);
   }
 
   /** @param {AbortSignal} signal */

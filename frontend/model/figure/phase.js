@@ -4,7 +4,7 @@ import { ratesAt } from "../kinematics/rates.js";
 import { blendAt, scalarAt } from "../trajectory.js";
 import { dotted } from "../values.js";
 import { at } from "../drawing/geometry.js";
-import { niceFloor, unitText } from "../numbers.js";
+import { niceFloor, perSecond, unitText } from "../numbers.js";
 
 /** @typedef {import("../types.js").Pixel} Pixel */
 /** @typedef {import("../types.js").Trajectory} Trajectory */
@@ -63,7 +63,7 @@ function portrait({ name, latex, unit }, className, trajectories, { left, width,
   const place = (/** @type {Pixel} */ [q, v]) => /** @type {Pixel} */ ([x.pixel(q), y.pixel(v)]);
   return {
     name, className, left, width, columns: x.ticks, rows: y.ticks,
-    across: latex || name, up: dotted(latex || name), units: [unitText(unit), unitText(`${unit}/s`)],
+    across: latex || name, up: dotted(latex || name), units: [unitText(unit), unitText(perSecond(unit))],
     paths: curves.map((curve) => `M${curve.filter((point) => point.every(Number.isFinite)).map((point) => at(place(point))).join("L")}`),
     where: (t) => place(stateAt(trajectory, name, t)),
     nearest([px, py]) {

@@ -1,6 +1,6 @@
 /** Motions that are kept beside the present one: with other values, or by another method. */
 
-import { readChanges, writeChanges } from "../values.js";
+import { dotted, readChanges, writeChanges } from "../values.js";
 
 /** @typedef {import("../types.js").Changes} Changes */
 /** @typedef {import("../types.js").Scene} Scene */
@@ -38,9 +38,14 @@ export const withoutRun = (text, key) => readRuns(text).map(keyOf).filter((other
  * @returns {string[][]}
  */
 export function differences(runs, scene) {
-  const symbols = [...scene.parameters, ...scene.coordinates];
-  const valueOf = (/** @type {Asked} */ { changes }, /** @type {string} */ name) => changes.parameters[name] ?? changes.initial[name]?.value ?? symbols.find((each) => each.name === name)?.value;
-  const differing = symbols.filter(({ name }) => new Set(runs.map((run) => valueOf(run, name))).size > 1);
-  const start = (/** @type {string} */ name) => (scene.coordinates.some((each) => each.name === name) ? "(0)" : "");
-  return runs.map((run) => differing.map(({ name, latex }) => `${latex || name}${start(name)} = ${Number(valueOf(run, name)?.toPrecision(3))}`));
+  const quantity = (/** @type {string} */ latex, /** @type {(changes: Changes) => number} */ of) => ({ latex, of });
+  const quantities = [
+    ...scene.parameters.map(({ name, latex, value }) => quantity(latex || name, ({ parameters }) => parameters[name] ?? value)),
+    ...scene.coordinates.flatMap(({ name, latex, value, rate }) => [
+      quantity(`${latex || name}(0)`, ({ initial }) => initial[name]?.value ?? value),
+      quantity(`${dotted(latex || name)}(0)`, ({ initial }) => initial[name]?.rate ?? rate),
+    ]),
+  ];
+  const differing = quantities.filter(({ of }) => new Set(runs.map(({ changes }) => of(changes))).size > 1);
+  return runs.map(({ changes }) => differing.map(({ latex, of }) => `${latex} = ${Number(of(changes).toPrecision(3))}`));
 }

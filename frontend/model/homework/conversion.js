@@ -14,7 +14,7 @@ export function createConversion({ get, set }, api, answering) {
   /** Each part in the other syntax; null where one cannot be read. @param {Entry} entry @param {string[]} parts @param {Syntax} from @param {Syntax} to */
   async function converted(entry, parts, from, to) {
     const { lang } = get().asked.place;
-    const { form, id } = entry.task;
+    const { id } = entry.task;
     if (parts.length === 1) {
       const read = await api.post("/checks/reading", { ...entry.reference, task: id, answer: { syntax: from, value: parts[0] }, lang }).catch(() => null);
       return read && !read.problems.length ? [read[to]] : null;
@@ -22,7 +22,7 @@ export function createConversion({ get, set }, api, answering) {
     const asked = parts.map((expression) => ({ expression: expression.trim() || "0", syntax: from }));
     const answer = await api.post("/expressions/batch", { scene: entry.scene, expressions: asked, lang }).catch(() => null);
     const texts = answer?.expressions.map((/** @type {any} */ one, /** @type {number} */ i) => (parts[i].trim() ? one[to] : ""));
-    return texts && form && texts.every((/** @type {string} */ text, /** @type {number} */ i) => text || !parts[i].trim()) ? /** @type {string[]} */ (texts) : null;
+    return texts?.every((/** @type {string} */ text, /** @type {number} */ i) => text || !parts[i].trim()) ? /** @type {string[]} */ (texts) : null;
   }
 
   /** @param {Syntax} to */

@@ -8,13 +8,16 @@ import { createSolution } from "./solution.js";
 import { FRESH } from "./state.js";
 
 /** @typedef {import("./place.js").Asked} Asked */
+/** @typedef {import("./state.js").State} State */
 /** @typedef {import("./sheet.js").Entry} Entry */
 /** @typedef {import("./sheet.js").Assignment} Assignment */
 
 /** Whether both ask for the same sheet. @param {Asked} a @param {Asked} b */
 export const isSame = (a, b) => a.seed === b.seed && a.place.scene === b.place.scene && a.place.lang === b.place.lang;
+/** And for that of the same assignment, or of the same scene that was brought along. @param {State} a @param {State} b */
+const isStill = (a, b) => a.assignment === b.assignment && a.own === b.own && isSame(a.asked, b.asked);
 
-/** The sheet that is asked for, in the language of the page. @param {import("./state.js").Api} api @param {import("./state.js").State} state */
+/** The sheet that is asked for, in the language of the page. @param {import("./state.js").Api} api @param {State} state */
 async function fetchSheet(api, { asked: { seed, place: { scene, lang } }, assignment, own }) {
   if (assignment) return sheetOfAssignment(assignment, seed, await api.post("/assignments", { assignment, ...(seed ? { seed } : {}), lang }));
   const reference = referenceOf(own ?? (scene || FIRST_SCENE), seed);
@@ -34,10 +37,12 @@ export function createExercise(store, api, progress, answering) {
   const workingKey = () => `${get().entry?.group}/~working`;
 
   async function load() {
-    const wanted = get().asked;
-    await attempt(store, get().sheet ? "trouble" : "failure", "", async () => {
-      const sheet = await fetchSheet(api, get());
-      if (!isSame(get().asked, wanted)) return;
+    const wanted = get();
+    await attempt(store, wanted.sheet ? "trouble" : "failure", "", async () => {
+      const sheet = await fetchSheet(api, wanted).catch((error) => {
+        if (isStill(get(), wanted)) throw error;
+      });
+      if (!sheet || !isStill(get(), wanted)) return;
       set({ sheet });
       const { entries } = sheet;
       show(entries.find(({ key }) => key === get().entry?.key) ?? entries.find(({ id }) => id === get().asked.task) ?? entries[0] ?? null);

@@ -1,6 +1,7 @@
 /** The bench: one experiment at a time, begun, watched and stopped. */
 
 import { ApiError } from "../api.js";
+import { newest } from "../latest.js";
 import { createStore } from "../store.js";
 import { exampleOf, requestOf } from "./question.js";
 
@@ -31,22 +32,21 @@ const EMPTY = { running: false, progress: 0, charts: [], result: null, failure: 
 export function createBench({ run, scene, document, lang }, question) {
   const store = createStore(/** @type {Bench} */ ({ question, scene: null, ...EMPTY }));
   const { get, set } = store;
-  let control = new AbortController();
+  const renew = newest();
   let answered = "";
 
   /** @param {unknown} error */
   const failureIn = (error) => (error instanceof ApiError ? error.failure : { title: "", detail: String(error), problems: [], status: 500 });
 
   function stop() {
-    control.abort();
-    control = new AbortController();
+    renew();
     if (get().running) set({ running: false, stopped: "stopped" });
   }
 
   /** @param {Partial<Bench>} cleared  what is shown until something comes @param {boolean} renews  whether what has just been measured is measured anew */
   async function ask(cleared, renews) {
     stop();
-    const { signal } = control;
+    const signal = renew();
     const { question, result: before } = get();
     set({ ...cleared, running: true });
     const body = requestOf(question, document(question.scene), lang());
@@ -92,6 +92,8 @@ export function createBench({ run, scene, document, lang }, question) {
     retell,
     stop,
     load,
+    /** A file of what was measured could not be had. @param {unknown} error */
+    fail: (error) => set({ failure: failureIn(error) }),
     /** Another lab, on the same scene; where there is none, on the one that shows it best. @param {string} lab */
     open(lab) {
       stop();

@@ -1,5 +1,7 @@
 /** What a chart points at, as a motion to be simulated: a point of a map, or a method at the step where it fails. */
 
+import { newest } from "../latest.js";
+
 /** @typedef {import("./question.js").Question} Question */
 /** @typedef {Partial<Pick<Question, "parameters" | "initial">> & {method?: string, step?: number, t_end?: number}} Wish */
 
@@ -21,4 +23,26 @@ const only = ({ parameters, initial }) => ({ ...(parameters ? { parameters } : {
 export function written({ parameters = {}, initial = {} }) {
   const starts = Object.entries(initial).map(([name, { value }]) => /** @type {const} */ ([name, value ?? 0]));
   return [...Object.entries(parameters), ...starts].map(([name, value]) => `${name} = ${Number(value.toPrecision(4))}`).join(", ");
+}
+
+/**
+ * Simulates what is pointed at; what is pointed at next takes its place.
+ * @param {Pick<import("../api.js").Api, "simulate">} api
+ */
+export function createWatch({ simulate }) {
+  const renew = newest();
+  return {
+    /** What was pointed at is no longer wanted. */
+    forget: () => void renew(),
+    /** @param {object} body @param {(trajectory: import("../types.js").Trajectory) => void} play @param {(error: unknown) => void} fail */
+    async ask(body, play, fail) {
+      const signal = renew();
+      try {
+        const trajectory = await simulate(body, signal);
+        if (!signal.aborted) play(trajectory);
+      } catch (error) {
+        if (!signal.aborted) fail(error);
+      }
+    },
+  };
 }

@@ -1,6 +1,7 @@
 /** The question that is being asked, and what the server answers when the hand rests: the steps, then the quotients. */
 
 import { ApiError } from "../api.js";
+import { newest } from "../latest.js";
 import { createStore } from "../store.js";
 import { namesIn, quotientRequestOf, requestOf } from "./question.js";
 
@@ -38,15 +39,13 @@ export function createLab({ vary, lang }, question, size) {
   const store = createStore(start);
   const { get, set } = store;
   let timer = /** @type {ReturnType<typeof setTimeout> | undefined} */ (undefined);
-  let control = new AbortController();
+  const renew = newest();
 
   /** @param {Partial<Asking>} patch @param {number} rest */
   function take(patch, rest) {
     set({ verdict: "waiting", ...patch });
     clearTimeout(timer);
-    control.abort();
-    control = new AbortController();
-    const { signal } = control;
+    const signal = renew();
     timer = setTimeout(() => void ask(signal), rest);
   }
 

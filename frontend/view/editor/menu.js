@@ -1,7 +1,7 @@
 /** Where a scene comes from and where it goes: examples, files, the link. */
 
 import { html, nothing } from "lit-html";
-import { offer } from "../files.js";
+import { offer, toClipboard } from "../files.js";
 import { icon } from "../icons.js";
 import { inLanguage } from "../../model/catalog.js";
 import { fragmentOf, tableOf } from "../../model/own.js";
@@ -64,7 +64,7 @@ const titleOf = (document, lang) => (typeof document.title === "string" ? docume
 async function copyLink({ writing, editing, state }) {
   const fragment = await fragmentOf(writing.document);
   const address = `${location.origin}${location.pathname}?scene=own&lang=${state.place.lang}${fragment}`;
-  await navigator.clipboard.writeText(address).then(() => editing.tell("editor.link-copied"), () => editing.tell("editor.link-refused"));
+  editing.tell(await toClipboard(address) ? "editor.link-copied" : "editor.link-refused");
 }
 
 /** @param {Sheet} sheet @param {"json" | "toml"} format */

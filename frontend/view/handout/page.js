@@ -9,8 +9,8 @@ import { history } from "./history.js";
 import { SECONDS } from "../../model/handout.js";
 import { inLanguage } from "../../model/catalog.js";
 import { partsOf } from "../../model/lecture/stops.js";
-import { unitText } from "../../model/numbers.js";
-import { readChanges } from "../../model/values.js";
+import { perSecond, unitText } from "../../model/numbers.js";
+import { dotted, readChanges } from "../../model/values.js";
 
 /** @typedef {import("../../model/types.js").Step} Step */
 /**
@@ -73,7 +73,7 @@ function values({ scene, state, t }) {
     ...scene.parameters.map(({ name, latex, value, unit }) => ({ latex: latex || name, value: parameters[name] ?? value, unit })),
     ...scene.coordinates.filter(({ name }) => !guided.has(name)).flatMap(({ name, latex, value, rate, unit }) => [
       { latex: `${latex || name}(0)`, value: initial[name]?.value ?? value, unit },
-      { latex: `\\dot{${latex || name}}(0)`, value: initial[name]?.rate ?? rate, unit: `${unit || "1"}/s` },
+      { latex: `${dotted(latex || name)}(0)`, value: initial[name]?.rate ?? rate, unit: perSecond(unit) },
     ]),
   ];
   return html`

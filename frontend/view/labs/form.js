@@ -4,8 +4,9 @@ import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inLanguage } from "../../model/catalog.js";
 import { inUnicode } from "../../model/labs/symbols.js";
-import { unitText } from "../../model/numbers.js";
+import { perSecond, unitText } from "../../model/numbers.js";
 import { OWN } from "../../model/own.js";
+import { dotted } from "../../model/values.js";
 import { inline } from "../formula.js";
 import { settled } from "../settled.js";
 
@@ -141,7 +142,7 @@ function values(view, scene) {
         ${number(parameters[name] ?? value, (given) => benches.edit({ parameters: { ...parameters, [name]: given } }))}<span class="unit">${unitText(unit ?? "")}</span></label>`)}
       ${scene.coordinates.filter(({ name }) => !guided.has(name)).map(({ name, latex, unit, value, rate }) => html`
         <label class="field row"><span>${inline(`${latex || name}(0)`)}</span>${number(initial[name]?.value ?? value, (given) => start(name, { value: given }))}<span class="unit">${unitText(unit ?? "")}</span></label>
-        <label class="field row"><span>${inline(`\\dot{${latex || name}}(0)`)}</span>${number(initial[name]?.rate ?? rate, (given) => start(name, { rate: given }))}<span class="unit">${unit ? unitText(`${unit}/s`) : ""}</span></label>`)}
+        <label class="field row"><span>${inline(`${dotted(latex || name)}(0)`)}</span>${number(initial[name]?.rate ?? rate, (given) => start(name, { rate: given }))}<span class="unit">${unitText(perSecond(unit ?? ""))}</span></label>`)}
     </details>`;
 }
 

@@ -16,6 +16,9 @@ const FILE = { width: 1200, height: 800, scale: 2 };
 export function createCharts(root, press) {
   /** What each canvas shows, so that nothing is drawn twice. @type {WeakMap<HTMLElement, string>} */
   const shown = new WeakMap();
+  /** A number for each chart that was made. @type {WeakMap<Chart, number>} */
+  const stamps = new WeakMap();
+  let made = 0;
   /** @type {Promise<boolean> | null} */
   let plotly = null;
   const library = () => (plotly ??= script(SOURCE));
@@ -30,6 +33,12 @@ export function createCharts(root, press) {
     const target = /** @type {any} */ (canvas);
     if (first) target.on("plotly_click", (/** @type {any} */ event) => press(target.chart, event.points[0].x, event.points[0].y));
     target.chart = chart;
+  }
+
+  /** @param {Chart} chart */
+  function stampOf(chart) {
+    if (!stamps.has(chart)) stamps.set(chart, (made += 1));
+    return stamps.get(chart);
   }
 
   return {
@@ -58,14 +67,4 @@ export function createCharts(root, press) {
       await globalThis.Plotly.downloadImage({ data: chart.data, layout: { ...chart.layout, title: { text: `${chart.title}<br><sub>${chart.subject}</sub>` }, margin: { ...chart.layout.margin, t: 72 } } }, { ...FILE, format, filename: chart.id });
     },
   };
-}
-
-/** @type {WeakMap<object, number>} */
-const stamps = new WeakMap();
-let last = 0;
-
-/** A number for each chart that was made. @param {Chart} chart */
-function stampOf(chart) {
-  if (!stamps.has(chart)) stamps.set(chart, (last += 1));
-  return stamps.get(chart);
 }

@@ -2,6 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { failure } from "../failure.js";
+import { toClipboard } from "../files.js";
 import { titled, top } from "../top.js";
 import { pageAddress } from "../../model/url.js";
 
@@ -44,7 +45,7 @@ const described = (text) => text.split("`").map((part, i) => (i % 2 ? html`<code
 function copying(source, call, lang, t) {
   const copy = async (/** @type {Event} */ { currentTarget }) => {
     const told = /** @type {HTMLElement} */ (/** @type {HTMLElement} */ (currentTarget).nextElementSibling);
-    told.textContent = t(await navigator.clipboard?.writeText(source).then(() => true, () => false) ? "trial.copied" : "trial.copy-by-hand");
+    told.textContent = t(await toClipboard(source) ? "trial.copied" : "trial.copy-by-hand");
   };
   return html`<button type="button" class="quiet small" lang=${lang} aria-label=${`${t("trial.copy")}: ${call}`} @click=${copy}>${t("trial.copy")}</button><small role="status"></small>`;
 }

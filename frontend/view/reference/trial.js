@@ -3,6 +3,7 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { failure } from "../failure.js";
+import { toClipboard } from "../files.js";
 import { icon } from "../icons.js";
 import { titled, top } from "../top.js";
 import { curlOf } from "../../model/trial.js";
@@ -90,7 +91,7 @@ function commandLine(call, { draft, origin, t }) {
   const line = `DELTAQ=${origin}\n${curlOf(call, draft)}`;
   const copy = async (/** @type {Event} */ { currentTarget }) => {
     const told = /** @type {HTMLElement} */ (/** @type {HTMLElement} */ (currentTarget).previousElementSibling);
-    told.textContent = t(await navigator.clipboard?.writeText(line).then(() => true, () => false) ? "trial.copied" : "trial.copy-by-hand");
+    told.textContent = t(await toClipboard(line) ? "trial.copied" : "trial.copy-by-hand");
   };
   return html`
     <section class="line"><h2>${t("trial.line")}</h2>
