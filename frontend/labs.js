@@ -5,7 +5,7 @@ import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createBench } from "./model/labs/bench.js";
 import { withMarks } from "./model/labs/figure.js";
-import { exampleOf, NOTHING, pointOf, readQuestion, requestOf, writeQuestion } from "./model/labs/question.js";
+import { answered, exampleOf, NOTHING, pointOf, readQuestion, requestOf, writeQuestion } from "./model/labs/question.js";
 import { experiment, file } from "./model/labs/stream.js";
 import { createWatch, motionOf, written } from "./model/labs/watch.js";
 import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
@@ -15,7 +15,6 @@ import { offer } from "./view/files.js";
 import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { keeper } from "./view/keeper.js";
-import { withSides } from "./view/labs/form.js";
 import { createMotion } from "./view/labs/motion.js";
 import { page, showOpen } from "./view/labs/page.js";
 import { createCharts } from "./view/labs/plotly.js";
@@ -112,7 +111,7 @@ function link(patch) {
 async function fetchFile(accept) {
   const { question } = bench.get();
   const name = question.lab;
-  const request = requestOf(withSides(bench.get().scene, question), documentOf(question.scene), lang());
+  const request = requestOf(answered(question, bench.get().scene), documentOf(question.scene), lang());
   await file(send, name, request, accept).then((blob) => offer(`${name}-${question.scene}.${accept === "text/csv" ? "csv" : "html"}`, blob, accept), bench.fail);
 }
 
@@ -165,12 +164,12 @@ function clear() {
   set({ play: null, cursor: null, dial: { ...get().dial, step: 0 } });
 }
 
-/** The bench, whose maps begin with the sides that the form shows. */
+/** The bench, which begins with the answers that the form shows. */
 const starting = {
   ...bench,
   start() {
     clear();
-    if (bench.get().question.lab === "stability-map") bench.edit(withSides(bench.get().scene, bench.get().question));
+    bench.edit(answered(bench.get().question, bench.get().scene));
     return bench.start();
   },
   /** @param {string} lab */

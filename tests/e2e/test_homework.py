@@ -338,7 +338,7 @@ def test_with_a_finger_the_keys_of_the_task_come_up_below_the_field(browser: Bro
     context.close()
 
 
-REFUSING = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('refused', 'SecurityError'); }})"
+REFUSING = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('', 'SecurityError'); }})"
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import { COURSE } from "../../frontend/model/start/course.js";
 import { FORMS, SHOWN } from "../../frontend/model/share.js";
 import { PAGES } from "../../frontend/model/url.js";
 import { SLIPS } from "../../frontend/model/homework/grading.js";
+import { OPTIONS } from "../../frontend/model/labs/experiments.js";
 import { SIDES } from "../../frontend/model/homework/place.js";
 import { EXAMPLES } from "../../frontend/model/variations/examples.js";
 import { KINDS } from "../../frontend/model/variations/question.js";
@@ -89,10 +90,10 @@ const EXERCISES = [
 
 const LABS = Object.keys(read("en", "labs").experiments);
 
-/** What the labs ask for by lab and place; charts are made by the server, with its texts. */
+/** What the labs ask for by lab and option; charts are made by the server, with its texts. */
 const LAB = [
   ...LABS.flatMap((lab) => [`labs.experiments.${lab}.title`, `labs.experiments.${lab}.summary`]),
-  ...["duration", "steps", "at", "at-state", "at-rest", "stiffness", "axis-x", "axis-y"].map((key) => `labs.${key}`),
+  ...OPTIONS.flatMap(({ kind, label, choices = [] }) => [label, ...choices.filter((one) => typeof one === "string").map((one) => `${label}-${one}`), ...(kind === "parameter" ? [`${label}-usual`] : [])]).map((key) => `labs.${key}`),
 ];
 const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`).concat("ladder.", "labs.without-result");
 

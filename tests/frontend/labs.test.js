@@ -1,11 +1,13 @@
 import { strict as assert } from "node:assert";
+import { readdirSync } from "node:fs";
 import { test } from "node:test";
 import { ApiError } from "../../frontend/model/api.js";
 import { mapOf, middleOf, moved, seenAt } from "../../frontend/model/labs/cursor.js";
 import { cheapestFor, themed, withStep, withTolerance } from "../../frontend/model/labs/figure.js";
 import { createBench } from "../../frontend/model/labs/bench.js";
+import { experimentOf, OPTIONS } from "../../frontend/model/labs/experiments.js";
 import { titleOf } from "../../frontend/model/labs/ladder.js";
-import { NOTHING, pointOf, readQuestion, requestOf, writeQuestion } from "../../frontend/model/labs/question.js";
+import { answered, exampleOf, NOTHING, onScene, pointOf, readQuestion, requestOf, writeQuestion } from "../../frontend/model/labs/question.js";
 import { inUnicode } from "../../frontend/model/labs/symbols.js";
 import { stepRange } from "../../frontend/model/labs/step.js";
 import { eventReader, experiment } from "../../frontend/model/labs/stream.js";
@@ -216,6 +218,30 @@ test("in another language what was measured is told again, never measured anew, 
   await bench.retell();
   assert.deepEqual(bench.get().charts, ["de"]);
   assert.deepEqual(asked, [["en", false], ["de", false], ["de", false]]);
+});
+
+test("every experiment with a file is known by its name, and every answer has a place of its own in the address", () => {
+  const named = readdirSync(new URL("../../frontend/model/labs/experiments/", import.meta.url)).map((file) => file.replace(".js", ""));
+  assert.deepEqual(named.filter((lab) => experimentOf(lab) === experimentOf("alchemy")), []);
+  const keys = [...OPTIONS.map(({ key }) => key), "lab", "scene", "lang", "theme"];
+  assert.deepEqual(keys.length, new Set(keys).size);
+});
+
+test("an experiment without options of its own needs no file", () => {
+  assert.deepEqual(requestOf({ ...NOTHING, lab: "alchemy", scene: "pendulum", duration: 3, flips: false }, "pendulum", "en"), { scene: "pendulum", parameters: {}, initial: {}, lang: "en", t_end: 3 });
+  assert.equal(exampleOf("alchemy").scene, "double-pendulum");
+});
+
+test("what was said of one scene is not said of another", () => {
+  const { x, y, stiffness, parameters, initial, steps, scene } = onScene(ASKED, "pendulum");
+  assert.deepEqual({ x, y, stiffness, parameters, initial, steps, scene }, { x: null, y: null, stiffness: "", parameters: {}, initial: {}, steps: 1000, scene: "pendulum" });
+});
+
+test("a map begins with the parameters that drive its scene", () => {
+  const driven = { ...SCENE, parameters: [{ name: "l", value: 1 }, { name: "y0", value: 2, min: 0, max: 3 }, { name: "omega", value: 4 }] };
+  const question = answered({ ...NOTHING, lab: "stability-map", scene: "own" }, /** @type {any} */ (driven));
+  assert.deepEqual([question.x, question.y], [{ parameter: "omega", from: 2, to: 8 }, { parameter: "y0", from: 0, to: 3 }]);
+  assert.deepEqual(answered(ASKED, /** @type {any} */ (driven)), ASKED);
 });
 
 test("another lab keeps the scene, but for the map, which needs a driven one", async () => {

@@ -32,8 +32,17 @@ def test_a_name_beats_a_number() -> None:
 
 def test_letters_that_the_scene_tells_apart_stay_apart() -> None:
     names = Names((Symbol("phi", "coordinate"), Symbol("varphi", "coordinate"), Symbol("l", "parameter")))
-    assert [s.name for s in names.candidates(r"\varphi")] == ["varphi", "phi"] or names.resolve("varphi")
-    assert names.get("varphi") == Symbol("varphi", "coordinate")
+    assert [[s.name for s in names.candidates(spelling)] for spelling in ("phi", "varphi", r"\phi")] == [
+        ["phi"],
+        ["varphi"],
+        ["phi"],
+    ]
+
+
+def test_letters_that_are_written_alike_are_ambiguous() -> None:
+    names = Names((Symbol("phi", "coordinate"), Symbol("varphi", "coordinate")))
+    assert [s.name for s in names.candidates(r"\varphi")] == ["phi", "varphi"]
+    assert names.resolve(r"\varphi") is None
 
 
 def test_one_latex_for_two_symbols_is_ambiguous() -> None:

@@ -3,7 +3,7 @@
 import { ApiError } from "../api.js";
 import { newest } from "../latest.js";
 import { createStore } from "../store.js";
-import { exampleOf, requestOf } from "./question.js";
+import { inLab, onScene, requestOf } from "./question.js";
 
 /** @typedef {import("./question.js").Question} Question */
 /** @typedef {import("./stream.js").Chart} Chart */
@@ -97,18 +97,15 @@ export function createBench({ run, scene, document, lang }, question) {
     /** Another lab, on the same scene; where there is none, on the one that shows it best. @param {string} lab */
     open(lab) {
       stop();
-      const { scene, x, y } = get().question;
-      const usual = exampleOf(lab);
-      const keeps = scene && lab !== "stability-map";
-      edit({ lab, ...(keeps ? {} : { ...usual, parameters: {}, initial: {} }), ...(lab === "stability-map" && x && y && scene === usual.scene ? { x, y } : {}) });
-      set(EMPTY);
-      if (!keeps) void load();
+      const before = get().question;
+      const question = inLab(before, lab);
+      set({ ...EMPTY, question });
+      if (question.scene !== before.scene || !get().scene) void load();
     },
     /** Another scene: what was said of the one before goes. @param {string} scene */
     choose(scene) {
       stop();
-      edit({ scene, parameters: {}, initial: {}, x: null, y: null, stiffness: "" });
-      set(EMPTY);
+      set({ ...EMPTY, question: onScene(get().question, scene) });
       void load();
     },
   };

@@ -1,8 +1,11 @@
-/** What is to be measured: scene, span, what each lab asks besides, and the scene's own values. */
+/** What is to be measured: scene, what the experiment asks besides, and the scene's own values. */
 
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inLanguage } from "../../model/catalog.js";
+import { experimentOf } from "../../model/labs/experiments.js";
+import { rangeOf } from "../../model/labs/options.js";
+import { answered } from "../../model/labs/question.js";
 import { inUnicode } from "../../model/labs/symbols.js";
 import { perSecond, unitText } from "../../model/numbers.js";
 import { OWN } from "../../model/own.js";
@@ -11,9 +14,8 @@ import { inline } from "../formula.js";
 import { settled } from "../settled.js";
 
 /** @typedef {import("./page.js").View} View */
+/** @typedef {import("../../model/labs/options.js").Option} Option */
 /** @typedef {import("../../model/types.js").Scene} Scene */
-
-const STEPS = [1e3, 1e4, 1e5, 1e6];
 
 /** @param {Event} event */
 const textOf = (event) => /** @type {HTMLInputElement} */ (event.target).value;
@@ -29,7 +31,7 @@ export function form(view) {
   return html`
     <form class="question" @submit=${submit}>
       ${sceneOf(view)}
-      ${(OPTIONS[bench.question.lab] ?? [duration]).map((option) => option(view))}
+      ${experimentOf(bench.question.lab).options.map((option) => CONTROLS[option.kind](view, option))}
       <button class="main" type="submit" ?disabled=${!bench.scene && !bench.running}>${t(bench.running ? "labs.stop" : bench.result ? "labs.again" : "labs.start")}</button>
       ${bench.scene ? values(view, bench.scene) : nothing}
     </form>`;
@@ -55,79 +57,58 @@ function number(value, put, { min, max, step = "any", placeholder = "" } = {}) {
   return html`<input type="number" inputmode="decimal" step=${step} min=${min ?? nothing} max=${max ?? nothing} placeholder=${placeholder} .value=${settled(String(value))} @change=${changed}>`;
 }
 
-/** @param {View} view */
-function duration(view) {
-  const usual = view.bench.question.lab === "chaos" ? 30 : 10;
-  return field(view, "duration", number(view.bench.question.duration || usual, (duration) => view.benches.edit({ duration }), { min: 0.1, max: 1000 }));
+/** @param {View} view @param {Option} option */
+function quantity(view, { name, label, range }) {
+  const { bench, benches } = view;
+  return field(view, label, number(bench.question[name] || range?.shown, (given) => benches.edit({ [name]: given }), range));
+}
+
+/** @param {View} view @param {Option} option */
+function tick({ bench, benches, t }, { name, label }) {
+  return html`<label class="tick"><input type="checkbox" .checked=${live(bench.question[name])} @change=${() => benches.edit({ [name]: !bench.question[name] })}>${t(`labs.${label}`)}</label>`;
+}
+
+/** @param {View} view @param {Option} option */
+function choice(view, { name, label, choices = [] }) {
+  const { bench, benches, state, t } = view;
+  const chosen = bench.question[name];
+  const said = (/** @type {string | number} */ one) => (typeof one === "number" ? one.toLocaleString(state.place.lang) : t(`labs.${label}-${one}`));
+  return field(view, label, html`<select .value=${live(String(chosen))} @change=${(/** @type {Event} */ e) => benches.edit({ [name]: choices.find((one) => String(one) === textOf(e)) })}>
+    ${choices.map((one) => html`<option value=${one} ?selected=${one === chosen}>${said(one)}</option>`)}</select>`);
 }
 
 /** @param {View} view */
-function peers({ bench, benches, t }) {
-  return html`<label class="tick"><input type="checkbox" .checked=${live(bench.question.peers)} @change=${() => benches.edit({ peers: !bench.question.peers })}>${t("labs.peers")}</label>`;
-}
+const parametersOf = ({ bench }) => bench.scene?.parameters ?? [];
+/** @param {import("../../model/types.js").Parameter[]} parameters @param {string} chosen */
+const entries = (parameters, chosen) => parameters.map(({ name, latex }) => html`<option value=${name} ?selected=${name === chosen}>${inUnicode(latex || name)}</option>`);
 
-/** @param {View} view */
-function flips({ bench, benches, t }) {
-  return html`<label class="tick"><input type="checkbox" .checked=${live(bench.question.flips)} @change=${() => benches.edit({ flips: !bench.question.flips })}>${t("labs.flips")}</label>`;
-}
-
-/** @param {View} view */
-function steps(view) {
-  const { bench, benches, state } = view;
-  const chosen = bench.question.steps || 1e5;
-  return field(view, "steps", html`<select .value=${live(String(chosen))} @change=${(/** @type {Event} */ e) => benches.edit({ steps: Number(textOf(e)) })}>
-    ${STEPS.map((count) => html`<option value=${count} ?selected=${count === chosen}>${count.toLocaleString(state.place.lang)}</option>`)}</select>`);
-}
-
-/** @param {View} view */
-function at(view) {
+/** @param {View} view @param {Option} option */
+function parameter(view, { name, label }) {
   const { bench, benches, t } = view;
-  return field(view, "at", html`<select .value=${live(bench.question.at)} @change=${(/** @type {Event} */ e) => benches.edit({ at: /** @type {"state" | "rest"} */ (textOf(e)) })}>
-    ${["state", "rest"].map((place) => html`<option value=${place} ?selected=${place === bench.question.at}>${t(`labs.at-${place}`)}</option>`)}</select>`);
+  const chosen = bench.question[name];
+  return field(view, label, html`<select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => benches.edit({ [name]: textOf(e) })}>
+    <option value="">${t(`labs.${label}-usual`)}</option>${entries(parametersOf(view), chosen)}</select>`);
 }
 
-/** @param {View} view */
-function allowed(view) {
-  return field(view, "fidelity.tolerance", number(view.bench.question.allowed, (percent) => view.benches.edit({ allowed: percent }), { min: 1e-6, max: 100 }));
-}
-
-/** @param {Scene | null} scene */
-const parametersOf = (scene) => scene?.parameters ?? [];
-
-/** @param {View} view */
-function stiffness(view) {
+/** @param {View} view @param {Option} option */
+function side(view, { name, label }) {
   const { bench, benches, t } = view;
-  const { stiffness: chosen } = bench.question;
-  return field(view, "stiffness", html`<select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => benches.edit({ stiffness: textOf(e) })}>
-    <option value="">${t("labs.stiffness-usual")}</option>
-    ${parametersOf(bench.scene).map(({ name, latex }) => html`<option value=${name} ?selected=${name === chosen}>${inUnicode(latex || name)}</option>`)}</select>`);
-}
-
-/** @param {"x" | "y"} key @returns {(view: View) => unknown} */
-const side = (key) => (view) => {
-  const { bench, benches, t } = view;
-  const parameters = parametersOf(bench.scene);
-  const now = bench.question[key] ?? usualSide(parameters, key);
+  const parameters = parametersOf(view);
+  const now = answered(bench.question, bench.scene)[name];
   if (!now) return nothing;
-  const put = (/** @type {Partial<import("../../model/labs/question.js").Side>} */ patch) => benches.edit({ [key]: { ...now, ...patch } });
-  const choose = (/** @type {Event} */ e) => put(rangeOf(parameters.find(({ name }) => name === textOf(e)) ?? parameters[0]));
+  const put = (/** @type {object} */ patch) => benches.edit({ [name]: { ...now, ...patch } });
+  const choose = (/** @type {Event} */ e) => put(rangeOf(parameters.find((one) => one.name === textOf(e)) ?? parameters[0]));
   return html`
-    <fieldset class="side"><legend>${t(`labs.axis-${key}`)}</legend>
-      <select aria-label=${t("labs.parameter")} .value=${live(now.parameter)} @change=${choose}>${parameters.map(({ name, latex }) => html`<option value=${name} ?selected=${name === now.parameter}>${inUnicode(latex || name)}</option>`)}</select>
+    <fieldset class="side"><legend>${t(`labs.${label}`)}</legend>
+      <select aria-label=${t("labs.parameter")} .value=${live(now.parameter)} @change=${choose}>${entries(parameters, now.parameter)}</select>
       <label><span class="unseen">${t("labs.from")}</span>${number(now.from, (from) => put({ from }))}</label>
       <span aria-hidden="true">…</span>
       <label><span class="unseen">${t("labs.to")}</span>${number(now.to, (to) => put({ to }))}</label>
     </fieldset>`;
-};
-
-/** @param {import("../../model/types.js").Parameter} parameter @returns {import("../../model/labs/question.js").Side} */
-const rangeOf = ({ name, value, min, max }) => ({ parameter: name, from: min ?? value / 2, to: max ?? value * 2 });
-
-/** The last parameters of a driven scene are those that drive it. @param {import("../../model/types.js").Parameter[]} parameters @param {"x" | "y"} key */
-function usualSide(parameters, key) {
-  const found = parameters[parameters.length - (key === "x" ? 1 : 2)];
-  return found ? rangeOf(found) : null;
 }
+
+/** How each kind of option is asked. @type {Record<Option["kind"], (view: View, option: Option) => unknown>} */
+const CONTROLS = { number: quantity, tick, choice, parameter, side };
 
 /** The scene's numbers, as changed for this measurement. @param {View} view @param {Scene} scene */
 function values(view, scene) {
@@ -144,21 +125,4 @@ function values(view, scene) {
         <label class="field row"><span>${inline(`${latex || name}(0)`)}</span>${number(initial[name]?.value ?? value, (given) => start(name, { value: given }))}<span class="unit">${unitText(unit ?? "")}</span></label>
         <label class="field row"><span>${inline(`${dotted(latex || name)}(0)`)}</span>${number(initial[name]?.rate ?? rate, (given) => start(name, { rate: given }))}<span class="unit">${unitText(perSecond(unit ?? ""))}</span></label>`)}
     </details>`;
-}
-
-/** What each lab asks. @type {Record<string, ((view: View) => unknown)[]>} */
-const OPTIONS = {
-  "work-precision": [duration, peers],
-  convergence: [duration],
-  "energy-drift": [steps],
-  stability: [at, stiffness, duration],
-  "stability-map": [side("x"), side("y")],
-  chaos: [duration, flips],
-  fidelity: [duration, allowed],
-};
-
-/** The sides of a map as the form shows them, also while nobody has chosen. @param {Scene | null} scene @param {import("../../model/labs/question.js").Question} question */
-export function withSides(scene, question) {
-  const parameters = parametersOf(scene);
-  return { ...question, x: question.x ?? usualSide(parameters, "x"), y: question.y ?? usualSide(parameters, "y") };
 }

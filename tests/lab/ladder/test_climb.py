@@ -66,6 +66,7 @@ def test_without_rest_there_is_one_amplitude() -> None:
 
 def test_the_same_motion_is_measured_where_amplitude_is_one() -> None:
     found = climbed(load_scene("elastic-pendulum"), 2.0, (0.5,))
+    assert len(found.growth) == len(found.ladder.rungs) - 1
     for rung, growth in found.growth.items():
         assert growth.relative[1] == pytest.approx(found.relative(rung), rel=1e-6)
 
