@@ -29,6 +29,7 @@ from deltaq.simulation.service import problem_of
 
 REPEATS = 9
 SPAN, STEP = 20.0, 1e-4  # of the fixed-step runs
+QUICKEST = "-fno-tree-vectorize"  # vectors of numbers just stored one by one make a processor wait
 Timing = Callable[[], float]  # nanoseconds per right-hand side
 
 HAND_WRITTEN = r"""
@@ -70,15 +71,15 @@ def kernel(problem: Problem, identifier: str, steps: Steps) -> Timing:
     return timing
 
 
-def hand_written(problem: Problem, folder: Path) -> Timing | None:
+def hand_written(problem: Problem, folder: Path, *flags: str) -> Timing | None:
     """The same RK4 in C, if there is a compiler."""
     compiler = next((path for name in ("cc", "gcc", "clang") if (path := shutil.which(name))), None)
     if compiler is None:
         return None
-    source, library = folder / "pendulum.c", folder / "pendulum.so"
+    source, library = folder / "pendulum.c", folder / f"pendulum{''.join(flags)}.so"
     source.write_text(HAND_WRITTEN)
-    flags = ["-O3", "-march=native", "-shared", "-fPIC", "-o", str(library), str(source), "-lm"]
-    subprocess.run([compiler, *flags], check=True)
+    usual = ["-O3", "-march=native", "-shared", "-fPIC", "-o", str(library), str(source), "-lm"]
+    subprocess.run([compiler, *usual, *flags], check=True)
     rk4 = ctypes.CDLL(str(library)).rk4
     pointer, steps = ctypes.POINTER(ctypes.c_double), round(SPAN / STEP)
     parameters = np.array(problem.parameters)
@@ -128,6 +129,7 @@ def main() -> None:
             "rk4 kernel": kernel(problem, "rk4", Steps(STEP)),
             "dop853 kernel": kernel(problem, "dop853", Steps(1.0, 1e-13)),
             "hand-written C, rk4": hand_written(problem, Path(folder)),
+            "the same C without vectors": hand_written(problem, Path(folder), QUICKEST),
             "solve_ivp DOP853 over lambdify": solve_ivp_over_lambdify(problem),
         }
         usable = {name: timing for name, timing in timings.items() if timing is not None}

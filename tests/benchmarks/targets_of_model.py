@@ -53,7 +53,7 @@ def right_hand_side() -> Iterator[Target]:
     problem = problem_of(double_pendulum(), bench_rhs.SPAN)
     own = bench_rhs.kernel(problem, "rk4", Steps(bench_rhs.STEP))
     with tempfile.TemporaryDirectory() as folder:
-        peer = bench_rhs.hand_written(problem, Path(folder))
+        peer = bench_rhs.hand_written(problem, Path(folder), bench_rhs.QUICKEST)
         if peer is None:
             print("no C compiler: the right-hand side is not compared")
             return

@@ -63,10 +63,10 @@ def test_small_systems_are_solved_alike(n: int) -> None:
         random = np.random.default_rng(seed)
         square = random.normal(size=(n, n))
         matrix, right = square @ square.T + 1e-3 * np.eye(n), random.normal(size=n)
-        one, two = packed(matrix, right), packed(matrix, right)
-        assert solve_small(one, n, np.inf) == pytest.approx(factor(two, n), rel=1e-9)
-        solve(two, n)
-        np.testing.assert_allclose(one[-n:], two[-n:], rtol=1e-9)
+        numbers, slope = packed(matrix, right), np.zeros(2 * n)
+        assert solve_small(packed(matrix, right), n, np.inf, slope) == pytest.approx(factor(numbers, n), rel=1e-9)
+        solve(numbers, n)
+        np.testing.assert_allclose(slope[n:], numbers[-n:], rtol=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -74,12 +74,12 @@ def test_small_systems_are_solved_alike(n: int) -> None:
 )
 def test_small_singular_matrices_are_found(matrix: list[list[float]]) -> None:
     square = np.array(matrix)
-    assert solve_small(packed(square, np.ones(len(square))), len(square), np.inf) <= SMALLEST_PIVOT
+    assert solve_small(packed(square, np.ones(len(square))), len(square), np.inf, np.zeros(4)) <= SMALLEST_PIVOT
 
 
 @pytest.mark.parametrize("numbers", [[np.nan, 1.0], [1.0, np.nan, 1.0, 0.0, 0.0], [1.0, 0.0, np.nan, 0.0, 0.0]])
 def test_nan_in_small_systems_is_told_from_singular(numbers: list[float]) -> None:
-    assert np.isnan(solve_small(np.array(numbers), 1 if len(numbers) == 2 else 2, np.inf))
+    assert np.isnan(solve_small(np.array(numbers), 1 if len(numbers) == 2 else 2, np.inf, np.zeros(4)))
 
 
 def test_thorough_code_is_made_for_long_runs_only() -> None:

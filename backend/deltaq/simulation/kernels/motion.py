@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .compiler import inner
-from .pointer import call
+from .pointer import call, one_by_one
 
 Floats = NDArray[np.float64]
 
@@ -83,19 +83,19 @@ def solve(m: Floats, n: int) -> None:
 
 
 @inner
-def solve_small(m: Floats, n: int, known: float) -> float:
-    """`factor` and `solve` for one or two coordinates, with as few divisions as can be.
+def solve_small(m: Floats, n: int, known: float, out: Floats) -> float:
+    """`factor` and `solve` for one or two coordinates, with as few divisions as can be; q̈ goes behind q̇ in `out`.
 
     `known` is the smallest ratio so far, and what is returned if this one is not smaller.
     """
     if n == 1:
         first = m[0]
-        m[1] /= first
+        out[1] = m[1] / first
         return 1.0 if first > 0.0 else (first if np.isnan(first) else 0.0)
     a, b, c, f, g = m[0], m[1], m[2], m[3], m[4]
     determinant, largest = a * c - b * b, max(a, c)
     inverse = 1.0 / determinant
-    m[3], m[4] = (c * f - b * g) * inverse, (a * g - b * f) * inverse
+    out[2], out[3] = (c * f - b * g) * inverse, (a * g - b * f) * inverse
     if a >= known * largest and determinant >= known * largest * a and a > 0.0:  # the second pivot is determinant / a
         return known
     ratio = determinant / (a * largest)
@@ -105,8 +105,20 @@ def solve_small(m: Floats, n: int, known: float) -> float:
 
 
 @inner
+def solve_large(m: Floats, n: int, out: Floats) -> float:
+    """The same for any number of coordinates, by `factor` and `solve`."""
+    ratio = factor(m, n)
+    if ratio > SMALLEST_PIVOT:
+        solve(m, n)
+        for i in range(n):
+            out[n + i] = m[n * (n + 1) // 2 + i]
+    return float(ratio)
+
+
+@inner
 def slope(motion: Motion, t: float, state: Floats, out: Floats) -> int:
     """d/dt of the state (q, q̇, ∫P dt) into `out`; returns FINE, SINGULAR or NOT_FINITE."""
+    one_by_one()
     for i in range(2 * motion.degrees):
         motion.inputs[i] = state[i]
     return slope_here(motion, t, out)
@@ -115,22 +127,20 @@ def slope(motion: Motion, t: float, state: Floats, out: Floats) -> int:
 @inner
 def slope_here(motion: Motion, t: float, out: Floats) -> int:
     """`slope` at the state that stands in the inputs already."""
+    one_by_one()
     n, inputs, outputs = motion.degrees, motion.inputs, motion.outputs
     inputs[2 * n] = t
     call(motion.address, motion.data, outputs, inputs)
-    first = n * (n + 1) // 2
-    ratio = solve_small(outputs, n, motion.conditioning[0]) if n <= 2 else factor(outputs, n)
+    ratio = solve_small(outputs, n, motion.conditioning[0], out) if n <= 2 else solve_large(outputs, n, out)
     if not ratio > SMALLEST_PIVOT:
         return NOT_FINITE if np.isnan(ratio) else SINGULAR
     motion.conditioning[0] = min(motion.conditioning[0], ratio)
-    if n > 2:
-        solve(outputs, n)
     for i in range(n):
         out[i] = inputs[n + i]
-        out[n + i] = outputs[first + i]
     if motion.is_powered:
-        power = outputs[first + n]
+        place = n * (n + 1) // 2 + n
+        power = outputs[place]
         for i in range(n):
-            power += outputs[first + n + 1 + i] * outputs[first + i]
+            power += outputs[place + 1 + i] * out[n + i]
         out[2 * n] = power
     return FINE

@@ -1,4 +1,4 @@
-"""Calling a compiled model from inside a kernel.
+"""Calling a compiled model from inside a kernel, and keeping numbers out of vectors.
 
 The addresses are arguments, so one compiled kernel serves every model and can be cached on disk.
 """
@@ -19,9 +19,6 @@ def _call(_context: Any, _address: Any, _data: Any, outputs: Any, inputs: Any) -
         number, memory = ir.DoubleType().as_pointer(), ir.IntType(8).as_pointer()
         kind = ir.FunctionType(ir.VoidType(), [number, number, memory])
         function = builder.inttoptr(arguments[0], kind.as_pointer())
-        # A kernel with this attribute is not vectorized. Its vectors would be of numbers stored one by one just
-        # before, which a processor must wait for: a right-hand side would take a quarter longer.
-        builder.function.attributes.add("noimplicitfloat")
         out = context.make_array(outputs)(context, builder, arguments[2])
         given = context.make_array(inputs)(context, builder, arguments[3])
         builder.call(function, [out.data, given.data, builder.inttoptr(arguments[1], memory)])
@@ -30,4 +27,19 @@ def _call(_context: Any, _address: Any, _data: Any, outputs: Any, inputs: Any) -
     return types.void(types.int64, types.int64, outputs, inputs), generate
 
 
+def _one_by_one(_context: Any) -> Any:
+    """one_by_one(): the function in which this stands, and what it is a part of, is not vectorized.
+
+    Vectors of numbers that were stored one by one just before are what a processor must wait for: with them, a
+    right-hand side of two coordinates takes a quarter longer.
+    """
+
+    def generate(context: Any, builder: Any, _signature: Any, _arguments: Any) -> Any:
+        builder.function.attributes.add("noimplicitfloat")
+        return context.get_dummy_value()
+
+    return types.void(), generate
+
+
 call: Any = intrinsic(_call)
+one_by_one: Any = intrinsic(_one_by_one)

@@ -8,6 +8,7 @@ import numpy as np
 
 from .compiler import inner, variable
 from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, slope, slope_here
+from .pointer import one_by_one
 
 LARGEST_VALUE = 1e15  # beyond, nothing in a mechanical scene has a meaning
 
@@ -97,6 +98,7 @@ def attempt(motion: Motion, weights: Weights, t: float, h: float, room: Room) ->
 @inner
 def accept(end: int, room: Room) -> None:
     """The new state becomes the old one."""
+    one_by_one()
     for d in range(room.old.size):
         room.old[d] = room.new[d]
         room.lost[d] = room.new_lost[d]
