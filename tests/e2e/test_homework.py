@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import until_equal
 
 pytestmark = pytest.mark.e2e
 PATIENCE = 60_000.0
@@ -25,6 +26,7 @@ def _open(lecture: Lecture, query: str = "scene=pendulum&task=equation:phi&lang=
 
 def _answer_as_text(page: Page, *parts: str) -> None:
     page.get_by_role("group", name=re.compile("Notation|Schreibweise")).get_by_role("button", name="Text").click()
+    expect(page.locator("textarea.entry")).to_have_count(len(parts))
     for field, part in zip(page.locator("textarea.entry").all(), parts, strict=True):
         field.fill(part)
 
@@ -33,8 +35,15 @@ def _math_field(page: Page) -> Locator:
     field = page.locator("math-field").first
     field.wait_for(timeout=PATIENCE)
     field.click()
-    page.wait_for_timeout(300)  # the field takes its first letter only after it has got the focus
+    # It takes its first letter only when it has got the focus, and knows its shortcuts one frame after it has come.
+    page.wait_for_function("field => field.hasFocus() && field.menuItems.length === 0", arg=field.element_handle())
     return field
+
+
+PARTED = """() => {
+    const [right, yours] = ['right', 'yours'].map((one) => document.querySelector(`.drawing.${one} path.bob`));
+    return right && yours && right.getAttribute('transform') !== yours.getAttribute('transform');
+}"""
 
 
 def _check(page: Page, outcome: str) -> Locator:
@@ -158,9 +167,7 @@ def test_both_motions_are_shown_and_the_solution_leads_to_its_step(lecture: Lect
     _check(page, "wrong")
     page.get_by_role("button", name="Show both motions").click()
     expect(page.locator(".motions .apart")).to_contain_text("They part at", timeout=PATIENCE)
-    page.wait_for_timeout(1200)
-    places = [page.locator(f".drawing.{one} path.bob").get_attribute("transform") for one in ("right", "yours")]
-    assert places[0] != places[1]
+    page.wait_for_function(PARTED)
     desk = page.viewport_size
     page.set_viewport_size({"width": 360, "height": 740})
     expect(page.locator(".drawing.yours")).to_have_css(
@@ -181,6 +188,7 @@ def test_a_working_is_marked_line_by_line(lecture: Lecture) -> None:
         line = page.locator(".line").nth(number)
         line.locator("option", has_text=task).first.wait_for(state="attached")
         line.locator("select").select_option(line.locator("option", has_text=task).first.get_attribute("value"))
+        line.locator("math-field, textarea").first.wait_for()
         if line.get_by_role("button", name="as text").count():
             line.get_by_role("button", name="as text").click()
         line.locator("textarea").fill(text)
@@ -322,7 +330,7 @@ def test_with_a_finger_the_keys_of_the_task_come_up_below_the_field(browser: Bro
     page.wait_for_timeout(600)
     caps.nth(2).tap()
     expect(page.locator(".understood-as .katex").first).to_be_visible(timeout=PATIENCE)
-    assert field.evaluate("field => field.value") == r"\ddot{\varphi}"
+    until_equal(page, lambda: field.evaluate("field => field.value"), r"\ddot{\varphi}")
     expect(field).to_be_in_viewport()
     caps.filter(has_text=re.compile(r"^\W*a\W*2\W*$")).tap()
     assert field.evaluate("field => field.value") == r"\ddot{\varphi}^2"

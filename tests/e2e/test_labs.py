@@ -7,6 +7,7 @@ import re
 import pytest
 from playwright.sync_api import expect
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import until_equal
 
 pytestmark = pytest.mark.e2e
 PATIENCE = 90_000.0
@@ -26,10 +27,10 @@ def measured(lecture: Lecture) -> Lecture:
 
 def test_work_and_precision_answers_while_the_wish_is_dragged(lecture: Lecture) -> None:
     page = measured(opened(lecture, "lab=work-precision&scene=pendulum&t=2")).page
-    assert page.locator("figure .main-svg").count() >= 2
+    page.locator("figure .main-svg").nth(1).wait_for(state="attached")
     answer = page.locator("output[for=tolerance]")
+    expect(answer).to_have_text(re.compile(r"^\s*For an error of 1\.0·10⁻⁶ take .+: .+ ms \("))
     before = answer.inner_text()
-    assert re.match(r"For an error of 1\.0·10⁻⁶ take .+: .+ ms \(", before)
     page.locator("#tolerance").focus()
     page.keyboard.press("End")
     expect(answer).not_to_have_text(before)
@@ -38,13 +39,14 @@ def test_work_and_precision_answers_while_the_wish_is_dragged(lecture: Lecture) 
 def test_the_menu_comes_from_the_server(lecture: Lecture) -> None:
     page = opened(lecture, "lab=alchemy&scene=pendulum").page
     words = page.request.get(f"{lecture.address}api/v1/catalogs/en?sections=labs").json()["labs"]["experiments"]
-    assert page.locator(".kinds a").all_inner_texts() == [words[name]["title"] for name in words]
+    expect(page.locator(".kinds a")).to_have_text([words[name]["title"] for name in words])
     expect(page.locator(".kinds [aria-current=page]")).to_have_text(words["work-precision"]["title"])
     expect(page).to_have_url(re.compile("lab=work-precision"))
 
 
 def test_another_language_tells_the_same_figures(lecture: Lecture) -> None:
     page = measured(opened(lecture, "lab=work-precision&scene=pendulum&t=3")).page
+    expect(page.locator("output[for=tolerance]")).to_contain_text(" ms")
     said = page.locator("output[for=tolerance]").inner_text()
     time = re.search(r": (\S+)\xa0?\s?ms", said)
     assert time is not None
@@ -61,7 +63,7 @@ def test_a_run_is_stopped_and_keeps_what_was_measured(lecture: Lecture) -> None:
     page.locator("figure .main-svg").first.wait_for(timeout=PATIENCE)
     page.get_by_role("button", name="Stop").click()
     expect(page.locator(".progress")).to_contain_text("what was measured stays")
-    assert page.locator("figure").count() >= 1
+    expect(page.locator("figure").first).to_be_visible()
     expect(page.get_by_role("button", name="Measure", exact=True)).to_be_enabled()
 
 
@@ -115,7 +117,7 @@ def test_bad_values_are_told_and_nothing_is_lost(lecture: Lecture) -> None:
 def test_a_phone_shows_all_of_it(lecture: Lecture, lang: str) -> None:
     lecture.page.set_viewport_size({"width": 360, "height": 740})
     page = measured(opened(lecture, "lab=convergence&scene=pendulum&t=1", lang)).page
-    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    until_equal(page, lambda: page.evaluate("document.documentElement.scrollWidth"), 360)
     canvas = page.locator(".canvas").first.bounding_box()
     assert canvas is not None
     assert canvas["x"] + canvas["width"] <= 360

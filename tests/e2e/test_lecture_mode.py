@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import expect
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -19,10 +20,6 @@ def hall(lecture: Lecture) -> Lecture:
     lecture.page.goto(f"{lecture.address}scene{PLACE}")
     expect(lecture.page.locator(".slide .formula .katex").first).to_be_visible()
     return lecture
-
-
-def parts(page: Page) -> int:
-    return page.locator(".slide .part").count()
 
 
 def test_a_key_enters_and_leaves(lecture: Lecture) -> None:
@@ -153,7 +150,7 @@ def test_the_variation_and_the_reason_are_there_in_a_lecture_too(hall: Lecture) 
     page.locator(".figure-tools button").first.click()
     total = page.locator(".virtual-panel .bars [data-load='']")
     expect(total).to_be_in_viewport(ratio=0.98)
-    assert page.locator("[data-slider^=delta-] input[type=range]").count() == 3  # δq₁, δq₂ and dt
+    expect(page.locator("[data-slider^=delta-] input[type=range]")).to_have_count(3)  # δq₁, δq₂ and dt
     page.reload()
     expect(total).to_be_in_viewport(ratio=0.98)
 
@@ -189,11 +186,12 @@ def test_equations_fit_the_width_of_the_screen(hall: Lecture, width: int, height
     page = hall.page
     page.set_viewport_size({"width": width, "height": height})
     page.goto(f"{hall.address}scene?scene=double-pendulum&lang=de&view=lecture&step=lagrangian")
-    for _ in ("lagrangian", "equation:phi1", "equation:phi2"):
+    for step in ("lagrangian", "equation:phi1", "equation:phi2"):
+        expect(page.locator(".slide .step")).to_have_attribute("data-step", step)
         expect(page.locator(".slide .formula .katex").first).to_be_visible()
         fits = "() => [...document.querySelectorAll('.slide .formula')].every(e => e.scrollWidth <= e.clientWidth + 1)"
         page.wait_for_function(fits)
-        assert page.evaluate("document.documentElement.scrollWidth") == width
+        until_equal(page, lambda: page.evaluate("document.documentElement.scrollWidth"), width)
         page.keyboard.press("PageDown")
 
 
@@ -233,8 +231,8 @@ def test_the_general_proof_is_lectured_the_same_way(lecture: Lecture) -> None:
     page.keyboard.press("l")
     expect(page.locator(".slide .number")).to_have_text("1.1")
     expect(page.locator(".top")).to_be_hidden()
-    box = page.locator(".slide").bounding_box() or {}
-    assert (box["width"], box["height"]) == (1366, 768)
+    screen = {"x": 0, "y": 0, "width": 1366, "height": 768}
+    until_equal(page, page.locator(".slide").bounding_box, screen)
     for key, number in (("PageDown", "1.2"), ("End", "7.2"), ("PageUp", "7.1"), ("Home", "1.1")):
         page.keyboard.press(key)
         expect(page.locator(".slide .number")).to_have_text(number)

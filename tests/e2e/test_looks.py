@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Browser, Page, expect
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import frames, until, until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -75,8 +76,8 @@ def test_no_heading_and_no_label_is_cut(lecture: Lecture, place: str, ready: str
     page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
     for width, height in SIZES:
         page.set_viewport_size({"width": width, "height": height})
-        page.wait_for_timeout(100)
-        assert page.evaluate(CUT) == [], width
+        frames(page, 2)
+        until_equal(page, lambda: page.evaluate(CUT), [])
     assert page.evaluate(TIGHT) == []
 
 
@@ -100,8 +101,8 @@ def test_no_key_stands_alone(lecture: Lecture, task: str) -> None:
     page.locator(".keyboard .katex").first.wait_for(timeout=PATIENCE)
     for width in (360, 412, 768, 1366):
         page.set_viewport_size({"width": width, "height": 800})
-        rows = rows_of(page, ".keyboard > .keys .key-cap")
-        assert min(rows) > 1, (width, rows)
+        frames(page, 2)
+        until(page, lambda: rows_of(page, ".keyboard > .keys .key-cap"), lambda rows: min(rows) > 1)
 
 
 def test_a_dialog_on_a_phone_keeps_its_margins(lecture: Lecture) -> None:
@@ -124,7 +125,7 @@ def test_a_page_without_its_texts_waits_for_them_and_shows_its_name(page: Page, 
     page.wait_for_timeout(1500)
     name = "getComputedStyle(document.getElementById('page'), '::before')"
     assert page.evaluate(f"{name}.content") == '"δq"'
-    assert page.evaluate(f"{name}.opacity") == "1"
+    until_equal(page, lambda: page.evaluate(f"{name}.opacity"), "1")
     page.unroute(catalogs)
     expect(page.locator(".question h2")).to_be_visible(timeout=PATIENCE)
     assert page.evaluate(f"{name}.content") == "none"
@@ -150,9 +151,8 @@ def test_a_thumb_meets_what_it_presses(browser: Browser, server: str, place: str
     page = context.new_page()
     page.goto(f"{server}{place}&lang=de")
     page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
-    small = page.evaluate(REACH)
+    until_equal(page, lambda: page.evaluate(REACH), [])
     context.close()
-    assert small == []
 
 
 @pytest.mark.parametrize("place", ["?", "scene?", "proof?", "labs?", "homework?", "handout?", "variations?"])

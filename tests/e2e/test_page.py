@@ -6,8 +6,9 @@ import re
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Request, expect
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import frames, until, until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -19,6 +20,13 @@ def query_of(page: Page) -> dict[str, str]:
     return {key: values[0] for key, values in parse_qs(urlsplit(page.url).query).items()}
 
 
+def parameters_of(request: Request) -> object:
+    """What a simulation was asked for with; None for any other request."""
+    if not request.url.endswith("/api/v1/simulations"):
+        return None
+    return (request.post_data_json or {}).get("parameters")
+
+
 @pytest.mark.parametrize("scene", SCENES)
 def test_all_steps_are_revealed_and_typeset(lecture: Lecture, scene: str) -> None:
     lecture.open(f"?scene={scene}&lang=de")
@@ -28,9 +36,8 @@ def test_all_steps_are_revealed_and_typeset(lecture: Lecture, scene: str) -> Non
     for shown in range(2, total + 1):
         lecture.page.keyboard.press("ArrowRight")
         expect(lecture.steps).to_have_count(shown)
-    assert lecture.page.locator(".untypeset, .katex-error").count() == 0
-    assert lecture.page.locator(".step .formula .katex").count() >= total - 2
-    assert lecture.page.locator(".step .doubtful").count() == 0
+    until(lecture.page, lecture.page.locator(".step .formula .katex").count, lambda count: count >= total - 2)
+    expect(lecture.page.locator(".untypeset, .katex-error, .step .doubtful")).to_have_count(0)
 
 
 def test_no_formula_is_wider_than_its_column(lecture: Lecture) -> None:
@@ -53,9 +60,10 @@ def test_nothing_shifts_when_steps_appear(lecture: Lecture) -> None:
         "window.shift = 0; new PerformanceObserver(list => list.getEntries().forEach(e => window.shift += e.value))"
         ".observe({type: 'layout-shift'})"
     )
-    for _ in range(8):
+    for shown in range(2, 10):
         lecture.page.keyboard.press("ArrowRight")
-        lecture.page.wait_for_timeout(60)
+        expect(lecture.steps.nth(shown - 1).locator(".katex").first).to_be_attached()
+        frames(lecture.page, 4)
     assert lecture.page.evaluate("window.shift") < 0.01
 
 
@@ -86,12 +94,11 @@ def test_keys_in_a_field_belong_to_the_field(lecture: Lecture) -> None:
 
 def test_the_bob_moves_and_rests(lecture: Lecture) -> None:
     lecture.open()
-    before = lecture.bob_position()
-    lecture.page.wait_for_timeout(400)
-    assert lecture.bob_position() != before
+    expect(lecture.bob).not_to_have_attribute("transform", lecture.bob.get_attribute("transform") or "")
     lecture.page.keyboard.press("k")
+    frames(lecture.page, 1)
     resting = lecture.bob_position()
-    lecture.page.wait_for_timeout(200)
+    frames(lecture.page, 12)
     assert lecture.bob_position() == resting
 
 
@@ -123,8 +130,9 @@ def test_a_moving_picture_leaves_the_styles_of_the_page_alone(lecture: Lecture) 
 def test_reduced_motion_begins_at_rest(lecture: Lecture) -> None:
     lecture.page.emulate_media(reduced_motion="reduce")
     lecture.open()
+    lecture.page.locator(".plots.ready").wait_for()
     before = lecture.bob_position()
-    lecture.page.wait_for_timeout(300)
+    frames(lecture.page, 12)
     assert lecture.bob_position() == before
 
 
@@ -133,10 +141,10 @@ def test_a_slider_changes_the_trajectory(lecture: Lecture) -> None:
     lecture.pause_at(0.0)
     start = lecture.bob_position()
     slider = lecture.page.locator("[data-slider=parameter-l-value] input[type=number]")
-    with lecture.page.expect_response("**/api/v1/simulations") as answer:
+    # What was asked for when the page opened may still come in.
+    with lecture.page.expect_response(lambda answer: parameters_of(answer.request) == {"l": 0.5}):
         slider.fill("0.5")
         slider.press("Tab")
-    assert (answer.value.request.post_data_json or {})["parameters"] == {"l": 0.5}
     expect(lecture.bob).not_to_have_attribute("transform", f"translate({start[0]:.2f} {start[1]:.2f})")
     with lecture.page.expect_response("**/api/v1/simulations"):
         lecture.page.locator(".values .heading button").click()
@@ -160,13 +168,14 @@ def test_a_deep_link_leads_to_the_same_place(lecture: Lecture) -> None:
     lecture.open("?scene=guided-pendulum&lang=en")
     for _ in range(4):
         lecture.page.keyboard.press("ArrowRight")
+    expect(lecture.steps).to_have_count(5)
     step = lecture.current_step
+    until_equal(lecture.page, lambda: query_of(lecture.page), {"scene": "guided-pendulum", "step": step, "lang": "en"})
     address = lecture.page.url
-    assert query_of(lecture.page) == {"scene": "guided-pendulum", "step": step, "lang": "en"}
     lecture.page.goto("about:blank")
     lecture.page.goto(address)
     expect(lecture.steps).to_have_count(5)
-    assert lecture.current_step == step
+    expect(lecture.page.locator(".step[aria-current]")).to_have_attribute("data-step", step)
     expect(lecture.page.locator(".step[aria-current] .title")).to_be_in_viewport()
 
 
@@ -180,7 +189,7 @@ def test_the_language_changes_everything_and_keeps_the_place(lecture: Lecture) -
     expect(lecture.page.locator(".pager .main")).to_contain_text("Next")
     expect(title).not_to_have_text(german)
     expect(lecture.page.locator("html")).to_have_attribute("lang", "en")
-    assert lecture.current_step == step
+    expect(lecture.page.locator(".step[aria-current]")).to_have_attribute("data-step", step)
 
 
 def test_another_scene_begins_at_its_first_step(lecture: Lecture) -> None:
@@ -203,17 +212,18 @@ def test_a_formula_that_is_scrolled_to_fits_its_column(lecture: Lecture) -> None
 
 
 def test_the_plot_and_the_drawing_share_a_clock(lecture: Lecture) -> None:
+    lecture.page.emulate_media(reduced_motion="reduce")  # nothing moves by itself
     lecture.open()
     lecture.page.locator(".plots.ready").wait_for()
     assert lecture.page.locator(".plots .scatterlayer .trace").count() >= 5
     box = lecture.page.locator(".plots").bounding_box()
     assert box is not None
-    lecture.page.mouse.click(box["x"] + box["width"] * 0.3, box["y"] + box["height"] * 0.5)
-    early = (lecture.bob_position(), lecture.page.locator(".time").text_content())
-    lecture.page.mouse.click(box["x"] + box["width"] * 0.8, box["y"] + box["height"] * 0.5)
-    late = (lecture.bob_position(), lecture.page.locator(".time").text_content())
-    assert early[0] != late[0]
-    assert early[1] != late[1]
+    time = lecture.page.locator(".time")
+    for part in (0.3, 0.8):
+        before, place = time.text_content() or "", lecture.bob.get_attribute("transform") or ""
+        lecture.page.mouse.click(box["x"] + box["width"] * part, box["y"] + box["height"] * 0.5)
+        expect(time).not_to_have_text(before)
+        expect(lecture.bob).not_to_have_attribute("transform", place)
 
 
 def test_one_quantity_has_one_colour(lecture: Lecture) -> None:
@@ -238,11 +248,11 @@ def test_a_phone_does_not_scroll_sideways(lecture: Lecture) -> None:
     lecture.page.keyboard.press("End")
     for panel in range(3):
         lecture.page.locator(".panels button").nth(panel).click()
-        assert lecture.page.evaluate("document.documentElement.scrollWidth") == 360
+        until_equal(lecture.page, lambda: lecture.page.evaluate("document.documentElement.scrollWidth"), 360)
         expect(lecture.bob).to_be_in_viewport()
     wide = "[...document.querySelectorAll('#page *')].filter(e => e.getBoundingClientRect().right > 361 "
     wide += "&& !e.closest('.chapters, .formula, .unseen, dialog')).map(e => e.className)"
-    assert lecture.page.evaluate(wide) == []
+    until_equal(lecture.page, lambda: lecture.page.evaluate(wide), [])
 
 
 def test_an_unknown_scene_is_said_in_sentences(page: Page, server: str) -> None:
@@ -285,8 +295,8 @@ def test_two_formulations_with_addresses(lecture: Lecture) -> None:
     lecture.page.locator(".road select").select_option("hamilton")
     chapters = lecture.page.locator(".chapters")
     expect(chapters).to_contain_text("Hamilton’s principle")
-    assert "formulation=hamilton" in lecture.page.url
-    assert equation.text_content() == by_work
+    expect(lecture.page).to_have_url(re.compile("formulation=hamilton"))
+    until_equal(lecture.page, equation.text_content, by_work)
     lecture.page.reload()
     expect(chapters).to_contain_text("Hamilton’s principle")
     expect(lecture.page.locator(".road select")).to_have_value("hamilton")

@@ -61,7 +61,8 @@ def test_a_narrower_page_has_more_rows(long: Lecture) -> None:
     long.page.set_viewport_size({"width": 360, "height": 740})
     long.page.wait_for_function(MORE, arg=[f"{FORMULA} .cell", before])
     long.page.wait_for_function(FILLED, arg=FORMULA)
-    assert long.page.locator(FORMULA).evaluate("e => e.scrollWidth - e.clientWidth") <= 0
+    fits = "selector => (e => e.scrollWidth <= e.clientWidth)(document.querySelector(selector))"
+    long.page.wait_for_function(fits, arg=FORMULA)
 
 
 def test_paper_has_all_of_them(long: Lecture) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import until, until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -23,8 +24,7 @@ def shared(lecture: Lecture) -> Lecture:
 
 def test_the_address_leads_back_and_has_a_code(shared: Lecture) -> None:
     page = shared.page
-    address = page.get_by_label("Address of this state").input_value()
-    assert address == page.url
+    expect(page).to_have_url(page.get_by_label("Address of this state").input_value())
     code = page.locator(".qr")
     expect(code).to_be_visible()
     view_box = [float(number) for number in (code.get_attribute("viewBox") or "").split()]
@@ -65,6 +65,12 @@ addEventListener('message', ({{data, source}}) => {{
 }})</script>"""
 
 
+NOTHING_TO_SCROLL = """() => {
+    const inner = document.querySelector('iframe').contentDocument.documentElement;
+    return inner.scrollHeight <= inner.clientHeight;
+}"""
+
+
 def course(page: Page, address: str, snippet: str) -> None:
     """A page of the same origin that shows the frame."""
     body = COURSE.format(snippet=snippet)
@@ -93,9 +99,7 @@ def test_the_line_of_html_shows_the_place_at_its_height(
     for part in hidden:
         expect(frame.locator(part).first).to_be_hidden()
     page.wait_for_function("() => window.heard && window.heard.step === 'virtual-displacement:bob'")
-    page.wait_for_timeout(500)
-    inner = "document.querySelector('iframe').contentDocument.documentElement"
-    assert page.evaluate(f"{inner}.scrollHeight <= {inner}.clientHeight"), "nothing is to be scrolled within the frame"
+    page.wait_for_function(NOTHING_TO_SCROLL)
     assert page.evaluate("window.heard.height") > 150
     expect(frame.locator(".home a")).to_have_attribute("href", re.compile(r"/scene\?scene=elastic-pendulum"))
 
@@ -117,8 +121,7 @@ def test_the_proof_goes_into_a_course_page(lecture: Lecture) -> None:
     before = page.evaluate("window.heard.height")
     frame.locator(".pager .main").click()
     page.wait_for_function(f"() => window.heard.height > {before}")
-    inner = "document.querySelector('iframe').contentDocument.documentElement"
-    page.wait_for_function(f"() => {inner}.scrollHeight <= {inner}.clientHeight")
+    page.wait_for_function(NOTHING_TO_SCROLL)
     expect(frame.locator(".home a")).to_have_attribute("href", re.compile(r"/proof\?step=(?!general-product-rule)"))
 
 
@@ -126,7 +129,7 @@ def test_a_frame_grows_with_its_steps(shared: Lecture) -> None:
     page = shared.page
     course(page, shared.address, page.get_by_label("derivation and motion").input_value())
     page.wait_for_function("() => window.heard && window.heard.step === 'virtual-displacement:bob'")
-    page.wait_for_timeout(400)
+    page.wait_for_function(NOTHING_TO_SCROLL)
     before = page.evaluate("window.heard.height")
     page.frame_locator("iframe").locator(".pager .main").click()
     page.wait_for_function(f"() => window.heard.height > {before}")
@@ -141,8 +144,8 @@ def test_another_origin_may_not_show_it(lecture: Lecture, path: str) -> None:
         lambda route: route.fulfill(body=f'<iframe src="{lecture.address}{path}"></iframe>', content_type="text/html"),
     )
     page.goto(elsewhere)
-    page.wait_for_timeout(500)
-    assert [frame.url for frame in page.frames[1:]] == ["chrome-error://chromewebdata/"]
+    refused = ["chrome-error://chromewebdata/"]
+    until_equal(page, lambda: [frame.url for frame in page.frames[1:]], refused)
 
 
 def test_a_handout_is_whole_and_printed_in_light(lecture: Lecture, tmp_path: Path) -> None:
@@ -153,21 +156,21 @@ def test_a_handout_is_whole_and_printed_in_light(lecture: Lecture, tmp_path: Pat
     with page.expect_response("**/api/v1/derivations"):
         page.reload()
     expect(steps.last).to_be_visible()
-    assert steps.count() >= 15
+    until(page, steps.count, lambda count: count >= 15)
     expect(page.locator(".paper .part").first).to_be_visible()
     page.get_by_label("with intermediate steps").uncheck()
     expect(page.locator(".paper .part")).to_have_count(0)
     expect(page).to_have_url(re.compile("substeps=no"))
     page.reload()
     expect(page.get_by_label("with intermediate steps")).not_to_be_checked()
-    assert page.locator(".untypeset, .katex-error").count() == 0
+    expect(page.locator(".untypeset, .katex-error")).to_have_count(0)
     page.emulate_media(media="print")
     expect(page.locator(".top")).to_be_hidden()
     paper = page.evaluate("getComputedStyle(document.querySelector('.paper')).backgroundColor")
     ink = page.evaluate("getComputedStyle(document.querySelector('.paper h1')).color")
     assert (paper, ink) == ("rgb(255, 255, 255)", "rgb(28, 27, 25)")
     wide = "[...document.querySelectorAll('.paper .formula')].filter(e => e.scrollWidth > e.clientWidth + 1).length"
-    assert page.evaluate(wide) == 0
+    until_equal(page, lambda: page.evaluate(wide), 0)
     file = tmp_path / "handout.pdf"
     page.pdf(path=str(file), prefer_css_page_size=True)
     pages = re.findall(rb"/MediaBox \[([^\]]+)\]", file.read_bytes())
@@ -196,7 +199,7 @@ def test_the_general_proof_has_an_address_a_code_and_a_handout(lecture: Lecture)
     page.locator(".steps .katex").first.wait_for()  # the first proof of a server takes its time
     page.locator(".tools .tool").first.click()
     expect(page.locator(".qr")).to_be_visible()
-    assert page.get_by_label("Adresse dieses Standes").input_value() == page.url
+    expect(page).to_have_url(page.get_by_label("Adresse dieses Standes").input_value())
     page.locator("dialog .files a").click()
     expect(page.locator(".paper h1")).to_have_text("Allgemeiner Beweis")
     expect(page.locator(".paper .step")).to_have_count(20)
@@ -204,7 +207,7 @@ def test_the_general_proof_has_an_address_a_code_and_a_handout(lecture: Lecture)
     page.reload()
     expect(page.locator(".paper .step")).to_have_count(20)
     wide = "[...document.querySelectorAll('.paper .formula')].filter(e => e.scrollWidth > e.clientWidth + 1).length"
-    assert page.evaluate(wide) == 0
+    until_equal(page, lambda: page.evaluate(wide), 0)
 
 
 def test_the_speed_of_the_motion_is_part_of_the_address(lecture: Lecture) -> None:
@@ -222,7 +225,7 @@ def test_the_speed_of_the_motion_is_part_of_the_address(lecture: Lecture) -> Non
     page.get_by_role("button", name="One picture on").click()
     expect(page.locator(".player .time")).to_have_text("1.01 s")
     page.get_by_role("button", name="Share and take away").click()
-    assert "speed=0.25" in page.get_by_label("the motion alone").input_value()
+    expect(page.get_by_label("the motion alone")).to_have_value(re.compile("speed=0.25"))
     page.keyboard.press("Escape")
     speed.select_option("1")
     expect(page).not_to_have_url(re.compile("speed="))

@@ -7,9 +7,17 @@ import re
 import pytest
 from playwright.sync_api import expect
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import until_equal
 
 pytestmark = pytest.mark.e2e
 PATIENCE = 60_000.0
+
+
+# Whether the first route ends by one of its edges where the second begins by one of its own.
+APART = """([end, begin]) => {
+    const [first, second] = [...document.querySelectorAll('.routes > .steps')].map(e => e.getBoundingClientRect());
+    return first[end] <= second[begin] + 1;
+}"""
 
 
 @pytest.fixture
@@ -22,17 +30,11 @@ def variations(lecture: Lecture) -> Lecture:
 
 def test_both_routes_stand_beside_each_other(variations: Lecture) -> None:
     page = variations.page
-    left, right = (page.locator(".routes > .steps").nth(i).bounding_box() for i in range(2))
-    assert left is not None
-    assert right is not None
-    assert left["x"] + left["width"] <= right["x"] + 1
-    assert page.locator(".doubtful, .untypeset, .katex-error").count() == 0
+    page.wait_for_function(APART, arg=["right", "left"])
+    expect(page.locator(".doubtful, .untypeset, .katex-error")).to_have_count(0)
     page.set_viewport_size({"width": 360, "height": 740})
-    assert page.evaluate("document.documentElement.scrollWidth") == 360
-    left, right = (page.locator(".routes > .steps").nth(i).bounding_box() for i in range(2))
-    assert left is not None
-    assert right is not None
-    assert left["y"] + left["height"] <= right["y"] + 1
+    page.wait_for_function(APART, arg=["bottom", "top"])
+    until_equal(page, lambda: page.evaluate("document.documentElement.scrollWidth"), 360)
 
 
 def test_a_mistake_is_marked_and_a_name_can_be_declared(variations: Lecture) -> None:
@@ -67,7 +69,7 @@ def test_the_slider_asks_nothing_and_its_place_is_in_the_address(variations: Lec
     page.locator("#h").focus()
     page.keyboard.press("Home")
     expect(page.locator(".dial output")).to_have_text("1.0·10⁻¹⁶")
-    assert neighbour.get_attribute("d") != before
+    expect(neighbour).not_to_have_attribute("d", before or "")
     assert sent == []
     expect(page).to_have_url(re.compile("h=64"))
     page.reload()
@@ -80,16 +82,15 @@ def test_the_proof_is_read_step_by_step_in_both_languages(lecture: Lecture) -> N
     lecture.steps.first.wait_for(timeout=PATIENCE)
     page.keyboard.press("End")
     expect(lecture.steps).to_have_count(lecture.number_of_steps())
-    assert page.locator(".doubtful, .untypeset, .katex-error").count() == 0
+    expect(page.locator(".doubtful, .untypeset, .katex-error")).to_have_count(0)
     page.set_viewport_size({"width": 360, "height": 740})
-    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    until_equal(page, lambda: page.evaluate("document.documentElement.scrollWidth"), 360)
     expect(page.locator(".step[aria-current] .title")).to_be_visible()
     step = lecture.current_step
     page.locator(".segments [lang=en]").click()
     expect(page.locator(".pager .main")).to_contain_text("Next", timeout=PATIENCE)
     page.reload()
-    lecture.steps.first.wait_for(timeout=PATIENCE)
-    assert lecture.current_step == step
+    expect(page.locator(".step[aria-current]")).to_have_attribute("data-step", step, timeout=PATIENCE)
 
 
 def test_the_language_goes_along_to_the_other_pages(lecture: Lecture) -> None:

@@ -1,0 +1,36 @@
+"""Waiting for what a page comes to, where playwright's own expectations do not reach."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TypeVar
+
+from playwright.sync_api import Page
+
+Found = TypeVar("Found")
+PATIENCE, PAUSE = 20.0, 50.0  # seconds in all, milliseconds between two looks
+
+
+def until(page: Page, read: Callable[[], Found], wanted: Callable[[Found], bool]) -> Found:
+    """What is read as soon as it is as wanted; what was read last is told if it never is."""
+    end = time.monotonic() + PATIENCE
+    while not wanted(found := read()):
+        assert time.monotonic() < end, f"still {found!r}"
+        page.wait_for_timeout(PAUSE)
+    return found
+
+
+def until_equal(page: Page, read: Callable[[], Found], wanted: object) -> None:
+    until(page, read, lambda found: found == wanted)
+
+
+def frames(page: Page, count: int) -> None:
+    """So many pictures of the page: what moves by itself has moved by then."""
+    page.evaluate(
+        """count => new Promise(done => {
+            const frame = () => count-- > 0 ? requestAnimationFrame(frame) : done();
+            frame();
+        })""",
+        count,
+    )
