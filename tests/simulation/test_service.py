@@ -162,6 +162,7 @@ def test_a_position_without_value_ends_the_answer() -> None:
     [
         pytest.param({}, "dormand-prince-54", "auto_short", id="short"),
         pytest.param({"t_end": 100.0, "tolerance": 1e-9}, "dop853", "auto_smooth", id="long and accurate"),
+        pytest.param({"scene": "quarter-car", "t_end": 100.0, "tolerance": 1e-9}, "dop853", "auto_smooth", id="driven"),
         pytest.param({"step": 0.01}, "rk4", "auto_fixed_step", id="fixed step"),
         pytest.param({"scene": write_scene(oscillator("-k*abs(x)*x"))}, "dormand-prince-54", "auto_kinks", id="kinks"),
         pytest.param(

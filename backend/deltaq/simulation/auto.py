@@ -14,7 +14,7 @@ from .choice import AUTO, Choice
 from .library import get_method
 from .problem import Problem
 from .run import Steps, run
-from .stiffness import Spectrum, spectra
+from .stiffness import drive, spectra
 
 KINKED = frozenset({"abs", "sign"})
 LEAST_STEPS = 140.0  # of any run, since no step may be longer than a part of the span
@@ -53,15 +53,15 @@ ALL = (SMOOTH, MIDDLING, STIFF)
 def choose(wanted: str, scene: Scene, problem: Problem, step: float | None, tolerance: float | None) -> Choice:
     """The method wanted, or the one that suits scene, span and tolerance.
 
-    The linearized scene tells how fast the motion is and which parts of it die out; the effort follows from that.
+    The linearized scene tells how fast the motion is and which parts of it die out, and what drives it how fast that
+    is; the effort follows.
     Symplectic methods are not among the candidates: over the spans allowed they never cost least (measured).
     """
     if wanted != AUTO:
         return Choice(get_method(wanted))
     if step is not None:
         return Choice(get_method("rk4"), "auto_fixed_step")
-    found = _spectra(problem)
-    size, lasting = max(each.size for each in found), max(each.lasting for each in found)
+    size, lasting = _speeds(problem)
 
     def effort(candidate: Candidate) -> float:
         return candidate.effort(problem.t_end, tolerance or LOOSE, lasting, size)
@@ -70,14 +70,15 @@ def choose(wanted: str, scene: Scene, problem: Problem, step: float | None, tole
     return Choice(get_method(best.id), best.reason)
 
 
-def _spectra(problem: Problem) -> list[Spectrum]:
-    """At the start, and shortly after."""
+def _speeds(problem: Problem) -> tuple[float, float]:
+    """Of all that goes on at the start and shortly after, and of what lasts: by itself, or because it is driven."""
     times = np.linspace(0.0, SHORT * problem.t_end, 5)
     short = replace(problem, t_end=float(times[-1]), step_limit=SHORT_STEPS)
-    found = run(short, get_method("dop853"), times, np.zeros(1, dtype=np.int64), Steps(short.t_end, 1e-3))
-    if not len(found.times):
-        return spectra(problem, np.zeros(1), problem.state[None, :])
-    return spectra(problem, found.times, found.states)
+    run_in = run(short, get_method("dop853"), times, np.zeros(1, dtype=np.int64), Steps(short.t_end, 1e-3))
+    begun = len(run_in.times) > 0
+    at, states = (run_in.times, run_in.states) if begun else (np.zeros(1), problem.state[None, :])
+    found = spectra(problem, at, states)
+    return max(each.size for each in found), max(drive(problem, states[-1]), *(each.lasting for each in found))
 
 
 def _has_kinks(scene: Scene) -> bool:

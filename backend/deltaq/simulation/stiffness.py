@@ -1,4 +1,4 @@
-"""How fast the fastest part of a motion is, by linearization."""
+"""How fast the fastest part of a motion is, by linearization, and how fast what drives it."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from .problem import Floats, Problem
 from .slopes import slopes
 
 NUDGE = 1e-6
+NOISE = 1e-9  # of a force; what changes less with time is rounding
+PLACES, GOLDEN = 64, 0.6180339887498949
 DEAD = 50.0  # what shrinks by this power of 1/e or more is not worth following
 
 
@@ -41,6 +43,21 @@ def eigenvalues(problem: Problem, time: float, state: Floats) -> np.ndarray:
     """Eigenvalues of ẏ = f(y) linearized at a state (q, q̇); a single zero where it has no value."""
     (jacobian,) = _jacobians(problem, np.array([time]), state[None, :])
     return np.asarray(np.linalg.eigvals(jacobian)) if np.isfinite(jacobian).all() else np.zeros(1, dtype=complex)
+
+
+def drive(problem: Problem, state: Floats) -> float:
+    """How fast the forces change that time alone changes, in 1/s: ω² = ⟨(∂f/∂t)²⟩ / ⟨(f − ⟨f⟩)²⟩ at one state.
+
+    For a sine of any amplitude this is its angular frequency. Times within the span are taken in unlike distances.
+    """
+    times = problem.t_end * np.modf(GOLDEN * np.arange(1, PLACES + 1))[0]
+    later = times + NUDGE * problem.t_end
+    rows = np.tile(state[: 2 * problem.degrees], (2 * PLACES, 1))
+    now, then = np.split(slopes(problem, np.concatenate([times, later]), rows), 2)
+    swing = float(np.var(now, axis=0).sum())
+    rate = float((((then - now) / (later - times)[:, None]) ** 2).mean(axis=0).sum())
+    is_driven = swing > NOISE**2 * float((now**2).sum())
+    return float(np.sqrt(rate / swing)) if is_driven else 0.0
 
 
 def _jacobians(problem: Problem, times: Floats, states: Floats) -> Floats:
