@@ -19,7 +19,7 @@ import { documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { startLanguage } from "./model/url.js";
 import { follow } from "./view/links.js";
-import { everyFrame } from "./view/frames.js";
+import { everyFrame, whenIdle } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { linkHighlights } from "./view/highlight.js";
 import { offer } from "./view/files.js";
@@ -27,6 +27,9 @@ import { fetchMathLive, low, offerKeys } from "./view/homework/mathfield.js";
 import { page } from "./view/homework/page.js";
 import { createReach, createStaging } from "./view/homework/staging.js";
 import { keeper } from "./view/keeper.js";
+
+/** Milliseconds after which the field for formulas has waited long enough. */
+const PATIENCE = 500;
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -136,12 +139,6 @@ async function openClassroom() {
   update();
 }
 
-/** @param {() => void} task */
-function whenIdle(task) {
-  if (window.requestIdleCallback) window.requestIdleCallback(task, { timeout: 500 });
-  else task();
-}
-
 async function fetchFormulas() {
   formulas = await fetchMathLive();
   offerKeys(offered.keys, "δq");
@@ -162,7 +159,7 @@ function update() {
   if (side === "class") void openClassroom();
   if (!entry || wanted) return;
   wanted = true;
-  whenIdle(() => void fetchFormulas());
+  whenIdle(() => void fetchFormulas(), PATIENCE);
 }
 
 store.subscribe(update);

@@ -11,3 +11,9 @@ export function everyFrame(advance) {
   }
   requestAnimationFrame(tick);
 }
+
+/** When there is nothing else to do, and after so many milliseconds at the latest. @param {() => void} task @param {number} timeout */
+export function whenIdle(task, timeout) {
+  if (window.requestIdleCallback) window.requestIdleCallback(task, { timeout });
+  else setTimeout(task, 30);
+}

@@ -1,9 +1,9 @@
 /** Work on parts of the page that nobody sees yet: done when there is nothing else to do, or as soon as one of them is looked at. */
 
+import { whenIdle } from "./frames.js";
+
 /** Milliseconds for which work goes on in one go, and after which what nobody sees has waited long enough. */
 const SLICE = 8, IMPATIENCE = 300;
-
-const whenIdle = window.requestIdleCallback ?? ((/** @type {() => void} */ work) => setTimeout(work, 30));
 
 /**
  * Does the first of some things, if there is one, and more as long as there is time; takes away and returns what was done.
@@ -30,7 +30,7 @@ export class Waiting {
 
   /** @param {HTMLElement} element @param {() => void} act */
   put(element, act) {
-    if (!this.#work.size) whenIdle(this.#idle, { timeout: IMPATIENCE });
+    if (!this.#work.size) whenIdle(this.#idle, IMPATIENCE);
     this.#work.set(element, act);
   }
 
@@ -51,7 +51,7 @@ export class Waiting {
 
   #idle = () => {
     during(SLICE, [...this.#work.keys()], this.#catchUp);
-    if (this.#work.size) whenIdle(this.#idle, { timeout: IMPATIENCE });
+    if (this.#work.size) whenIdle(this.#idle, IMPATIENCE);
   };
 
   #seek = () => {
