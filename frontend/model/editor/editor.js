@@ -30,32 +30,37 @@ const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 /** @param {SceneDocument} document */
 export const jsonOf = (document) => JSON.stringify(document, null, 2).replace(/\[\s+((?:"[^"\n]*"|-?[\d.e+-]+)(?:,\s+(?:"[^"\n]*"|-?[\d.e+-]+))*)\s+\]/g, (_, inside) => `[${inside.replace(/,\s+/g, ", ")}]`);
 
+/** JSON as typed, and the document in it; why it cannot be read, where it cannot. @param {string} text */
+function parsed(text) {
+  try {
+    const document = tableOf(JSON.parse(text));
+    return document ? { document, text, unread: "" } : { text, unread: "{ … }" };
+  } catch (error) {
+    return { text, unread: /** @type {Error} */ (error).message };
+  }
+}
+
 /**
- * @param {{api: import("../api.js").Api, lang: () => string, show: (document: SceneDocument) => void,
- *   address: (document: SceneDocument) => void, keep: (draft: import("../own.js").Draft) => boolean}} around
- * @param {import("../own.js").Draft} draft
+ * What the server makes of a document: whether it is valid, and its expressions as formulas.
+ * @param {Pick<ReturnType<typeof createStore<Writing>>, "get" | "set">} store
+ * @param {{api: import("../api.js").Api, lang: () => string, show: (document: SceneDocument) => void}} around
  */
-export function createEditor({ api, lang, show, address, keep }, draft) {
-  const store = createStore(/** @type {Writing} */ ({ ...draft, unread: "", verdict: "waiting", problems: [], formulas: new Map(), notice: "", kept: true }));
-  const { get, set } = store;
+function createChecking({ get, set }, { api, lang, show }) {
   /** @type {SceneDocument | null} */
   let shown = null;
-  let timer = /** @type {ReturnType<typeof setTimeout> | undefined} */ (undefined);
-  const renew = newest();
 
-  /** @param {Partial<Writing>} patch @param {number} rest */
-  function take(patch, rest) {
-    set({ verdict: "waiting", notice: "", ...patch });
-    const { document, text, earlier } = get();
-    set({ kept: keep({ document, text, earlier }) });
-    address(document);
-    clearTimeout(timer);
-    const signal = renew();
-    timer = setTimeout(() => void check(signal), rest);
+  /** @param {SceneDocument} document @param {AbortSignal} signal */
+  async function typesetAll(document, signal) {
+    const wanted = shownFields(document).filter(({ type, value }) => type === "expression" && typeof value === "string" && value.trim());
+    const texts = wanted.slice(0, 500).map(({ value, material }) => ({ expression: String(value).slice(0, 4000), material: material.filter(Boolean) }));
+    if (!texts.length) return;
+    const answer = await api.typeset({ scene: document, expressions: texts, lang: lang() }, signal).catch(() => null);
+    if (signal.aborted || !answer) return;
+    set({ formulas: new Map(answer.expressions.map(({ latex }, i) => [formulaKey(wanted[i].value, wanted[i].material), latex])) });
   }
 
   /** @param {AbortSignal} signal */
-  async function check(signal) {
+  return async function check(signal) {
     const { document } = get();
     const typeset = typesetAll(document, signal);
     try {
@@ -68,26 +73,30 @@ export function createEditor({ api, lang, show, address, keep }, draft) {
       set({ verdict: "unreachable", problems: /** @type {any} */ (error).failure?.problems ?? [] });
     }
     await typeset;
-  }
+  };
+}
 
-  /** @param {SceneDocument} document @param {AbortSignal} signal */
-  async function typesetAll(document, signal) {
-    const wanted = shownFields(document).filter(({ type, value }) => type === "expression" && typeof value === "string" && value.trim());
-    const texts = wanted.slice(0, 500).map(({ value, material }) => ({ expression: String(value).slice(0, 4000), material: material.filter(Boolean) }));
-    if (!texts.length) return;
-    const answer = await api.typeset({ scene: document, expressions: texts, lang: lang() }, signal).catch(() => null);
-    if (signal.aborted || !answer) return;
-    set({ formulas: new Map(answer.expressions.map(({ latex }, i) => [formulaKey(wanted[i].value, wanted[i].material), latex])) });
-  }
+/**
+ * @param {{api: import("../api.js").Api, lang: () => string, show: (document: SceneDocument) => void,
+ *   address: (document: SceneDocument) => void, keep: (draft: import("../own.js").Draft) => boolean}} around
+ * @param {import("../own.js").Draft} draft
+ */
+export function createEditor({ address, keep, ...around }, draft) {
+  const store = createStore(/** @type {Writing} */ ({ ...draft, unread: "", verdict: "waiting", problems: [], formulas: new Map(), notice: "", kept: true }));
+  const { get, set } = store;
+  const check = createChecking(store, around);
+  let timer = /** @type {ReturnType<typeof setTimeout> | undefined} */ (undefined);
+  const renew = newest();
 
-  /** @param {string} text */
-  function parsed(text) {
-    try {
-      const document = tableOf(JSON.parse(text));
-      return document ? { document, text, unread: "" } : { text, unread: "{ … }" };
-    } catch (error) {
-      return { text, unread: /** @type {Error} */ (error).message };
-    }
+  /** @param {Partial<Writing>} patch @param {number} rest */
+  function take(patch, rest) {
+    set({ verdict: "waiting", notice: "", ...patch });
+    const { document, text, earlier } = get();
+    set({ kept: keep({ document, text, earlier }) });
+    address(document);
+    clearTimeout(timer);
+    const signal = renew();
+    timer = setTimeout(() => void check(signal), rest);
   }
 
   if (draft.text !== null) set(parsed(draft.text));

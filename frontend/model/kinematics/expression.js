@@ -35,70 +35,84 @@ function tokensOf(text) {
   return tokens;
 }
 
-/**
- * The function that a text stands for. Throws SyntaxError where it is not of the plain language.
- * @param {string} text @returns {Evaluate}
- */
-export function evaluator(text) {
-  const tokens = tokensOf(text);
-  let next = 0;
-  const take = () => tokens[next++];
-  const expect = (/** @type {string} */ token) => {
-    if (take() !== token) throw new SyntaxError(`${text}: “${token}” expected`);
-  };
+/** Reads by precedence: an operand, and what binds more tightly than what stands before it. */
+class Reading {
+  #next = 0;
 
-  /** @returns {Evaluate[]} */
-  function list() {
-    const found = [sum(0)];
-    while (tokens[next] === ",") {
-      next += 1;
-      found.push(sum(0));
-    }
-    expect(")");
-    return found;
+  /** @param {string} text */
+  constructor(text) {
+    this.text = text;
+    this.tokens = tokensOf(text);
   }
 
   /** @returns {Evaluate} */
-  function operand() {
-    const token = take();
-    if (token === undefined) throw new SyntaxError(`${text}: unfinished`);
-    if (token === "-" || token === "+") {
-      const of = sum(SIGN);
-      return token === "-" ? (values) => -of(values) : of;
-    }
-    if (token === "(") return list()[0];
-    if (/^[\d.]/.test(token)) {
-      const value = Number(token);
-      return () => value;
-    }
-    return tokens[next] === "(" ? call(token) : named(token);
+  whole() {
+    const found = this.#sum(0);
+    if (this.#next < this.tokens.length) throw new SyntaxError(`${this.text}: “${this.#token}” is too much`);
+    return found;
   }
 
-  /** @param {string} name @returns {Evaluate} */
-  function call(name) {
-    next += 1;
-    const of = FUNCTIONS[name];
-    const given = list();
-    if (!of) throw new SyntaxError(`${text}: ${name} is not known`);
-    return (values) => of(...given.map((each) => each(values)));
+  get #token() {
+    return this.tokens[this.#next];
+  }
+
+  #take() {
+    return this.tokens[this.#next++];
   }
 
   /** @param {number} binding @returns {Evaluate} */
-  function sum(binding) {
-    let left = operand();
+  #sum(binding) {
+    let left = this.#operand();
     for (;;) {
-      const [own, apply] = OPERATORS[tokens[next]] ?? [0, null];
+      const [own, apply] = OPERATORS[this.#token] ?? [0, null];
       if (!apply || own <= binding) return left;
-      next += 1;
-      const [before, after] = [left, sum(own === 4 ? own - 1 : own)];
+      this.#take();
+      const [before, after] = [left, this.#sum(own === 4 ? own - 1 : own)];
       left = (values) => apply(before(values), after(values));
     }
   }
 
-  const whole = sum(0);
-  if (next < tokens.length) throw new SyntaxError(`${text}: “${tokens[next]}” is too much`);
-  return whole;
+  /** @returns {Evaluate} */
+  #operand() {
+    const token = this.#take();
+    if (token === undefined) throw new SyntaxError(`${this.text}: unfinished`);
+    if (token === "+") return this.#sum(SIGN);
+    if (token === "-") return negative(this.#sum(SIGN));
+    if (token === "(") return this.#list()[0];
+    if (/^[\d.]/.test(token)) return constant(Number(token));
+    return this.#token === "(" ? this.#call(token) : named(token);
+  }
+
+  /** @param {string} name @returns {Evaluate} */
+  #call(name) {
+    this.#take();
+    const of = FUNCTIONS[name];
+    const given = this.#list();
+    if (!of) throw new SyntaxError(`${this.text}: ${name} is not known`);
+    return (values) => of(...given.map((each) => each(values)));
+  }
+
+  /** To the closing bracket. @returns {Evaluate[]} */
+  #list() {
+    const found = [this.#sum(0)];
+    while (this.#token === ",") {
+      this.#take();
+      found.push(this.#sum(0));
+    }
+    if (this.#take() !== ")") throw new SyntaxError(`${this.text}: “)” expected`);
+    return found;
+  }
 }
 
+/** @param {number} value @returns {Evaluate} */
+const constant = (value) => () => value;
+/** @param {Evaluate} of @returns {Evaluate} */
+const negative = (of) => (values) => -of(values);
 /** @param {string} name @returns {Evaluate} */
-const named = (name) => (name === "pi" ? () => Math.PI : (values) => values[name] ?? NaN);
+const named = (name) => (name === "pi" ? constant(Math.PI) : (values) => values[name] ?? NaN);
+
+/**
+ * The function that a text stands for. Throws SyntaxError where it is not of the plain language.
+ * @param {string} text @returns {Evaluate}
+ */
+export const evaluator = (text) => new Reading(text).whole();
