@@ -55,5 +55,7 @@ class DerivationAnswer(Answer):
     """The derivation, and its results as plain expressions and as LaTeX."""
 
     id: str = Field(description="content hash; GET /derivations/{id} answers the same", examples=["9f3c…"])
+    scene: str = Field(description="id of the scene", examples=["pendulum"])
+    formulation: Formulation = Field(description=ROAD)
     chapters: tuple[Chapter, ...]
     result: DerivationResult

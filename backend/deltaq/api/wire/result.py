@@ -78,6 +78,52 @@ class JacobiEnergy(Sum):
     equals_energy: bool = Field(description="whether it is kinetic + potential energy")
 
 
+class Curl(Formula):
+    """∂Qᵢ/∂qₖ − ∂Qₖ/∂qᵢ for a pair of coordinates."""
+
+    coordinates: tuple[str, str]
+
+
+class LoadPotential(Answer):
+    """Whether a load has a potential, by the curl of its generalized forces."""
+
+    load: str = Field(examples=["weight"])
+    outcome: str = Field(description="of the test, in a word", examples=["conservative"])
+    has_potential: bool
+    potential: Formula | None = Field(description="null where there is none, or none that can be written down")
+    curl: tuple[Curl, ...]
+
+
+class RouthFunction(Formula):
+    """L − Σ p q̇ over the cyclic coordinates, whose constant momenta it holds instead of their rates."""
+
+    momenta: dict[str, str] = Field(description="names of the momenta, by coordinate", examples=[{"psi": "p_psi"}])
+
+
+class OwnSymbol(Answer):
+    """A name in the results that the scene does not have."""
+
+    name: str = Field(examples=["p_psi"])
+    latex: str
+    kind: Literal["momentum"]
+    coordinate: str
+
+
+class Mode(Answer):
+    """A small motion in which all coordinates swing together, or run away."""
+
+    eigenfrequency_squared: float = Field(description="in 1/s², negative where the motion grows")
+    shape: dict[str, float] = Field(description="ratio of the amplitudes, by coordinate")
+
+
+class ComplexMode(Answer):
+    """Re(a e^λt) with λ = −decay + i·eigenfrequency."""
+
+    eigenfrequency: float = Field(description="in rad/s")
+    decay: float = Field(description="in 1/s, negative where the motion grows")
+    shape: dict[str, tuple[float, float]] = Field(description="a as [real, imaginary], by coordinate")
+
+
 class EquilibriumValue(Formula):
     """Where a coordinate rests."""
 
@@ -92,6 +138,8 @@ class Equilibrium(Answer):
     stability: str
     eigenvalues: tuple[tuple[float, float], ...] = Field(description="[real, imaginary] in 1/s")
     eigenfrequencies: tuple[float, ...]
+    modes: tuple[Mode, ...] = Field(description="where no force depends on rates")
+    complex_modes: tuple[ComplexMode, ...] = Field(description="elsewhere")
 
 
 class DerivationResult(Answer):
@@ -104,6 +152,7 @@ class DerivationResult(Answer):
     kinetic_energy: Sum
     potential_energy: Sum
     generalized_forces: GeneralizedForces
+    loads: tuple[LoadPotential, ...]
     lagrangian: Sum
     equations: tuple[CoordinateSum, ...]
     mass_matrix: MassMatrix
@@ -111,3 +160,5 @@ class DerivationResult(Answer):
     conserved: tuple[ConservedQuantity, ...]
     equilibria: tuple[Equilibrium, ...]
     jacobi_energy: JacobiEnergy
+    routh: RouthFunction | None = Field(description="where a coordinate is cyclic")
+    symbols: tuple[OwnSymbol, ...]

@@ -68,6 +68,9 @@ class ErrorEstimate(Answer):
 
     estimate: tuple[float | None, ...]
     horizon: float | None
+    worst: float | None = Field(description="largest of all, absolute below 1, relative above")
+    tolerance: float | None = Field(description="as it was asked for")
+    reached: bool | None = Field(description="whether the error stays below it; null where nothing was estimated")
 
 
 class EventAnswer(Answer):
@@ -80,13 +83,16 @@ class EventAnswer(Answer):
 
 
 class Cost(Answer):
-    """What the run took; times in seconds."""
+    """What it took: steps are those of the run that is returned, the rest that of all runs; times in seconds."""
 
     steps: int
     rejected: int
     rhs_evaluations: int
     wall_time: float
     compile_time: float
+    runs: int = Field(description="that were made for the motion and the estimate of its error")
+    run_time: float = Field(description="of the run that is returned")
+    run_evaluations: int = Field(description="of the right-hand side, in the run that is returned")
 
 
 class SimulationAnswer(Answer):
@@ -105,4 +111,7 @@ class SimulationAnswer(Answer):
     loads: dict[str, tuple[tuple[float, ...], ...] | str] | None = Field(None, description="force vectors")
     energy: Energy | None = None
     error: ErrorEstimate | None = None
+    t_reached: float = Field(description="when the run ended, in seconds")
+    trusted_until: float = Field(description="up to when at least one digit is right")
+    condition: float | None = Field(description="of the mass matrix: largest ratio of a diagonal entry to a pivot")
     cost: Cost
