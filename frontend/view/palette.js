@@ -3,6 +3,7 @@
 /** The colour of each class below an element. @param {HTMLElement} root @param {string[]} classes */
 export function coloursOf(root, classes) {
   const probe = document.createElement("i");
+  probe.style.setProperty("forced-color-adjust", "none");
   root.append(probe);
   const colours = classes.map((name) => {
     probe.className = name;

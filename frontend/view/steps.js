@@ -88,12 +88,15 @@ function substeps(content, view) {
   `;
 }
 
+/** A browser leaves what has the focus half cut off. @param {Event} event */
+const seen = ({ target }) => /** @type {Element} */ (target).scrollIntoView({ block: "nearest", inline: "nearest" });
+
 /** Chapters as navigation. @param {View} view */
 export function chapters(view) {
   const { state, t } = view;
   const current = state.lines[indexOf(state.lines, state.place.step)];
   return html`
-    <nav class="chapters" aria-label=${t("chapters")}>
+    <nav class="chapters" aria-label=${t("chapters")} @focusin=${seen}>
       <ol>
         ${(state.derivation?.chapters ?? []).filter((chapter) => chapter.steps.length).map((chapter) => html`
           <li>
