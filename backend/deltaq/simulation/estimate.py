@@ -3,6 +3,8 @@
 The difference of two runs, taken as it is, says too little where a motion turns back: there even a wrong phase gives
 the right value. So coordinates and rates are compared together, |Δq|² + τ²|Δq̇|², with the coordinate's own time scale
 τ (from root mean squares). Neighbouring samples share their largest difference.
+
+Arrays have a row for each coordinate (and rate), and a column for each sample: they are looked through along samples.
 """
 
 from __future__ import annotations
@@ -44,20 +46,20 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     n = problem.degrees
     times, states, others = _together(problem, coarse, fine)
     difference = np.abs(others - states)
-    scales = _time_scales(problem, times, states)
-    together = np.hypot(difference[:, :n], scales * difference[:, n : 2 * n])
-    spread = factor * _spread(np.hstack([together, difference[:, n : 2 * n]]))
-    grain, sizes = _grain(problem, times, fine)[:, None], np.abs(states[:, :n])
-    errors = np.maximum(spread[:, :n], grain * np.maximum(1.0, sizes))
+    together = np.hypot(difference[:n], _time_scales(problem, times, states) * difference[n : 2 * n])
+    spread = factor * _spread(np.vstack([together, difference[n : 2 * n]]))
+    grain, sizes = _grain(problem, times, fine), np.abs(states[:n])
+    ones = np.maximum(1.0, sizes)
+    errors = np.maximum(spread[:n], grain * ones)
     horizon = _horizon(problem, times, errors, sizes)
     if horizon is not None:
         # Beyond the horizon both runs are wrong, and their difference may shrink by chance.
         late = times >= horizon
-        errors[late] = 2.0 * np.maximum.accumulate(errors[late], axis=0)
-    worst = float(np.max(errors / np.maximum(1.0, sizes)))
-    doubts = np.hstack([errors, np.maximum(spread[:, n:], grain)])
-    of_event = _of_event(problem, coarse, fine, factor, doubts[-1])
-    return Estimate(errors.max(axis=1), worst, horizon, of_event, _doubtful(problem, coarse, fine, times, doubts))
+        errors[:, late] = 2.0 * np.maximum.accumulate(errors[:, late], axis=1)
+    worst = float(np.max(errors / ones))
+    doubts = np.vstack([errors, np.maximum(spread[n:], grain)])
+    of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
+    return Estimate(errors.max(axis=0), worst, horizon, of_event, _doubtful(problem, coarse, fine, times, doubts))
 
 
 def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats, Floats]:
@@ -66,7 +68,7 @@ def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats,
     The coarse run's state is carried over to the fine one's time of the event.
     """
     count, n = min(len(coarse.times), len(fine.times)), problem.degrees
-    times, states, others = fine.times[:count], fine.states[:count], coarse.states[:count]
+    times, states, others = fine.times[:count], fine.states[:count].T.copy(), coarse.states[:count].T.copy()
     if fine.event is None or coarse.event is None:
         return times, states, others
     at, late = np.array([fine.event.time]), fine.event.time - coarse.event.time
@@ -74,7 +76,7 @@ def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats,
     rates[:n] = fine.event.state[n : 2 * n]
     rates[n : 2 * n] = accelerations(problem, at, fine.event.state[None, :])[0]
     moved = coarse.event.state + late * rates
-    return np.append(times, at), np.vstack([states, fine.event.state]), np.vstack([others, moved])
+    return np.append(times, at), np.column_stack([states, fine.event.state]), np.column_stack([others, moved])
 
 
 def _of_event(problem: Problem, coarse: Run, fine: Run, factor: float, doubts: Floats) -> float | None:
@@ -95,13 +97,13 @@ def _doubtful(problem: Problem, coarse: Run, fine: Run, times: Floats, doubts: F
     met = [run.event for run in (fine, coarse) if run.event]
     if met:
         event = met[0]
-        doubt = _doubt(problem, event.index, event.time, event.state, doubts[-1])
+        doubt = _doubt(problem, event.index, event.time, event.state, doubts[:, -1])
         is_sure = len(met) == 2 and not event.may_not_be(doubt)
         return None if is_sure else Happening(event.index, event.time, None)
 
     def is_close(a: Approach) -> bool:
         row = min(int(np.searchsorted(times, a.time)), len(times) - 1)
-        return a.value <= _doubt(problem, a.index, a.time, a.state, doubts[row])
+        return a.value <= _doubt(problem, a.index, a.time, a.state, doubts[:, row])
 
     close = [Happening(a.index, a.time, None) for a in fine.approaches if is_close(a)]
     return min(close, key=lambda happening: happening.time, default=None)
@@ -126,19 +128,19 @@ def _time_scales(problem: Problem, times: Floats, states: Floats) -> Floats:
 
     Where a fast motion rides on a slow one, the former is the scale of the fast and the latter that of the slow.
     """
-    n, rates = problem.degrees, states[:, problem.degrees : 2 * problem.degrees]
-    drift = rates.mean(axis=0)
-    swing = states[:, :n] - times[:, None] * drift
-    sizes = _size(np.hstack([swing - swing.mean(axis=0), rates - drift, accelerations(problem, times, states)]))
-    value, rate, acceleration = sizes[:n], sizes[n : 2 * n], sizes[2 * n :]
-    fast = np.divide(rate, acceleration, out=np.zeros(n), where=acceleration > 0)
-    slow = np.divide(value, rate, out=np.zeros(n), where=rate > 0)
+    n, rates = problem.degrees, states[problem.degrees : 2 * problem.degrees]
+    drift = rates.mean(axis=1, keepdims=True)
+    swing = states[:n] - drift * times
+    bends = accelerations(problem, times, states.T).T
+    value, rate, bend = (_size(x) for x in (swing - swing.mean(axis=1, keepdims=True), rates - drift, bends))
+    fast = np.divide(rate, bend, out=np.zeros((n, 1)), where=bend > 0)
+    slow = np.divide(value, rate, out=np.zeros((n, 1)), where=rate > 0)
     return np.asarray(np.maximum(fast, slow))
 
 
 def _size(values: Floats) -> Floats:
-    """Root mean square of each column."""
-    return np.asarray(np.sqrt(np.einsum("ij,ij->j", values, values) / len(values)))
+    """Root mean square of each row."""
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", values, values) / values.shape[1])[:, None])
 
 
 def _spread(errors: Floats) -> Floats:
@@ -146,27 +148,28 @@ def _spread(errors: Floats) -> Floats:
 
     The first keeps its own, which is exact.
     """
-    near, far = (_largest_within(errors, max(2, len(errors) // part)) for part in (NEAR, FAR))
+    near, far = (_largest_within(errors, max(2, errors.shape[1] // part)) for part in (NEAR, FAR))
     spread = np.maximum(near, SHARE * far)
-    spread[0] = errors[0]
+    spread[:, 0] = errors[:, 0]
     return spread
 
 
 def _largest_within(errors: Floats, reach: int) -> Floats:
     """The largest value up to `reach` samples away, by windows that double."""
-    window, size, width = np.zeros((len(errors) + 2 * reach, errors.shape[1])), 1, 2 * reach + 1
-    window[reach:-reach] = errors
+    count, size, width = errors.shape[1], 1, 2 * reach + 1
+    window = np.zeros((len(errors), count + 2 * reach))
+    window[:, reach:-reach] = errors
     while 2 * size <= width:
-        window = np.maximum(window[:-size], window[size:])
+        window = np.maximum(window[:, :-size], window[:, size:])
         size *= 2
     rest = width - size
-    return np.asarray(np.maximum(window[: len(window) - rest], window[rest:]))
+    return np.asarray(np.maximum(window[:, : window.shape[1] - rest], window[:, rest:]))
 
 
 def _horizon(problem: Problem, times: Floats, errors: Floats, sizes: Floats) -> float | None:
     """The first time at which the error of a coordinate is as large as the coordinate, or a sizeable angle."""
-    largest = np.max(sizes, axis=0)
+    largest = sizes.max(axis=1)
     angular = np.array(problem.angular or (False,) * problem.degrees)
-    scale = np.where(angular, np.minimum(largest, 1.0), largest)
-    lost = np.any((errors >= LOST * scale) & (scale > 0), axis=1)
+    scale = np.where(angular, np.minimum(largest, 1.0), largest)[:, None]
+    lost = ((errors >= LOST * scale) & (scale > 0)).any(axis=0)
     return float(times[np.argmax(lost)]) if lost.any() else None
