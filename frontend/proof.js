@@ -9,6 +9,7 @@ import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { sheet } from "./view/bring.js";
 import { follow } from "./view/links.js";
+import { enterFullscreen, toggleFullscreen } from "./view/fullscreen.js";
 import { dressed } from "./view/header.js";
 import { listen } from "./view/keys.js";
 import { openDialog, overlays } from "./view/overlays.js";
@@ -48,14 +49,10 @@ const link = (/** @type {Partial<import("./model/types.js").Place>} */ patch) =>
 /** The address of the same step as a page. */
 const whole = () => location.href.replace("/embed/", "/");
 
-function fullscreen() {
-  void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.());
-}
-
 /** Into lecture mode, over the whole screen. */
 function enterLecture() {
   session.move({ view: "lecture" });
-  void document.documentElement.requestFullscreen?.().catch(() => {});
+  enterFullscreen();
 }
 
 /** The presenter's window belongs to a lecture. */
@@ -80,7 +77,7 @@ function update() {
   if (!catalog.page && !state.failure) return;
   const t = texts();
   document.title = `δq · ${t("place.proof")}`;
-  render(page({ state, session, link, follow, t, fullscreen, enterLecture, lecture: lecturing(), above }), root);
+  render(page({ state, session, link, follow, t, fullscreen: toggleFullscreen, enterLecture, lecture: lecturing(), above }), root);
   if (overlay === "share") void sharing.want();
   if (place.view) void lecture.want();
   lecture.part?.update();
@@ -94,7 +91,7 @@ store.subscribe(update);
 dark.addEventListener("change", update);
 listen(document, {
   go: (by) => (lecturing() ?? session).go(by), more, lecture: enterLecture, presenter: () => void present(),
-  fullscreen, overlay: session.overlay, play() {},
+  fullscreen: toggleFullscreen, overlay: session.overlay, play() {},
   covered: () => store.get().overlay !== "",
   uncover: () => session.overlay(""),
   substeps: () => toggleSubsteps(root, store.get().place.step),

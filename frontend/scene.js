@@ -12,6 +12,7 @@ import { readPlace, startLanguage, writePlace } from "./model/url.js";
 import { expectLong } from "./view/formula.js";
 import { follow } from "./view/links.js";
 import { everyFrame } from "./view/frames.js";
+import { enterFullscreen, toggleFullscreen } from "./view/fullscreen.js";
 import { dressed } from "./view/header.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
 import { keeper } from "./view/keeper.js";
@@ -37,14 +38,10 @@ const motion = createMotion({ root, state: store.get, clock, session, still, upd
 
 const aside = createAside({ root, store, api, session, send: fetch.bind(globalThis), changed: update, play: motion.play });
 
-function fullscreen() {
-  void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.());
-}
-
 /** Into lecture mode, over the whole screen. */
 function enterLecture() {
   session.move({ view: "lecture", edit: "" });
-  void document.documentElement.requestFullscreen?.().catch(() => {});
+  enterFullscreen();
 }
 
 /** The presenter's window belongs to a lecture. */
@@ -59,7 +56,7 @@ function view() {
   const section = (/** @type {string} */ name) => /** @type {Record<string, unknown>} */ (state.catalog[name] ?? {});
   const methods = translator(section("methods"));
   return {
-    state, session, clock, togglePlay: motion.play, scrub: motion.scrub, setSpeed: (speed) => session.move({ speed }), instruments: motion.instruments, why: motion.instruments?.why, fullscreen, enterLecture,
+    state, session, clock, togglePlay: motion.play, scrub: motion.scrub, setSpeed: (speed) => session.move({ speed }), instruments: motion.instruments, why: motion.instruments?.why, fullscreen: toggleFullscreen, enterLecture,
     editor: aside.editor.part, lecture: aside.lecturing(), overlays: aside.overlays(),
     t: translator({ ...section("page"), ...section("editor"), ...section("lecture"), ...section("figure") }),
     methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,
@@ -92,7 +89,7 @@ dark.addEventListener("change", update);
 linkHighlights(root);
 listen(document, {
   go: (by) => (aside.lecturing() ?? session).go(by), more: () => aside.lecturing()?.keys ?? {},
-  fullscreen, overlay: session.overlay, play: motion.play, lecture: enterLecture, presenter: () => void present(),
+  fullscreen: toggleFullscreen, overlay: session.overlay, play: motion.play, lecture: enterLecture, presenter: () => void present(),
   covered: () => store.get().overlay !== "",
   uncover: () => session.overlay(""),
   substeps: () => toggleSubsteps(root, store.get().place.step),

@@ -360,6 +360,31 @@ test("of two files that are opened one after the other the last one is on the pa
   assert.deepEqual([store.get().sheet?.title, store.get().failure], [{ en: "second" }, null]);
 });
 
+test("a check that fails late says nothing of another task, and does not end the check of that one", async () => {
+  /** @type {((error: any) => void)[]} */
+  const checks = [];
+  const tasks = ["lagrangian", "equation:phi"].map((id) => ({ ...task, id }));
+  const post = (/** @type {string} */ path) => (path === "/checks" ? new Promise((_, fail) => checks.push(fail)) : Promise.resolve(path === "/tasks" ? { scene, symbols, tasks } : null));
+  const api = /** @type {any} */ ({ post, scenes: async () => ({ scenes: [] }), simulate: async () => trajectory });
+  const store = createStore(begin(readAsked("?scene=swing&lang=en")));
+  const progress = createProgress(storage());
+  const answering = createAnswering(store, api, progress);
+  const exercise = createExercise(store, api, progress, answering);
+  await exercise.start(store.get().asked, null, null);
+  const checked = [0, 1].map((index) => {
+    exercise.show(/** @type {any} */ (store.get().sheet?.entries[index]));
+    answering.type(0, "1");
+    return answering.check();
+  });
+  const failure = { title: "broken", detail: "", problems: [], status: 500 };
+  checks[0](new ApiError(failure));
+  await checked[0];
+  assert.deepEqual([store.get().trouble, store.get().busy], [null, "checking"]);
+  checks[1](new ApiError(failure));
+  await checked[1];
+  assert.deepEqual([store.get().trouble, store.get().busy], [failure, ""]);
+});
+
 test("no key stands alone in its row", () => {
   const counts = Array.from({ length: 50 }, (_, i) => i + 2);
   assert.deepEqual(counts.filter((count) => count % columnsFor(count) === 1), []);

@@ -35,21 +35,9 @@ export function isCurrent(entry, draft) {
   return checked !== null && isTranslated(entry, draft) && checked.value === valueOf(entry, { ...draft, syntax: checked.syntax });
 }
 
-/**
- * @param {import("./state.js").Store} store @param {import("./state.js").Api} api @param {import("./progress.js").Progress} progress
- */
-export function createAnswering(store, api, progress) {
-  const { get, set } = store;
+/** What the server understands of what is typed, asked for when the hand rests. @param {import("./state.js").Store} store @param {import("./state.js").Api} api */
+function createReading({ get, set }, api) {
   const readings = latestOnly(read, PAUSE);
-
-  /** @param {Entry} entry @param {(draft: Draft) => Partial<Draft>} change */
-  function keep(entry, change) {
-    const current = get().entry?.key === entry.key;
-    const before = current ? get().draft : progress.draft(entry.key);
-    const draft = { ...before, ...change(before) };
-    const kept = progress.write(entry.key, draft);
-    set(current ? { draft, kept } : { kept });
-  }
 
   /** @param {{entry: Entry, syntax: Syntax, value: string}} wish @param {AbortSignal} signal */
   async function read({ entry, syntax, value }, signal) {
@@ -65,6 +53,25 @@ export function createAnswering(store, api, progress) {
     const parts = partsIn(entry, draft);
     if (isEmpty(parts)) set({ reading: null });
     else if (isComplete(parts, entry.task.form)) void readings.ask({ entry, syntax: draft.syntax, value: valueOf(entry, draft) });
+  }
+
+  return { ask, cancel: readings.cancel };
+}
+
+/**
+ * @param {import("./state.js").Store} store @param {import("./state.js").Api} api @param {import("./progress.js").Progress} progress
+ */
+export function createAnswering(store, api, progress) {
+  const { get, set } = store;
+  const reading = createReading(store, api);
+
+  /** @param {Entry} entry @param {(draft: Draft) => Partial<Draft>} change */
+  function keep(entry, change) {
+    const current = get().entry?.key === entry.key;
+    const before = current ? get().draft : progress.draft(entry.key);
+    const draft = { ...before, ...change(before) };
+    const kept = progress.write(entry.key, draft);
+    set(current ? { draft, kept } : { kept });
   }
 
   /** The student's own wrong answers to earlier tasks of the scene: what follows from them is no new mistake. @param {Entry} entry */
@@ -92,8 +99,8 @@ export function createAnswering(store, api, progress) {
     keep,
     /** After another task, or another language, has come onto the page. */
     arrive() {
-      readings.cancel();
-      ask();
+      reading.cancel();
+      reading.ask();
       const { entry, draft, asked } = get();
       const { checked } = draft;
       if (entry && checked && checked.lang !== asked.place.lang) void verdict(entry, checked.syntax, checked.value, 0);
@@ -104,7 +111,7 @@ export function createAnswering(store, api, progress) {
       if (!entry) return;
       keep(entry, (draft) => ({ texts: { ...draft.texts, [draft.syntax]: partsIn(entry, draft).map((old, i) => (i === part ? text : old)) } }));
       set({ notice: "" });
-      ask();
+      reading.ask();
     },
     async check() {
       const { entry, draft } = get();

@@ -9,12 +9,16 @@ import { ApiError } from "../api.js";
  * @param {() => Promise<void>} task
  */
 export async function attempt({ get, set }, place, busy, task) {
+  const about = get().entry?.key;
+  // What came of one task is not said of another one that is on the page by now.
+  const concerns = () => !busy || get().entry?.key === about;
   set({ busy, [place]: null });
   try {
     await task();
   } catch (error) {
-    if (error instanceof ApiError) set({ [place]: error.failure });
-    else if (/** @type {Error} */ (error).name !== "AbortError") throw error;
+    if (error instanceof ApiError) {
+      if (concerns()) set({ [place]: error.failure });
+    } else if (/** @type {Error} */ (error).name !== "AbortError") throw error;
   }
-  if (get().busy === busy) set({ busy: "" });
+  if (concerns() && get().busy === busy) set({ busy: "" });
 }
