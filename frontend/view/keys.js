@@ -44,7 +44,7 @@ export function listen(target, keys) {
     const name = key.length === 1 ? key.toLowerCase() : key;
     const action = keys.more?.()[name] ?? actions[name];
     if (!action) return;
-    // A dialog closes by itself on Escape; any key ends the black screen.
+    // A dialog closes by itself on Escape; any of these keys ends the black screen.
     if (element?.closest("dialog")) return;
     event.preventDefault();
     if (keys.covered()) keys.uncover();

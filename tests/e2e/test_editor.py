@@ -104,6 +104,22 @@ def test_json_that_cannot_be_read_is_kept(editor: Lecture) -> None:
     expect(page.locator("textarea")).to_have_value('{"format": 1,')
 
 
+@pytest.mark.parametrize(
+    ("clipboard", "told"),
+    [
+        pytest.param("undefined", "address above", id="none, as over plain HTTP"),
+        pytest.param("{writeText: () => Promise.reject(new Error())}", "address above", id="refused"),
+        pytest.param("{writeText: async text => window.copied = text}", "The link is copied", id="allowed"),
+    ],
+)
+def test_whether_a_link_was_copied_is_told(lecture: Lecture, clipboard: str, told: str) -> None:
+    page = lecture.page
+    page.add_init_script(f"Object.defineProperty(navigator, 'clipboard', {{value: {clipboard}}})")
+    lecture.open("?scene=own&edit=form&lang=en")
+    page.locator(".menu button").first.click()
+    expect(page.locator(".editor .warning")).to_contain_text(told)
+
+
 def test_a_link_opens_the_same_scene_elsewhere(editor: Lecture) -> None:
     page = editor.page
     type_into(page, "/title", "Long pendulum")
