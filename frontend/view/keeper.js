@@ -8,11 +8,17 @@ const REFUSING = {
   },
 };
 
-/** The browser's own, unless it refuses even to be asked: for a page in a closed frame, or where its owner wants nothing kept. */
-export function keeper() {
+/** @param {"localStorage" | "sessionStorage"} kind */
+function kept(kind) {
   try {
-    return window.localStorage ?? REFUSING;
+    return window[kind] ?? REFUSING;
   } catch {
     return REFUSING;
   }
 }
+
+/** The browser's own, unless it refuses even to be asked: for a page in a closed frame, or where its owner wants nothing kept. */
+export const keeper = () => kept("localStorage");
+
+/** What lasts as long as the window. */
+export const windowKeeper = () => kept("sessionStorage");

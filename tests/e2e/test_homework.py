@@ -346,7 +346,8 @@ def test_with_a_finger_the_keys_of_the_task_come_up_below_the_field(browser: Bro
     context.close()
 
 
-REFUSING = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('', 'SecurityError'); }})"
+REFUSING = """for (const kind of ["localStorage", "sessionStorage"])
+    Object.defineProperty(window, kind, {get() { throw new DOMException("", "SecurityError"); }});"""
 
 
 @pytest.mark.parametrize(
@@ -354,6 +355,7 @@ REFUSING = "Object.defineProperty(window, 'localStorage', {get() { throw new DOM
     [
         pytest.param("homework?scene=pendulum&lang=en", ".question h2", id="homework"),
         pytest.param("labs?lang=en", ".invitation", id="labs"),
+        pytest.param("scene?scene=pendulum&lang=en&view=lecture", ".slide .step", id="lecture"),
         pytest.param("presenter?with=abcdef&lang=en", "main.presenter", id="presenter"),
         pytest.param("scene?scene=own&lang=en", "form.form", id="editor"),
     ],

@@ -2,6 +2,7 @@
 
 import { createSender, isId, nameOf } from "../../model/lecture/link.js";
 import { allOrNone, onwards, within } from "../../model/lecture/stops.js";
+import { windowKeeper } from "../keeper.js";
 import { createNewest } from "./newest.js";
 import { slide } from "./slide.js";
 import { createSpot } from "./spot.js";
@@ -22,12 +23,17 @@ const SWIPE = 60;
 const KEY = "deltaq.lecture";
 const BESIDE = /** @type {const} */ (["", "plots", "nothing"]);
 
-/** The name of this lecture's line, the same after a reload. */
+/** The name of this lecture's line, the same after a reload where the browser keeps it. */
 function lineId() {
-  const kept = sessionStorage.getItem(KEY);
+  const keeper = windowKeeper();
+  const kept = keeper.getItem(KEY);
   if (isId(kept)) return /** @type {string} */ (kept);
   const made = Array.from(crypto.getRandomValues(new Uint8Array(10)), (byte) => (byte % 36).toString(36)).join("");
-  sessionStorage.setItem(KEY, made);
+  try {
+    keeper.setItem(KEY, made);
+  } catch {
+    // Only a reload will not find the presenter's window again.
+  }
   return made;
 }
 
