@@ -115,7 +115,7 @@ def test_json_that_cannot_be_read_is_kept(editor: Lecture) -> None:
 def test_whether_a_link_was_copied_is_told(lecture: Lecture, clipboard: str, told: str) -> None:
     page = lecture.page
     page.add_init_script(f"Object.defineProperty(navigator, 'clipboard', {{value: {clipboard}}})")
-    lecture.open("?scene=own&edit=form&lang=en")
+    page.goto(f"{lecture.address}scene?scene=own&edit=form&lang=en")
     page.locator(".menu button").first.click()
     expect(page.locator(".editor .warning")).to_contain_text(told)
 
