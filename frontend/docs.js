@@ -16,7 +16,7 @@ const asked = readPlace(location.search);
 const store = createStore({
   place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
-  groups: /** @type {import("./model/reference.js").Group[]} */ ([]), version: "", text: "", sample: "Shell",
+  groups: /** @type {import("./model/reference.js").Group[]} */ ([]), version: "", sample: "Shell",
   failure: /** @type {import("./model/types.js").Failure | null} */ (null),
 });
 const { get, set } = store;
@@ -26,7 +26,7 @@ const speech = createSpeech(store, api, (task) => task().catch(() => {}), ["refe
 async function load() {
   try {
     const document = await api.description();
-    set({ groups: groupsOf(document, location.origin), version: document.info.version, text: document.info.description, failure: null });
+    set({ groups: groupsOf(document, location.origin), version: document.info.version, failure: null });
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
     set({ failure: error.failure });

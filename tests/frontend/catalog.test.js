@@ -105,7 +105,7 @@ for (const [name, asked] of Object.entries({ labs: LAB, editor: EDITOR, variatio
 }
 
 test("every text that is there is used", () => {
-  const composed = ["theme.", "motion.", "tools.", "why.", "player.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical.", "kinds.", ...CHARTS];
+  const composed = ["theme.", "motion.", "tools.", "why.", "player.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical.", "kinds.", "reference.subject.", "reference.about.", ...CHARTS];
   const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...SHARE, ...LAB, ...EXERCISES, ...HELP].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });

@@ -86,7 +86,8 @@ test("the largest force is as long as every other largest force; a vanishing one
 test("every kind of element draws something, with finite numbers", () => {
   for (const kind of Object.keys(KINDS)) {
     const element = { kind, at: "bob", from: "pivot", to: "bob", coordinate: "phi", load: "F", radius: 0.2 };
-    const { shapes } = figureAt(2, { ...scene, drawing: { ...scene.drawing, elements: [element] } });
+    const dimension = ["polar", "azimuth"].includes(kind) ? 3 : 2;
+    const { shapes } = figureAt(2, { ...scene, dimension, drawing: { ...scene.drawing, elements: [element] } });
     assert.ok(shapes.some((s) => s.d !== ""), kind);
     assert.ok(!shapes.some((s) => /NaN|Infinity/.test(s.d + s.at)), kind);
   }
@@ -153,4 +154,29 @@ test("a moment goes round its place with its symbol, in the colour of its load",
   const { shapes, labels } = figureAt(1, turned);
   assert.deepEqual(shapes.map(({ className }) => className), ["arrow load load-drive", "head load load-drive"]);
   assert.equal(labels[0].latex, "M_0");
+});
+
+/** A place in space at ϑ from the vertical and ψ round it, and its two angles as drawn. */
+function spherical(/** @type {number} */ theta, /** @type {number} */ psi) {
+  const bob = [Math.sin(theta) * Math.cos(psi), Math.sin(theta) * Math.sin(psi), Math.cos(theta)];
+  const elements = [{ kind: "polar", from: "pivot", to: "bob", coordinate: "phi" }, { kind: "azimuth", at: "pivot", to: "bob", coordinate: "y" }];
+  const given = /** @type {any} */ ({ ...scene, dimension: 3, drawing: { ...scene.drawing, elements } });
+  const moving = { ...trajectory, positions: { pivot: [[0, 0, 0]], bob: [bob] } };
+  const space = stageOf(given, moving, square(400));
+  const now = /** @type {any} */ ({ t: 0, coordinates: { phi: theta, y: psi }, positions: { pivot: [0, 0, 0], bob }, loads: {} });
+  return { figure: figureOf(space, now), space, bob };
+}
+
+for (const [theta, psi] of [[0.9, 0.7], [2.4, -2], [1.2, 3]])
+  test(`the arcs of spherical coordinates end on the line to the place and on its level: ${theta}, ${psi}`, () => {
+    const { figure, space, bob } = spherical(theta, psi);
+    const ends = ["polar0", "azimuth1"].map((key) => /M.*M(\S+) (\S+?)L/.exec(shape(figure, `${key}-arc`)?.d ?? "")?.slice(1).map(Number) ?? []);
+    const seen = space.project(bob);
+    for (const [end, from] of /** @type {const} */ ([[ends[0], space.project([0, 0, 0])], [ends[1], space.project([0, 0, bob[2]])]]))
+      assert.ok(Math.abs((end[0] - from[0]) * (seen[1] - from[1]) - (end[1] - from[1]) * (seen[0] - from[0])) < 0.02 * 400, "the tip lies on the line");
+    assert.deepEqual(figure.labels.map(({ latex }) => latex), ["q_2", "q_1"]);
+  });
+
+test("where an angle of space is zero there is no arc", () => {
+  assert.deepEqual(spherical(0, 0).figure.labels, []);
 });

@@ -15,6 +15,7 @@ Vertical = Literal["up", "down"]
 # Each kind of element, and the fields that say where it hangs.
 ELEMENTS: dict[str, tuple[str, ...]] = {
     "angle": ("at",),
+    "azimuth": ("at", "to"),
     "block": ("at",),
     "bob": ("at",),
     "cart": ("at",),
@@ -27,6 +28,7 @@ ELEMENTS: dict[str, tuple[str, ...]] = {
     "hoop": ("at",),
     "moment": ("at",),
     "pivot": ("at",),
+    "polar": ("from", "to"),
     "rod": ("from", "to"),
     "spring": ("from", "to"),
     "trail": ("at",),

@@ -5,6 +5,7 @@ import { ground, guide, pivot, wall } from "./supports.js";
 import { bob, cart, damper, disc, hoop, rod, spring, trail } from "./members.js";
 import { angle, dimension, force, moment, weight } from "./marks.js";
 import { sketchOf, verticalOf } from "./sketch.js";
+import { azimuth, polar } from "./space.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
 /** @typedef {import("../types.js").Snapshot} Snapshot */
@@ -12,7 +13,7 @@ import { sketchOf, verticalOf } from "./sketch.js";
 
 /** Kinds of elements, undermost first. */
 export const KINDS = {
-  ground, wall, trail, dimension, angle, guide, damper, spring, hoop, rod, cart, block: cart, disc, moment, weight, force, pivot, bob,
+  ground, wall, trail, dimension, angle, polar, azimuth, guide, damper, spring, hoop, rod, cart, block: cart, disc, moment, weight, force, pivot, bob,
 };
 const ORDER = Object.keys(KINDS);
 

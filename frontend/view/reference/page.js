@@ -1,4 +1,4 @@
-/** The API to be read: calls by subject. Its words are English, as the API describes itself. */
+/** The API to be read: calls by subject. Calls and fields are described in English, as the API describes itself. */
 
 import { html, nothing } from "lit-html";
 import { failure } from "../failure.js";
@@ -8,7 +8,7 @@ import { pageAddress } from "../../model/url.js";
 
 /** @typedef {import("../../model/reference.js").Call} Call */
 /**
- * @typedef {import("../header.js").Appearance & {groups: import("../../model/reference.js").Group[], version: string, text: string,
+ * @typedef {import("../header.js").Appearance & {groups: import("../../model/reference.js").Group[], version: string,
  *   failure: import("../../model/types.js").Failure | null, reload: () => void, sample: string, choose: (sample: string) => void}} ReferenceView
  */
 
@@ -21,15 +21,21 @@ export function page(view) {
     ${top(view, { main: "reference", here: "docs", heading: titled(t("place.docs"), t("reference.subtitle", { version: view.version })) })}
     <main class="reference" id="reference" tabindex="-1">
       ${view.failure ? failure(view.failure, t("failure.page"), view.reload, t) : nothing}
-      <nav aria-label=${t("reference.subjects")}><ul>${groups.map(({ subject }) => html`<li><a href=${`#${subject}`}>${subject}</a></li>`)}</ul>
+      <nav aria-label=${t("reference.subjects")}><ul>${groups.map(({ subject }) => html`<li><a href=${`#${subject}`}>${titleOf(subject, t)}</a></li>`)}</ul>
         <p><a href=${pageAddress(TRIAL, view.state.place)}>${t("reference.try")}</a></p><p><a href="/api/v1/openapi.json">${t("reference.openapi")}</a></p></nav>
       <div class="calls">
-        <p lang="en">${described(view.text)}</p>
+        <p>${described(t("reference.lead"))}</p><p>${t("reference.english")}</p>
         ${languages(view)}
-        ${groups.map(({ subject, text, calls }) => html`<section id=${subject} lang="en"><h2>${subject}</h2><p>${text}</p>${calls.map((call) => article(call, view))}</section>`)}
+        ${groups.map(({ subject, text, calls }) => html`<section id=${subject}><h2>${titleOf(subject, t)}</h2><p>${told(`reference.about.${subject}`, text, t)}</p>${calls.map((call) => article(call, view))}</section>`)}
       </div>
     </main>`;
 }
+
+/** What the catalog says, else what the API says of itself. @param {string} key @param {string} otherwise @param {ReferenceView["t"]} t */
+const told = (key, otherwise, t) => (t(key) === key ? otherwise : t(key));
+
+/** @param {string} subject @param {ReferenceView["t"]} t */
+const titleOf = (subject, t) => told(`reference.subject.${subject}`, subject, t);
 
 /** In which language the samples are. @param {ReferenceView} view */
 function languages({ groups, sample, choose, t }) {
@@ -54,7 +60,7 @@ function copying(source, call, lang, t) {
 function article({ id, method, path, text, fields, samples, answers }, { t, state, sample }) {
   const written = samples.filter(({ lang }) => lang === sample);
   return html`
-    <article id=${id}>
+    <article id=${id} lang="en">
       <h3><span class="method">${method}</span> <code>${path}</code>
         <a class="try" lang=${state.place.lang} href=${`${pageAddress(TRIAL, state.place)}#${id}`} aria-label=${`${t("trial.try")}: ${method} ${path}`}>${t("trial.try")}</a>
         ${written.map(({ source }) => copying(source, `${method} ${path}`, state.place.lang, t))}</h3>

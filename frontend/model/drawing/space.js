@@ -1,0 +1,97 @@
+/** The angles of spherical coordinates, drawn in space and seen as everything in it: from the vertical, and round it. */
+
+import { add, arrowHead, at as pixel, line, polyline, scaled, subtract, unit, wrapped } from "./geometry.js";
+import { coordinateClass, latexOf } from "./stage.js";
+
+/** @typedef {import("../types.js").Element} Element */
+/** @typedef {import("../types.js").Figure} Figure */
+/** @typedef {import("../types.js").Pixel} Pixel */
+/** @typedef {import("../types.js").Snapshot} Snapshot */
+/** @typedef {import("./stage.js").Stage} Stage */
+/** @typedef {[number, number, number]} Place */
+/** @typedef {(turn: number) => Place} Circle  the place on a circle in space at an angle */
+
+/** @type {Figure} */
+const NOTHING = { shapes: [], labels: [] };
+/** Radii in units of the drawing, and the least angle that has an arc. */
+const POLAR = 4.8;
+const ROUND = 3.6;
+const LEAST = 0.03;
+/** Pieces of an arc for each radian. */
+const FINENESS = 10;
+const LINED = 0.8;
+
+/** @param {Snapshot} now @param {string | undefined} place @returns {Place} */
+function placeIn(now, place) {
+  const [x = 0, y = 0, z = 0] = now.positions[place ?? ""] ?? [];
+  return [x, y, z];
+}
+
+/**
+ * ϑ: the arc from the vertical to the line between two places, in the plane of both.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function polar(element, stage, now, key) {
+  if (stage.scene.dimension !== 3) return NOTHING;
+  const [centre, end] = [placeIn(now, element.from), placeIn(now, element.to)];
+  const [x, y, z] = end.map((value, i) => value - centre[i]);
+  const across = Math.hypot(x, y);
+  const radius = Math.min((POLAR * stage.unit) / stage.scale, 0.75 * Math.hypot(across, z));
+  const on = /** @type {Circle} */ ((turn) => [
+    centre[0] + (across ? x / across : 1) * radius * Math.sin(turn), centre[1] + (across ? y / across : 0) * radius * Math.sin(turn), centre[2] + radius * Math.cos(turn),
+  ]);
+  const level = (/** @type {number} */ height) => stage.project([centre[0], centre[1], height]);
+  const d = line(level(Math.min(centre[2], end[2])), level(Math.max(end[2], centre[2] + 1.15 * radius)));
+  const axis = { key: `${key}-axis`, d, className: "reference" };
+  const side = { key: `${key}-side`, d: line(stage.project(centre), stage.project(end)), className: "reference" };
+  return arc(element, stage, { key, centre, on, turn: Math.atan2(across, z), below: [axis, side] });
+}
+
+/**
+ * ψ: the arc round the vertical through `at`, level with `to`, from the first axis to where `to` stands.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function azimuth(element, stage, now, key) {
+  if (stage.scene.dimension !== 3) return NOTHING;
+  const [foot, end] = [placeIn(now, element.at), placeIn(now, element.to)];
+  const centre = /** @type {Place} */ ([foot[0], foot[1], end[2]]);
+  const radius = (ROUND * stage.unit) / stage.scale;
+  const on = /** @type {Circle} */ ((turn) => [centre[0] + radius * Math.cos(turn), centre[1] + radius * Math.sin(turn), centre[2]]);
+  const middle = stage.project(centre);
+  const past = (/** @type {Pixel} */ tip) => add(middle, scaled(subtract(tip, middle), 1.15));
+  const below = [
+    { key: `${key}-first`, d: line(middle, past(stage.project(on(0)))), className: "reference" },
+    { key: `${key}-level`, d: line(middle, stage.project(end)), className: "reference" },
+  ];
+  return arc(element, stage, { key, centre, on, turn: wrapped(now.coordinates[element.coordinate ?? ""] ?? 0), below });
+}
+
+/**
+ * An arc with its head and its letter.
+ * @param {Element} element @param {Stage} stage
+ * @param {{key: string, centre: Place, on: Circle, turn: number, below: Figure["shapes"]}} about
+ * @returns {Figure}
+ */
+function arc(element, stage, { key, centre, on, turn, below }) {
+  if (!(Math.abs(turn) > LEAST)) return { shapes: below, labels: [] };
+  const className = coordinateClass(stage.scene, element.coordinate);
+  const count = Math.max(3, Math.ceil(Math.abs(turn) * FINENESS));
+  const points = Array.from({ length: count + 1 }, (_, i) => stage.project(on((turn * i) / count)));
+  const tip = points[count];
+  const size = Math.min(stage.unit * 0.8, 0.5 * Math.hypot(...subtract(tip, points[0])));
+  const head = arrowHead(tip, unit(subtract(tip, points[count - 1])), LINED * size);
+  // There and back: a path that is filled shows no more of the arc than its line.
+  const there = polyline(points.slice(0, -1));
+  const back = points.slice(0, -2).reverse().map((point) => `L${pixel(point)}`).join("");
+  const middle = stage.project(on(turn / 2));
+  const outwards = unit(subtract(middle, stage.project(centre)));
+  return {
+    shapes: [...below, { key: `${key}-arc`, d: there + back + head, className: `pointed mark ${className}` }],
+    labels: [{
+      key, latex: latexOf(stage.scene, element.coordinate), at: add(middle, scaled(outwards, stage.unit * 1.15)), className,
+      opacity: Math.min(1, Math.max(0, (Math.abs(turn) - 0.15) / 0.15)),
+    }],
+  };
+}
