@@ -68,8 +68,10 @@ window.addEventListener("beforeprint", () => {
   }
 });
 
-store.subscribe(update);
 dark.addEventListener("change", update);
-void expectLong();
 update();
 void session.load();
+// Who prints by the browser's own key waits for nothing: a sheet is not shown before it could be printed.
+await expectLong();
+store.subscribe(update);
+update();

@@ -84,16 +84,26 @@ def _drive() -> None:
         os.environ.setdefault("PLAYWRIGHT_NODEJS_PATH", str(folder / "node"))
 
 
-@cache
 def chromium() -> Program:
     """The first browser that starts; NoBrowser if none does."""
+    found = _searched()
+    if isinstance(found, NoBrowser):
+        raise found
+    return found
+
+
+@cache  # failures, too: a search may ask npm
+def _searched() -> Program | NoBrowser:
     faults = []
-    for program in _programs():
-        fault = program.fault()
-        if not fault:
-            return program
-        faults.append(f"{program.path} does not start: {fault}")
-    raise NoBrowser("; ".join([*faults, REMEDY]))
+    try:
+        for program in _programs():
+            fault = program.fault()
+            if not fault:
+                return program
+            faults.append(f"{program.path} does not start: {fault}")
+    except NoBrowser as error:
+        return error
+    return NoBrowser("; ".join([*faults, REMEDY]))
 
 
 def _programs() -> Iterator[Program]:

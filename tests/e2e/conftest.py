@@ -27,16 +27,21 @@ def server(root: Path) -> Iterator[str]:
             assert process.stdout is not None
             address = re.search(r"http://\S+", process.stdout.readline())
             assert address is not None, "the server did not say its address"
-            _warm_up(address[0])
+            _answered(f"{address[0]}api/v1/simulations", {"scene": "elastic-pendulum", "t_end": 1.0})
             yield address[0]
         finally:
             process.terminate()
 
 
-def _warm_up(address: str, patience: float = 240.0) -> None:
-    """Ask for a motion until there is one: the first one of a machine's life compiles the kernels."""
-    body = json.dumps({"scene": "elastic-pendulum", "t_end": 1.0}).encode()
-    request = urllib.request.Request(f"{address}api/v1/simulations", body, {"content-type": "application/json"})
+@pytest.fixture(scope="session")
+def bench(server: str) -> None:
+    """The kernels of all methods are compiled: experiments wait for them, motions only for those of their own."""
+    _answered(f"{server}api/v1/experiments/convergence", {"scene": "pendulum", "t_end": 1.0}, 900.0)
+
+
+def _answered(address: str, question: dict[str, object], patience: float = 240.0) -> None:
+    """Ask until there is an answer: the first one of a machine's life compiles kernels."""
+    request = urllib.request.Request(address, json.dumps(question).encode(), {"content-type": "application/json"})
     end = time.monotonic() + patience
     while True:
         try:

@@ -117,8 +117,18 @@ def violations(page: Page, axe: str) -> list[Any]:
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize(("place", "ready", "first"), PLACES)
-def test_page(lecture: Lecture, axe: str, place: str, ready: str, first: Callable[[Page], None], theme: str) -> None:
+def test_page(
+    request: pytest.FixtureRequest,
+    lecture: Lecture,
+    axe: str,
+    place: str,
+    ready: str,
+    first: Callable[[Page], None],
+    theme: str,
+) -> None:
     page = lecture.page
+    if first is measure:
+        request.getfixturevalue("bench")
     page.emulate_media(reduced_motion="reduce")
     for language in ("de", "en"):
         page.goto(f"{lecture.address}{place}&lang={language}&theme={theme}")

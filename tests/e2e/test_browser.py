@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from tests.e2e import browser
-from tests.e2e.browser import REMEDY, NoBrowser, Program
+from tests.e2e.browser import REMEDY, NoBrowser, Program, chromium
 from tests.frontend import node
 
 LACKING = "error while loading shared libraries: libnspr4.so: cannot open shared object file"
@@ -18,9 +19,12 @@ def program(file: Path, script: str) -> str:
     return str(file)
 
 
-def chosen() -> Program:
+@pytest.fixture(autouse=True)
+def anew() -> Iterator[None]:
     """As in a process that has not looked for one yet."""
-    return browser.chromium.__wrapped__()
+    browser._searched.cache_clear()
+    yield
+    browser._searched.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -36,14 +40,14 @@ def test_one_that_does_not_start_is_told(
     named = program(tmp_path / "chromium", script)
     monkeypatch.setenv("CHROMIUM_PATH", named)
     with pytest.raises(NoBrowser) as caught:
-        chosen()
+        chromium()
     assert str(caught.value) == f"{named} does not start: {fault}; {REMEDY}"
 
 
 def test_a_name_of_nothing_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("CHROMIUM_PATH", "/nowhere")
     with pytest.raises(NoBrowser, match=r"^/nowhere does not start: .*No such file"):
-        chosen()
+        chromium()
 
 
 def test_the_next_one_is_taken_when_the_first_does_not_start(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -51,7 +55,7 @@ def test_the_next_one_is_taken_when_the_first_does_not_start(monkeypatch: pytest
     monkeypatch.setenv("PATH", str(tmp_path))
     program(tmp_path / "chromium", "exit 1")
     other = program(tmp_path / "google-chrome", "exit 0")
-    assert chosen() == Program(other)
+    assert chromium() == Program(other)
 
 
 def test_npm_that_gets_nothing_is_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -66,4 +70,4 @@ def test_npm_that_gets_nothing_is_told(monkeypatch: pytest.MonkeyPatch, tmp_path
     with pytest.raises(
         NoBrowser, match=r"^no Chromium could be fetched from npm: npm error code ENOTCACHED; put chrom"
     ):
-        chosen()
+        chromium()

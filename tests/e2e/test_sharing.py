@@ -6,9 +6,9 @@ import re
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 from tests.e2e.lecture import Lecture
-from tests.e2e.waiting import until, until_equal
+from tests.e2e.waiting import frames, until, until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -191,6 +191,27 @@ def test_a_sheet_that_is_printed_at_once_is_not_made_small(lecture: Lecture, tmp
     page.evaluate(f"window.print = () => {{ window.small = {wide}.length }}")
     page.get_by_role("button", name="Print").click()
     page.wait_for_function("() => window.small === 0")
+
+
+def test_a_sheet_is_shown_when_it_can_be_printed(lecture: Lecture, tmp_path: Path) -> None:
+    """Not before it has come how long formulas are set, whose rows would be missing on paper."""
+    page, held = lecture.page, list[Route]()
+
+    def hold(route: Route) -> None:
+        held.append(route)
+
+    page.route("**/view/rows.js", hold)
+    with page.expect_response("**/api/v1/derivations") as derived:
+        page.goto(f"{lecture.address}handout?scene=triple-pendulum&lang=en")
+    derived.value.finished()
+    frames(page, 10)
+    expect(page.locator(".paper")).to_have_count(0)
+    held[0].continue_()
+    page.locator(".paper .katex").first.wait_for()
+    empty = "[...document.querySelectorAll('.formula')].filter(e => !e.firstChild).length"
+    page.evaluate(f"addEventListener('beforeprint', () => {{ window.empty = {empty} }})")
+    page.pdf(path=str(tmp_path / "handout.pdf"))
+    assert page.evaluate("window.empty") == 0
 
 
 def test_the_general_proof_has_an_address_a_code_and_a_handout(lecture: Lecture) -> None:
