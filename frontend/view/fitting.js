@@ -53,7 +53,9 @@ export class Fitting {
     this.#inRows.add(element);
     const late = !this.#rows;
     if (late) await this.expectLong();
-    this.#rows?.tell(element, this.#sources.get(element) ?? "");
+    const latex = this.#sources.get(element) ?? "";
+    if (this.#rows) this.#rows.tell(element, latex);
+    else typeset(element, latex, true); // too wide rather than empty, where the rest of the page has come and this has not
     this.fitSoon(element);
     if (late) element.dispatchEvent(new CustomEvent("grown", { bubbles: true }));
   }

@@ -88,3 +88,12 @@ def test_what_is_scrolled_back_to_is_drawn_again(long: Lecture) -> None:
     formula.evaluate("e => e.closest('.step').scrollIntoView()")
     expect(formula).to_have_class("rows")
     expect(formula.locator(".katex-html").first).to_be_visible()
+
+
+def test_a_formula_is_there_also_where_rows_cannot_be_fetched(lecture: Lecture) -> None:
+    page = lecture.page
+    page.route("**/view/rows.js", lambda route: route.abort())
+    lecture.open(f"?scene=triple-pendulum&lang=en&step={STEP}")
+    expect(page.locator(f"{FORMULA} .katex-html")).to_be_visible()
+    page.wait_for_function("() => [...document.querySelectorAll('.step .formula')].every(e => e.firstChild)")
+    lecture.complaints.clear()  # the browser reports what it could not fetch
