@@ -35,10 +35,13 @@ def _math_field(page: Page) -> Locator:
     field = page.locator("math-field").first
     field.wait_for(timeout=PATIENCE)
     field.click()
-    # It takes its first letter only when it has got the focus, and knows its shortcuts one frame after it has come.
-    page.wait_for_function("field => field.hasFocus() && field.menuItems.length === 0", arg=field.element_handle())
+    page.wait_for_function(TAKES_LETTERS, arg=field.element_handle())
     return field
 
+
+# It says that it has the focus before the browser gives it, and knows its shortcuts one frame after it has come.
+TAKES_LETTERS = """field => document.activeElement === field && field.shadowRoot.activeElement !== null
+    && field.menuItems.length === 0"""
 
 PARTED = """() => {
     const [right, yours] = ['right', 'yours'].map((one) => document.querySelector(`.drawing.${one} path.bob`));
