@@ -78,7 +78,7 @@ def test_the_focus_is_seen_wherever_it_goes(
     page.goto(f"{lecture.address}{place}")
     page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
     found = stops(page)
-    assert len(found) > 15
+    assert len(found) >= 12  # as many as the labs have before anything is measured
     assert [stop["name"] for stop in found if not stop["ringed"]] == []
 
 
