@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.simulation.scenes import oscillator
 
+import deltaq
 from deltaq.model.model import compile_model
 from deltaq.simulation.driver import simulate
+from deltaq.simulation.kernels import explicit_runge_kutta
 from deltaq.simulation.kernels.compiler import source_stamp
 from deltaq.simulation.kernels.explicit_runge_kutta import integrate
 from deltaq.simulation.kernels.motion import SMALLEST_PIVOT, factor, solve, solve_small
 from deltaq.simulation.library import get_method
 from deltaq.simulation.service import problem_of
+
+PACKAGE = Path(deltaq.__file__).parent
 
 
 def packed(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -37,7 +43,8 @@ def test_cholesky_solves(n: int) -> None:
     [
         pytest.param([[0.0]], id="nothing"),
         pytest.param([[1.0, 1.0], [1.0, 1.0]], id="rank one"),
-        pytest.param([[1.0, 0.0], [0.0, 1e-15]], id="no mass but rounding"),
+        pytest.param([[1.0, 0.0], [0.0, 0.0]], id="no mass at all in one coordinate"),
+        pytest.param([[1.0, 1.0], [1.0, 1.0 + 1e-15]], id="a difference that is rounding"),
         pytest.param([[1.0, 2.0], [2.0, 1.0]], id="indefinite"),
         pytest.param([[-1.0]], id="negative"),
     ],
@@ -47,14 +54,36 @@ def test_singular_matrices_are_found(matrix: list[list[float]]) -> None:
     assert factor(packed(square, np.zeros(len(square))), len(square)) <= SMALLEST_PIVOT
 
 
+@pytest.mark.parametrize("unit", [1e-150, 1e-9, 1.0, 1e9, 1e150])
+@pytest.mark.parametrize("n", [2, 3])
+def test_no_unit_makes_a_matrix_singular(n: int, unit: float) -> None:
+    scales = np.diag([1.0] * (n - 1) + [unit])
+    matrix = scales @ (0.5 * np.ones((n, n)) + np.eye(n)) @ scales
+    ratio = factor(packed(matrix, np.zeros(n)), n)
+    assert ratio == pytest.approx(factor(packed(0.5 * np.ones((n, n)) + np.eye(n), np.zeros(n)), n), rel=1e-9)
+    if n == 2:
+        assert solve_small(packed(matrix, np.zeros(n)), n, 1.0, np.zeros(4)) == pytest.approx(ratio, rel=1e-9)
+
+
 def test_nan_is_told_from_singular() -> None:
     assert np.isnan(factor(np.array([np.nan, 0.0]), 1))
 
 
-def test_a_cached_kernel_is_valid_for_the_code_of_all_kernels() -> None:
+def test_a_cached_kernel_is_valid_for_the_code_it_is_made_of(tmp_path: Path) -> None:
     """Numba by itself would look at one file only and run a kernel whose inner functions have changed since."""
-    assert integrate._cache._cache_file._source_stamp == source_stamp()
-    assert len(source_stamp()) == 64
+    stamp = source_stamp(Path(explicit_runge_kutta.__file__))
+    assert integrate._cache._cache_file._source_stamp == stamp
+    assert len(stamp) == 64
+    shutil.copytree(PACKAGE, tmp_path / "deltaq", ignore=shutil.ignore_patterns("__pycache__", "static"))
+    copy = tmp_path / "deltaq" / "simulation" / "kernels"
+    for changed in ("motion.py", "step.py", "plan.py"):
+        before = source_stamp.__wrapped__(copy / "explicit_runge_kutta.py")
+        (copy / changed).write_text((copy / changed).read_text() + "\n# changed\n")
+        assert source_stamp.__wrapped__(copy / "explicit_runge_kutta.py") != before
+    before = source_stamp.__wrapped__(copy / "audit.py")
+    tape = copy.parents[1] / "model" / "tape.py"
+    tape.write_text(tape.read_text() + "\n# changed\n")
+    assert source_stamp.__wrapped__(copy / "audit.py") != before
 
 
 @pytest.mark.parametrize("n", [1, 2])

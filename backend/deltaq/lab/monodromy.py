@@ -19,6 +19,7 @@ from ..mechanics.library import load_scene
 from ..simulation.integration import Flag, explicit_weights, motion_of
 from ..simulation.kernels.monodromy import Flow, Found, Survey, make_desk, survey
 from ..simulation.kernels.motion import CANCELLED, FINE
+from ..simulation.kernels.plan import make_plan
 from ..simulation.kernels.step import make_room
 from ..simulation.kernels.step_control import Control
 from ..simulation.kernels.watch import unwatched
@@ -130,7 +131,8 @@ def surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table
         raise TypeError("the survey steps by an explicit Runge–Kutta method")
     weights, width, count = explicit_weights(scheme), 2 * problem.degrees, table.periods.size
     longest = float(table.periods.max())
-    control = Control(TOLERANCE, longest, longest, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme))
+    plan = make_plan(np.array([longest]), np.array([longest]), width)
+    control = Control(TOLERANCE, longest, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme), plan)
     motion, room = motion_of(problem)._replace(is_powered=False), make_room(start.copy(), weights)
     outcomes = np.full(count, CANCELLED, dtype=np.int64)
     found = Found(np.zeros((count, width)), np.zeros((count, width, width)), outcomes)

@@ -1,6 +1,6 @@
-"""Whether every coordinate moves mass: the mass matrix of a scene, in plain numbers.
+"""Whether every coordinate moves mass of its own, in plain numbers; how much mass that is does not matter.
 
-It is singular everywhere if a coordinate moves no mass, or if coordinates only ever
+The mass matrix is singular everywhere if a coordinate moves no mass, or if coordinates only ever
 move together; at single points it may be singular in any scene (the pole of the spherical pendulum).
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §1.6.
 """
@@ -17,7 +17,7 @@ from ..language.floats import evaluate
 from ..language.tree import Node
 from .bodies import Body
 from .kinetics import Distribution, Rotation, Translation
-from .mass import Matrix, Point, mass_matrix, nodes
+from .mass import Matrix, Point, motions_matrix, nodes
 from .material import Material
 from .scene import Scene
 
@@ -33,7 +33,7 @@ def inertia_problems(scene: Scene) -> Iterator[Problem]:
     if light:
         yield from light
         return
-    matrices = [matrix for point in _points(scene) if (matrix := mass_matrix(scene, point)) is not None]
+    matrices = [matrix for point in _points(scene) if (matrix := motions_matrix(scene, point)) is not None]
     dependent = [_dependent(matrix) for matrix in matrices]
     if matrices and all(dependent):
         yield from _singular(scene, min(dependent, key=len))

@@ -1,4 +1,4 @@
-"""How much mass a scene moves: its mass matrix M = Σ m Jᵀ J with J = ∂r/∂q, in plain numbers.
+"""How much mass a scene has, and which of it its coordinates move: J = ∂r/∂q in plain numbers.
 
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §1.6.
 """
@@ -22,16 +22,19 @@ Point = Mapping[str, float]
 Share = tuple[float, list[list[float]]]  # an inertia, and the velocity it has for each unit rate
 
 
-def mass_matrix(scene: Scene, point: Point) -> Matrix | None:
-    """M at a point, by central differences; None where a position is not defined."""
+def motions_matrix(scene: Scene, point: Point) -> Matrix | None:
+    """Σ JᵀJ over all that has mass, however little: singular just where M is, since M = Σ m Jᵀ J with m > 0.
+
+    By central differences; None where a position is not defined.
+    """
     size = range(len(scene.free))
     total = [[0.0] * len(size) for _ in size]
     for body in scene.bodies:
         for part in body.kinetics:
-            for inertia, columns in _shares(part, scene, point):
+            for columns in (columns for inertia, columns in _shares(part, scene, point) if inertia > 0.0):
                 for i in size:
                     for j in size:
-                        total[i][j] += inertia * sum(a * b for a, b in zip(columns[i], columns[j], strict=True))
+                        total[i][j] += sum(a * b for a, b in zip(columns[i], columns[j], strict=True))
     return total if all(math.isfinite(entry) for row in total for entry in row) else None
 
 

@@ -6,12 +6,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
+import symengine as se
+
 from ..mechanics.scene import Scene
 from .compiled import THOROUGH, Compiled, Floats, compile_expressions
+from .disturbance import disturbed
 from .equations import Equations, equations
 from .functions import Expr
 from .phase import PhaseSpace, phase_space
 from .store import key_of, user_store
+from .symbols import Symbols
+from .tape import Tape, tape_of
+
+DISTURBANCE = 2.0**-42  # 2¹⁰ units in the last place
 
 
 @dataclass(frozen=True)
@@ -28,6 +35,7 @@ class Layout:
     arrows: tuple[str, ...]
     dimension: int
     is_powered: bool
+    switches: tuple[str, ...] = ()  # whose rates the switching functions are made of, by function
 
     @property
     def degrees(self) -> int:
@@ -59,21 +67,36 @@ class Model:
 
     `motion` gives the lower triangle of M (row by row), f and, where power is fed in, P₀ and p₁ of P = P₀ + p₁·q̈.
     `observed` gives E, V, values and rates of guided coordinates, positions and force vectors; `events`, of scenes that
-    have any, what is positive as long as none has happened.
+    have any, what is positive as long as none has happened; `switches`, of those with dry friction, what changes its
+    sign where a force jumps with a rate. `tape` has the operations of M and f, of the values of
+    guided coordinates and of their rates.
     """
 
     layout: Layout
     motion: Compiled
     observed: Compiled
     events: Compiled | None
+    switches: Compiled | None
+    tape: Tape = field(repr=False, compare=False)
     scene: Scene = field(repr=False, compare=False)
+    disturbance: float = 0.0  # relative, of every entry of M and f
     usage: Usage = field(default_factory=Usage, init=False, repr=False, compare=False)
 
     @cached_property
     def thorough(self) -> Compiled:
         """The same as `motion`, in machine code whose compilation pays in long runs; made when first asked for."""
-        eqs = equations(self.scene)
+        eqs = self._equations
         return compile_expressions(eqs.symbols.inputs, of_motion(eqs), THOROUGH)
+
+    @cached_property
+    def disturbed(self) -> Model:
+        """The same with every entry of M and f disturbed by about a thousand times its rounding error."""
+        return build(disturbed(equations(self.scene), DISTURBANCE), self.scene, DISTURBANCE)
+
+    @property
+    def _equations(self) -> Equations:
+        found = equations(self.scene)
+        return disturbed(found, self.disturbance) if self.disturbance else found
 
     def settle(self) -> None:
         """From now on all runs are in the same, thorough code: for those who compare times."""
@@ -87,7 +110,7 @@ class Model:
     @cached_property
     def phase(self) -> PhaseSpace:
         """Momenta and their rates; compiled when a method first asks for them."""
-        return phase_space(equations(self.scene))
+        return phase_space(self._equations)
 
     def observe(self, inputs: Floats) -> Observation:
         """What is seen in each row of inputs."""
@@ -142,9 +165,10 @@ def _compiled_once(mechanics: _Mechanics) -> Model:
     return model
 
 
-def build(eqs: Equations, scene: Scene) -> Model:
+def build(eqs: Equations, scene: Scene, disturbance: float = 0.0) -> Model:
     """The model of a scene whose equations are at hand, compiled quickly."""
     symbols = eqs.symbols
+    switches = _switches(eqs)
     layout = Layout(
         symbols.free,
         symbols.guided,
@@ -153,6 +177,7 @@ def build(eqs: Equations, scene: Scene) -> Model:
         tuple(eqs.arrows),
         scene.dimension,
         eqs.is_powered,
+        tuple(_movers(switch, symbols) for switch in switches),
     )
     vectors = [*eqs.positions.values(), *eqs.arrows.values()]
     seen = [value for value, _ in eqs.guided.values()] + [rate for _, rate in eqs.guided.values()]
@@ -162,11 +187,36 @@ def build(eqs: Equations, scene: Scene) -> Model:
         compile_expressions(symbols.inputs, of_motion(eqs)),
         compile_expressions(symbols.inputs, observed),
         compile_expressions(symbols.inputs, eqs.events) if eqs.events else None,
+        compile_expressions(symbols.inputs, switches) if switches else None,
+        tape_of(symbols.inputs, [*_triangle(eqs), *eqs.forcing, *seen]),
         scene,
+        disturbance,
     )
 
 
 def of_motion(eqs: Equations) -> list[Expr]:
     """What `Model.motion` computes."""
-    triangle = [entry for i, row in enumerate(eqs.mass_matrix) for entry in row[: i + 1]]
-    return [*triangle, *eqs.forcing, *([eqs.power, *eqs.acceleration_power] if eqs.is_powered else [])]
+    return [*_triangle(eqs), *eqs.forcing, *([eqs.power, *eqs.acceleration_power] if eqs.is_powered else [])]
+
+
+def _triangle(eqs: Equations) -> list[Expr]:
+    """The lower triangle of M by rows."""
+    return [entry for i, row in enumerate(eqs.mass_matrix) for entry in row[: i + 1]]
+
+
+def _switches(eqs: Equations) -> list[Expr]:
+    """The differences of rates (and what else) on whose sign the forces depend."""
+    rates = {eqs.symbols.rates[name] for name in eqs.symbols.free}
+    choices = {choice for force in eqs.forcing for choice in force.atoms(se.Piecewise)}
+    conditions = {condition for choice in choices for condition in choice.args[1::2]}
+    found = {condition.args[1] - condition.args[0] for condition in conditions if condition.args}
+    distinct: list[Expr] = []
+    for each in sorted((each for each in found if each.free_symbols & rates), key=str):
+        if -each not in distinct:
+            distinct.append(each)
+    return distinct
+
+
+def _movers(switch: Expr, symbols: Symbols) -> str:
+    """The names of the coordinates whose rates stand in a switching function."""
+    return ", ".join(name for name in symbols.free if symbols.rates[name] in switch.free_symbols)

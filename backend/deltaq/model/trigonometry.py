@@ -25,9 +25,8 @@ def shortened(expression: Expr) -> Expr:
         return expression
     found = expanded = se.expand(expression)
     squares = {sine**2: se.cos(sine.args[0]) ** 2 for sine in expanded.atoms(se.sin)}
-    before = None
-    while found != before:  # the pairs of one angle may make those of another
-        before, found = found, _joined(found, squares)
+    while (shorter := _joined(found, squares)) != found:  # the pairs of one angle may make those of another
+        found = shorter
     return expression if found == expanded else found
 
 

@@ -2,36 +2,53 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from .estimate import Estimate, estimate
+from .audit import USUAL, Audit
+from .estimate import Estimate, estimate, rounding_matters, with_rounding
 from .event import Happening
 from .integration import Flag
 from .kernels.motion import CANCELLED, STEP_LIMIT, STIFF
 from .method import Method
+from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
 from .refinement import Refinement
 from .run import Run, Steps, run
 from .side_by_side import side_by_side
 
 TRIES = 6
+ROUNDS = 4  # of shorter steps where a run was blind
 BRIEF = 5_000  # right-hand sides; fewer take less time than a second thread needs to begin
 
 
 @dataclass(frozen=True)
 class Attempt:
-    """Runs at one resolution: the one to return, and what comparing it with the other says."""
+    """Runs at one resolution: the one to return, and what comparing it with the other says.
+
+    `blind` is where the finer run stayed blind, `too_long` where a step that was given is; `discarded` are the runs
+    that were made again because they had been blind.
+    """
 
     chosen: Run
     runs: tuple[Run, ...]
     estimate: Estimate | None
+    blind: tuple[Stretch, ...] = ()
+    too_long: Stretch | None = None
+    discarded: tuple[Run, ...] = ()
 
     @property
     def is_complete(self) -> bool:
         """Whether all runs came to the end, or all to the same event, and it is sure which."""
         return all(run.is_complete for run in self.runs) and self.doubtful is None
+
+    @property
+    def seen_until(self) -> float:
+        """The time behind which the finer run was blind."""
+        return min((each.start for each in self.blind), default=np.inf)
 
     @property
     def doubtful(self) -> Happening | None:
@@ -49,13 +66,14 @@ class Attempt:
 
 @dataclass(frozen=True)
 class Work:
-    """A problem and a method, with the times at which errors are compared."""
+    """A problem and a method, with the times at which errors are compared; without a tolerance it is infinite."""
 
     problem: Problem
     method: Method
     refinement: Refinement
     times: Floats
     cancelled: Flag
+    tolerance: float
 
     def _run(self, steps: Steps) -> Run:
         return run(self.problem, self.method, self.times, self.cancelled, steps)
@@ -65,36 +83,92 @@ class Work:
         only = self._run(self.refinement.pair(step)[0])
         return Attempt(only, (only,), None)
 
-    def fine(self, tolerance: float) -> Attempt:
+    def fine(self) -> Attempt:
         """One run that should meet the tolerance, without an estimate of its error."""
-        only = self._run(self.refinement.pair(self.refinement.first(tolerance))[1])
+        _, fine = self.refinement.pair(self.refinement.first(self.tolerance))
+        only = self._run(replace(fine, pieces=self.audit.before(self.tolerance)))
         return Attempt(only, (only,), None)
 
-    def pair(self, resolution: float, *, returns_fine: bool) -> Attempt:
-        """Two runs compared."""
-        how = self.refinement
-        coarse, fine = self._both(*how.pair(resolution))
-        factor = how.factor_of_fine if returns_fine else how.factor_of_coarse
-        found = estimate(self.problem, coarse, fine, factor)
-        return Attempt(fine if returns_fine else coarse, (coarse, fine), found)
+    def _evaluations(self, steps: Steps) -> float:
+        return self.problem.t_end / steps.size * steps.ratio * self.method.tableau.stages
+
+    @cached_property
+    def audit(self) -> Audit:
+        return Audit(self.problem, self.method)
+
+    def given(self, step: float) -> Attempt:
+        """The run with the step given, compared with a finer one that sees what the audit asks for."""
+        whole = Pieces.whole(self.problem.t_end)
+
+        def compared(pieces: Pieces) -> Attempt:
+            coarse, fine = self._compared(step, whole, pieces)
+            found = estimate(self.problem, coarse, fine, self.refinement.factor_of_coarse)
+            return Attempt(coarse, (coarse, fine), found)
+
+        found, _ = self._seen(self.audit.before(USUAL), compared)
+        worst = USUAL if found.estimate is None else found.estimate.worst
+        return replace(found, too_long=self.audit.before(worst).needed_by(step))
+
+    def pair(self, resolution: float, pieces: Pieces) -> tuple[Attempt, Pieces]:
+        """Two runs compared, of which the finer one is returned, and the pieces in which it saw everything."""
+
+        def compared(pieces: Pieces) -> Attempt:
+            coarse, fine = self._compared(resolution, pieces, pieces)
+            found = estimate(self.problem, coarse, fine, self.refinement.factor_of_fine)
+            return Attempt(fine, (coarse, fine), found)
+
+        return self._seen(pieces, compared)
+
+    def _seen(self, pieces: Pieces, compared: Callable[[Pieces], Attempt]) -> tuple[Attempt, Pieces]:
+        """An attempt whose finer run was nowhere blind: made again with shorter steps wherever it was."""
+        discarded: tuple[Run, ...] = ()
+        for last in (False,) * (ROUNDS - 1) + (True,):
+            found = compared(pieces)
+            tolerance = min(self.tolerance, np.inf if found.estimate is None else found.estimate.worst)
+            blind = self.audit.after(found.runs[-1], tolerance)
+            if last or not blind or not self.is_affordable(blind):
+                break
+            discarded += found.runs
+            pieces = pieces.with_bounds([(each.start, each.end, each.step) for each in blind])
+        return replace(found, blind=blind, discarded=discarded), pieces
+
+    def rounded(self, found: Attempt) -> Attempt:
+        """The attempt, its estimate not below what rounding does; looked at by one more run where that may matter."""
+        fine = found.runs[-1]
+        if found.estimate is None or fine.steps is None or not rounding_matters(self.problem, fine, found.estimate):
+            return found
+        problem = replace(self.problem, model=self.problem.model.disturbed)
+        other = run(problem, self.method, self.times, self.cancelled, replace(fine.steps, is_recorded=False))
+        mended = with_rounding(self.problem, found.estimate, fine, other)
+        return replace(found, estimate=mended, discarded=(*found.discarded, other))
+
+    def is_affordable(self, blind: tuple[Stretch, ...]) -> bool:
+        """Whether the steps that would see fit into the limit."""
+        return sum((each.end - each.start) / each.step for each in blind) < self.problem.step_limit
+
+    def _compared(self, resolution: float, of_coarse: Pieces, of_fine: Pieces) -> tuple[Run, Run]:
+        coarse, fine = self.refinement.pair(resolution)
+        return self._both(replace(coarse, pieces=of_coarse), replace(fine, pieces=of_fine, is_recorded=True))
 
     def _both(self, coarse: Steps, fine: Steps) -> tuple[Run, Run]:
         """Two runs; side by side if they may take a while, for kernels hold no lock."""
-        if coarse.tolerance == 0.0 and self.problem.t_end / fine.size * self.method.tableau.stages < BRIEF:
+        if coarse.tolerance == 0.0 and self._evaluations(fine) < BRIEF:
             return self._run(coarse), self._run(fine)
         of_fine, of_coarse = side_by_side(lambda: self._run(fine), lambda: self._run(coarse))
         return of_coarse, of_fine
 
-    def until(self, tolerance: float) -> list[Attempt]:
+    def until(self) -> list[Attempt]:
         """Pairs of runs, finer and finer, until the error is below the tolerance or refining does not help."""
-        resolution = self.refinement.first(tolerance)
-        attempts = [self.pair(resolution, returns_fine=True)]
-        while len(attempts) < TRIES and _can_improve(attempts[-1], tolerance, self.problem):
+        resolution = self.refinement.first(self.tolerance)
+        found, pieces = self.pair(resolution, self.audit.before(self.tolerance))
+        attempts = [found]
+        while len(attempts) < TRIES and _can_improve(attempts[-1], self.tolerance, self.problem):
             if self.refinement.is_finest(resolution):
                 break
-            before, resolution = resolution, self.refinement.next(resolution, _excess(attempts[-1], tolerance))
+            before, resolution = resolution, self.refinement.next(resolution, _excess(attempts[-1], self.tolerance))
             part = self.refinement.least_part(before, resolution)
-            attempts.append(self._at_least(part, attempts[-1], self.pair(resolution, returns_fine=True)))
+            found, pieces = self.pair(resolution, self.refinement.finer(pieces, before, resolution))
+            attempts.append(self._at_least(part, attempts[-1], found))
         return attempts
 
     def _at_least(self, part: float, before: Attempt, found: Attempt) -> Attempt:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from .attempt import Attempt
-from .kernels.motion import TOO_LARGE
+from .audit import Blow
+from .kernels.motion import HELD, TOO_LARGE
 from .method import Method
 from .outcome import OK, Number, Outcome, outcome_of
 from .problem import Problem
@@ -13,24 +14,51 @@ from .stiffness import eigenvalues
 SMALL = 1e-5  # an error of a time, relative to it, that is not worth telling in a sentence
 
 
-def outcome(problem: Problem, method: Method, best: Attempt, tolerance: float | None, step: float | None) -> Outcome:
-    """A failure of a run comes first, then a horizon (behind which no event is sure), an event, a tolerance missed."""
+def outcome(
+    problem: Problem, method: Method, best: Attempt, tolerance: float | None, step: float | None, blow: Blow | None
+) -> Outcome:
+    """What ended the runs comes first, then a horizon (behind which no event is sure), an event, a tolerance missed."""
     told: dict[str, Number] = {"method": method.id, "t": _short(best.reached), "t_end": problem.t_end}
-    failed = next((run for run in (best.chosen, *best.runs) if not run.is_complete), None)
-    if failed is not None:
-        steps = int(failed.result.steps + failed.result.rejected)
-        if step is not None and failed.result.outcome == TOO_LARGE:
-            return _grown(problem, method, step, told)
-        return outcome_of(int(failed.result.outcome), told | {"steps": steps})
+    ended = _failed(problem, method, best, step, told) or _unseen(best, step, told)
+    if ended is not None:
+        return ended
     found = best.estimate
     if found is not None and found.horizon is not None:
         return Outcome("horizon_reached", "horizon_reached", told | {"t": _short(found.horizon)})
     if best.doubtful is not None or best.chosen.event is not None:
         return _ended(best, told)
+    if blow is not None:
+        return Outcome("guide_jumps", "guide_jumps", told | {"t": _short(blow.time), "name": blow.name})
     if found is not None and tolerance is not None and found.worst > tolerance:
         parameters = told | {"tolerance": tolerance, "error": _short(found.worst)}
         return Outcome("tolerance_missed", "tolerance_missed", parameters)
     return OK
+
+
+def _failed(
+    problem: Problem, method: Method, best: Attempt, step: float | None, told: dict[str, Number]
+) -> Outcome | None:
+    """Friction that holds the motion, or a run that came to no end."""
+    if best.chosen.held is not None:
+        return outcome_of(HELD, told | {"name": problem.model.layout.switches[best.chosen.held]})
+    failed = next((run for run in (best.chosen, *best.runs) if not run.is_complete), None)
+    if failed is None:
+        return None
+    steps = int(failed.result.steps + failed.result.rejected)
+    if step is not None and failed.result.outcome == TOO_LARGE:
+        return _grown(problem, method, step, told)
+    return outcome_of(int(failed.result.outcome), told | {"steps": steps})
+
+
+def _unseen(best: Attempt, step: float | None, told: dict[str, Number]) -> Outcome | None:
+    """Steps that stayed too long to see what the forces do, chosen here or given."""
+    if best.blind:
+        first = best.blind[0]
+        return Outcome("unresolved", "unresolved", told | {"t": _short(first.start), "step": _short(first.step)})
+    if best.too_long is None:
+        return None
+    needed = {"t": _short(best.too_long.start), "step": _short(step or 0.0), "needed": _short(best.too_long.step)}
+    return Outcome("step_blind", "step_blind", told | needed)
 
 
 def _ended(best: Attempt, told: dict[str, Number]) -> Outcome:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from .attempt import Attempt, Work
+from .audit import Audit, Blow
 from .conclusion import outcome
 from .estimate import Estimate
 from .event import Happening
@@ -32,13 +33,16 @@ def simulate(
     """The motion of a problem with a fixed step, or to a tolerance (exactly one of the two is given)."""
     if (step is None) == (tolerance is None):
         raise ValueError("give either a step or a tolerance")
+    blow = Audit(problem, method).blow()
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    work = Work(problem, method, _refinement(problem, method, tolerance), _grid(problem), flag)
+    work = Work(
+        problem, method, _refinement(problem, method, tolerance), _grid(problem, blow), flag, tolerance or np.inf
+    )
     if step is not None:
-        attempts = [work.pair(step, returns_fine=False) if with_error else work.coarse(step)]
+        attempts = [work.rounded(work.given(step)) if with_error else work.coarse(step)]
     else:
-        attempts = work.until(tolerance or 0.0) if with_error else [work.fine(tolerance or 0.0)]
-    return _trajectory(problem, method, attempts, tolerance, step)
+        attempts = [work.rounded(each) for each in work.until()] if with_error else [work.fine()]
+    return _trajectory(problem, method, attempts, tolerance, step, blow)
 
 
 def _refinement(problem: Problem, method: Method, tolerance: float | None) -> Refinement:
@@ -47,9 +51,10 @@ def _refinement(problem: Problem, method: Method, tolerance: float | None) -> Re
     return ByStep(problem.t_end, method.order, problem.step_limit)
 
 
-def _grid(problem: Problem) -> Floats:
-    """The sample times, and as many between them as it takes to see the error."""
-    return np.linspace(0.0, problem.t_end, _refined(problem) * (problem.samples - 1) + 1)
+def _grid(problem: Problem, blow: Blow | None) -> Floats:
+    """The sample times, and as many between them as it takes to see the error; up to a blow that ends the motion."""
+    times = np.linspace(0.0, problem.t_end, _refined(problem) * (problem.samples - 1) + 1)
+    return times if blow is None or blow.time >= problem.t_end else np.append(times[times < blow.time], blow.time)
 
 
 def _refined(problem: Problem) -> int:
@@ -57,7 +62,12 @@ def _refined(problem: Problem) -> int:
 
 
 def _trajectory(
-    problem: Problem, method: Method, attempts: list[Attempt], tolerance: float | None, step: float | None
+    problem: Problem,
+    method: Method,
+    attempts: list[Attempt],
+    tolerance: float | None,
+    step: float | None,
+    blow: Blow | None,
 ) -> Trajectory:
     best = max(attempts, key=_merit)
     found, n = best.estimate, problem.degrees
@@ -65,7 +75,7 @@ def _trajectory(
     times, states, errors = _shown(best, _refined(problem))
     return Trajectory(
         method.id,
-        outcome(problem, method, best, tolerance, step),
+        outcome(problem, method, best, tolerance, step, blow),
         times,
         states[:, :n],
         states[:, n : 2 * n],
@@ -76,6 +86,7 @@ def _trajectory(
         min(run.conditioning for run in best.runs),
         _cost(attempts, best),
         _happening(best),
+        best.seen_until,
     )
 
 
@@ -109,11 +120,15 @@ def _merit(attempt: Attempt) -> tuple[float, bool, float]:
     found = attempt.estimate
     worst = found.worst if found else 0.0
     horizon = np.inf if found is None or found.horizon is None else found.horizon
-    return min(horizon, np.inf if attempt.is_complete else attempt.reached), attempt.is_complete, -worst
+    return (
+        min(horizon, attempt.seen_until, np.inf if attempt.is_complete else attempt.reached),
+        attempt.is_complete,
+        -worst,
+    )
 
 
 def _cost(attempts: list[Attempt], best: Attempt) -> Cost:
-    runs, chosen = [run for attempt in attempts for run in attempt.runs], best.chosen
+    runs, chosen = [run for attempt in attempts for run in (*attempt.runs, *attempt.discarded)], best.chosen
     return Cost(
         int(chosen.result.steps),
         int(chosen.result.rejected),

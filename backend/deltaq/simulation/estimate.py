@@ -2,17 +2,18 @@
 
 The difference of two runs, taken as it is, says too little where a motion turns back: there even a wrong phase gives
 the right value. So coordinates and rates are compared together, |Δq|² + τ²|Δq̇|², with the coordinate's own time scale
-τ (from root mean squares). Neighbouring samples share their largest difference.
+τ (from root mean squares), as far as the differences nearby bear it out. Neighbouring samples share their largest one.
 
 Arrays have a row for each coordinate (and rate), and a column for each sample: they are looked through along samples.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..model.model import DISTURBANCE
 from .event import Approach, Happening, event_values
 from .problem import Floats, Problem
 from .run import Run
@@ -21,7 +22,9 @@ from .stiffness import NUDGE
 
 # Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
 NEAR, FAR, SHARE = 160, 20, 0.25
-ROUNDING = 4e-16
+TURNING = 4.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
+ROUNDING, EPSILON = 4e-16, 2.0**-52
+MATTERS = 0.1  # of the estimate: rounding that could be more is looked at
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 
 
@@ -47,6 +50,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     times, states, others = _together(problem, coarse, fine)
     difference = np.abs(others - states)
     together = np.hypot(difference[:n], _time_scales(problem, times, states) * difference[n : 2 * n])
+    together = np.minimum(together, TURNING * _largest_within(difference[:n], max(2, len(times) // FAR)))
     spread = factor * _spread(np.vstack([together, difference[n : 2 * n]]))
     grain, sizes = _grain(problem, times, fine), np.abs(states[:n])
     ones = np.maximum(1.0, sizes)
@@ -60,6 +64,32 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     doubts = np.vstack([errors, np.maximum(spread[n:], grain)])
     of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
     return Estimate(errors.max(axis=0), worst, horizon, of_event, _doubtful(problem, coarse, fine, times, doubts))
+
+
+def rounding_matters(problem: Problem, fine: Run, found: Estimate) -> bool:
+    """Whether ε · (condition of M) · (radians of the motion) · |q| comes near the estimate.
+
+    The error of q̈ from rounded entries of M and f is up to ε times the condition; a motion adds up that of each radian.
+    """
+    times, states = fine.times, fine.states.T
+    if len(times) < 2 or not fine.conditioning > 0.0:
+        return False
+    scales = _time_scales(problem, times, states)
+    radians = max(1.0, *(problem.t_end / scales[scales > 0.0]))
+    sizes = np.abs(states[: problem.degrees])
+    share = np.max(sizes / np.maximum(1.0, sizes))
+    return bool(EPSILON / fine.conditioning * radians * share > MATTERS * found.worst)
+
+
+def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> Estimate:
+    """The estimate, not below what rounding does: that is what the disturbance of the model did, scaled down."""
+    count = min(len(found.errors), len(other.times), len(fine.times))
+    moved = np.abs(other.states[:count, : problem.degrees] - fine.states[:count, : problem.degrees]).T
+    floor = 2.0 * EPSILON / DISTURBANCE * _spread(moved)
+    errors = found.errors.copy()
+    errors[:count] = np.maximum(errors[:count], floor.max(axis=0))
+    ones = np.maximum(1.0, np.abs(fine.states[:count, : problem.degrees].T))
+    return replace(found, errors=errors, worst=max(found.worst, float(np.max(floor / ones))))
 
 
 def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats, Floats]:
@@ -135,7 +165,7 @@ def _time_scales(problem: Problem, times: Floats, states: Floats) -> Floats:
     value, rate, bend = (_size(x) for x in (swing - swing.mean(axis=1, keepdims=True), rates - drift, bends))
     fast = np.divide(rate, bend, out=np.zeros((n, 1)), where=bend > 0)
     slow = np.divide(value, rate, out=np.zeros((n, 1)), where=rate > 0)
-    return np.asarray(np.maximum(fast, slow))
+    return np.asarray(np.minimum(np.maximum(fast, slow), problem.t_end))
 
 
 def _size(values: Floats) -> Floats:

@@ -20,6 +20,7 @@ from .kernels.splitting import SplitWeights, integrate_split, make_split_room
 from .kernels.stages import ImplicitWeights
 from .kernels.step import Weights, make_room
 from .kernels.step_control import Control
+from .kernels.switch import Switch, make_switch
 from .kernels.watch import Watch, make_watch, unwatched
 from .method import Newmark, Partitioned, Row, Tableau
 from .problem import Floats, Problem
@@ -86,12 +87,22 @@ def motion_of(problem: Problem, *, is_long: bool = True) -> Motion:
 
 def watch_of(problem: Problem, flag: Flag) -> Watch:
     """What may end a run of a problem, for kernels."""
-    function = problem.model.events
+    function, switch = problem.model.events, _switch_of(problem)
     if function is None:
-        return unwatched(flag)
+        return unwatched(flag, switch)
     inputs = np.zeros(function.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
-    return make_watch(flag, function.addresses, function.outputs, inputs, problem.state.size)
+    return make_watch(flag, function.addresses, function.outputs, inputs, problem.state.size, switch)
+
+
+def _switch_of(problem: Problem) -> Switch:
+    """Where forces jump with the rates, for kernels."""
+    function = problem.model.switches
+    if function is None:
+        return make_switch((0, 0), 0, np.zeros(1), 0)
+    inputs = np.zeros(function.inputs)
+    inputs[2 * problem.degrees + 1 :] = problem.parameters
+    return make_switch(function.addresses, function.outputs, inputs, problem.state.size)
 
 
 def phase_of(problem: Problem) -> Phase:

@@ -10,6 +10,7 @@ from .kernels.motion import (
     CANCELLED,
     EVENT,
     FINE,
+    HELD,
     NEWTON_FAILED,
     NOT_FINITE,
     SINGULAR,
@@ -50,6 +51,7 @@ _WORDS: Mapping[int, tuple[str, str]] = MappingProxyType(
         NEWTON_FAILED: ("newton_failed", "newton_failed"),
         STIFF: ("stiff", "stiff"),
         EVENT: ("event", "event"),
+        HELD: ("stopped", "stopped"),
     }
 )
 
@@ -62,5 +64,13 @@ def outcome_of(kernel_outcome: int, parameters: Mapping[str, Number]) -> Outcome
 
 def codes() -> tuple[str, ...]:
     """All codes that a trajectory may carry."""
-    others = ("horizon_reached", "tolerance_missed", "unstable_step", "event_timed", "event_doubtful")
+    others = (
+        "unresolved",
+        "step_blind",
+        "horizon_reached",
+        "tolerance_missed",
+        "unstable_step",
+        "event_timed",
+        "event_doubtful",
+    )
     return (*(code for _, code in _WORDS.values()), *others)

@@ -7,11 +7,13 @@ from typing import Protocol
 
 import numpy as np
 
+from .pieces import Pieces
 from .run import Steps
 
 FINEST_TOLERANCE = 1e-14  # of the coarser run of a pair; below, rounding rules
 FIRST_STEPS, USUAL_TOLERANCE = 200, 1e-3  # in the first try with a fixed step
 UNFINISHED = 0.25  # the step over that of a run that did not come to the end
+RATIO = 1.5 + 1.0 / 3.0**0.5  # of the steps of a pair
 LARGEST_STEP = 0.01  # of the span, so that a motion that begins at rest does not jump over what comes later
 
 
@@ -27,6 +29,10 @@ class Refinement(Protocol):
     def factor_of_fine(self) -> float: ...
     def least_part(self, before: float, resolution: float) -> float:
         """How much of the error with the resolution before is left with this one at least; 0 if the runs tell."""
+        ...
+
+    def finer(self, pieces: Pieces, before: float, resolution: float) -> Pieces:
+        """The pieces for runs with another resolution than before."""
         ...
 
     def first(self, tolerance: float) -> float: ...
@@ -52,6 +58,9 @@ class ByTolerance:
     def least_part(self, before: float, resolution: float) -> float:
         return resolution / before if resolution < 10.0 * FINEST_TOLERANCE else 0.0
 
+    def finer(self, pieces: Pieces, _before: float, _resolution: float) -> Pieces:
+        return pieces
+
     def first(self, tolerance: float) -> float:
         return max(0.1 * tolerance, FINEST_TOLERANCE)
 
@@ -69,7 +78,11 @@ class ByTolerance:
 
 @dataclass(frozen=True)
 class ByStep:
-    """Fixed steps. The error is proportional to h^p (Richardson); runs are a factor of 2 apart."""
+    """Fixed steps. The error is proportional to h^p (Richardson); runs are a little more than a factor of 2 apart.
+
+    The factor is irrational, so that the two runs have no step in common: what is in step with one is not with the
+    other. The factors below are those of 2, which is on the safe side.
+    """
 
     t_end: float
     order: int
@@ -86,12 +99,15 @@ class ByStep:
     def least_part(self, _before: float, _resolution: float) -> float:
         return 0.0
 
+    def finer(self, pieces: Pieces, before: float, resolution: float) -> Pieces:
+        return pieces.scaled(resolution / before)
+
     def first(self, tolerance: float) -> float:
         guess = float((tolerance / USUAL_TOLERANCE) ** (1.0 / self.order))
         return self.t_end / FIRST_STEPS * min(max(guess, 0.1), 1.0)
 
     def pair(self, resolution: float) -> tuple[Steps, Steps]:
-        return Steps(resolution), Steps(0.5 * resolution)
+        return Steps(resolution), Steps(resolution, ratio=RATIO)
 
     def next(self, resolution: float, excess: float) -> float:
         shrink = float((0.5 / excess) ** (1.0 / self.order)) if excess < np.inf else UNFINISHED
@@ -103,4 +119,4 @@ class ByStep:
     @property
     def _finest(self) -> float:
         """The finer run of the pair must end within the step limit."""
-        return 2.01 * self.t_end / self.step_limit
+        return 1.005 * RATIO * self.t_end / self.step_limit

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 import numpy as np
@@ -10,9 +10,11 @@ import numpy as np
 from .event import Approach, Event, approaches, first_event
 from .integration import Flag, Setting, integrated, motion_of, watch_of
 from .kernels.loop import Result
-from .kernels.motion import EVENT, FINE, STEP_LIMIT, STIFF
+from .kernels.motion import EVENT, FINE, HELD, STEP_LIMIT, STIFF
+from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
 from .method import Method
+from .pieces import Pieces
 from .problem import Floats, Problem
 from .stability import real_stability
 
@@ -26,28 +28,55 @@ class Run:
     """States (q, q̇ and, where power is fed in, ∫P dt) at `times`, as far as the run came.
 
     `event` is what ended it, if an event did; else `approaches` tell how close it came to each of the scene's events.
+    `held` is the number of the switching function that holds it. `mesh_times` and `mesh_states` (q, q̇) are the ends of
+    its steps, or of every `stride`-th, where they were recorded.
     """
 
     times: Floats
     states: Floats
     result: Result
-    conditioning: float  # smallest pivot of M met, relative to its largest diagonal entry
+    conditioning: float  # smallest pivot of M met, relative to the diagonal entry it is left of
     wall_time: float
     event: Event | None = None
+    held: int | None = None
     approaches: tuple[Approach, ...] = ()
+    mesh_times: Floats = field(default_factory=lambda: np.empty(0))
+    mesh_states: Floats = field(default_factory=lambda: np.empty((0, 0)))
+    stride: int = 1
+    steps: Steps | None = None
 
     @property
     def is_complete(self) -> bool:
-        """Whether it came to the end or to an event."""
-        return bool(self.result.outcome in (FINE, EVENT))
+        """Whether it came to the end, to an event, or to where friction holds it."""
+        return bool(self.result.outcome in (FINE, EVENT, HELD))
 
 
 @dataclass(frozen=True)
 class Steps:
-    """How to step: with a local tolerance and steps up to `size`, or (tolerance 0) with steps of that size."""
+    """How to step: with a local tolerance and steps up to `size`, or (tolerance 0) with steps of that size.
+
+    Pieces bound the steps further; of fixed ones each piece gets a whole number, `ratio` times as many as it needs.
+    """
 
     size: float
     tolerance: float = 0.0
+    pieces: Pieces | None = None
+    ratio: float = 1.0
+    is_recorded: bool = False
+
+    def plan(self, problem: Problem, method: Method) -> Plan:
+        """Pieces and sizes as a kernel wants them; the last fixed step of an implicit method may go past the end."""
+        pieces = self.pieces or Pieces.whole(problem.t_end)
+        ends = np.array(pieces.ends)
+        if self.tolerance > 0.0:
+            sizes = pieces.bounded(self.size)
+        elif pieces.is_whole:
+            sizes = np.array([self.size / self.ratio])
+        else:
+            sizes = pieces.steps(self.size, self.ratio)
+        if self.tolerance == 0.0 and not method.is_explicit:
+            ends[-1] = np.inf
+        return make_plan(ends, sizes, 2 * problem.degrees, CAPACITY if self.is_recorded else 0)
 
 
 def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
@@ -58,7 +87,7 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
     """
     model, stages = problem.model, method.tableau.stages
     shortest = problem.step_limit * stages <= SHORT
-    known = float(times[-1]) / steps.size * stages if steps.tolerance == 0.0 else 0.0
+    known = float(times[-1]) / steps.size * steps.ratio * stages if steps.tolerance == 0.0 else 0.0
     if shortest or not (model.is_thorough or max(known, model.usage.evaluations) > SHORT):
         limit = min(SHORT // stages, problem.step_limit)
         found = _run(replace(problem, step_limit=limit), method, times, cancelled, steps, is_long=False)
@@ -69,15 +98,16 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
 
 
 def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, *, is_long: bool) -> Run:
+    plan = steps.plan(replace(problem, t_end=float(times[-1])), method)
     control = Control(
         float(steps.tolerance),
-        float(steps.size),
         float(steps.size),
         float(method.error_order or method.order),
         float(method.memory),
         int(problem.step_limit),
         int(method.tableau.stages),
         real_stability(method.tableau),
+        plan,
     )
     setting = Setting(
         problem,
@@ -92,13 +122,29 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
     wall_time = perf_counter() - start
     out, conditioning = setting.out, float(setting.motion.conditioning[0])
     good = int(np.isfinite(out[: result.samples]).all(axis=1).cumprod().sum())
-    found = Run(times[:good], out[:good], result, conditioning, wall_time)
+    held = int(setting.watch.switch.which[0]) if result.outcome == HELD else None
+    count, stride = int(plan.progress[COUNT]), int(plan.progress[STRIDE])
+    mesh = (plan.times[:count], plan.states[:count]) if steps.is_recorded else (np.empty(0), np.empty((0, 0)))
+    found = Run(
+        times[:good],
+        out[:good],
+        result,
+        conditioning,
+        wall_time,
+        mesh_times=mesh[0],
+        held=held,
+        mesh_states=mesh[1],
+        stride=stride,
+        steps=steps,
+    )
     return found if setting.watch.functions == 0 else _ended(found, setting)
 
 
 def _ended(run: Run, setting: Setting) -> Run:
     """The run up to the event, if there is one; a fixed step may have met one beyond the end."""
     t_end = float(setting.times[-1])
+    if run.held is not None:
+        return run
     event = first_event(setting.problem, setting.watch, t_end)
     if event is None:
         fine = run.result._replace(outcome=FINE) if run.result.outcome == EVENT else run.result

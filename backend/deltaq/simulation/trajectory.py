@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from .estimate import Estimate
 from .event import Happening
 from .outcome import Outcome
@@ -28,8 +30,8 @@ class Trajectory:
     """A motion at `times`, as far as it came: q and q̇ of the free coordinates, shape (samples, degrees), and ∫P dt.
 
     `estimate` is None if it was not asked for; `reached` is the time at which the runs ended. `conditioning` is the
-    smallest pivot of the mass matrix met, relative to its largest diagonal entry. Where an event ended the motion, its
-    time is the last sample.
+    smallest pivot of the mass matrix met, relative to the diagonal entry it is left of. Where an event ended the
+    motion, its time is the last sample. Behind `seen_until` steps were too long to see what the forces do.
     """
 
     method: str
@@ -44,9 +46,10 @@ class Trajectory:
     conditioning: float
     cost: Cost
     event: Happening | None = None
+    seen_until: float = np.inf
 
     @property
     def trusted_until(self) -> float:
         """The time up to which at least one digit is right."""
         horizon = self.estimate.horizon if self.estimate else None
-        return self.reached if horizon is None else min(horizon, self.reached)
+        return min(self.reached, self.seen_until, np.inf if horizon is None else horizon)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 from collections.abc import Callable
 from functools import cache
@@ -32,17 +33,32 @@ def _compiled(function: F, *, forceinline: bool) -> F:
     options: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "_nrt": False}
     compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, **options)(function)
     # Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
-    compiled._cache._cache_file._source_stamp = source_stamp()  # noqa: SLF001 - Numba offers no other way
+    stamp = source_stamp(Path(function.__code__.co_filename))
+    compiled._cache._cache_file._source_stamp = stamp  # noqa: SLF001 - Numba offers no other way
     return cast("F", compiled)
 
 
 @cache
-def source_stamp() -> str:
-    """A digest of all kernels' code: what a cached kernel is valid for."""
-    digest = hashlib.sha256()
-    for file in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(file.read_bytes())
+def source_stamp(file: Path) -> str:
+    """A digest of the code of a module and of all modules of the package that it imports."""
+    digest, seen, left = hashlib.sha256(), set[Path](), [file]
+    while left:
+        module = left.pop()
+        if module not in seen:
+            seen.add(module)
+            left += sorted(_imported(module), reverse=True)
+            digest.update(module.read_bytes())
     return digest.hexdigest()
+
+
+def _imported(file: Path) -> set[Path]:
+    """The modules of the package that a module names in its imports."""
+    found = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level > 0:
+            folder = file.parents[node.level - 1].joinpath(*(node.module or "").split("."))
+            found |= {folder.with_suffix(".py"), *(folder / f"{alias.name}.py" for alias in node.names)}
+    return {module for module in found if module.is_file()}
 
 
 @inner

@@ -138,5 +138,6 @@ def follow(flow: Flow, state: Floats, moved: int, by: float) -> int:
         flow.room.old[d] = state[d]
         flow.room.lost[d] = 0.0
     flow.room.old[moved] += by
+    flow.control.plan.ends[0] = flow.times[1]
     result = integrate(flow.motion, flow.weights, flow.control, flow.watch, flow.room, flow.times, flow.out)
     return result.outcome

@@ -14,10 +14,10 @@ Floats = NDArray[np.float64]
 
 # How a computation ended; `outcome.py` gives each its name.
 FINE, STEP_LIMIT, SINGULAR, NOT_FINITE, TOO_LARGE, STEP_UNDERFLOW, CANCELLED = 0, 1, 2, 3, 4, 5, 6
-NEWTON_FAILED, STIFF, EVENT = 7, 8, 9
+NEWTON_FAILED, STIFF, EVENT, HELD = 7, 8, 9, 10
 
 ROUNDING = 2.3e-16  # of a number in double precision, relative to it
-# A pivot smaller than this part of the largest mass is rounding error: M has no inverse there.
+# A pivot smaller than this part of what it is left of is rounding error: M has no inverse there.
 SMALLEST_PIVOT = 1e-14
 
 
@@ -25,7 +25,8 @@ class Motion(NamedTuple):
     """A compiled model with room for its numbers.
 
     `inputs` holds q, q̇, t and the parameters; `outputs` receives the lower triangle of M by rows, f and the power.
-    `conditioning[0]` keeps the smallest ratio of a pivot to the largest diagonal entry of M that was met.
+    `conditioning[0]` keeps the smallest ratio of a pivot to the diagonal entry of M that it is left of. No change of
+    units changes that ratio; its inverse is about the condition of M scaled to a unit diagonal.
     """
 
     address: int
@@ -41,17 +42,16 @@ class Motion(NamedTuple):
 def factor(m: Floats, n: int) -> float:
     """Cholesky factors L D Lᵀ of the packed lower triangle m in place, 1/D on the diagonal.
 
-    Without square roots, since those and divisions cost more than all the rest for a small matrix. Returns smallest
-    pivot / largest diagonal entry: at most SMALLEST_PIVOT if M is singular or indefinite, NaN if it is not finite.
-    Source: Golub, Van Loan, Matrix Computations, 4th ed., §4.1.
+    Without square roots, since those and divisions cost more than all the rest for a small matrix. Returns the smallest
+    ratio of a pivot to its diagonal entry: at most SMALLEST_PIVOT if M is singular or indefinite, NaN if it is not
+    finite. The rounding error of a pivot is a few units in the last place of that entry.
+    Sources: Golub, Van Loan, Matrix Computations, 4th ed., §4.1; Higham, Accuracy and Stability of Numerical
+    Algorithms, 2nd ed., §10.1.
     """
-    largest = 0.0
-    for i in range(n):
-        largest = max(largest, m[i * (i + 1) // 2 + i])
-    smallest = largest
+    smallest = 1.0
     for i in range(n):
         row = i * (i + 1) // 2
-        pivot = m[row + i]
+        pivot = diagonal = m[row + i]
         for j in range(i):
             column = j * (j + 1) // 2
             scaled = m[row + j]  # L times D, until its column is done
@@ -62,11 +62,11 @@ def factor(m: Floats, n: int) -> float:
             scaled = m[row + j]
             m[row + j] = scaled * m[j * (j + 1) // 2 + j]
             pivot -= scaled * m[row + j]
-        if not pivot > SMALLEST_PIVOT * largest:
+        if not pivot > SMALLEST_PIVOT * diagonal:
             return pivot if np.isnan(pivot) else 0.0
-        smallest = min(smallest, pivot)
+        smallest = min(smallest, pivot / diagonal)
         m[row + i] = 1.0 / pivot
-    return smallest / largest
+    return smallest
 
 
 @inner
@@ -93,15 +93,15 @@ def solve_small(m: Floats, n: int, known: float, out: Floats) -> float:
         out[1] = m[1] / first
         return 1.0 if first > 0.0 else (first if np.isnan(first) else 0.0)
     a, b, c, f, g = m[0], m[1], m[2], m[3], m[4]
-    determinant, largest = a * c - b * b, max(a, c)
+    determinant, largest = a * c - b * b, a * c
     inverse = 1.0 / determinant
     out[2], out[3] = (c * f - b * g) * inverse, (a * g - b * f) * inverse
-    if a >= known * largest and determinant >= known * largest * a and a > 0.0:  # the second pivot is determinant / a
+    if determinant >= known * largest and a > 0.0:  # the second pivot is determinant / a
         return known
-    ratio = determinant / (a * largest)
-    if np.isnan(ratio) and not (a == 0.0 or largest == 0.0):
+    ratio = determinant / largest
+    if np.isnan(ratio) and not (a == 0.0 or c == 0.0):
         return float(ratio)
-    return float(min(ratio, a / largest)) if a > 0.0 else 0.0
+    return float(ratio) if a > 0.0 and c > 0.0 else 0.0
 
 
 @inner

@@ -12,9 +12,10 @@ import numpy as np
 
 from .compiler import inner, kernel, variable
 from .hermite import Ends, make_ends, sample_between, watch_between
-from .loop import Result, begin, interruption, later
+from .loop import Result, begin, interruption, passed
 from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, factor, slope, solve
 from .phase import Phase, momenta
+from .plan import entered, fitted, record
 from .step import LARGEST_VALUE
 from .step_control import Control
 from .watch import Watch
@@ -134,16 +135,21 @@ def integrate_split(
 
     The initial state stands in room.ends.old and room.ends.new.
     """
-    t, lost_time, n, h, ends = times[0], 0.0, motion.degrees, control.step, room.ends
-    outcome = begin(motion, t, ends.old, ends.old_slope, out)
+    t, lost_time, n, plan, ends = times[0], 0.0, motion.degrees, control.plan, room.ends
+    outcome = begin(motion, plan, watch, t, ends.old, ends.old_slope, out)
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
     factorize(phase, t, room)
-    filled, steps, evaluations, is_known = variable(1), 0, 2, False
+    filled, steps, evaluations, piece, is_known = variable(1), 0, 2, variable(0), False
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps, watch)
         if outcome != FINE:
             break
+        piece, t, jumped = entered(plan, piece, t)
+        if jumped:
+            lost_time, is_known = 0.0, False
+            record(plan, t, ends.old)
+        h, ends_piece = fitted(plan, piece, t, np.inf)
         is_known, computed = advance(phase, weights, t, h, 1 if is_known else 0, room)
         evaluations += computed
         outcome = check(n, room)
@@ -159,5 +165,6 @@ def integrate_split(
         for d in range(ends.old.size):
             ends.old[d] = ends.new[d]
         steps += 1
-        t, lost_time = later(t, h, lost_time)
+        t, lost_time = passed(plan, piece, t, h, lost_time, 1 if ends_piece else 0)
+        record(plan, t, ends.old)
     return Result(outcome, filled, steps, 0, evaluations, min(t, times[times.size - 1]))

@@ -11,6 +11,7 @@ import numpy as np
 
 from .compiler import inner, variable
 from .motion import FINE, ROUNDING, STIFF, Floats, Motion, slope
+from .plan import Plan
 from .step import Room
 
 MANY = 1000  # steps held back by stability, after which it is asked whether the end can be reached
@@ -18,19 +19,20 @@ SAFETY, LARGEST_GROWTH, LARGEST_SHRINK = 0.9, 6.0, 0.2
 
 
 class Control(NamedTuple):
-    """How to choose steps: `tolerance` 0 means the fixed step `step`.
+    """How to choose steps: `tolerance` 0 means the fixed steps of the plan.
 
-    `stability` is how far an explicit method of so many `stages` is stable on the negative real axis.
+    `largest_step` bounds adaptive ones on the whole span; the plan may bound them further. `stability` is how far an
+    explicit method of so many `stages` is stable on the negative real axis.
     """
 
     tolerance: float
-    step: float
     largest_step: float
     error_order: float
     memory: float
     step_limit: int
     stages: int
     stability: float
+    plan: Plan
 
 
 @inner
@@ -85,8 +87,6 @@ def level(error: float) -> float:
 @inner
 def grown(control: Control, h: float, now: float, before: float, growth: float) -> float:
     """The next step after an accepted one, by the levels of this error and the one before; at most `growth` times h."""
-    if control.tolerance == 0.0:
-        return control.step
     power = 1.0 / control.error_order - 0.75 * control.memory
     factor = SAFETY * np.exp(control.memory * before - power * now)
     return float(min(h * min(max(factor, LARGEST_SHRINK), growth), control.largest_step))

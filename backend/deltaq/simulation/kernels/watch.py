@@ -1,4 +1,4 @@
-"""What may end a run before its time: a flag from outside, and events, functions of the state that stay positive.
+"""What may end a run before its time: a flag from outside, friction, and events, functions that stay positive.
 
 Of each accepted step the continuous extension is looked at in Chebyshev's extreme points, both ends included. So many
 states determine every extension used here, so that `event.py` finds the time without the kernel.
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from .compiler import inner, variable
 from .motion import EVENT, FINE, Floats
 from .pointer import call
+from .switch import Switch, make_switch
 
 PLACES = 9  # extensions have degree 7 at most
 
@@ -24,7 +25,8 @@ class Watch(NamedTuple):
 
     `inputs` are those of the motion. `states` receives the states at `times`, `places` (in units of the step) after
     its start, and `values` what the function says of them. Of each output, `least` is the least value up to the
-    first step that may have fallen through zero, and `closest_times`, `closest_states` are the step with it.
+    first step that may have fallen through zero, and `closest_times`, `closest_states` are the step with it. `switch`
+    tells where a force that jumps holds the motion.
     """
 
     cancelled: NDArray[np.int64]  # one number; anything but 0 ends the run
@@ -39,22 +41,28 @@ class Watch(NamedTuple):
     least: Floats
     closest_times: Floats
     closest_states: Floats
+    switch: Switch
 
 
 def make_watch(
-    cancelled: NDArray[np.int64], addresses: tuple[int, int], functions: int, inputs: Floats, width: int
+    cancelled: NDArray[np.int64],
+    addresses: tuple[int, int],
+    functions: int,
+    inputs: Floats,
+    width: int,
+    switch: Switch,
 ) -> Watch:
-    """Room to watch so many functions of a state with `width` components."""
+    """Room to watch so many functions of a state with `width` components, beside the switching functions."""
     places = 0.5 - 0.5 * np.cos(np.pi * np.arange(PLACES) / (PLACES - 1))
     times, states = np.zeros(PLACES), np.zeros((PLACES, width))
     values, least = np.zeros((PLACES, functions)), np.full(functions, np.inf)
     closest = np.zeros((functions, PLACES)), np.zeros((functions, PLACES, width))
-    return Watch(cancelled, *addresses, functions, inputs, places, times, states, values, least, *closest)
+    return Watch(cancelled, *addresses, functions, inputs, places, times, states, values, least, *closest, switch)
 
 
-def unwatched(cancelled: NDArray[np.int64]) -> Watch:
-    """A flag alone."""
-    return make_watch(cancelled, (0, 0), 0, np.zeros(1), 0)
+def unwatched(cancelled: NDArray[np.int64], switch: Switch | None = None) -> Watch:
+    """A flag alone, or with switching functions."""
+    return make_watch(cancelled, (0, 0), 0, np.zeros(1), 0, switch or make_switch((0, 0), 0, np.zeros(1), 0))
 
 
 @inner

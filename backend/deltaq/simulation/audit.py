@@ -1,0 +1,198 @@
+"""Where a run would be blind, and where it was: what the forces do between the places that a method looks at.
+
+Two runs that agree prove nothing where both miss the same thing: a pulse between their stages, a drive in step with
+their steps. So the model's own operations are bounded by intervals, before a run over the time alone, and after it
+along the path it took. What asks for short steps somewhere gets them, and what jumps at a known time gets a step that
+ends before it and one that begins behind it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.tape import Tape
+from .kernels.audit import DEEPEST, GROUP, Blind, Parts, Path, Rules, inspect, survey_times
+from .kernels.intervals import Program, Ranges
+from .method import Method
+from .pieces import Pieces, Stretch
+from .problem import Floats, Problem
+from .run import Run
+
+# Swings of an argument that a method follows: four radians, or less where its stages lie far apart.
+LARGEST_SWING, PER_GAP = 4.0, 1.25
+SHARE = 0.1  # of the tolerance; a force that moves the coordinates by less over the whole span does not matter
+MOST_LEAVES = 4096  # intervals of time looked at in one go
+LEVELS = 80  # of halving the span; behind them neighbouring numbers are reached
+UNIFORM = 1.001  # swings that differ by less belong to a steady drive, which halving would not resolve any better
+MOST_STRETCHES = 512
+USUAL = 1e-6  # what a run is audited for before its error is known
+NOTICED = 1e-9  # a jump of a guide, relative to its size
+
+
+@dataclass(frozen=True)
+class Blow:
+    """A guided coordinate that jumps, or whose rate does, and the time just before."""
+
+    name: str
+    time: float
+
+
+@dataclass(frozen=True)
+class Audit:
+    """What a method can see of a problem."""
+
+    problem: Problem
+    method: Method
+
+    @cached_property
+    def limit(self) -> float:
+        """The largest swing per step that the method's stages follow."""
+        return min(LARGEST_SWING, PER_GAP / largest_gap(self.method))
+
+    def before(self, tolerance: float) -> Pieces:
+        """The span in pieces, with the largest step in each that sees what time alone does to the forces."""
+        leaves = self._leaves(self._threshold(tolerance))
+        return Pieces.joined(self.problem.t_end, leaves)
+
+    def blow(self) -> Blow | None:
+        """The first jump of a guide or of its rate: it takes an infinite force, which no equation here contains."""
+        layout = self.problem.model.layout
+        for before, after in self.before(USUAL).jumps if layout.guided and self._tape.has_choices else ():
+            rows = self.problem.inputs(np.array([before, after]), np.repeat(self.problem.state[None, :], 2, axis=0))
+            seen = self.problem.model.observe(rows)
+            for name in layout.guided:
+                sides = [*seen.values[name], *seen.rates[name]]
+                if any(abs(b - a) > NOTICED * max(1.0, abs(a), abs(b)) for a, b in (sides[:2], sides[2:])):
+                    return Blow(name, before)
+        return None
+
+    def after(self, run: Run, tolerance: float) -> tuple[Stretch, ...]:
+        """The stretches of a recorded run on which it was blind."""
+        path = _path(self.problem, run)
+        if len(path.times) < 2:
+            return ()
+        rules = Rules(self.limit, self._threshold(tolerance), float(run.stride))
+        width = 2 * self.problem.degrees + 1
+        parts = _parts(self._program.codes.size)
+        blind = Blind(*_columns(MOST_STRETCHES), np.zeros(1, dtype=np.int64))
+        seeds = self._seeds(path.times[:-1:GROUP], path.q[:-1:GROUP], path.v[:-1:GROUP])
+        inspect(self._program, self._ranges, path, seeds, rules, parts, np.zeros((2, width)), blind)
+        count = int(blind.found[0])
+        columns = (column[:count].tolist() for column in (blind.starts, blind.ends, blind.steps))
+        return tuple(Stretch(*row) for row in zip(*columns, strict=True))
+
+    def _threshold(self, tolerance: float) -> float:
+        """The change of q̈ that could move a coordinate by its share of the tolerance."""
+        return SHARE * tolerance / self.problem.t_end**2
+
+    @cached_property
+    def _tape(self) -> Tape:
+        return self.problem.model.tape
+
+    @cached_property
+    def _program(self) -> Program:
+        tape = self._tape
+        return Program(tape.codes, tape.a, tape.b, tape.c, tape.constants, tape.outputs)
+
+    @cached_property
+    def _ranges(self) -> Ranges:
+        """Room for the bounds, with the inputs at their initial values."""
+        start = self.problem.inputs(np.zeros(1), self.problem.state[None, :])[0]
+        operations, outputs = self._tape.codes.size, self._tape.outputs.size
+        return Ranges(start, start.copy(), *_columns(operations), np.zeros(outputs))
+
+    def _seeds(self, times: Floats, q: Floats, v: Floats) -> Floats:
+        """Bounds of |∂q̈/∂M|, |∂q̈/∂f| at some states, |q| above 1 counted as 1; guides count as they move.
+
+        From M q̈ = f: dq̈ = M⁻¹ (df − dM q̈). Shape (states, outputs of the tape).
+        """
+        n, model = self.problem.degrees, self.problem.model
+        table = model.motion.table(self.problem.inputs(times, np.hstack([q, v])))
+        mass, inverse = np.zeros((len(times), n, n)), np.full((len(times), n, n), np.inf)
+        rows, columns = np.tril_indices(n)
+        mass[:, rows, columns] = mass[:, columns, rows] = table[:, : rows.size]
+        regular = np.isfinite(mass).all(axis=(1, 2)) & (np.linalg.det(np.nan_to_num(mass)) != 0.0)
+        inverse[regular] = np.abs(np.linalg.inv(mass[regular]))
+        with np.errstate(invalid="ignore"):
+            weights = (inverse / np.maximum(1.0, np.abs(q))[:, :, None]).sum(axis=1)
+            bends = np.nan_to_num(np.abs(inverse @ np.abs(table[:, rows.size : rows.size + n, None]))[:, :, 0], nan=0.0)
+            of_mass = weights[:, rows] * bends[:, columns] + np.where(
+                rows != columns, weights[:, columns] * bends[:, rows], 0.0
+            )
+        guided = len(model.layout.guided)
+        guides = np.repeat([[1.0 / self.problem.t_end**2, 1.0 / self.problem.t_end]], guided, axis=1)
+        found = np.hstack([of_mass, weights, np.repeat(guides, len(times), axis=0)])
+        return np.asarray(np.nan_to_num(found, nan=np.finfo(float).max, posinf=np.finfo(float).max))
+
+    def _leaves(self, threshold: float) -> list[tuple[float, float, float]]:
+        """Intervals of time with the largest step in each (0: neighbouring numbers with a jump between), in order."""
+        ranges, end = self._ranges, self.problem.t_end
+        start = self.problem.state[None, :]
+        ranges.seeds[:] = self._seeds(
+            np.zeros(1), start[:, : self.problem.degrees], start[:, self.problem.degrees : 2 * self.problem.degrees]
+        )[0]
+        starts, ends, leaves = np.zeros(1), np.array([end]), []
+        for level in range(LEVELS):
+            swings, switches = self._swings(starts, ends, threshold)
+            sizes = ends - starts
+            middles = starts + 0.5 * sizes
+            whole = (middles <= starts) | (middles >= ends)
+            is_steady = level > 2 and not switches.any() and swings.max() < UNIFORM * swings.min() < np.inf
+            seen = (swings <= self.limit) & ~switches | whole
+            seen |= is_steady or 2 * np.count_nonzero(~seen) > MOST_LEAVES
+            with np.errstate(divide="ignore"):
+                steps = np.where(whole & switches, 0.0, sizes * self.limit / swings)
+            leaves += list(zip(starts[seen].tolist(), ends[seen].tolist(), steps[seen].tolist(), strict=True))
+            if seen.all():
+                break
+            lefts, rights, halves = starts[~seen], ends[~seen], middles[~seen]
+            starts, ends = np.concatenate([lefts, halves]), np.concatenate([halves, rights])
+        return sorted(leaves)
+
+    def _swings(self, starts: Floats, ends: Floats, threshold: float) -> tuple[Floats, NDArray[np.bool_]]:
+        swings, switches = np.zeros(starts.size), np.zeros(starts.size, dtype=np.int64)
+        place = 2 * self.problem.degrees
+        survey_times(self._program, self._ranges, place, starts, ends, threshold, swings, switches)
+        return swings, switches > 0
+
+
+def _columns(size: int) -> tuple[Floats, Floats, Floats]:
+    """Three rows of zeros."""
+    return np.zeros(size), np.zeros(size), np.zeros(size)
+
+
+def _parts(operations: int) -> Parts:
+    looked, flips = np.zeros(1, dtype=np.int64), np.zeros(operations, dtype=np.int64)
+    return Parts(*_columns(DEEPEST), looked, flips, np.zeros(operations))
+
+
+def _path(problem: Problem, run: Run) -> Path:
+    """The recorded mesh of a run as a path; q̈ of its cubic jumps at the ends of steps."""
+    n, times, states = problem.degrees, run.mesh_times, run.mesh_states
+    q, v = np.ascontiguousarray(states[:, :n]), np.ascontiguousarray(states[:, n : 2 * n])
+    jumps = np.zeros_like(q)
+    if len(times) > 2:
+        h = np.diff(times)[:, None]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slopes = np.diff(q, axis=0) / h
+            ends = (2.0 * v[:-1] + 4.0 * v[1:] - 6.0 * slopes) / h
+            begins = (6.0 * slopes - 4.0 * v[:-1] - 2.0 * v[1:]) / h
+        found = np.abs(ends[:-1] - begins[1:])
+        short = np.minimum(h[:-1], h[1:])[:, 0] <= 1e-13 * problem.t_end
+        found[short] = 0.0
+        jumps[1:-1] = np.nan_to_num(found, nan=0.0, posinf=0.0)
+        jumps[0], jumps[-1] = jumps[1], jumps[-2]
+    return Path(times, q, v, jumps)
+
+
+def largest_gap(method: Method) -> float:
+    """The longest way between neighbouring places at which a method looks, in steps that follow one another."""
+    places = sorted(
+        {float(place) % 1.0 for place in getattr(method.tableau, "c", (0,))}
+        | {0.0 if method.is_explicit else float(getattr(method.tableau, "c", (0,))[0])}
+    )
+    return max(b - a for a, b in zip(places, [*places[1:], places[0] + 1.0], strict=True))

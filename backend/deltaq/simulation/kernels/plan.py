@@ -1,0 +1,78 @@
+"""Where steps end and how long they may be, piece by piece of the span; and a record of where they ended.
+
+Forces that change fast at known times need short steps there, and a force that jumps needs a step that ends before the
+jump and one that begins behind it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .compiler import inner
+from .motion import Floats
+
+CAPACITY = 1 << 15  # recorded steps, an even number; a longer run keeps every second, every fourth … of its steps
+COUNT, STRIDE, SKIPPED = 0, 1, 2
+
+
+class Plan(NamedTuple):
+    """Pieces of the span, and the mesh that a run leaves.
+
+    Piece k goes up to ends[k] (the last may have no end) with steps of sizes[k], adaptive ones up to that. Size 0 marks
+    a jump: the piece has no length but the distance of two neighbouring numbers, and forces differ at its ends.
+    `times` and `states` (rows q, q̇) receive the ends of steps, `progress` how many, every how many, and those since.
+    """
+
+    ends: Floats
+    sizes: Floats
+    times: Floats
+    states: Floats
+    progress: NDArray[np.int64]
+
+
+def make_plan(ends: Floats, sizes: Floats, width: int, capacity: int = 0) -> Plan:
+    """A plan with room to record so many steps of a state (q, q̇) of so many numbers."""
+    progress = np.array([0, 1, 0], dtype=np.int64)
+    return Plan(ends, sizes, np.empty(capacity), np.empty((capacity, width)), progress)
+
+
+@inner
+def entered(plan: Plan, piece: int, t: float) -> tuple[int, float, bool]:
+    """The piece in which a step from t begins, the time it begins at, and whether a jump was crossed to get there."""
+    if t < plan.ends[piece]:
+        return piece, t, False
+    if plan.sizes[piece + 1] == 0.0:
+        return piece + 2, plan.ends[piece + 1], True
+    return piece + 1, t, False
+
+
+@inner
+def fitted(plan: Plan, piece: int, t: float, wanted: float) -> tuple[float, bool]:
+    """The step wanted, no longer than the piece allows, and whether it ends the piece."""
+    left, h = plan.ends[piece] - t, min(wanted, plan.sizes[piece])
+    return (h, False) if h * (1.0 + 1e-9) < left else (left, True)
+
+
+@inner
+def record(plan: Plan, t: float, state: Floats) -> None:
+    """The end of a step is kept; where there is no more room, every second of those before gives way."""
+    progress = plan.progress
+    progress[SKIPPED] += 1
+    if plan.times.size == 0 or (progress[SKIPPED] < progress[STRIDE] and progress[COUNT] > 0):
+        return
+    progress[SKIPPED] = 0
+    if progress[COUNT] == plan.times.size:
+        progress[COUNT] //= 2
+        progress[STRIDE] *= 2
+        for k in range(progress[COUNT]):
+            plan.times[k] = plan.times[2 * k]
+            for d in range(plan.states.shape[1]):
+                plan.states[k, d] = plan.states[2 * k, d]
+    place = progress[COUNT]
+    plan.times[place] = t
+    for d in range(plan.states.shape[1]):
+        plan.states[place, d] = state[d]
+    progress[COUNT] += 1
