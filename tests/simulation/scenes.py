@@ -21,20 +21,30 @@ def scene(
     points: Mapping[str, Sequence[str]] | None = None,
 ) -> Scene:
     """A scene in short: coordinates as (value, rate), bodies as (mass, position)."""
+    return read_scene(document(coordinates, parameters, bodies, loads, guides, points))
+
+
+def document(
+    coordinates: Mapping[str, tuple[float, float]],
+    parameters: Mapping[str, float],
+    bodies: Mapping[str, tuple[str, Sequence[str]]],
+    loads: Sequence[Table] = (),
+    guides: Mapping[str, str] | None = None,
+    points: Mapping[str, Sequence[str]] | None = None,
+) -> dict[str, object]:
+    """The document of such a scene, as a request has it."""
     dimension = len(next(iter(bodies.values()))[1])
-    return read_scene(
-        {
-            "format": 1,
-            "id": "test",
-            "dimension": dimension,
-            "coordinates": [{"name": n, "value": v, "rate": u, "unit": _unit(n)} for n, (v, u) in coordinates.items()],
-            "parameters": [{"name": n, "value": v, "positive": False} for n, v in parameters.items()],
-            "points": [{"name": n, "position": list(r)} for n, r in (points or {}).items()],
-            "bodies": [{"name": n, "kind": "particle", "mass": m, "position": list(r)} for n, (m, r) in bodies.items()],
-            "loads": list(loads),
-            "guides": [{"coordinate": n, "value": v} for n, v in (guides or {}).items()],
-        }
-    )
+    return {
+        "format": 1,
+        "id": "test",
+        "dimension": dimension,
+        "coordinates": [{"name": n, "value": v, "rate": u, "unit": _unit(n)} for n, (v, u) in coordinates.items()],
+        "parameters": [{"name": n, "value": v, "positive": False} for n, v in parameters.items()],
+        "points": [{"name": n, "position": list(r)} for n, r in (points or {}).items()],
+        "bodies": [{"name": n, "kind": "particle", "mass": m, "position": list(r)} for n, (m, r) in bodies.items()],
+        "loads": list(loads),
+        "guides": [{"coordinate": n, "value": v} for n, v in (guides or {}).items()],
+    }
 
 
 def _unit(name: str) -> str:
