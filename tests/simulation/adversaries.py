@@ -126,7 +126,7 @@ def _under_wave(stiffness: float, wave: Wave, t: Longs) -> Longs:
 # Fast drives
 
 
-def _aligned(random: Random, span: float) -> float:
+def aligned_pace(random: Random, span: float) -> float:
     """A circular frequency of which the first steps of a run, or halves of them, meet only zeros; or almost only."""
     parts = random.choice(FIRST_STEPS) * random.choice((0.5, 1.0, 2.0, 3.0))
     return 2.0 * math.pi * parts / span * (1.0 + random.choice(DETUNED))
@@ -164,7 +164,7 @@ def _driven(random: Random, family: str, stiffness: float) -> Motion:
 def _pace(random: Random, span: float) -> float:
     """Aligned with the span, or so and so many Hz."""
     if span > 30.0 or random.random() < 0.6:
-        return _aligned(random, span)
+        return aligned_pace(random, span)
     return 2.0 * math.pi * random.choice((20.0, 40.0, 50.0, 100.0, 400.0)) * (1.0 + random.choice(DETUNED))
 
 

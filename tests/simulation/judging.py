@@ -27,6 +27,7 @@ Truth = Callable[[Floats], Longs]  # times -> values, shape (samples, coordinate
 PRINTED = 1e-15  # the last decimal that an answer has
 INVISIBLE = 1e-4  # who gives a step asks for no accuracy; an error like this is a fifth of a pixel
 CLAIMS = ("ok", "stopped")  # statuses that stand for the curve
+REFUSED = "refused:"  # before the code of the problem that a scene is said to have
 LOW_ORDER, LOOSE = 2, 1e-6  # methods that cannot have every tolerance within the limit of steps
 STEPS = (50, 20_000)  # of a run with a step that the user gives
 
@@ -121,7 +122,8 @@ class Verdict:
         An estimate that is too careful by itself (`tolerance_missed`) counts apart.
         """
         is_alarm = self.status not in (*CLAIMS, "tolerance_missed")
-        return is_alarm and (self.is_met or self.status == "singular_mass_matrix")
+        is_refused = self.status == "singular_mass_matrix" or self.status.startswith(REFUSED)
+        return is_alarm and (self.is_met or is_refused)
 
     @property
     def is_too_careful(self) -> bool:
@@ -162,7 +164,7 @@ def judge(trial: Trial) -> Verdict:
     try:
         answer = run(trial.request)
     except InputError as refusal:
-        return Verdict(trial, f"refused: {refusal}", False, 0.0, 0.0, math.nan, math.inf)
+        return Verdict(trial, f"{REFUSED} {refusal.problems[0].code}", False, 0.0, 0.0, math.nan, math.inf)
     return verdict(trial, answer, perf_counter() - start)
 
 
@@ -170,9 +172,7 @@ def verdict(trial: Trial, answer: Mapping[str, object], seconds: float = 0.0) ->
     """What an answer deserves, by the truth."""
     comparison = _compared(trial, answer)
     status, cost = str(answer["status"]), cast("dict[str, float]", answer["cost"])
-    is_complete = len(comparison.true) > 0 and (
-        status == "stopped" or cast("float", answer["t_reached"]) >= trial.motion.t_end
-    )
+    is_complete = len(comparison.true) > 0 and (status == "stopped" or _ended(trial, answer))
     wrong = comparison.shortfall(comparison.relative > (trial.tolerance or 0.0))
     if status in CLAIMS and not (is_complete and comparison.rests(status)):
         wrong = math.inf
@@ -181,13 +181,22 @@ def verdict(trial: Trial, answer: Mapping[str, object], seconds: float = 0.0) ->
         status,
         is_complete,
         wrong,
-        comparison.shortfall(comparison.times < cast("float", answer["trusted_until"])),
+        comparison.shortfall(comparison.times < _horizon(answer)),
         comparison.excess,
         float(np.max(comparison.relative, initial=0.0)),
         int(cost["runs"]),
         cost["rhs_evaluations"] / max(cost["run_evaluations"], 1.0),
         seconds,
     )
+
+
+def _ended(trial: Trial, answer: Mapping[str, object]) -> bool:
+    return math.isclose(cast("float", answer["t_reached"]), trial.motion.t_end, rel_tol=1e-12)
+
+
+def _horizon(answer: Mapping[str, object]) -> float:
+    horizon = cast("dict[str, float | None]", answer["error"])["horizon"]
+    return math.inf if horizon is None else horizon
 
 
 @dataclass(frozen=True)
