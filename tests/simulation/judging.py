@@ -7,7 +7,7 @@ answer is judged as the service gives it, rounded as it is.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random
 from time import perf_counter
@@ -22,9 +22,10 @@ from deltaq.simulation.service import run
 
 Floats = NDArray[np.float64]
 Longs = NDArray[np.longdouble]
+Row = Mapping[str, float]  # of a table in a scene document
 Truth = Callable[[Floats], Longs]  # times -> values, shape (samples, coordinates compared)
 
-PRINTED = 1e-15  # the last decimal that an answer has
+ROUNDING = 1e-14  # · max(1, |q|): fewer than fifty units in the last place of a double are not judged
 INVISIBLE = 1e-4  # who gives a step asks for no accuracy; an error like this is a fifth of a pixel
 CLAIMS = ("ok", "stopped")  # statuses that stand for the curve
 REFUSED = "refused:"  # before the code of the problem that a scene is said to have
@@ -51,8 +52,10 @@ class Motion:
     @property
     def label(self) -> str:
         """The numbers drawn."""
-        told = {p["name"]: p["value"] for p in cast("list[dict[str, float]]", self.scene["parameters"])}
-        return f"t_end {self.t_end:g}, " + ", ".join(f"{name} {value:.7g}" for name, value in told.items())
+        parameters, coordinates = (cast("list[Row]", self.scene[part]) for part in ("parameters", "coordinates"))
+        told = [f"{row['name']} {row['value']:.7g}" for row in parameters]
+        starts = [f"{row['name']}(0) {row['value']:.7g}, {row['rate']:.7g}" for row in coordinates]
+        return ", ".join([f"t_end {self.t_end:g}", *told, *starts])
 
 
 @dataclass(frozen=True)
@@ -128,6 +131,13 @@ class Verdict:
     @property
     def is_too_careful(self) -> bool:
         return self.status == "tolerance_missed" and self.is_met
+
+
+def draw_motions(kind: Callable[[Random], Motion], seed: str, count: int) -> Iterator[tuple[Motion, Random]]:
+    """So many motions of a kind, each with the source of the numbers that follow; the same whenever they are drawn."""
+    for number in range(count):
+        random = Random(f"{seed} {kind.__name__} {number}")
+        yield kind(random), random
 
 
 def draw_trial(motion: Motion, random: Random, method: str | None = None) -> Trial:
@@ -231,7 +241,7 @@ def _compared(trial: Trial, answer: Mapping[str, object]) -> _Comparison:
     exact = motion.truth(np.append(times, motion.t_end))
     sizes = np.maximum(1.0, np.abs(exact[:-1]))
     off = np.abs(values - exact[:-1])
-    doubt = (motion.doubt * sizes + PRINTED).max(axis=1, initial=0.0)
+    doubt = (max(motion.doubt, ROUNDING) * sizes).max(axis=1, initial=0.0)
     told = np.array(cast("dict[str, object]", answer["error"])["estimate"], dtype=np.float64)
     left = float(np.abs(values[-1] - exact[-1]).max()) if len(times) else math.inf
     return _Comparison(times, _floats(off), _floats(off / sizes), np.asarray(doubt, dtype=np.float64), told, left)
