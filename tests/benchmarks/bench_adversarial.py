@@ -1,16 +1,16 @@
 """Whether the simulation can be fooled: motions made for it, by kind and method, beside their truth.
 
-Run it from the checkout: `python -m tests.benchmarks.bench_adversarial [--cases 1150] [--seed tune]`. Fast drives at
+Run it from the checkout: `python -m tests.benchmarks.bench_adversarial [--cases 1250] [--seed tune]`. Fast drives at
 frequencies that steps miss, pulses, switches, guides with steps, walls, contacts, masses of unlike size, dry friction
-(`tests.simulation.adversaries`, `adversaries_of_state`, `outside_truth.ADVERSARIES`), with all methods and `auto`, tolerances
-and steps; answered by the service in process. Prints; judges nothing.
+(`tests.simulation.adversaries`, `adversaries_of_state`, `outside_truth.ADVERSARIES`), with all methods and `auto`,
+tolerances and steps; answered by the service in process. Prints; judges nothing.
 
 Wrong (silently): the status is `ok` or `stopped`, and at some sample the true error is above the estimate and above the
 tolerance asked for (with a step: above the estimate); beside it how many are off by more than 3 and 100 times. Under:
 any other answer with a sample before its horizon whose true error is above three times the estimate. False alarm: a
 warning beside a curve that is as good as was asked for (with a step: within 1e-4) and within its estimate, or a refusal
-of a scene that is sound. Careful: `tolerance_missed`, though met. All else is honest. Errors below 1e-14 · max(1, |q|) count
-as none.
+of a scene that is sound. Careful: `tolerance_missed`, though met. All else is honest. Errors below
+1e-14 · max(1, |q|) count as none.
 """
 
 from __future__ import annotations
@@ -18,18 +18,20 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from random import Random
 from time import perf_counter
 
 import numpy as np
 from tests.benchmarks.bench_outside import arguments, circumstances
 from tests.benchmarks.outside_truth import ADVERSARIES
+from tests.simulation.adversaries import aimed_drive
 from tests.simulation.adversaries_of_state import KINDS
 from tests.simulation.judging import Trial, Verdict, draw_motions, draw_trial, judge
 
 from deltaq.simulation.library import method_ids
 from deltaq.simulation.service import warm
 
-CASES, WORST = 1150, 20
+CASES, WORST = 1250, 20
 COUNTED: dict[str, Callable[[Verdict], bool]] = {
     "wrong": lambda v: v.is_silently_wrong(),
     "> 3 ×": lambda v: v.is_silently_wrong(3.0),
@@ -59,9 +61,11 @@ def main() -> None:
 def trials(seed: str, cases: int) -> Iterator[Trial]:
     """Cases as evenly over the kinds as they go."""
     kinds = (*KINDS, *ADVERSARIES)
+    each, rest = divmod(cases, len(kinds) + 1)
+    for number in range(each):
+        yield aimed_drive(Random(f"{seed} aimed {number}"))
     for place, kind in enumerate(kinds):
-        count = cases // len(kinds) + (place < cases % len(kinds))
-        for motion, random in draw_motions(kind, seed, count):
+        for motion, random in draw_motions(kind, seed, each + (place < rest)):
             yield draw_trial(motion, random)
 
 

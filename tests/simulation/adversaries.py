@@ -9,21 +9,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 from random import Random
+from typing import cast
 
 import mpmath
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.special import erf, fresnel, ive
-from tests.simulation.judging import Floats, Longs, Motion, Truth
+from tests.simulation.judging import Floats, Longs, Motion, Trial, Truth
 from tests.simulation.scenes import WEIGHT, document
+
+from deltaq.simulation.library import get_method, method_ids
+from deltaq.simulation.service import run
 
 SPANS = (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0)
 DETUNED = (0.0, 0.0, 1e-9, 1e-6, 1e-4, 1e-3, 1e-2)
-FIRST_STEPS = (50, 100, 200, 400, 800)  # parts of the span that first steps may be
+FIRST_STEPS = (50, 100, 200, 400, 500, 800)  # parts of the span that first steps, or samples, may be
 NUMERIC = 1e-10  # doubt of a truth by SciPy over the spans here
 Shares = Sequence[tuple[float, float]]  # (time, height): what begins to act then
 Draw = Callable[[Random], Motion]
@@ -47,7 +51,8 @@ def some_sign(random: Random) -> float:
 
 
 def _start(random: Random) -> tuple[float, float]:
-    return random.uniform(-1.5, 1.5), random.uniform(-1.0, 1.0)
+    """At rest, now and then."""
+    return random.uniform(-1.5, 1.5), random.choice((0.0, random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)))
 
 
 def _long(times: Floats) -> Longs:
@@ -143,22 +148,37 @@ def _stiffness(random: Random) -> float:
 
 def driven_oscillator(random: Random) -> Motion:
     """m = 1: x″ = −k x + a ω sin ωt, or with cos, at frequencies that steps may miss."""
-    return _driven(random, "driven oscillator", _stiffness(random))
+    span = random.choice(SPANS)
+    return driven("driven oscillator", random, _stiffness(random), span, _pace(random, span))
 
 
 def driven_free_mass(random: Random) -> Motion:
     """x″ = a ω sin ωt: no swing of its own."""
-    return _driven(random, "driven free mass", 0.0)
-
-
-def _driven(random: Random, family: str, stiffness: float) -> Motion:
     span = random.choice(SPANS)
-    pace, size = _pace(random, span), random.choice((0.01, 0.1, 1.0))
-    other = pace * (1.0 + random.uniform(0.001, 0.02))
+    return driven("driven free mass", random, 0.0, span, _pace(random, span))
+
+
+def driven(family: str, random: Random, stiffness: float, span: float, pace: float) -> Motion:
+    """x″ = −k x + a wave, a square of one, or a beat."""
+    size, other = random.choice((0.1, 0.5, 1.0, 1.0)), pace * (1.0 + random.uniform(0.001, 0.02))
     form, initial = random.choice(tuple(_WAVES)), _start(random)
     waves = _WAVES[form](size, np.longdouble(pace), np.longdouble(other))
     scene = on_line(f"-k*x + {form}", initial, {"k": stiffness, "a": size, "omega": pace, "nu": other})
     return Motion(family, scene, span, ("x",), partial(under_waves, stiffness, initial, waves), 1e-15, _traps(pace))
+
+
+def aimed_drive(random: Random) -> Trial:
+    """A drive whose zeros are the steps that the same question took with a slow drive: whatever the steps are made by.
+
+    Only such methods are asked as take steps of one size.
+    """
+    method = random.choice([name for name in method_ids() if not get_method(name).is_adaptive])
+    stiffness, span = random.choice((0.0, 0.0, _stiffness(random))), random.choice(SPANS[:5])
+    accuracy, samples = ("tolerance", random.choice((1e-2, 1e-3, 1e-4))), random.choice((51, 201, 501))
+    slow = Trial(driven("slow drive", random, stiffness, span, 2.0 / span), method, accuracy, samples)
+    steps = cast("dict[str, int]", run(slow.request)["cost"])["steps"]
+    pace = math.pi * steps / span * random.choice((0.5, 1.0, 1.0, 2.0, 4.0)) * (1.0 + random.choice(DETUNED))
+    return Trial(driven("aimed drive", random, stiffness, span, pace), method, accuracy, samples)
 
 
 def _pace(random: Random, span: float) -> float:
@@ -206,53 +226,69 @@ _PULSE = f"J/(w*{_ROOT!r})*exp(-((t - t0)/w)^2)"
 
 
 def pulse_on_free_mass(random: Random) -> Motion:
-    """An impulse J in the time w: u = u₀ + J/2 (erf((t − t₀)/w) + erf(t₀/w)), integrated once more."""
-    span = random.choice((1.0, 10.0, 100.0, 1000.0))
-    (middle, width), initial, blow = _pulse(random, span), _start(random), some_sign(random) * random.uniform(0.3, 3.0)
-
-    def integral(t: Floats) -> Floats:
-        z = (t - middle) / width
-        return np.asarray(width * (z * erf(z) + np.exp(-(z**2)) / math.sqrt(math.pi)))
-
-    def truth(times: Floats) -> Longs:
-        moved = integral(times) - integral(np.zeros(1)) + times * erf(middle / width)
-        return _column(initial[0] + initial[1] * times + blow / 2 * moved)
-
-    scene = on_line(_PULSE, initial, {"J": blow, "w": width, "t0": middle})
-    return Motion("pulse on free mass", scene, span, ("x",), truth, 1e-14, _beside(width))
-
-
-def _beside(width: float) -> tuple[float, ...]:
-    """Steps about as long as something short."""
-    return tuple(width * parts for parts in (0.1, 1.0, 3.0, 10.0, 30.0))
+    """An impulse J in the time w."""
+    return _pulsed(random, "pulse on free mass", 0.0)
 
 
 def pulse_on_oscillator(random: Random) -> Motion:
-    """A hammer blow: x = Im(e^{iω₀t} ∫ F e^{−iω₀s} ds)/ω₀, an error function of a complex number."""
-    return _burst(random, "pulse on oscillator", 0.0)
+    """A hammer blow."""
+    return _pulsed(random, "pulse on oscillator", _stiffness(random))
 
 
 def burst(random: Random) -> Motion:
     """The same with a fast wave inside."""
-    return _burst(random, "burst", random.uniform(0.5, 4.0))
+    return _pulsed(random, "burst", _stiffness(random), random.uniform(0.5, 4.0))
 
 
-def _burst(random: Random, family: str, waves: float) -> Motion:
-    """`waves` is Ωw of the wave within, cos Ω(t − t₀)."""
-    span, stiffness = random.choice((1.0, 10.0, 100.0)), _stiffness(random)
-    (middle, width), initial, blow = _pulse(random, span), _start(random), some_sign(random) * random.uniform(0.3, 3.0)
-    pace, own = waves / width, math.sqrt(stiffness)
+def _pulsed(random: Random, family: str, stiffness: float, waves: float = 0.0) -> Motion:
+    span, blow = random.choice((1.0, 10.0, 100.0, 1000.0)), some_sign(random) * random.uniform(0.3, 3.0)
+    return replace(pulse(stiffness, span, _pulse(random, span), _start(random), blow, waves), family=family)
+
+
+def pulse(
+    stiffness: float,
+    span: float,
+    place: tuple[float, float],
+    initial: tuple[float, float],
+    blow: float,
+    waves: float = 0.0,
+) -> Motion:
+    """x″ = −k x + F, F a Gauss function with middle, width and impulse; `waves` is Ωw of a factor cos Ω(t − t₀)."""
+    middle, width = place
+    push = partial(_kick, place) if stiffness == 0.0 else partial(_blow, place, math.sqrt(stiffness), waves / width)
 
     def truth(times: Floats) -> Longs:
-        late = times - middle
-        parts = [_within(width, own + way * pace, -middle, late) for way in (-1.0, 1.0)]
-        pushed = blow / own * np.imag(np.exp(1j * own * late) * (parts[0] + parts[1]) / 2.0)
-        return _column(free_swing(stiffness, initial, _long(times)) + pushed)
+        return _column(free_swing(stiffness, initial, _long(times)) + blow * push(times))
 
     inside = "*cos(Omega*(t - t0))" if waves else ""
-    values = {"k": stiffness, "J": blow, "w": width, "t0": middle} | ({"Omega": pace} if waves else {})
+    values = {"k": stiffness, "J": blow, "w": width, "t0": middle, "Omega": waves / width}
     scene = on_line(f"-k*x + {_PULSE}{inside}", initial, values)
-    return Motion(family, scene, span, ("x",), truth, 1e-13, (*_beside(width), *(_traps(pace) if waves else ())))
+    traps = (*beside(width), *(_traps(waves / width) if waves else ()))
+    return Motion("pulse", scene, span, ("x",), truth, 1e-13, traps)
+
+
+def _kick(place: tuple[float, float], times: Floats) -> Floats:
+    """Of a free mass: u = (erf((t − t₀)/w) + erf(t₀/w))/2, integrated once more."""
+    middle, width = place
+
+    def integral(t: Floats) -> Floats:
+        z = (t - middle) / width
+        return np.asarray(width * (z * erf(z) + np.exp(-(z**2)) / _ROOT))
+
+    return np.asarray((integral(times) - integral(np.zeros(1)) + times * erf(middle / width)) / 2.0)
+
+
+def _blow(place: tuple[float, float], own: float, pace: float, times: Floats) -> Floats:
+    """Of an oscillator: Im(e^{iω₀t} ∫ F e^{−iω₀s} ds)/ω₀, error functions of complex numbers."""
+    middle, width = place
+    late = times - middle
+    parts = [_within(width, own + way * pace, -middle, late) for way in (-1.0, 1.0)]
+    return np.asarray(np.imag(np.exp(1j * own * late) * (parts[0] + parts[1]) / 2.0) / own)
+
+
+def beside(length: float) -> tuple[float, ...]:
+    """Steps about as long as something short."""
+    return tuple(length * parts for parts in (0.1, 1.0, 3.0, 10.0, 30.0))
 
 
 def _within(width: float, pace: float, begin: float, end: Floats) -> Floats:
@@ -278,7 +314,7 @@ def pulse_on_pendulum(random: Random) -> Motion:
     values = {"m": 1.0, "l": 1.0, "g": ratio, "J": blow, "w": width, "t0": middle}
     bodies = {"bob": ("m", ["l*sin(phi)", "l*cos(phi)"])}
     scene = document({"phi": initial}, values, bodies, [WEIGHT, moment])
-    return Motion("pulse on pendulum", scene, span, ("phi",), truth, NUMERIC, _beside(width))
+    return Motion("pulse on pendulum", scene, span, ("phi",), truth, NUMERIC, beside(width))
 
 
 def in_pieces(
@@ -307,11 +343,7 @@ def in_pieces(
 
 def window(random: Random) -> Motion:
     """A force that is on between two times, by sign(t)."""
-    span, stiffness, initial = (
-        random.choice((1.0, 10.0, 100.0)),
-        random.choice((0.0, _stiffness(random))),
-        _start(random),
-    )
+    span, stiffness, initial = _switched(random)
     length = span * log_uniform(random, 1e-5, 1e-1)
     begin, height = random.uniform(0.05, 0.85) * span, some_sign(random) / length
     end = begin + length
@@ -319,16 +351,26 @@ def window(random: Random) -> Motion:
         "-k*x + F*(sign(t - ta) - sign(t - tb))/2", initial, {"k": stiffness, "F": height, "ta": begin, "tb": end}
     )
     truth = partial(superposed, stiffness, initial, steps=[(begin, height), (end, -height)])
-    return Motion("window", scene, span, ("x",), truth, 1e-13, _beside(length))
+    return Motion("window", scene, span, ("x",), truth, 1e-13, beside(length))
+
+
+def switch(random: Random) -> Motion:
+    """A force that begins at some time, by sign(t), and grows from then on, by |t|."""
+    span, stiffness, initial = _switched(random)
+    begin, height, slope = random.uniform(0.05, 0.95) * span, random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0)
+    force = "F*(1 + sign(t - ta))/2 + b*(abs(t - ta) + t - ta)/2"
+    scene = on_line(f"-k*x + {force}", initial, {"k": stiffness, "F": height, "b": slope / span, "ta": begin})
+    truth = partial(superposed, stiffness, initial, steps=[(begin, height)], ramps=[(begin, slope / span)])
+    return Motion("switch", scene, span, ("x",), truth, 1e-13)
+
+
+def _switched(random: Random) -> tuple[float, float, tuple[float, float]]:
+    return random.choice((1.0, 10.0, 100.0)), random.choice((0.0, _stiffness(random))), _start(random)
 
 
 def ramped_window(random: Random) -> Motion:
     """A force that rises, stays and falls, by |t|: four bends."""
-    span, stiffness, initial = (
-        random.choice((1.0, 10.0, 100.0)),
-        random.choice((0.0, _stiffness(random))),
-        _start(random),
-    )
+    span, stiffness, initial = _switched(random)
     length, begin = span * log_uniform(random, 1e-3, 1e-1), random.uniform(0.05, 0.6) * span
     slope = some_sign(random) / length**2
     corners = [begin + n * length for n in range(4)]
@@ -338,16 +380,12 @@ def ramped_window(random: Random) -> Motion:
     # the corners are rounded: before the first of them a force is left
     left = slope * float(np.longdouble(corners[0]) - corners[1] - corners[2] + corners[3]) / 2
     truth = partial(superposed, stiffness, initial, steps=[(0.0, left)], ramps=ramps)
-    return Motion("ramped window", scene, span, ("x",), truth, 1e-9, _beside(length))
+    return Motion("ramped window", scene, span, ("x",), truth, 1e-9, beside(length))
 
 
 def switched_train(random: Random) -> Motion:
     """A force that is on for a part of each period: (1 + sign(cos Ωt − c))/2."""
-    span, stiffness, initial = (
-        random.choice((1.0, 10.0, 100.0)),
-        random.choice((0.0, _stiffness(random))),
-        _start(random),
-    )
+    span, stiffness, initial = _switched(random)
     pulses, limit = random.choice((3, 10, 50, 100, 200)), math.cos(math.pi * log_uniform(random, 1e-3, 0.7))
     period, height = span / pulses * (1.0 + random.choice(DETUNED)), some_sign(random) * random.uniform(0.5, 2.0)
     pace = 2.0 * math.pi / period
@@ -458,6 +496,7 @@ IN_TIME: tuple[Draw, ...] = (
     pulse_on_pendulum,
     burst,
     window,
+    switch,
     ramped_window,
     switched_train,
     smooth_train,

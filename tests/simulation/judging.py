@@ -143,11 +143,12 @@ def draw_motions(kind: Callable[[Random], Motion], seed: str, count: int) -> Ite
 def draw_trial(motion: Motion, random: Random, method: str | None = None) -> Trial:
     """Any method, a tolerance or a step (one that is a trap, often), few samples or many."""
     chosen = method or random.choice((*method_ids(), "auto", "auto"))
-    samples = random.choice((51, 201, 501))
-    step = _drawn_step(motion, random)
+    samples, step = random.choice((51, 201, 501, 501)), _drawn_step(motion, random)
     if step is not None:
         return Trial(motion, chosen, ("step", step), samples)
-    return Trial(motion, chosen, ("tolerance", draw_tolerance(chosen, random, 1e-2, 1e-9)), samples)
+    # loose ones, with which runs are coarse, more often
+    tightest = random.choice((1e-3, 1e-6, 1e-9))
+    return Trial(motion, chosen, ("tolerance", draw_tolerance(chosen, random, 1e-2, tightest)), samples)
 
 
 def draw_tolerance(method: str, random: Random, loosest: float, tightest: float) -> float:
@@ -184,7 +185,8 @@ def verdict(trial: Trial, answer: Mapping[str, object], seconds: float = 0.0) ->
     status, cost = str(answer["status"]), cast("dict[str, float]", answer["cost"])
     is_complete = len(comparison.true) > 0 and (status == "stopped" or _ended(trial, answer))
     wrong = comparison.shortfall(comparison.relative > (trial.tolerance or 0.0))
-    if status in CLAIMS and not (is_complete and comparison.rests(status)):
+    rests = status != "stopped" or comparison.rests(trial.tolerance or INVISIBLE)
+    if status in CLAIMS and not (is_complete and rests):
         wrong = math.inf
     return Verdict(
         trial,
@@ -229,9 +231,9 @@ class _Comparison:
         counts = self.true > 10 * self.doubt
         return float(np.median(self.told[counts] / self.true[counts])) if counts.any() else math.nan
 
-    def rests(self, status: str) -> bool:
+    def rests(self, wanted: float) -> bool:
         """What is said to have stopped has: at the end of the span it is where it was left."""
-        return status != "stopped" or self.left <= max(10.0 * float(self.told[-1]), INVISIBLE)
+        return len(self.told) > 0 and self.left <= max(2.0 * float(self.told[-1]), 2.0 * wanted)
 
 
 def _compared(trial: Trial, answer: Mapping[str, object]) -> _Comparison:
