@@ -21,8 +21,7 @@ from collections.abc import Callable, Iterator, Sequence
 from random import Random
 from time import perf_counter
 
-import numpy as np
-from tests.benchmarks.bench_outside import arguments, circumstances
+from tests.benchmarks.bench_outside import arguments, circumstances, print_cost
 from tests.benchmarks.outside_truth import ADVERSARIES
 from tests.simulation.adversaries import aimed_drive
 from tests.simulation.adversaries_of_state import KINDS
@@ -53,7 +52,7 @@ def main() -> None:
     _print_counts("asked for", verdicts, lambda v: v.trial.accuracy[0])
     _print_crossed(verdicts)
     _print_statuses(verdicts)
-    _print_cost(verdicts)
+    print_cost(verdicts)
     _print_worst("silently wrong", [v for v in verdicts if v.is_silently_wrong()])
     _print_worst("false alarms", [v for v in verdicts if v.is_false_alarm])
 
@@ -97,19 +96,6 @@ def _print_statuses(verdicts: Sequence[Verdict]) -> None:
     print("\nstatus                              cases  false alarm")
     for status, count in Counter(v.status for v in verdicts).most_common():
         print(f"{status:34}{count:7}{sum(v.is_false_alarm for v in verdicts if v.status == status):13}")
-
-
-def _print_cost(verdicts: Sequence[Verdict]) -> None:
-    """Of the answers that stand for their curve: how many runs, and right-hand sides over those of the run returned."""
-    print(
-        "\ncost of an answer           median      mean  90 % below   (all evaluations over those of the run returned)"
-    )
-    groups = {"tolerance": "tolerance", "step": "step"}
-    for title, kind in groups.items():
-        found = [v for v in verdicts if v.status == "ok" and v.trial.accuracy[0] == kind]
-        for name, numbers in (("runs", [v.runs for v in found]), ("evaluations", [v.effort for v in found])):
-            middle, mean, high = np.median(numbers), np.mean(numbers), np.quantile(numbers, 0.9)
-            print(f"{title + ', ' + name:24}{middle:10.2f}{mean:10.2f}{high:12.2f}")
 
 
 def _print_worst(title: str, verdicts: Sequence[Verdict]) -> None:

@@ -41,6 +41,7 @@ def main() -> None:
     table("family", verdicts, lambda v: v.trial.motion.family)
     table("method", verdicts, lambda v: v.trial.method)
     table("asked for", verdicts, _accuracy)
+    print_cost(verdicts)
     _print_others([v for v in verdicts if v.status != "ok"])
     _print_uncovered(verdicts)
 
@@ -97,6 +98,20 @@ def _row(verdicts: Sequence[Verdict]) -> str:
         return f"{len(verdicts):7}{len(ok):6}{covered}"
     near, middle, high = np.mean(np.array(ratios) <= NEAR), np.median(ratios), np.quantile(ratios, 0.9)
     return f"{len(verdicts):7}{len(ok):6}{covered}{near:13.1%}{middle:14.1f}{high:12.0f}"
+
+
+def print_cost(verdicts: Sequence[Verdict]) -> None:
+    """Of answers that stand for their curve: how many runs, and right-hand sides over those of the run returned."""
+    print(f"\n{'cost of an answer':26}{'median':>10}{'mean':>10}{'90 % below':>12}")
+    for kind in ("tolerance", "step"):
+        found = [v for v in verdicts if v.status == "ok" and v.trial.accuracy[0] == kind]
+        _print_spread(f"{kind}: runs", [v.runs for v in found])
+        _print_spread(f"{kind}: evaluations ratio", [v.effort for v in found])
+
+
+def _print_spread(title: str, numbers: Sequence[float]) -> None:
+    if numbers:
+        print(f"{title:26}{np.median(numbers):10.2f}{np.mean(numbers):10.2f}{np.quantile(numbers, 0.9):12.2f}")
 
 
 def _print_others(others: Sequence[Verdict]) -> None:

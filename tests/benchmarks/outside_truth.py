@@ -25,7 +25,7 @@ from tests.simulation.scenes import WEIGHT, document
 DOUBT, FINEST = 1e-17, 1e-19  # of the truth: rounding of 80 bits over many steps; tolerance of the series
 Equations = Callable[[SimpleNamespace], list[hy.expression]]
 Values = Mapping[str, float]
-Start = Mapping[str, tuple[float, float]]
+Start = Mapping[str, tuple[float | np.longdouble, float | np.longdouble]]
 
 
 @dataclass(frozen=True)
@@ -157,13 +157,11 @@ def double_pendulum(random: Random) -> Motion:
 def double_pendulum_in_relative_angles(random: Random) -> Motion:
     """The second angle from the first link: θ₂ = φ₂ − φ₁."""
     values, start = _links(random)
-    relative = (start["phi2"][0] - start["phi1"][0], start["phi2"][1] - start["phi1"][1])
-    told = {"phi1": start["phi1"], "theta2": relative}
+    (first, rate), (second, turn) = start["phi1"], start["phi2"]
+    told = {"phi1": (first, rate), "theta2": (second - first, turn - rate)}
     # what the scene begins with, to the last digit
-    exact = {
-        "phi1": start["phi1"],
-        "phi2": tuple(np.longdouble(a) + b for a, b in zip(start["phi1"], relative, strict=True)),
-    }
+    apart, slower = (np.longdouble(number) for number in told["theta2"])
+    exact: Start = {"phi1": (first, rate), "phi2": (first + apart, rate + slower)}
     upper = ["l1*sin(phi1)", "l1*cos(phi1)"]
     lower = ["l1*sin(phi1) + l2*sin(phi1 + theta2)", "l1*cos(phi1) + l2*cos(phi1 + theta2)"]
     scene = document(told, values, {"upper": ("m1", upper), "lower": ("m2", lower)}, [WEIGHT])
