@@ -1,6 +1,6 @@
 """How honest the error estimate is, judged from outside: scenes it was not tuned on, truth in extended precision.
 
-Run it from the checkout: `python -m tests.benchmarks.bench_outside [--cases 2400] [--seed tune]`. Families of scenes ×
+Run it from the checkout: `python -m tests.benchmarks.bench_outside [--cases 1800] [--seed tune]`. Families of scenes ×
 random values × methods × tolerances and steps, answered by the service in process; truth by Taylor series in 80-bit
 numbers from equations written down by hand (`outside_truth`). Constants of the estimate may be set with `--seed tune`;
 figures to be told come from `--seed report`. Prints; judges nothing. (`bench_calibration`: the library's own scenes.)
@@ -27,7 +27,7 @@ from tests.simulation.judging import Motion, Trial, Verdict, draw_motions, draw_
 from deltaq.simulation.library import method_ids
 from deltaq.simulation.service import warm
 
-CASES, SEEDS = 2400, ("report", "tune")
+CASES, SEEDS = 1800, ("report", "tune")
 LOOSEST, TIGHTEST, WITH_STEP = 1e-3, 1e-11, 0.3
 NEAR = 100.0  # an estimate at most this many times the true error is tight
 
