@@ -10,6 +10,7 @@ import { experiment, file } from "./model/labs/stream.js";
 import { createWatch, motionOf, written } from "./model/labs/watch.js";
 import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore, mover } from "./model/store.js";
+import { caveatsOf } from "./model/trajectory.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { offer } from "./view/files.js";
 import { everyFrame } from "./view/frames.js";
@@ -74,7 +75,7 @@ function watch(wish) {
   const title = method ? speech()("labs.played-method", { method: methodTitle(method), step: step.toPrecision(3) }) : speech()("labs.played-point", { values: written(wish) });
   const told = (/** @type {string} */ status) => set({ play: { title, status, address: "" } });
   void watching.ask(motionOf(question, wish, documentOf(question.scene), lang()), (trajectory) => {
-    told(trajectory.status === "ok" ? "" : trajectory.reason ?? "");
+    told(caveatsOf(trajectory, speech()).join(" "));
     queueMicrotask(() => motion.begin(scene, trajectory));
   }, (error) => told(/** @type {Error} */ (error).message || speech()("failure.unreachable")));
 }

@@ -3,6 +3,7 @@
 import { ApiError } from "./api.js";
 import { linesOf } from "./reveal.js";
 import { completed, OWN } from "./own.js";
+import { sampled, samplesFor } from "./sampling.js";
 import { mover } from "./store.js";
 import { readChanges } from "./values.js";
 
@@ -19,9 +20,9 @@ import { readChanges } from "./values.js";
  * @property {Failure | null} failure
  */
 
-const PARTS = ["coordinates", "positions", "loads", "energy"];
+const PARTS = ["coordinates", "rates", "positions", "loads", "energy"];
 export const SECONDS = 10;
-const SAMPLES = 501;
+const SAMPLES = samplesFor(500);
 
 /**
  * @param {ReturnType<typeof import("./store.js").createStore<Sheet>>} store
@@ -47,7 +48,7 @@ export function createHandout(store, api, own) {
     const [{ chapters }, document, trajectory] = await Promise.all([
       api.derive({ scene: asked, lang, formulation, parameters }),
       own && scene === OWN ? completed(own) : api.scene(scene, lang, n),
-      api.simulate({ scene: asked, parameters: { ...values, ...parameters }, initial, t_end: SECONDS, samples: SAMPLES, include: PARTS, lang }).catch(() => null),
+      sampled(api.simulate)({ scene: asked, parameters: { ...values, ...parameters }, initial, t_end: SECONDS, samples: SAMPLES, include: PARTS, lang }).catch(() => null),
     ]);
     return { lines: linesOf(chapters), scene: document, trajectory, failure: null };
   }

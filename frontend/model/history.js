@@ -1,5 +1,7 @@
 /** A motion as still pictures over time, for paper: one for each row of curves, with the numbers on its axes. */
 
+import { traced } from "./curve.js";
+import { polyline } from "./drawing/geometry.js";
 import { scaleOf } from "./figure/phase.js";
 import { rowsOf } from "./plots.js";
 import { endOf } from "./trajectory.js";
@@ -17,12 +19,14 @@ export const ROOM = { left: 34, right: 8, top: 4, bottom: 18 };
  * @returns {Picture[]}
  */
 export function picturesOf(scene, trajectory) {
-  const time = scaleOf([0, endOf(trajectory)], ROOM.left, SIZE.width - ROOM.right, 0);
-  return rowsOf(scene, trajectory).map(({ key, unit, curves }) => {
+  const time = scaleOf([0, endOf(trajectory)], ROOM.left, SIZE.width - ROOM.right, { share: 0 });
+  return rowsOf(scene, trajectory).map(({ key, unit, least, curves }) => {
     const solid = curves.filter(({ dash }) => dash === "solid");
-    const up = scaleOf(solid.flatMap(({ values }) => values).filter(Number.isFinite), SIZE.height - ROOM.bottom, ROOM.top, undefined, 24);
-    const point = (/** @type {number} */ value, /** @type {number} */ i) => (Number.isFinite(value) ? [`${time.pixel(trajectory.t[i]).toFixed(1)} ${up.pixel(value).toFixed(1)}`] : []);
-    const lines = solid.map(({ latex, className, dash, values }) => ({ latex, className, dash, path: `M${values.flatMap(point).join("L")}` }));
+    const up = scaleOf(solid.flatMap(({ values }) => values).filter(Number.isFinite), SIZE.height - ROOM.bottom, ROOM.top, { apart: 24, least });
+    const lines = solid.map(({ latex, className, dash, times, at }) => {
+      const { points } = traced((t) => [time.pixel(t), up.pixel(at(t))], times);
+      return { latex, className, dash, path: polyline(points) };
+    });
     return { key, unit, lines, columns: time.ticks, rows: up.ticks };
   });
 }

@@ -1,12 +1,18 @@
 /** What the plots show: rows of curves over one time axis. */
 
-import { largestError } from "./trajectory.js";
+import { traced } from "./curve.js";
+import { smooth, spanAt } from "./interpolation.js";
 import { unitText } from "./numbers.js";
+import { coordinateAt, largestError, leastRange, usual } from "./trajectory.js";
 
 /** @typedef {import("./types.js").Trajectory} Trajectory */
 /** @typedef {import("./types.js").Scene} Scene */
-/** @typedef {{key: string, latex: string, className: string, values: number[], dash: string, band: boolean, beside?: number[]}} Curve  beside: the times of another run */
-/** @typedef {{key: string, unit: string, curves: Curve[]}} Row */
+/**
+ * @typedef {{key: string, latex: string, className: string, values: readonly number[], times: readonly number[], at: (t: number) => number,
+ *   dash: string, band: boolean, beside: boolean}} Curve  values at the samples, and between them; beside: of another run
+ * @typedef {{key: string, unit: string, least: number, curves: Curve[]}} Row  least: a range below which there is nothing to be seen
+ * @typedef {{width: number, height: number, em: number, duration: number}} Frame  pixels of the plots and of the page's type, and seconds
+ */
 /** @typedef {{ink: string, muted: string, grid: string, paper: string, of: (className: string) => string}} Palette */
 
 /** An error estimate above this share of a row's range is shown as a band. */
@@ -26,7 +32,7 @@ export function rowsOf(scene, trajectory, beside = []) {
     ...row,
     curves: [...row.curves, ...others.flatMap((rows, i) => (rows.find(({ key }) => key === row.key)?.curves ?? [])
       .filter(({ dash }) => dash === "solid")
-      .map((curve) => ({ ...curve, dash: DASHES[i % 2], band: false, beside: beside[i].t })))],
+      .map((curve) => ({ ...curve, dash: DASHES[i % 2], band: false, beside: true })))],
   }));
 }
 
@@ -41,26 +47,27 @@ function rowsOfOne(scene, trajectory) {
   scene.coordinates.forEach((coordinate, index) => {
     const values = trajectory.coordinates[coordinate.name];
     if (!values) return;
-    const row = rows.get(coordinate.unit) ?? { key: `q${index}`, unit: unitText(coordinate.unit), curves: [] };
+    const row = rows.get(coordinate.unit) ?? { key: `q${index}`, unit: unitText(coordinate.unit), least: leastRange(trajectory), curves: [] };
     const latex = coordinate.latex || coordinate.name;
-    row.curves.push({ key: coordinate.name, latex, className: `q-${index}`, values, dash: "solid", band: true });
+    const at = (/** @type {number} */ t) => coordinateAt(trajectory, coordinate.name, t);
+    row.curves.push({ key: coordinate.name, latex, className: `q-${index}`, values, times: trajectory.t, at, dash: "solid", band: true, beside: false });
     rows.set(coordinate.unit, row);
   });
   return [...rows.values(), ...energyRow(trajectory)];
 }
 
 /** @param {Trajectory} trajectory @returns {Row[]} */
-function energyRow({ energy }) {
+function energyRow({ t: times, energy }) {
   if (!energy) return [];
   const curve = (/** @type {keyof typeof energy} */ key, /** @type {string} */ latex, /** @type {string} */ className, dash = "solid") => ({
-    key, latex, className, values: energy[key], dash, band: false,
+    key, latex, className, values: energy[key], times, at: smooth(times, energy[key]), dash, band: false, beside: false,
   });
   const curves = [
     curve("kinetic", "E", "energy-kinetic"),
     curve("potential", "V", "energy-potential"),
     curve("balance", "E+V-\\textstyle\\int\\! P\\,dt", "energy-balance", "dot"),
   ];
-  return [{ key: "energy", unit: "J", curves }];
+  return [{ key: "energy", unit: "J", least: 0, curves }];
 }
 
 /** Between two rows there is room for the names of the curves: this many times the page's type size. */
@@ -81,34 +88,55 @@ export function domainsOf(count, height, em) {
 }
 
 /**
- * Plotly traces of all rows.
- * @param {readonly Row[]} rows @param {Trajectory} trajectory @param {Palette} palette
+ * From time and value to pixels, for each row.
+ * @param {readonly Row[]} rows @param {Frame} frame
+ * @returns {((t: number, value: number) => import("./types.js").Pixel)[]}
  */
-export function tracesOf(rows, trajectory, palette) {
+export function scalesOf(rows, { width, height, em, duration }) {
+  const { pixel } = timeScale(width, duration, em);
+  const { t: above, b: below } = marginsOf(em);
+  const inner = height - above - below;
+  return domainsOf(rows.length, height, em).map(([bottom, top], r) => {
+    const [low, high] = rangeOf(rows[r]);
+    return (t, value) => [pixel(t), above + inner * (1 - bottom - ((value - low) / (high - low)) * (top - bottom))];
+  });
+}
+
+/**
+ * Plotly traces of all rows: their corners are chosen for the size in which they are drawn.
+ * @param {readonly Row[]} rows @param {Trajectory} trajectory @param {Palette} palette @param {Frame} frame
+ */
+export function tracesOf(rows, trajectory, palette, frame) {
+  const scales = scalesOf(rows, frame);
   return rows.flatMap((row, r) =>
     row.curves.flatMap((curve) => {
+      const { t: x } = traced((t) => scales[r](t, curve.at(t)), curve.times);
+      const y = x.map(curve.at);
       const axis = { xaxis: "x", yaxis: r === 0 ? "y" : `y${r + 1}` };
       const color = palette.of(curve.className);
       const trace = {
-        type: "scatter", mode: "lines", x: curve.beside ?? trajectory.t, y: curve.values, name: curve.key, className: curve.className, hoverinfo: "skip",
+        type: "scatter", mode: "lines", x, y, name: curve.key, className: curve.className, hoverinfo: "skip",
         line: { color, width: curve.dash === "solid" ? 2 : 1.6, dash: curve.dash, simplify: false }, ...axis,
       };
-      return curve.band ? [...bandOf(curve, trajectory, color, axis), trace] : [trace];
+      return curve.band ? [...bandOf(curve, trajectory, { x, y }, color, axis), trace] : [trace];
     }),
   );
 }
 
 /**
  * The band q ± estimate, if it can be seen.
- * @param {Curve} curve @param {Trajectory} trajectory @param {string} color @param {object} axis
+ * @param {Curve} curve @param {Trajectory} trajectory @param {{x: number[], y: number[]}} drawn @param {string} color @param {object} axis
  */
-function bandOf(curve, trajectory, color, axis) {
+function bandOf(curve, trajectory, drawn, color, axis) {
   const error = trajectory.error?.estimate ?? [];
   // Below one a tolerance is absolute: a coordinate at rest has no range, and a small error there is none to show.
   const range = Math.max(Math.max(...curve.values) - Math.min(...curve.values), LEAST_RANGE);
   if (!((largestError(trajectory) ?? 0) > VISIBLE * range)) return [];
-  const wide = (/** @type {number} */ sign) => curve.values.map((v, i) => v + sign * Math.min(error[i] ?? range, range));
-  const x = [...trajectory.t, ...[...trajectory.t].reverse()];
+  const wide = (/** @type {number} */ sign) => drawn.y.map((v, n) => {
+    const { i, j, s } = spanAt(curve.times, drawn.x[n]);
+    return v + sign * Math.min((1 - s) * (error[i] ?? range) + s * (error[j] ?? range), range);
+  });
+  const x = [...drawn.x, ...[...drawn.x].reverse()];
   const y = [...wide(1), ...wide(-1).reverse()];
   const line = { width: 0 };
   return [{ type: "scatter", mode: "lines", x, y, fill: "toself", fillcolor: color, opacity: 0.18, line, className: curve.className, hoverinfo: "skip", ...axis }];
@@ -127,7 +155,7 @@ export function layoutOf(rows, end, palette, lang, height, em) {
   const line = { gridcolor: palette.grid, zeroline: false, ticks: "", fixedrange: true, exponentformat: "power" };
   const axes = domainsOf(rows.length, height, em).map((domain, r) => [
     r === 0 ? "yaxis" : `yaxis${r + 1}`,
-    { ...line, domain, nticks: 4, zeroline: true, zerolinecolor: palette.grid, zerolinewidth: 1.5, ...rangeOf(rows[r]) },
+    { ...line, domain, nticks: 4, zeroline: true, zerolinecolor: palette.grid, zerolinewidth: 1.5, range: rangeOf(rows[r]) },
   ]);
   return {
     ...Object.fromEntries(axes),
@@ -143,27 +171,17 @@ export function layoutOf(rows, end, palette, lang, height, em) {
   };
 }
 
-/** A runaway curve leaves the frame when its outermost values lie this many times further out than the rest. */
-const RUNAWAY = 4;
-
-/** The range of the values, without the last few of them if they have run away. @param {readonly number[]} sorted */
-function usual(sorted) {
-  const at = (/** @type {number} */ part) => sorted[Math.round((sorted.length - 1) * part)];
-  const span = Math.max(at(0.97) - at(0.03), 1e-9);
-  const held = (/** @type {number} */ extreme, /** @type {number} */ usual) => (Math.abs(extreme - usual) > RUNAWAY * span ? usual : extreme);
-  return [held(at(0), at(0.03)), held(at(1), at(0.97))];
-}
-
 /**
  * A little room on both sides; a constant curve gets a range that shows it as constant.
  * @param {Row} row
  */
 function rangeOf(row) {
   const values = row.curves.flatMap((curve) => curve.values).filter(Number.isFinite);
-  if (!values.length) return {};
+  if (!values.length) return [0, 1];
   const [low, high] = usual(values.sort((a, b) => a - b));
-  const span = Math.max(high - low, 1e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
-  return { range: [low - 0.08 * span, high + 0.08 * span] };
+  const span = Math.max(high - low, row.least, 1e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+  const room = 0.08 * span + (span - (high - low)) / 2;
+  return [low - room, high + room];
 }
 
 /**

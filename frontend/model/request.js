@@ -1,12 +1,14 @@
 /** What is asked of the server about the motion. */
 
 import { OWN } from "./own.js";
+import { samplesFor } from "./sampling.js";
 
-/** Samples per second, the step where one is asked for, and the parts of the answer that are shown. */
+/** Samples per second to begin with, the step where one is asked for, and the parts of the answer that are shown. */
 const RATE = 25;
-const MOST = 2001;
 const STEP = 0.01;
-const PARTS = ["coordinates", "positions", "loads", "energy", "error"];
+/** The server sends no more. */
+const MOST = 20001;
+const PARTS = ["coordinates", "rates", "positions", "loads", "energy", "error"];
 
 /** What requests call the scene: its id, or the whole of it. @param {import("./state.js").State} state */
 export const sceneOf = ({ place, own }) => (place.scene === OWN ? own : place.scene);
@@ -17,10 +19,11 @@ export const sceneOf = ({ place, own }) => (place.scene === OWN ? own : place.sc
 export function requestOf(state, changes, chosen) {
   const { duration, lang, n } = state.place;
   const method = state.methods.find((candidate) => candidate.id === chosen);
+  const fixed = method?.adaptive === false;
   return {
     scene: sceneOf(state), ...changes, parameters: { ...changes.parameters, ...(n ? { n } : {}) }, t_end: duration,
-    samples: Math.min(MOST, duration * RATE + 1), include: PARTS, lang,
+    samples: fixed ? Math.min(MOST, Math.round(duration / STEP) + 1) : samplesFor(duration * RATE + 1), include: PARTS, lang,
     ...(method ? { method: method.id } : {}),
-    ...(method && method.adaptive === false ? { step: STEP } : {}),
+    ...(fixed ? { step: STEP } : {}),
   };
 }

@@ -6,6 +6,7 @@ import { createDerivations } from "./derivations.js";
 import { fragmentOf, OWN } from "./own.js";
 import { requestOf } from "./request.js";
 import { moved } from "./reveal.js";
+import { sampled } from "./sampling.js";
 import { createSimulations } from "./simulations.js";
 import { createSpeech } from "./speech.js";
 import { preferred } from "./state.js";
@@ -98,7 +99,7 @@ export function createSession(store, api, clock) {
       simulations.ask();
     },
     /** A motion beside the present one. @param {import("./types.js").Changes} changes @param {string} method */
-    run: (changes, method) => api.simulate(requestOf(store.get(), changes, method)),
+    run: (changes, method) => sampled(api.simulate)(requestOf(store.get(), changes, method)),
     /** @param {State["runs"]} runs */
     compare: (runs) => store.set({ runs }),
   };

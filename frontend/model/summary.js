@@ -11,14 +11,26 @@ const STILL = 1e-6;
 /** An energy that changes less than this part of its range of parts is kept. */
 const KEPT = 1e-3;
 
-/** @param {readonly number[]} times @param {readonly number[]} values @returns {Course} */
-export function courseOf(times, values) {
-  const [low, high] = [Math.min(...values), Math.max(...values)];
+/** Points of a curve between two samples: extremes and passages lie between them. */
+const FINER = 8;
+
+/**
+ * @param {readonly number[]} samples  times @param {(t: number) => number} at
+ * @returns {Course}
+ */
+export function courseOf(samples, at) {
+  const between = (/** @type {number} */ t, /** @type {number} */ i) => Array.from({ length: FINER }, (_, k) => t + (k / FINER) * (samples[i + 1] - t));
+  const times = samples.flatMap((t, i) => (i + 1 < samples.length ? between(t, i) : [t]));
+  const values = times.map(at);
+  const [low, high] = extremesOf(values);
   if (high - low <= STILL * Math.max(1, Math.abs(high))) return { kind: "rests", from: values[0] };
   const rises = risesThrough(times, values, (low + high) / 2);
   if (rises.length > 1) return { kind: "swings", low, high, period: (rises[rises.length - 1] - rises[0]) / (rises.length - 1) };
   return { kind: "goes", from: values[0], to: values[values.length - 1] };
 }
+
+/** @param {readonly number[]} values @returns {[number, number]} */
+const extremesOf = (values) => values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
 
 /** The times at which the values pass a level upwards. @param {readonly number[]} times @param {readonly number[]} values @param {number} level */
 function risesThrough(times, values, level) {
@@ -32,6 +44,6 @@ function risesThrough(times, values, level) {
 export function keepsEnergy({ energy }) {
   if (!energy?.kinetic.length) return null;
   const sums = energy.kinetic.map((kinetic, i) => kinetic + energy.potential[i]);
-  const spread = (/** @type {readonly number[]} */ values) => Math.max(...values) - Math.min(...values);
+  const spread = (/** @type {readonly number[]} */ values) => extremesOf(values).reduce((low, high) => high - low);
   return spread(sums) <= KEPT * Math.max(spread(energy.kinetic), Number.MIN_VALUE);
 }

@@ -1,58 +1,21 @@
-/** A trajectory between its samples. */
+/** A motion as it was computed: everything at a moment, where it ends, and what of it can be seen. */
+
+import { blendAt, hermiteAt, scalarAt, spanAt, vectorAt } from "./interpolation.js";
 
 /** @typedef {import("./types.js").Trajectory} Trajectory */
-/** @typedef {{index: number[], weight: number[]}} Blend  four neighbouring samples and their weights */
 
-/**
- * Catmull–Rom weights at time t: exact at the samples, smooth between them (error of third order in the spacing).
- * @param {readonly number[]} times increasing @param {number} t
- * @returns {Blend}
- */
-export function blendAt(times, t) {
-  const last = times.length - 1;
-  if (last < 1) return { index: [0, 0, 0, 0], weight: [0, 1, 0, 0] };
-  const i = intervalOf(times, t);
-  const s = Math.max(0, Math.min(1, (t - times[i]) / (times[i + 1] - times[i])));
-  const index = [Math.max(0, i - 1), i, i + 1, Math.min(last, i + 2)];
-  const s2 = s * s;
-  const s3 = s2 * s;
-  const weight = [(-s3 + 2 * s2 - s) / 2, (3 * s3 - 5 * s2 + 2) / 2, (-3 * s3 + 4 * s2 + s) / 2, (s3 - s2) / 2];
-  return { index, weight };
-}
-
-/** The i with times[i] ≤ t < times[i+1], by bisection. @param {readonly number[]} times @param {number} t */
-function intervalOf(times, t) {
-  let low = 0;
-  let high = times.length - 2;
-  while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (times[middle] <= t) low = middle;
-    else high = middle - 1;
-  }
-  return low;
-}
-
-/** Written out, because it is wanted a hundred times in a frame. @param {readonly number[]} values @param {Blend} blend */
-export function scalarAt(values, { index: [a, b, c, d], weight: [u, v, w, x] }) {
-  return u * values[a] + v * values[b] + w * values[c] + x * values[d];
-}
-
-/** @param {readonly number[][]} vectors @param {Blend} blend */
-function vectorAt(vectors, { index, weight }) {
-  const [a, b, c, d] = index.map((i) => vectors[i]);
-  const [u, v, w, x] = weight;
-  return vectors[0].map((_, k) => u * a[k] + v * b[k] + w * c[k] + x * d[k]);
-}
+/** The coordinate of a trajectory at a time. @param {Trajectory} trajectory @param {string} name @param {number} t */
+export const coordinateAt = ({ t: times, coordinates, rates }, name, t) => hermiteAt(coordinates[name], rates[name], spanAt(times, t));
 
 /**
  * @template V, W
- * @param {Record<string, V>} record @param {(value: V) => W} change
+ * @param {Record<string, V>} record @param {(value: V, name: string) => W} change
  * @returns {Record<string, W>}
  */
 function mapped(record, change) {
   /** @type {Record<string, W>} */
   const made = {};
-  for (const name of Object.keys(record)) made[name] = change(record[name]);
+  for (const name of Object.keys(record)) made[name] = change(record[name], name);
   return made;
 }
 
@@ -62,14 +25,14 @@ function mapped(record, change) {
  * @returns {import("./types.js").Snapshot}
  */
 export function snapshotAt(trajectory, t) {
-  const blend = blendAt(trajectory.t, t);
+  const { t: times, energy, rates } = trajectory;
+  const [span, blend] = [spanAt(times, t), blendAt(times, t)];
   const scalar = (/** @type {number[]} */ values) => scalarAt(values, blend);
   const vector = (/** @type {number[][]} */ values) => vectorAt(values, blend);
-  const { energy } = trajectory;
   return {
     t,
-    coordinates: mapped(trajectory.coordinates, scalar),
-    rates: mapped(trajectory.rates ?? {}, scalar),
+    coordinates: mapped(trajectory.coordinates, (values, name) => hermiteAt(values, rates[name], span)),
+    rates: mapped(rates, scalar),
     positions: mapped(trajectory.positions, vector),
     loads: mapped(trajectory.loads ?? {}, vector),
     energy: energy
@@ -78,37 +41,50 @@ export function snapshotAt(trajectory, t) {
   };
 }
 
-/**
- * The path of a place from one time to a later one, oldest first.
- * @param {Trajectory} trajectory @param {string} place @param {number} from @param {number} to @param {number} count of intervals
- */
-export function trailOf(trajectory, place, from, to, count) {
-  const path = trajectory.positions[place];
-  if (!path || to <= from) return [];
-  const times = Array.from({ length: count + 1 }, (_, i) => from + ((to - from) * i) / count);
-  return times.map((time) => vectorAt(path, blendAt(trajectory.t, time)));
-}
-
-/** Samples to a step of the integrator: an adaptive one takes a few steps to a period, a curve wants more points. */
-const SAMPLES_TO_A_STEP = 2;
-const MOST_SAMPLES = 4001;
-
-/**
- * How many samples show every swing of a motion; the number it has, if that is enough.
- * @param {Trajectory} trajectory computed with steps chosen by the method
- */
-export function samplesNeeded({ t, cost }) {
-  const wanted = Math.min(MOST_SAMPLES, SAMPLES_TO_A_STEP * (cost?.steps ?? 0) + 1);
-  return wanted > 1.3 * t.length ? wanted : t.length;
-}
-
 /** The last time with a sample. @param {Trajectory | null} trajectory */
 export function endOf(trajectory) {
   return trajectory?.t.at(-1) ?? 0;
 }
 
+/**
+ * What is to be said of a motion that is not simply right, whatever its status is called: why, what helps, and whether
+ * its samples show it at all.
+ * @param {Trajectory} trajectory @param {import("./catalog.js").Translate} t
+ */
+export function caveatsOf({ status, reason, remedy, coarse, t: times }, t) {
+  const told = status === "ok" ? [] : [reason || t("status.incomplete"), remedy ?? ""];
+  return [...told, coarse ? t("status.coarse", { count: times.length }) : ""].filter(Boolean);
+}
+
+/** Times are rounded to fifteen digits. */
+const ROUNDED = 1e-12;
+
+/** The last time at which what is drawn can be believed. @param {Trajectory} trajectory */
+export function trustedUntil(trajectory) {
+  const [end, trusted] = [endOf(trajectory), trajectory.trusted_until ?? Infinity];
+  return trusted < end * (1 - ROUNDED) ? trusted : end;
+}
+
 /** The largest error estimate, or null if there is none. @param {Trajectory} trajectory */
 export function largestError(trajectory) {
   const known = (trajectory.error?.estimate ?? []).filter((e) => e !== null && Number.isFinite(e));
-  return known.length ? Math.max(.../** @type {number[]} */ (known)) : null;
+  return known.length ? known.reduce((most, e) => Math.max(/** @type {number} */ (most), /** @type {number} */ (e)), 0) : null;
+}
+
+/** So many times its error a coordinate moves before it is seen to move; more than this it does in any case. */
+const DOUBTFUL = 10;
+const SURE = 1e-3;
+
+/** A range below which a curve of coordinates would show nothing but errors and rounding. @param {Trajectory} trajectory */
+export const leastRange = (trajectory) => Math.min(DOUBTFUL * (largestError(trajectory) ?? 0), SURE);
+
+/** A runaway curve leaves the frame when its outermost values lie this many times further out than the rest. */
+const RUNAWAY = 4;
+
+/** The range of the values, without the last few of them if they have run away. @param {readonly number[]} sorted */
+export function usual(sorted) {
+  const at = (/** @type {number} */ part) => sorted[Math.round((sorted.length - 1) * part)];
+  const span = Math.max(at(0.97) - at(0.03), 1e-9);
+  const held = (/** @type {number} */ extreme, /** @type {number} */ usual) => (Math.abs(extreme - usual) > RUNAWAY * span ? usual : extreme);
+  return [held(at(0), at(0.03)), held(at(1), at(0.97))];
 }

@@ -29,11 +29,11 @@
  * @typedef {{id: string, title?: string, adaptive?: boolean, order?: number}} Method
  * @typedef {{kinetic: number[], potential: number[], balance: number[]}} Energy
  * @typedef {{status: string, reason?: string | null, remedy?: string | null, event?: {name: string, t: number} | null, t: number[],
- *   coordinates: Record<string, number[]>, rates?: Record<string, number[]>,
+ *   coordinates: Record<string, number[]>, rates: Record<string, number[]>,
  *   positions: Record<string, number[][]>, loads?: Record<string, number[][]>, energy?: Energy,
  *   error?: {estimate?: (number | null)[] | null, horizon?: number | null},
  *   cost?: {steps?: number, rejected?: number, rhs_evaluations?: number, wall_time?: number},
- *   method: string}} Trajectory
+ *   trusted_until?: number, method: string, coarse?: boolean}} Trajectory  coarse: its samples do not show all of the motion
  * @typedef {{value: number, rate: number}} Initial
  * @typedef {{initial: Record<string, Initial>, parameters: Record<string, number>}} Changes
  * @typedef {{t: number, coordinates: Record<string, number>, rates: Record<string, number>,

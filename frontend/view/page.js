@@ -5,7 +5,7 @@ import { chapters, pager, steps } from "./steps.js";
 import { failure } from "./failure.js";
 import { header } from "./header.js";
 import { player } from "./player.js";
-import { report } from "./report.js";
+import { caveats, report } from "./report.js";
 import { values } from "./values.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
@@ -133,9 +133,18 @@ function drawing(view) {
       <div class="figure-tools">${instruments?.tools(view)}</div>
       <p class="unseen" id="motion" role="status"></p>
       ${waiting ? html`<p class="patience" role="status">${patience(view)}</p>` : nothing}
+      ${doubt(view)}
       ${state.failures.simulation && !state.failures.scene ? failure(state.failures.simulation, t("failure.simulation"), () => session.resimulate({}), t) : nothing}
     </div>
   `;
+}
+
+/** What is to be said of the motion where there is no report below it, or nothing to draw. @param {View} view */
+function doubt(view) {
+  const [first, ...rest] = caveats(view);
+  if (!first) return nothing;
+  if (view.state.trajectory?.t.length) return html`<p class="doubt" role="status">${first}</p>`;
+  return html`<div class="failure" role="alert"><h2>${view.t("failure.simulation")}</h2>${[first, ...rest].map((sentence) => html`<p>${sentence}</p>`)}</div>`;
 }
 
 /** What keeps the motion waiting: the scene, or its computation. @param {View} view */

@@ -1,7 +1,7 @@
 /** The plots: curves drawn once by Plotly, and above them the moment. */
 
 import { domainsOf, layoutOf, marginsOf, rowsOf, timeScale, tracesOf } from "../model/plots.js";
-import { endOf } from "../model/trajectory.js";
+import { trustedUntil } from "../model/trajectory.js";
 import { script } from "./bring.js";
 import { whenIdle } from "./frames.js";
 import { createMoment } from "./moment.js";
@@ -49,14 +49,15 @@ function createCurves(root) {
       const palette = coloured(root);
       const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
       const rows = rowsOf(scene, trajectory, runs.map((run) => run.trajectory));
-      const layout = { ...layoutOf(rows, duration, palette, lang, root.clientHeight, em), width: root.clientWidth, height: root.clientHeight };
-      const traces = tracesOf(rows, trajectory, palette);
+      const frame = { width: root.clientWidth, height: root.clientHeight, em, duration };
+      const layout = { ...layoutOf(rows, duration, palette, lang, root.clientHeight, em), width: frame.width, height: frame.height };
+      const traces = tracesOf(rows, trajectory, palette, frame);
       await globalThis.Plotly.react(canvas, traces, layout, { staticPlot: true, displayModeBar: false });
       label(rows, em);
       // Curves carry the class of their quantity, so that pointing at it lights them up.
       canvas.querySelectorAll(".scatterlayer .trace").forEach((curve, i) => curve.classList.add(traces[i]?.className));
       const scale = timeScale(root.clientWidth, duration, em);
-      const end = endOf(trajectory);
+      const end = trustedUntil(trajectory);
       beyond.style.insetInlineStart = `${scale.pixel(end)}px`;
       beyond.hidden = end >= duration * 0.999;
       return scale;

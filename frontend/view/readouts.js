@@ -3,7 +3,7 @@
 import { fixed, unitText } from "../model/numbers.js";
 import { atMost, digitsIn } from "./digits.js";
 import { typeset } from "./typesetting.js";
-import { blendAt, scalarAt } from "../model/trajectory.js";
+import { coordinateAt } from "../model/trajectory.js";
 
 /** @typedef {import("../model/types.js").Scene} Scene */
 /** @typedef {import("../model/types.js").Trajectory} Trajectory */
@@ -53,9 +53,8 @@ function fieldsIn(root, scene, trajectory, lang) {
     line.append(symbol, value);
     root.append(line);
     const digits = digitsIn(value);
-    const values = trajectory.coordinates[coordinate.name];
     const write = (/** @type {number} */ t) =>
-      (digits.data = `${fixed(scalarAt(values, blendAt(trajectory.t, t)), 3, lang)} ${unitText(coordinate.unit)}`);
+      (digits.data = `${fixed(coordinateAt(trajectory, coordinate.name, t), 3, lang)} ${unitText(coordinate.unit)}`);
     write(0);
     return { name: coordinate.name, write };
   });

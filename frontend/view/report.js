@@ -4,7 +4,7 @@ import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { icon } from "./icons.js";
 import { duration, fixed, significant } from "../model/numbers.js";
-import { largestError } from "../model/trajectory.js";
+import { caveatsOf, largestError } from "../model/trajectory.js";
 
 /** @typedef {import("./page.js").View} View */
 
@@ -41,7 +41,7 @@ function status(view) {
   const { trajectory } = state;
   if (!trajectory) return html`<p class="status">${state.simulating ? t("status.running") : nothing}</p>`;
   return html`
-    ${trajectory.status === "ok" ? nothing : warning(trajectory, view)}
+    ${warning(view)}
     <p class="status ${state.simulating ? "busy" : ""}">${facts(trajectory, view).map((fact) => html`<span title=${fact.help ?? nothing}>${fact.text}</span>`)}</p>
   `;
 }
@@ -64,8 +64,14 @@ function facts(trajectory, { state, t, methodTitle }) {
   ];
 }
 
-/** Why a motion is incomplete and what helps. @param {import("../model/types.js").Trajectory} trajectory @param {View} view */
-function warning(trajectory, { t }) {
-  return html`<p class="warning" role="alert"><strong>${trajectory.reason || t("status.incomplete")}</strong>
-    ${trajectory.remedy ?? ""}</p>`;
+/** What is to be said of the motion, unless a better answer is on its way. @param {View} view */
+export function caveats({ state, t }) {
+  const { trajectory, simulating } = state;
+  return trajectory ? caveatsOf(simulating ? { ...trajectory, coarse: false } : trajectory, t) : [];
+}
+
+/** Why a motion is incomplete and what helps. @param {View} view */
+function warning(view) {
+  const [first, ...rest] = caveats(view);
+  return first ? html`<p class="warning" role="alert"><strong>${first}</strong> ${rest.join(" ")}</p>` : nothing;
 }

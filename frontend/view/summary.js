@@ -2,7 +2,7 @@
 
 import { fixed, unitText } from "../model/numbers.js";
 import { courseOf, keepsEnergy } from "../model/summary.js";
-import { endOf } from "../model/trajectory.js";
+import { coordinateAt, endOf } from "../model/trajectory.js";
 
 /**
  * @param {import("../model/types.js").Scene} scene @param {import("../model/types.js").Trajectory} trajectory
@@ -11,7 +11,7 @@ import { endOf } from "../model/trajectory.js";
 export function summary(scene, trajectory, t, lang) {
   const number = (/** @type {number} */ value) => fixed(value, 2, lang);
   const told = scene.coordinates.filter(({ name }) => trajectory.coordinates[name]).map(({ name, unit }) => {
-    const course = courseOf(trajectory.t, trajectory.coordinates[name]);
+    const course = courseOf(trajectory.t, (t) => coordinateAt(trajectory, name, t));
     const numbers = Object.entries(course).filter(([key]) => key !== "kind").map(([key, value]) => [key, number(Number(value))]);
     return t(`motion.${course.kind}`, { name, unit: unitText(unit), ...Object.fromEntries(numbers) });
   });

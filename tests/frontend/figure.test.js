@@ -35,16 +35,16 @@ test("a run is named by what sets it apart", () => {
 });
 
 test("the curves of another run are dashed, in the row of the same quantity, over its own times", () => {
-  const other = { ...trajectory, t: [0, 2], coordinates: { y: [0, 1], phi: [1, 0] }, energy: undefined };
+  const other = { ...trajectory, t: [0, 2], coordinates: { y: [0, 1], phi: [1, 0] }, rates: { y: [0.5, 0.5], phi: [-0.5, -0.5] }, energy: undefined };
   const rows = rowsOf(scene, trajectory, [other]);
   assert.deepEqual(rows.map((row) => row.curves.filter(({ beside }) => beside).map(({ key, dash }) => `${key} ${dash}`)), [["y dash"], ["phi dash"], []]);
-  const traces = tracesOf(rows, trajectory, { ink: "", muted: "", grid: "", paper: "", of: () => "red" });
+  const traces = tracesOf(rows, trajectory, { ink: "", muted: "", grid: "", paper: "", of: () => "red" }, { width: 500, height: 300, em: 16, duration: 4 });
   assert.deepEqual(traces.filter(({ line }) => "dash" in line && line.dash === "dash").map(({ x }) => x), [[0, 2], [0, 2]]);
 });
 
 test("a phase portrait of a harmonic motion is an ellipse, and knows the moment of each place", () => {
   const t = Array.from({ length: 201 }, (_, i) => i / 20);
-  const swing = { ...trajectory, t, coordinates: { phi: t.map((s) => Math.cos(s)) }, rates: undefined };
+  const swing = { ...trajectory, t, coordinates: { phi: t.map((s) => Math.cos(s)) }, rates: { phi: t.map((s) => -Math.sin(s)) } };
   const [portrait, ...rest] = portraitsOf(scene, [swing], { width: 400, height: 300 }, 10);
   assert.equal(rest.length, 0);
   const [start, quarter, half] = [0, Math.PI / 2, Math.PI].map(portrait.where);
@@ -54,6 +54,18 @@ test("a phase portrait of a harmonic motion is an ellipse, and knows the moment 
   assert.ok(Math.abs(moment.t - 2.013) < 0.03 && moment.far < 3);
   assert.ok(portrait.columns.length >= 2 && portrait.rows.length >= 2);
   assert.doesNotMatch(portrait.paths[0], /NaN/);
+});
+
+test("what is not trusted is apart from the rest of a portrait", () => {
+  const t = [0, 1, 2, 3, 4];
+  const line = { ...trajectory, t, coordinates: { phi: t }, rates: { phi: [1, 1, 1, 1, 1] } };
+  const corners = (/** @type {string} */ d) => d.slice(1).split("L").map((pair) => Number(pair.split(" ")[0]));
+  const [{ paths, doubted }] = portraitsOf(scene, [{ ...line, trusted_until: 2 }], { width: 400, height: 300 }, 10);
+  const [{ paths: whole, doubted: none }] = portraitsOf(scene, [{ ...line, trusted_until: 4 * (1 - 1e-15) }], { width: 400, height: 300 }, 10);
+  const ends = corners(whole[0]);
+  assert.ok(Math.abs(corners(paths[0])[2] - (ends[0] + ends[4]) / 2) < 0.02 && corners(paths[0]).length === 3);
+  assert.equal(corners(doubted).at(-1), ends[4]);
+  assert.equal(none.split("L").length, 1);
 });
 
 for (const lang of ["de", "en"]) {

@@ -2,7 +2,6 @@ import { strict as assert } from "node:assert";
 import { test } from "node:test";
 import { evaluator } from "../../frontend/model/kinematics/expression.js";
 import { configured, kinematicsOf } from "../../frontend/model/kinematics/kinematics.js";
-import { ratesAt } from "../../frontend/model/kinematics/rates.js";
 import { reached } from "../../frontend/model/kinematics/reach.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
 import { readChoice, writeChoice } from "../../frontend/model/virtual/choice.js";
@@ -83,11 +82,6 @@ test("a place is brought where the hand is, or as near as it can come", () => {
   assert.ok(near(configured(free, now, there).positions.bob, [0.6, 1.1]));
   const nearest = reached(kinematics, "bob", { y: 0, phi: 0.2 }, 0, [300, 0], project);
   assert.ok(Math.abs(nearest.phi - Math.PI / 2) < 1e-2 && nearest.y === 0);
-});
-
-test("rates from the samples, where none were sent", () => {
-  assert.ok(Math.abs(ratesAt({ ...trajectory, rates: undefined }, 2).phi - 0.25) < 1e-9);
-  assert.equal(ratesAt(trajectory, 2).phi, 0.25);
 });
 
 test("what is varied has an address; at first something is", () => {

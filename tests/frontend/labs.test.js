@@ -120,13 +120,13 @@ test("what is watched keeps the question's values unless it has its own", () => 
 test("what is pointed at last is played, however late what was pointed at before comes", async () => {
   /** @type {((answer: any) => void)[]} */
   const answers = [];
-  const watching = createWatch({ simulate: () => new Promise((done) => answers.push(done)) });
+  const watching = createWatch({ simulate: () => new Promise((done) => answers.push((/** @type {string} */ method) => done({ t: [0], method }))) });
   /** @type {any[]} */
   const played = [];
-  const asked = [1, 2, 3].map(() => watching.ask({}, (found) => played.push(found), () => played.push("failed")));
+  const asked = [1, 2, 3].map(() => watching.ask({ t_end: 1, samples: 1 }, ({ method }) => played.push(method), () => played.push("failed")));
   for (const which of [1, 2, 0]) answers[which](which);
   await Promise.all(asked);
-  const forgotten = watching.ask({}, (found) => played.push(found), () => played.push("failed"));
+  const forgotten = watching.ask({ t_end: 1, samples: 1 }, ({ method }) => played.push(method), () => played.push("failed"));
   watching.forget();
   answers[3](3);
   await forgotten;

@@ -4,6 +4,7 @@ import { domainsOf, layoutOf, marginsOf, rowsOf, timeScale, tracesOf } from "../
 import { scene, trajectory } from "./fixtures.js";
 
 const palette = { ink: "black", muted: "gray", grid: "silver", paper: "white", of: (/** @type {string} */ name) => `colour of ${name}` };
+const FRAME = { width: 500, height: 300, em: 16, duration: 4 };
 
 test("a row for each unit, and one for the energies", () => {
   assert.deepEqual(rowsOf(scene, trajectory).map((row) => [row.unit, row.curves.map((curve) => curve.key)]), [
@@ -24,16 +25,16 @@ test("rows fill the height from the top, without overlap", () => {
 });
 
 test("traces carry the colours of their quantities", () => {
-  const traces = tracesOf(rowsOf(scene, trajectory), trajectory, palette);
+  const traces = tracesOf(rowsOf(scene, trajectory), trajectory, palette, FRAME);
   assert.deepEqual(traces.map((trace) => trace.line.color), ["q-0", "q-1", "energy-kinetic", "energy-potential", "energy-balance"].map(palette.of));
 });
 
 test("an error that can be seen is a band around the curve; a small one is none", () => {
-  const bands = (/** @type {number} */ e) => tracesOf(rowsOf(scene, trajectory), { ...trajectory, error: { estimate: trajectory.t.map(() => e) } }, palette);
+  const bands = (/** @type {number} */ e) => tracesOf(rowsOf(scene, trajectory), { ...trajectory, error: { estimate: trajectory.t.map(() => e) } }, palette, FRAME);
   const uncertain = { ...trajectory, error: { estimate: trajectory.t.map(() => 0.1) } };
-  const traces = tracesOf(rowsOf(scene, uncertain), uncertain, palette);
+  const traces = tracesOf(rowsOf(scene, uncertain), uncertain, palette, FRAME);
   const band = traces.find((trace) => "fill" in trace && trace.yaxis === "y2");
-  assert.deepEqual(band?.y.slice(0, 2).map((/** @type {number} */ y) => Math.round(y * 1000) / 1000), [0.1, 0.35]);
+  assert.deepEqual([0, 1, 2].map((t) => Math.round(1000 * band?.y[band?.x.indexOf(t)]) / 1000), [0.1, 0.35, 0.6]);
   assert.equal(bands(1e-6).filter((trace) => "fill" in trace).length, 0);
 });
 

@@ -2,7 +2,8 @@
 
 import { add, circle, coil, lengthOf, line, normal, polygon, polyline, scaled, subtract, unit } from "./geometry.js";
 import { placeOf, unlessMoved } from "./stage.js";
-import { trailOf } from "../trajectory.js";
+import { knotsBetween, traced } from "../curve.js";
+import { smoothPath } from "../interpolation.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
@@ -132,13 +133,20 @@ export function cart(element, stage, now, key) {
   return { shapes, labels: [] };
 }
 
-/** A trail is made of this many pieces of so many seconds, each with this many points and fainter with age. */
+/** A trail is made of this many pieces of so many seconds, each fainter with age. */
 const PIECES = 10;
 const PIECE = 0.16;
-const POINTS = 6;
 const STRONGEST = 0.55;
 /** Opacity changes by whole steps of this, so that few pieces are touched in one frame. */
 const SHADE = 0.05;
+
+/** The path of a place from one time to a later one. @param {Stage} stage @param {string} place @param {number} from @param {number} to */
+export function trailOf({ trajectory, project, once }, place, from, to) {
+  const { t: times, positions } = trajectory;
+  if (!positions[place] || to <= from) return "";
+  const path = once(`path ${place}`, () => smoothPath(times, positions[place]));
+  return polyline(traced((t) => project(path(t)), knotsBetween(times, from, to)).points);
+}
 
 /**
  * Pieces are cut at fixed times: all but the newest stay as they are while they fade.
@@ -147,8 +155,7 @@ const SHADE = 0.05;
  */
 export function trail(element, stage, now, key) {
   const newest = Math.floor(now.t / PIECE);
-  const path = (/** @type {number} */ n, /** @type {number} */ end) =>
-    n < 0 ? "" : polyline(trailOf(stage.trajectory, element.at ?? "", n * PIECE, end, POINTS).map(stage.project));
+  const path = (/** @type {number} */ n, /** @type {number} */ end) => (n < 0 ? "" : trailOf(stage, element.at ?? "", n * PIECE, end));
   const shapes = Array.from({ length: PIECES }, (_, i) => {
     const n = newest - ((newest - i) % PIECES + PIECES) % PIECES;
     const fresh = Math.max(0, 1 - (now.t - n * PIECE) / (PIECES * PIECE));

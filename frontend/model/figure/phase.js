@@ -1,9 +1,10 @@
 /** Phase portraits: the rate of a coordinate over its value, one picture for each coordinate. */
 
-import { ratesAt } from "../kinematics/rates.js";
-import { blendAt, scalarAt } from "../trajectory.js";
+import { nearestOn, traced } from "../curve.js";
+import { smooth } from "../interpolation.js";
+import { coordinateAt, leastRange, trustedUntil } from "../trajectory.js";
 import { dotted } from "../values.js";
-import { at } from "../drawing/geometry.js";
+import { polyline } from "../drawing/geometry.js";
 import { niceFloor, perSecond, unitText } from "../numbers.js";
 
 /** @typedef {import("../types.js").Pixel} Pixel */
@@ -15,7 +16,8 @@ import { niceFloor, perSecond, unitText } from "../numbers.js";
  * @property {[string, string]} units
  * @property {number} left @property {number} width  in pixels
  * @property {Tick[]} columns @property {Tick[]} rows
- * @property {string[]} paths  of the motion, then of the runs beside it
+ * @property {string[]} paths  of the motion, then of the runs beside it, as far as they are trusted
+ * @property {string} doubted  the rest of the motion
  * @property {(t: number) => Pixel} where  the present state
  * @property {(pixel: Pixel) => {t: number, far: number}} nearest  the moment whose state is nearest to a place
  */
@@ -24,18 +26,11 @@ import { niceFloor, perSecond, unitText } from "../numbers.js";
 export const ROOM = { left: 3.2, right: 0.8, top: 2, bottom: 2 };
 const MOST = 3;
 
-/** A closed curve bends more than one over time: so many points to an interval between two samples. */
-const FINER = 4;
-const FEWEST = 1200;
-
-/** The times at which a curve is drawn. @param {Trajectory} trajectory */
-function timesOf({ t }) {
-  const finer = t.length < FEWEST ? FINER : 1;
-  return t.flatMap((from, i) => (i + 1 < t.length ? Array.from({ length: finer }, (_, k) => from + ((t[i + 1] - from) * k) / finer) : [from]));
+/** Value and rate of a coordinate over time. @param {Trajectory} trajectory @param {string} name @returns {(t: number) => Pixel} */
+function stateOf(trajectory, name) {
+  const rate = smooth(trajectory.t, trajectory.rates[name]);
+  return (t) => [coordinateAt(trajectory, name, t), rate(t)];
 }
-
-/** Value and rate at a moment. @param {Trajectory} trajectory @param {string} name @param {number} t @returns {Pixel} */
-const stateAt = (trajectory, name, t) => [scalarAt(trajectory.coordinates[name], blendAt(trajectory.t, t)), ratesAt(trajectory, t)[name]];
 
 /**
  * @param {import("../types.js").Scene} scene @param {readonly Trajectory[]} trajectories the present one first
@@ -55,27 +50,26 @@ export function portraitsOf(scene, trajectories, size, em) {
  */
 function portrait({ name, latex, unit }, className, trajectories, { left, width, height }, em) {
   const [trajectory] = trajectories;
-  const times = timesOf(trajectory);
-  const curves = trajectories.map((each) => timesOf(each).map((t) => stateAt(each, name, t)));
-  const points = curves.flat().filter((point) => point.every(Number.isFinite));
-  const x = scaleOf(points.map((point) => point[0]), left + ROOM.left * em, left + width - ROOM.right * em);
-  const y = scaleOf(points.map((point) => point[1]), height - ROOM.bottom * em, ROOM.top * em);
+  const least = leastRange(trajectory);
+  const x = scaleOf(trajectories.flatMap((each) => each.coordinates[name] ?? []), left + ROOM.left * em, left + width - ROOM.right * em, { least });
+  const y = scaleOf(trajectories.flatMap((each) => each.rates[name] ?? []), height - ROOM.bottom * em, ROOM.top * em, { least });
   const place = (/** @type {Pixel} */ [q, v]) => /** @type {Pixel} */ ([x.pixel(q), y.pixel(v)]);
+  const states = trajectories.map((each) => stateOf(each, name));
+  const curves = trajectories.map((each, i) => traced((t) => place(states[i](t)), each.t));
   return {
     name, className, left, width, columns: x.ticks, rows: y.ticks,
     across: latex || name, up: dotted(latex || name), units: [unitText(unit), unitText(perSecond(unit))],
-    paths: curves.map((curve) => `M${curve.filter((point) => point.every(Number.isFinite)).map((point) => at(place(point))).join("L")}`),
-    where: (t) => place(stateAt(trajectory, name, t)),
-    nearest([px, py]) {
-      const far = curves[0].map((point) => Math.hypot(place(point)[0] - px, place(point)[1] - py));
-      const i = far.indexOf(Math.min(...far));
-      return { t: times[i], far: far[i] };
-    },
+    paths: curves.map(({ t, points }, i) => polyline(points.filter((_, n) => t[n] <= trustedUntil(trajectories[i])))),
+    doubted: polyline(curves[0].points.filter((_, n) => curves[0].t[n] >= trustedUntil(trajectory))),
+    where: (t) => place(states[0](t)),
+    nearest: (pixel) => nearestOn(curves[0], pixel),
   };
 }
 
 /** Pixels from one number on an axis to the next, at least. */
 const APART = 48;
+/** What changes by less than this part of its size rests: its numbers could not be told apart. */
+const STILL = 1e-4;
 
 /** The smallest of 1, 2, 5 times a power of ten that is not below x. @param {number} x */
 function niceCeil(x) {
@@ -84,12 +78,14 @@ function niceCeil(x) {
 }
 
 /**
- * @param {number[]} values @param {number} from @param {number} to in pixels
- * @param {number} [share] of the range that is left free at both ends @param {number} [apart] pixels from one number to the next
+ * @param {readonly number[]} values @param {number} from @param {number} to in pixels
+ * @param {{share?: number, apart?: number, least?: number}} [wishes]
+ *   share of the range that is left free at both ends, pixels from one number to the next, and the least range that shows anything
  */
-export function scaleOf(values, from, to, share = 0.08, apart = APART) {
-  const [low, high] = [Math.min(...values), Math.max(...values)];
-  const room = share * Math.max(high - low, 1e-6 * Math.abs(high), 1e-9);
+export function scaleOf(values, from, to, { share = 0.08, apart = APART, least = 0 } = {}) {
+  const [low, high] = values.reduce(([least, most], value) => [Math.min(least, value), Math.max(most, value)], [Infinity, -Infinity]);
+  const span = Math.max(high - low, least, STILL * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+  const room = share * span + (span - (high - low)) / 2;
   const [a, b] = [low - room, high + room];
   const pixel = (/** @type {number} */ value) => from + ((value - a) / (b - a)) * (to - from);
   const step = niceCeil(((b - a) * apart) / Math.abs(to - from));

@@ -1,6 +1,7 @@
 /** Two motions of one scene on one stage: the student's and the right one. */
 
 import { viewOf } from "../drawing/stage.js";
+import { coordinateAt, endOf } from "../trajectory.js";
 
 /** @typedef {import("../types.js").Scene} Scene */
 /** @typedef {import("../types.js").Trajectory} Trajectory */
@@ -18,10 +19,8 @@ export function framed(scene, motions) {
 /** When two motions have visibly parted; null if they never do. @param {Trajectory} one @param {Trajectory} other @param {number} [least] */
 export function parting(one, other, least = 0.02) {
   const names = Object.keys(one.coordinates);
-  const count = Math.min(one.t.length, other.t.length);
-  const reach = Math.max(1e-9, ...names.flatMap((name) => one.coordinates[name].map(Math.abs)));
-  for (let i = 0; i < count; i += 1) {
-    if (names.some((name) => Math.abs(one.coordinates[name][i] - other.coordinates[name][i]) > least * reach)) return one.t[i];
-  }
-  return null;
+  const end = Math.min(endOf(one), endOf(other));
+  const reach = names.flatMap((name) => one.coordinates[name]).reduce((most, value) => Math.max(most, Math.abs(value)), 1e-9);
+  const apart = (/** @type {number} */ t) => names.some((name) => Math.abs(coordinateAt(one, name, t) - coordinateAt(other, name, t)) > least * reach);
+  return one.t.find((t) => t <= end && apart(t)) ?? null;
 }

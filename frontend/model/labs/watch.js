@@ -1,19 +1,20 @@
 /** What a chart points at, as a motion to be simulated: a point of a map, or a method at the step where it fails. */
 
 import { newest } from "../latest.js";
+import { sampled, samplesFor } from "../sampling.js";
 
 /** @typedef {import("./question.js").Question} Question */
 /** @typedef {Partial<Pick<Question, "parameters" | "initial">> & {method?: string, step?: number, t_end?: number}} Wish */
 
 const SECONDS = 20;
 const RATE = 60;
-const PARTS = ["coordinates", "positions", "loads", "energy"];
+const PARTS = ["coordinates", "rates", "positions", "loads", "energy"];
 
 /** @param {Question} question @param {Wish} wish @param {string | object} scene @param {string} lang */
 export function motionOf({ parameters, initial }, wish, scene, lang) {
   const { method, step, t_end = SECONDS } = wish;
   const stepped = method ? { method, step } : {};
-  return { scene, parameters, initial, ...only(wish), t_end, samples: RATE * SECONDS + 1, include: PARTS, lang, ...stepped };
+  return { scene, parameters, initial, ...only(wish), t_end, samples: samplesFor(RATE * SECONDS), include: PARTS, lang, ...stepped };
 }
 
 /** @param {Wish} wish */
@@ -31,14 +32,15 @@ export function written({ parameters = {}, initial = {} }) {
  */
 export function createWatch({ simulate }) {
   const renew = newest();
+  const whole = sampled(simulate);
   return {
     /** What was pointed at is no longer wanted. */
     forget: () => void renew(),
-    /** @param {object} body @param {(trajectory: import("../types.js").Trajectory) => void} play @param {(error: unknown) => void} fail */
+    /** @param {ReturnType<typeof motionOf>} body @param {(trajectory: import("../types.js").Trajectory) => void} play @param {(error: unknown) => void} fail */
     async ask(body, play, fail) {
       const signal = renew();
       try {
-        const trajectory = await simulate(body, signal);
+        const trajectory = await whole(body, signal);
         if (!signal.aborted) play(trajectory);
       } catch (error) {
         if (!signal.aborted) fail(error);

@@ -1,5 +1,7 @@
 /** Short motions of the built-in scenes, for the drawings of the start page; a few are asked for at a time. */
 
+import { sampled, samplesFor } from "../sampling.js";
+
 const SECONDS = 6;
 const RATE = 30;
 const AT_ONCE = 3;
@@ -27,9 +29,9 @@ export function createSamples(api, lang) {
 
   /** @param {string} id @returns {Promise<Sample | null>} null where it cannot be had: the card then goes without */
   async function sample(id) {
-    const request = { scene: id, t_end: SECONDS, samples: SECONDS * RATE + 1, include: ["coordinates", "positions", "loads"], lang: lang() };
-    const [scene, trajectory] = await Promise.all([api.scene(id, lang()), api.simulate(request)]);
-    return trajectory.t.length ? { scene, trajectory } : null;
+    const request = { scene: id, t_end: SECONDS, samples: samplesFor(SECONDS * RATE), include: ["coordinates", "rates", "positions", "loads"], lang: lang() };
+    const [scene, trajectory] = await Promise.all([api.scene(id, lang()), sampled(api.simulate)(request)]);
+    return trajectory.t.length && !trajectory.coarse ? { scene, trajectory } : null;
   }
 
   return {

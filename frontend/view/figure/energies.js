@@ -19,7 +19,7 @@ export function createEnergies({ frame, state, now }) {
   return {
     show() {
       const { trajectory, place } = state();
-      if (!place.with.includes("bars") || !trajectory?.energy) return box.remove();
+      if (!place.with.includes("bars") || !trajectory?.energy || !trajectory.t.length) return box.remove();
       if (!box.isConnected) frame.append(box);
       if (shownFor === trajectory) return;
       shownFor = trajectory;

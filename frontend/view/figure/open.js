@@ -2,7 +2,6 @@
 
 import { html } from "lit-html";
 import { kinematicsOf } from "../../model/kinematics/kinematics.js";
-import { ratesAt } from "../../model/kinematics/rates.js";
 import { snapshotAt } from "../../model/trajectory.js";
 import { createEnergies } from "./energies.js";
 import { createHand } from "./hand.js";
@@ -50,7 +49,7 @@ export function open(around) {
   const { state, clock, session } = around;
   const now = () => {
     const { trajectory } = state();
-    return trajectory?.t.length ? { ...snapshotAt(trajectory, clock.time), rates: ratesAt(trajectory, clock.time) } : null;
+    return trajectory?.t.length ? snapshotAt(trajectory, clock.time) : null;
   };
   const bench = { ...around, kinematics: keeper(state), now };
   const virtual = createVirtual(bench);

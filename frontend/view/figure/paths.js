@@ -1,9 +1,7 @@
 /** The whole path of every body, as a line that stays. */
 
-import { polyline } from "../../model/drawing/geometry.js";
-
-/** Points of a path: more are not seen. */
-const POINTS = 1500;
+import { trailOf } from "../../model/drawing/members.js";
+import { endOf } from "../../model/trajectory.js";
 
 /** @param {import("./open.js").Bench} bench @param {ReturnType<typeof import("./layer.js").layerIn>} layer */
 export function createPaths({ parts: { drawing }, state }, { draw }) {
@@ -19,8 +17,7 @@ export function createPaths({ parts: { drawing }, state }, { draw }) {
       if (given.every((part, i) => part === drawnFor[i])) return;
       drawnFor = given;
       if (!on) return draw({ shapes: [], labels: [] });
-      const stride = Math.ceil(trajectory.t.length / POINTS);
-      const path = (/** @type {string} */ name) => polyline((trajectory.positions[name] ?? []).filter((_, i) => i % stride === 0).map(stage.project));
+      const path = (/** @type {string} */ name) => trailOf(stage, name, trajectory.t[0] ?? 0, endOf(trajectory));
       draw({ shapes: scene.bodies.map(({ name }) => ({ key: name, d: path(name), className: `path body-${name}` })), labels: [] }, stage.size);
     },
   };

@@ -3,7 +3,7 @@
 import { html, render, svg } from "lit-html";
 import { inline } from "../formula.js";
 import { portraitsOf, ROOM } from "../../model/figure/phase.js";
-import { fixed } from "../../model/numbers.js";
+import { decimalsOf, fixed } from "../../model/numbers.js";
 import { DASHES } from "../../model/figure/runs.js";
 
 /** Pixels within which a click belongs to the curve. */
@@ -30,7 +30,7 @@ export function createPhase({ root, state, clock }, seek) {
 
   function show() {
     const { scene, trajectory, runs, place } = state();
-    const on = place.with.includes("phase") && scene && trajectory;
+    const on = place.with.includes("phase") && scene && trajectory?.t.length;
     if (!on) return layer.remove();
     if (!layer.isConnected) plots.append(layer);
     const { clientWidth: width, clientHeight: height } = plots;
@@ -38,7 +38,7 @@ export function createPhase({ root, state, clock }, seek) {
     if (!width || given.every((part, i) => part === drawnFor[i])) return;
     drawnFor = given;
     const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
-    portraits = portraitsOf(scene, [trajectory, ...runs.map((run) => run.trajectory)], { width, height }, em);
+    portraits = portraitsOf(scene, [trajectory, ...runs.map((run) => run.trajectory).filter(({ t }) => t.length)], { width, height }, em);
     render(picture(portraits, { width, height }, em, place.lang), layer);
     move();
   }
@@ -66,11 +66,11 @@ function picture(portraits, { width, height }, em, lang) {
 }
 
 /** @param {import("../../model/figure/phase.js").Portrait} portrait @param {number} height @param {number} em @param {string} lang */
-function curves({ className, left, width, columns, rows, paths }, height, em, lang) {
+function curves({ className, left, width, columns, rows, paths, doubted }, height, em, lang) {
   const [x0, x1, y0, y1] = [left + ROOM.left * em, left + width - ROOM.right * em, ROOM.top * em, height - ROOM.bottom * em];
-  const number = (/** @type {number} */ value) => fixed(value, Math.max(0, Math.min(3, 2 - Math.floor(Math.log10(Math.abs(value) || 1)))), lang).replace(/([.,]\d*?)0+$/, "$1").replace(/[.,]$/, "");
+  const number = (/** @type {number} */ value, /** @type {import("../../model/figure/phase.js").Tick[]} */ [one, other = one]) => fixed(value, decimalsOf(Math.abs(other.value - one.value) || 1), lang).replace(/([.,]\d*?)0+$/, "$1").replace(/[.,]$/, "");
   return svg`
-    ${columns.map(({ position, value }) => svg`<path class="grid" d=${`M${position} ${y0}V${y1}`} /><text x=${position} y=${y1 + 1.1 * em} text-anchor="middle">${number(value)}</text>`)}
-    ${rows.map(({ position, value }) => svg`<path class="grid" d=${`M${x0} ${position}H${x1}`} /><text x=${x0 - 0.4 * em} y=${position + 0.3 * em} text-anchor="end">${number(value)}</text>`)}
-    ${paths.map((d, i) => svg`<path class=${`curve ${className} ${i ? DASHES[i - 1] : ""}`} d=${d} />`)}`;
+    ${columns.map(({ position, value }) => svg`<path class="grid" d=${`M${position} ${y0}V${y1}`} /><text x=${position} y=${y1 + 1.1 * em} text-anchor="middle">${number(value, columns)}</text>`)}
+    ${rows.map(({ position, value }) => svg`<path class="grid" d=${`M${x0} ${position}H${x1}`} /><text x=${x0 - 0.4 * em} y=${position + 0.3 * em} text-anchor="end">${number(value, rows)}</text>`)}
+    <path class=${`doubted ${className}`} d=${doubted} />${paths.map((d, i) => svg`<path class=${`curve ${className} ${i ? DASHES[i - 1] : ""}`} d=${d} />`)}`;
 }

@@ -3,12 +3,22 @@
 import { html } from "lit-html";
 import { inline } from "../formula.js";
 import { icon } from "../icons.js";
+import { fixed } from "../../model/numbers.js";
 import { DASHES, differences, keyOf, readRuns, withoutRun, withRun } from "../../model/figure/runs.js";
-import { snapshotAt } from "../../model/trajectory.js";
+import { caveatsOf, endOf, snapshotAt, trustedUntil } from "../../model/trajectory.js";
 import { outline } from "../../model/virtual/figure.js";
 import { keeper } from "../../model/drawing/stage.js";
 
 /** @typedef {import("../../model/figure/runs.js").Run} Run */
+
+/**
+ * What is to be said of a motion beside the present one, in short; in full to who points at it.
+ * @param {import("../../model/types.js").Trajectory} trajectory @param {import("../../model/types.js").Place} place @param {import("../page.js").View["t"]} t
+ */
+function doubt(trajectory, { lang }, t) {
+  const caveats = caveatsOf(trajectory, t);
+  return caveats.length ? html` <span title=${caveats.join(" ")}>(${t("status.until", { time: fixed(trajectory.coarse ? 0 : trustedUntil(trajectory), 1, lang) })})</span>` : "";
+}
 
 /** @param {import("./open.js").Bench} bench @param {ReturnType<typeof import("./layer.js").layerIn>} layer */
 export function createRuns({ parts: { drawing }, state, session, clock }, { draw }) {
@@ -51,7 +61,8 @@ export function createRuns({ parts: { drawing }, state, session, clock }, { draw
       const { runs } = state();
       if (!stage || (!runs.length && !drawn)) return;
       drawn = runs.length > 0;
-      draw({ shapes: runs.flatMap((run, i) => outline(stageOf(run, stage), snapshotAt(run.trajectory, clock.time), `run-${i}`)), labels: [] }, stage.size);
+      const going = runs.flatMap((run, i) => (clock.time <= endOf(run.trajectory) ? [{ run, i }] : []));
+      draw({ shapes: going.flatMap(({ run, i }) => outline(stageOf(run, stage), snapshotAt(run.trajectory, clock.time), `run-${i}`)), labels: [] }, stage.size);
     },
     /** @param {import("../page.js").View} view */
     legend({ state, session, t, methodTitle }) {
@@ -64,7 +75,7 @@ export function createRuns({ parts: { drawing }, state, session, clock }, { draw
       return html`
         <ul class="runs" aria-label=${t("runs")}>
           <li><span class="swatch"></span>${t("runs.now")} ${name(runs.length)}</li>
-          ${runs.map((run, i) => html`<li><span class="swatch ${DASHES[i]}"></span>${name(i)}
+          ${runs.map((run, i) => html`<li><span class="swatch ${DASHES[i]}"></span>${name(i)}${doubt(run.trajectory, place, t)}
             <button class="quiet small" aria-label=${t("runs.drop")} title=${t("runs.drop")} @click=${() => session.move({ runs: withoutRun(place.runs, run.key) })}>${icon("close")}</button></li>`)}
         </ul>`;
     },

@@ -10,6 +10,7 @@ import { SECONDS } from "../../model/handout.js";
 import { inLanguage } from "../../model/catalog.js";
 import { partsOf } from "../../model/lecture/stops.js";
 import { perSecond, unitText } from "../../model/numbers.js";
+import { caveatsOf } from "../../model/trajectory.js";
 import { dotted, readChanges } from "../../model/values.js";
 
 /** @typedef {import("../../model/types.js").Step} Step */
@@ -61,6 +62,7 @@ function opening(view) {
       <div class="drawing"><svg role="img" aria-label=${t("drawing.still", { title })}></svg><div class="labels" aria-hidden="true"></div></div>
       ${values(view)}
     </div>
+    ${trajectory ? caveatsOf(trajectory, t).map((sentence) => html`<p class="caveat">${sentence}</p>`) : nothing}
     ${trajectory?.t.length ? history({ scene, trajectory, lang, title: t("handout.motion", { seconds: SECONDS }), label: t("handout.curves") }) : nothing}`;
 }
 

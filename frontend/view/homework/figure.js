@@ -3,6 +3,7 @@
 import { html, nothing } from "lit-html";
 import { inLanguage } from "../../model/catalog.js";
 import { parting } from "../../model/homework/motions.js";
+import { caveatsOf } from "../../model/trajectory.js";
 import { fixed, significant, unitText } from "../../model/numbers.js";
 import { inline } from "../formula.js";
 import { player } from "../player.js";
@@ -34,10 +35,10 @@ function legend({ state, t, exercise }) {
   if (!answered || !right) return nothing;
   const apart = parting(answered, right);
   const { lang } = asked.place;
-  const ended = answered.status !== "ok" && answered.t.length < right.t.length;
+  const [caveat] = [...caveatsOf(answered, t), ...caveatsOf(right, t)];
   return html`<div class="motions" role="status">
     <span class="key yours"><i></i>${t("homework.motion-yours")}</span><span class="key right"><i></i>${t("homework.motion-right")}</span>
-    <span class="apart">${ended ? answered.reason : apart === null ? t("homework.motion-same") : t("homework.motion-apart", { time: fixed(apart, 2, lang) })}</span>
+    <span class="apart">${caveat ?? (apart === null ? t("homework.motion-same") : t("homework.motion-apart", { time: fixed(apart, 2, lang) }))}</span>
     <button type="button" class="quiet framed small" @click=${() => exercise.part()}>${t("homework.motion-close")}</button></div>`;
 }
 

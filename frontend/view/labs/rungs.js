@@ -19,11 +19,17 @@ export function rungs(view) {
     </table>`;
 }
 
+/** How a run ended, also in a way that there are no words for yet. @param {string} status @param {import("./page.js").View["t"]} t */
+function outcome(status, t) {
+  const words = t(`labs.status.${status}`);
+  return words === `labs.status.${status}` ? t("status.incomplete") : words;
+}
+
 /** @param {import("./page.js").View} view @param {any} rung */
 function line({ bench, t, state, open }, rung) {
   const { lang } = state.place;
   const one = bench.result?.measured.find((/** @type {any} */ each) => each.rung === rung.id) ?? {};
-  const failed = rung.refused.length ? t("labs.fidelity.refused") : one.status && one.status !== "ok" ? t(`labs.status.${one.status}`) : "";
+  const failed = rung.refused.length ? t("labs.fidelity.refused") : one.status && one.status !== "ok" ? outcome(one.status, t) : "";
   return html`<tr class=${rung.id === bench.result?.least ? "least" : ""}>
     <th scope="row">${titleOf(rung, t, bench.result?.names, lang)}</th><td>${rung.degrees}</td><td>${one.operations?.total ?? ""}</td>
     <td>${one.time ? `${significant(1e3 * one.time[0], 3, lang)} ms` : ""}</td>
