@@ -1,0 +1,149 @@
+/**
+ * What the page draws of scenes, held against their motion asked for with many more samples; in pixels.
+ *
+ * Reads a line {scene, changes, method} for each case and answers it with {worst: {curve: pixels}, samples, coarse}. In
+ * between it asks for what the page asks for, {ask: request}, and reads the answer.
+ */
+
+import { createInterface } from "node:readline";
+import { figureOf, withDrawing } from "../../frontend/model/drawing/figure.js";
+import { trailOf } from "../../frontend/model/drawing/members.js";
+import { stageOf } from "../../frontend/model/drawing/stage.js";
+import { portraitsOf } from "../../frontend/model/figure/phase.js";
+import { picturesOf } from "../../frontend/model/history.js";
+import { layoutOf, rowsOf, scalesOf, tracesOf } from "../../frontend/model/plots.js";
+import { requestOf } from "../../frontend/model/request.js";
+import { sampled } from "../../frontend/model/sampling.js";
+import { START } from "../../frontend/model/state.js";
+import { endOf, snapshotAt } from "../../frontend/model/trajectory.js";
+
+/** The plots of a lecture on a projector. */
+const FRAME = { width: 1280, height: 700, em: 16, duration: 10 };
+const PALETTE = { ink: "", muted: "", grid: "", paper: "", of: () => "" };
+/** Dense samples to an interval: none of them in its middle, where a polynomial is best. */
+const FINER = 3;
+
+const lines = createInterface({ input: process.stdin })[Symbol.asyncIterator]();
+const read = async () => JSON.parse((await lines.next()).value ?? "null");
+const tell = (/** @type {object} */ said) => process.stdout.write(`${JSON.stringify(said)}\n`);
+
+/** @param {object} request */
+async function simulate(request) {
+  tell({ ask: request });
+  return read();
+}
+
+/** How far a point is from a chord. */
+function beside([x, y], [ax, ay], [bx, by]) {
+  const [dx, dy] = [bx - ax, by - ay];
+  const s = Math.max(0, Math.min(1, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
+  return Math.hypot(x - ax - s * dx, y - ay - s * dy);
+}
+
+/** Corners of a polyline ahead of the last one met, among which the next may be; and pixels beyond which nothing is followed. */
+const AHEAD = 12;
+const LOST = 2;
+
+/**
+ * The largest distance of points, in the order of time, from a polyline that is followed along with them (Fréchet's):
+ * a line that is gone over again and again is met in its order, too.
+ */
+function departure(points, corners) {
+  const last = Math.max(0, corners.length - 2);
+  /** Largest distance on the best way to each chord from number `first` on. */
+  let [first, here] = [0, [0]];
+  for (const point of points) {
+    const found = [];
+    for (let n = first; n <= Math.min(last, first + here.length - 1 + AHEAD); n += 1) {
+      let best = LOST;
+      for (let from = Math.max(0, n - AHEAD - first); from <= n - first && from < here.length; from += 1) best = Math.min(best, here[from]);
+      found.push(best < LOST ? Math.min(LOST, Math.max(best, beside(point, corners[n], corners[n + 1] ?? corners[n]))) : LOST);
+    }
+    const begin = found.findIndex((far) => far < LOST);
+    if (begin < 0) return LOST;
+    [first, here] = [first + begin, found.slice(begin, found.findLastIndex((far) => far < LOST) + 1)];
+  }
+  return Math.min(...here);
+}
+
+/** Corners of a path "M1 2L3 4". */
+const cornersOf = (d) => d.slice(1).split("L").map((pair) => pair.split(" ").map(Number));
+
+/** Curves over time, as they are handed to Plotly. */
+function ofPlots(scene, drawn, dense) {
+  const rows = rowsOf(scene, drawn);
+  const scales = scalesOf(rows, FRAME);
+  const layout = layoutOf(rows, FRAME.duration, PALETTE, "en", FRAME.height, FRAME.em);
+  const traces = tracesOf(rows, drawn, PALETTE, FRAME).filter((trace) => !("fill" in trace));
+  const values = { ...dense.coordinates, ...dense.energy };
+  return traces.map(({ name, x, y, yaxis }) => {
+    const r = Number(yaxis.slice(1) || 1) - 1;
+    const [low, high] = layout[r ? `yaxis${r + 1}` : "yaxis"].range;
+    const shown = dense.t.map((t, i) => [t, values[name][i]]).filter(([, value]) => value >= low && value <= high);
+    return [`plot ${name}`, departure(shown.map(([t, v]) => scales[r](t, v)), x.map((t, i) => scales[r](t, y[i])))];
+  });
+}
+
+/** From values to pixels, by the first and the last number on an axis. @param {{value: number, position: number}[]} ticks */
+function axisOf(ticks) {
+  const [a, b] = [ticks[0], ticks[ticks.length - 1]];
+  return (/** @type {number} */ value) => a.position + ((value - a.value) / (b.value - a.value)) * (b.position - a.position);
+}
+
+/** Phase portraits, from the path in the page's SVG; its axes are read off two of their numbers. */
+function ofPhase(scene, drawn, dense) {
+  return portraitsOf(scene, [drawn], FRAME, FRAME.em).flatMap((portrait) => {
+    const { name, columns, rows, paths, where } = portrait;
+    if (columns.length < 2 || rows.length < 2) return [];
+    const [x, y] = [axisOf(columns), axisOf(rows)];
+    const points = dense.t.map((_, i) => [x(dense.coordinates[name][i]), y(dense.rates[name][i])]);
+    const state = Math.max(...dense.t.map((t, i) => Math.hypot(where(t)[0] - points[i][0], where(t)[1] - points[i][1])));
+    return [[`phase ${name}`, departure(points, cornersOf(paths[0]))], [`state ${name}`, state]];
+  });
+}
+
+/** The rates with which the portraits end, as they are read off the paper. */
+function endsOf(scene, drawn) {
+  const read = portraitsOf(scene, [drawn], FRAME, FRAME.em).filter(({ rows }) => rows.length > 1).map(({ name, rows, paths }) => {
+    const [a, b] = [rows[0], rows[rows.length - 1]];
+    return [name, a.value + ((cornersOf(paths[0]).at(-1)[1] - a.position) / (b.position - a.position)) * (b.value - a.value)];
+  });
+  return Object.fromEntries(read);
+}
+
+/** Places in the drawing: at each moment, and the paths they leave. */
+function ofDrawing(scene, drawn, dense) {
+  const stage = stageOf(withDrawing(scene, drawn), drawn, FRAME);
+  figureOf(stage, snapshotAt(drawn, endOf(drawn) / 3));
+  const now = dense.t.map((t) => snapshotAt(drawn, t).positions);
+  return Object.entries(dense.positions).flatMap(([name, path]) => {
+    const points = path.map(stage.project);
+    const moving = Math.max(...points.map((point, i) => Math.hypot(...stage.project(now[i][name]).map((x, c) => x - point[c]))));
+    const trail = trailOf(stage, name, 0, endOf(drawn));
+    return [[`place ${name}`, moving], [`path ${name}`, departure(points, cornersOf(trail))]];
+  });
+}
+
+/** The pictures of a handout. */
+function ofHandout(scene, drawn, dense) {
+  const values = { ...dense.coordinates, E: dense.energy.kinetic, V: dense.energy.potential };
+  const named = Object.fromEntries(scene.coordinates.map(({ name, latex }) => [latex || name, name]));
+  return picturesOf(scene, drawn).filter(({ rows }) => rows.length > 1).flatMap(({ lines, columns, rows }) => lines.map(({ latex, path }) => {
+    const [x, y] = [axisOf(columns), axisOf(rows)];
+    return [`handout ${latex}`, departure(dense.t.map((t, i) => [x(t), y(values[named[latex] ?? latex][i])]), cornersOf(path))];
+  }));
+}
+
+/** @param {{scene: any, changes?: object, method?: string, duration?: number}} asked */
+async function measure({ scene, changes = {}, method = "" }) {
+  const methods = [{ id: "rk4", adaptive: false }, { id: "dop853", adaptive: true }, { id: "bogacki-shampine-32", adaptive: true }];
+  const place = { ...START.place, scene: scene.id, duration: FRAME.duration, lang: "en" };
+  const request = requestOf({ ...START, place, methods }, { initial: {}, parameters: {}, ...changes }, method);
+  const drawn = await sampled(simulate)(request);
+  const intervals = Math.round(request.t_end / (drawn.t[1] - drawn.t[0]));
+  const dense = await simulate({ ...request, samples: Math.min(FINER * intervals, 20000) + 1 });
+  const found = [ofPlots, ofPhase, ofDrawing, ofHandout].flatMap((of) => of(scene, drawn, dense));
+  tell({ worst: Object.fromEntries(found), samples: drawn.t.length, coarse: drawn.coarse, end: endsOf(scene, drawn) });
+}
+
+for (let asked = await read(); asked; asked = await read()) await measure(asked);
