@@ -104,4 +104,5 @@ def export_charts(document: Document) -> Document:
 def warm_laboratory(document: Document) -> Document:
     """Bring the kernels that only experiments need to disk."""
     import_module("deltaq.lab.monodromy").warm()
+    import_module("deltaq.lab.divergence").warm()
     return document

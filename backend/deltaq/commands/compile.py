@@ -17,7 +17,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def run(_options: argparse.Namespace) -> None:
     """Each family of methods, then what only the lab needs."""
     from ..api.workers.kernels import are_compiled, mark_as_compiled
-    from ..lab import monodromy
+    from ..lab import divergence, monodromy
     from ..simulation.library import families
     from ..simulation.service import warm
 
@@ -30,5 +30,8 @@ def run(_options: argparse.Namespace) -> None:
         print(f"{family:22} {perf_counter() - start:5.1f} s", flush=True)
     start = perf_counter()
     monodromy.warm()
+    print(f"{'stability maps':22} {perf_counter() - start:5.1f} s", flush=True)
+    start = perf_counter()
+    divergence.warm()
     mark_as_compiled()
-    print(f"{'stability maps':22} {perf_counter() - start:5.1f} s")
+    print(f"{'chaos':22} {perf_counter() - start:5.1f} s")

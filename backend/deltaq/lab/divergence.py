@@ -1,42 +1,84 @@
-"""How fast neighbouring motions part: twin runs, and the largest Lyapunov exponent.
+"""How fast neighbouring motions part: twin runs, and a small deviation followed for thousands of periods.
 
-A small deviation of a chaotic motion grows like e^(λt). The exponent is the mean of ln(growth) over many short
-stretches, after each of which the deviation is made small again.
+A deviation of a chaotic motion grows like e^(λt), one of a regular motion like a power of the time. It is followed by
+the tangent dynamics (see `simulation.kernels.tangent`) over equal stretches, quarters of a typical period.
 Source: Benettin, Galgani, Strelcyn, Phys. Rev. A 14 (1976) 2338; Sprott, Chaos and Time-Series Analysis, ch. 5.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..simulation.kernels.motion import FINE
+from ..mechanics.library import load_scene
+from ..simulation.integration import explicit_weights, motion_of
+from ..simulation.kernels.motion import FINE, STEP_LIMIT
+from ..simulation.kernels.step import make_room
+from ..simulation.kernels.step_control import Control
+from ..simulation.kernels.tangent import Pace, Pair, Trace, accompany, begin_pair
 from ..simulation.library import get_method
+from ..simulation.method import Tableau
+from ..simulation.outcome import outcome_of
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Run, Steps, run
+from ..simulation.service import problem_of
+from ..simulation.slopes import accelerations, slopes
+from ..simulation.stability import real_stability
+from ..simulation.stiffness import drive, spectrum
 
 METHOD, TOLERANCE = "dop853", 1e-12
-APART = 1e-8
-STRETCHES, PACE = 1000, 40
+LOCAL_TOLERANCE, FINEST = 1e-11, 1e-4  # of the motion that is followed, down to that part of it for small motions
+IN_PERIOD, PERIODS = 4, 12_000
+PART = 800  # stretches that are followed at a time
+STEP_BUDGET = 600_000  # steps of a motion with two degrees of freedom: some two seconds
+PILOT_PERIODS, PILOT_SAMPLES = 40, 1601
+PER_DRIVE = 6  # steps in a period of what drives the scene
+SHOWS = 1e-9  # of the largest; what moves less is at rest
 
 
 @dataclass(frozen=True)
-class Exponent:
-    """λ(t), the mean growth rate up to each of the times, in 1/s; `spread` is what the last half still wanders by."""
+class Rhythm:
+    """What is typical of a motion: its angular frequency, and how far each component of the state goes."""
 
-    times: Floats
-    values: Floats
-
-    @property
-    def last(self) -> float:
-        return float(self.values[-1]) if self.values.size else 0.0
+    frequency: float
+    scales: Floats  # shape (2n,)
 
     @property
-    def spread(self) -> float:
-        late = self.values[self.values.size // 2 :]
-        return float(np.ptp(late)) if late.size else 0.0
+    def stretch(self) -> float:
+        return math.tau / self.frequency / IN_PERIOD
+
+
+@dataclass(frozen=True)
+class Followed:
+    """A motion over equal stretches: at the end of each the state and the ln of a deviation's growth in it.
+
+    `status` is "ok", or how the motion ended before its time; `is_whole` is whether it will not be followed further.
+    """
+
+    rhythm: Rhythm
+    states: Floats  # shape (stretches, 2n)
+    growths: Floats
+    status: str
+    is_whole: bool
+
+    @property
+    def span(self) -> float:
+        """Seconds that were followed."""
+        return len(self.growths) * self.rhythm.stretch
+
+    @property
+    def progress(self) -> float:
+        """From 0 to 1."""
+        return len(self.growths) / (IN_PERIOD * PERIODS)
+
+    @property
+    def rates(self) -> Floats:
+        """q̇ in units of the scales."""
+        n = self.states.shape[1] // 2
+        return np.asarray(self.states[:, n:] / self.rhythm.scales[n:])
 
 
 def moved(problem: Problem, state: Floats) -> Problem:
@@ -60,25 +102,59 @@ def twins(problem: Problem, apart: float, samples: int) -> tuple[Floats, Floats]
     return times[:count], np.linalg.norm(first.states[:count, :n] - second.states[:count, :n], axis=1)
 
 
-def exponents(problem: Problem, stretch: float) -> Iterator[Exponent]:
-    """λ(t) while it is measured, over 1000 stretches of so many seconds; ends early where the motion does.
+def rhythm_of(problem: Problem) -> Rhythm:
+    """The rhythm of the first forty periods; where nothing moves, that of the linearized scene."""
+    n, linear = problem.degrees, max(spectrum(problem, 0.0, problem.state).size, drive(problem, problem.state))
+    guess = linear or math.tau / problem.t_end
+    span = PILOT_PERIODS * math.tau / guess
+    found = solved(replace(problem, t_end=span), np.linspace(0.0, span, PILOT_SAMPLES), 1e-8)
+    rates = found.states[:, n : 2 * n]
+    fast, swing = np.std(accelerations(problem, found.times, found.states), axis=0), np.std(rates, axis=0)
+    moves = (swing > SHOWS * max(1e-300, float(np.abs(rates).max(initial=0.0)))) & (fast > 0.0)
+    frequency = float(np.exp(np.log(fast[moves] / swing[moves]).mean())) if moves.any() else guess
+    return Rhythm(frequency, _scales(found.states[:, :n], rates, frequency))
 
-    Each stretch begins at t = 0 of the scene, so a driven scene needs whole periods.
-    """
-    short, width = replace(problem, t_end=stretch), 2 * problem.degrees
-    state, apart = problem.state[:width], APART * _direction(width)
-    grown: list[float] = []
-    for _ in range(STRETCHES):
-        first, second = _end(moved(short, state)), _end(moved(short, state + apart))
-        if first is None or second is None:
-            break
-        size = max(float(np.linalg.norm(second - first)), 1e-300)
-        grown.append(float(np.log(size / APART)))
-        state, apart = first, (second - first) * (APART / size)
-        if len(grown) % PACE == 0:
-            yield _exponent(grown, stretch)
-    if len(grown) % PACE:
-        yield _exponent(grown, stretch)
+
+def _scales(values: Floats, rates: Floats, frequency: float) -> Floats:
+    """How far each goes; an angle that winds around, within a period. What is at rest is measured like the others."""
+    speeds = np.abs(rates).max(axis=0, initial=0.0)
+    ways = np.minimum(np.ptp(values, axis=0), math.tau * speeds / frequency)
+    largest = float(ways.max(initial=0.0)) or 1.0
+    ways = np.where(ways > SHOWS * largest, ways, largest)
+    fastest = float(speeds.max(initial=0.0)) or largest * frequency
+    return np.concatenate([ways, np.where(speeds > SHOWS * fastest, speeds, fastest)])
+
+
+def followed(problem: Problem, rhythm: Rhythm, periods: int = PERIODS) -> Iterator[Followed]:
+    """The motion while it is followed, over so many periods; ends early where the motion does or costs too much."""
+    count, n, stretch = IN_PERIOD * periods, problem.degrees, rhythm.stretch
+    trace, pair = Trace(np.zeros((count, 2 * n)), np.zeros(count)), _pair(problem, rhythm)
+    pace, turning = Pace(np.zeros(2), np.zeros(1)), np.zeros(n, dtype=bool)
+    outcome, done = begin_pair(pair, pace, _direction(2 * n)), 0
+    while outcome == FINE and done < count:
+        trace.growths[done : done + PART] = np.nan
+        outcome = accompany(pair, pace, 0.0, stretch, done, min(PART, count - done), trace)
+        begun, done = done, done + int(np.isfinite(trace.growths[done : done + PART]).sum())
+        turning |= _turning(problem, trace.states[begun:done])
+        _unwind(pair, turning)
+        if done < count and outcome == FINE:
+            yield Followed(rhythm, trace.states[:done], trace.growths[:done], "ok", is_whole=False)
+    status = outcome_of(outcome, {}).status if outcome not in (FINE, STEP_LIMIT) else "ok"
+    yield Followed(rhythm, trace.states[:done], trace.growths[:done], status, is_whole=True)
+
+
+def _pair(problem: Problem, rhythm: Rhythm) -> Pair:
+    scheme, state = get_method(METHOD).tableau, problem.state
+    if not isinstance(scheme, Tableau):
+        raise TypeError("the tangent dynamics steps by an explicit Runge–Kutta method")
+    driven = drive(problem, state)
+    largest = min(rhythm.stretch, math.tau / driven / PER_DRIVE) if driven else rhythm.stretch
+    tolerance = LOCAL_TOLERANCE * float(np.clip(rhythm.scales.max(), FINEST, 1.0))
+    limit = max(STEP_BUDGET * 2 // max(problem.degrees, 2), PART)
+    control = Control(tolerance, largest, largest, 8.0, 0.0, limit, scheme.stages, real_stability(scheme))
+    weights = explicit_weights(scheme)
+    rooms = make_room(state.copy(), weights), make_room(state.copy(), weights)
+    return Pair(motion_of(problem), weights, control, *rooms, rhythm.scales)
 
 
 def _direction(width: int) -> Floats:
@@ -86,12 +162,28 @@ def _direction(width: int) -> Floats:
     return np.asarray(random / np.linalg.norm(random))
 
 
-def _end(problem: Problem) -> Floats | None:
-    found = solved(problem, np.array([0.0, problem.t_end]))
-    return found.states[1, : 2 * problem.degrees] if found.result.outcome == FINE and len(found.states) == 2 else None
+def _turning(problem: Problem, states: Floats) -> np.ndarray:
+    """Which coordinates wind around far, though the equations are the same a turn further."""
+    n = problem.degrees
+    far = np.abs(states[-1, :n]) > 4.0 * math.tau if len(states) else np.zeros(n, dtype=bool)
+    for place in np.flatnonzero(far):
+        some = states[:: max(1, len(states) // 8)].copy()
+        here = slopes(problem, np.zeros(len(some)), some)
+        some[:, place] -= math.tau
+        there = slopes(problem, np.zeros(len(some)), some)
+        far[place] = np.allclose(here, there, rtol=1e-8, atol=1e-8 * float(np.abs(here).max(initial=0.0)))
+    return np.asarray(far)
 
 
-def _exponent(grown: list[float], stretch: float) -> Exponent:
-    count = np.arange(1, len(grown) + 1)
-    times = np.asarray(stretch * count, dtype=np.float64)
-    return Exponent(times, np.cumsum(grown) / times)
+def _unwind(pair: Pair, turning: np.ndarray) -> None:
+    """Takes whole turns off both motions, so that no digits are lost to a large angle."""
+    for place in np.flatnonzero(turning):
+        turns = math.tau * np.round(pair.room.old[place] / math.tau)
+        pair.room.old[place] -= turns
+        pair.other.old[place] -= turns
+
+
+def warm() -> None:
+    """Compiles the kernel of the tangent dynamics, or loads it from the cache on disk."""
+    problem = problem_of(load_scene("pendulum"), 1.0)
+    next(followed(problem, rhythm_of(problem)))

@@ -1,7 +1,7 @@
-"""Chaos: twin runs that part, the Lyapunov exponent, what an extra digit buys, and a map of when angles turn over.
+"""Chaos: twin runs that part, the Lyapunov exponent with a verdict, what an extra digit buys, and a map of flips.
 
-Each further digit of accuracy lengthens the time that can be predicted by the same ln(10)/λ.
-Source: see `lab.divergence` and `lab.flips`.
+Each further digit of accuracy lengthens the time that a chaotic motion can be predicted by the same ln(10)/λ.
+Source: see `lab.divergence`, `lab.lyapunov` and `lab.flips`.
 """
 
 from __future__ import annotations
@@ -12,25 +12,25 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...errors import SceneError
-from ...mechanics.requests import inside
 from ...simulation.problem import Floats, Problem
 from ...simulation.reference import Reference, reference
 from ..bounds import APART as APART_BOUNDS
 from ..bounds import CHAOS_LONGEST, CHAOS_SPAN, FLIP_POINTS, USUAL_FLIPS
 from ..charts.chaos import charts
-from ..divergence import APART, Exponent, exponents, solved, twins
+from ..divergence import Followed, followed, rhythm_of, solved, twins
 from ..experiment import Experiment
 from ..flips import Plane
-from ..period import period
+from ..lyapunov import CONFIDENCE, Exponent, Judgement, exponent_of, is_enough, judge
 from ..report import Document, Report, rounded, significant
 from ..subject import Subject, subject_of
 
 SAMPLES = 801
+APART = 1e-8  # of the twins, if nobody says
 DIGITS = range(2, 13)
 WRONG = 0.1  # an error this large ends a prediction
 MAP_SPAN = 15.0  # seconds; at most that of the motion
-STRETCH = 0.4  # seconds, of scenes that nothing drives
+SHOWN = 200  # points of a curve of the exponent
+FIRST, LAST = 2, 39  # reports that the exponent is done at
 
 
 def run(document: Mapping[str, object]) -> Iterator[Report]:
@@ -43,10 +43,9 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     problem, total = subject.problem, 40 + 10 * with_map
     result = subject.described | {"apart": apart, "twins": _twins(problem, apart)}
     yield Report(1, total, result)
-    done = 1
-    for done, found in enumerate(exponents(problem, stretch_of(subject)), start=2):
-        result = result | {"exponent": _exponent(found)}
-        yield Report(min(done, 27), total, result)
+    for part, done in _measured(problem):
+        result = result | {"exponent": part}
+        yield Report(done, total, result)
     result = result | {"horizon": horizon(problem)}
     yield Report(40, total, result)
     if with_map:
@@ -60,25 +59,41 @@ def _twins(problem: Problem, apart: float) -> Document:
     return {"t": rounded(times), "distance": rounded(distances, 4)}
 
 
-def stretch_of(subject: Subject) -> float:
-    """Seconds between two renewals of the deviation: whole periods where something drives the scene."""
-    try:
-        with inside("/scene"):
-            own = period(subject.scene)
-    except SceneError as error:
-        if error.problems[0].code == "no-period":
-            return STRETCH
-        raise
-    return own * max(1, round(STRETCH / own))
+def _measured(problem: Problem) -> Iterator[tuple[Document, int]]:
+    """The exponent while it is measured, and how many reports are done; the last one has the verdict."""
+    for motion in followed(problem, rhythm_of(problem)):
+        exponent = exponent_of(motion)
+        if motion.is_whole or is_enough(motion, exponent):
+            yield _exponent(motion, exponent) | _judged(judge(motion, exponent)), LAST
+            return
+        if exponent is not None:
+            yield _exponent(motion, exponent), FIRST + int((LAST - FIRST) * motion.progress)
 
 
-def _exponent(found: Exponent) -> Document:
-    return {
-        "t": rounded(found.times[::4], 5),
-        "values": rounded(found.values[::4], 4),
+def _exponent(motion: Followed, found: Exponent | None) -> Document:
+    head: Document = {"status": motion.status, "span": significant(motion.span), "confidence": CONFIDENCE}
+    if found is None:
+        return head | {"t": [], "values": [], "last": None, "spread": None, "interval": None, "transient": None}
+    few = slice(None, None, max(1, len(found.times) // SHOWN))
+    return head | {
+        "t": rounded(found.times[few], 5),
+        "values": rounded(found.values[few], 4),
         "last": significant(found.last, 4),
         "spread": significant(found.spread, 2),
+        "interval": [significant(found.lower), significant(found.upper)],
+        "transient": significant(found.transient),
+        "growth": {
+            "exponential": {"rate": significant(found.last), "misfit": significant(found.misfits[0], 3)},
+            "power": {"power": significant(found.power, 3), "misfit": significant(found.misfits[1], 3)},
+        },
     }
+
+
+def _judged(judgement: Judgement) -> Document:
+    k = judgement.irregularity
+    told = None if math.isnan(k) else significant(k, 3)
+    second: Document = {"name": "0-1 test", "value": told}
+    return {"verdict": judgement.verdict.value, "reason": judgement.reason.value, "second_indicator": second}
 
 
 def horizon(problem: Problem) -> Document:
