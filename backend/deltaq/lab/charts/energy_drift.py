@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from ..drift import LOST
 from .chart import Chart, Result, Trace, axis, chart, curve, name_of
 from .words import Say
-
-LOST = 0.3  # a departure this large leaves nothing of the energy's balance
 
 
 def charts(result: Result, say: Say) -> list[Chart]:
     """One chart; the legend tells how the departure grows."""
-    told = {"step": result["step"], "steps": result["steps"], "tolerance": result["tolerance"]}
+    told = {"step": result["step"], "steps": result["steps"], "tolerance": result["tolerance"], "lost": LOST}
     caption = say("labs.energy-drift.caption", t_end=result["t_end"], **told)
     x_axis = axis(say("labs.axis.t"), log=True)
     y_axis = axis(say("labs.energy-drift.axis"), log=True, dtick=2)
@@ -30,17 +29,8 @@ def _traces(result: Result, say: Say) -> Iterator[Trace]:
 
 
 def _verdict(line: dict[str, Any], say: Say) -> str:
+    """What is said of one method: how its error grows, and how large it is."""
     if line["status"] != "ok":
         return say(f"labs.status.{line['status']}")
-    if max(line["error"], default=0.0) > LOST:
-        return say("labs.energy-drift.lost")
-    growth = line["growth"]
-    if growth is None:
-        return say("labs.energy-drift.rounding")
-    return say(f"labs.energy-drift.{_kind(growth)}", power=growth)
-
-
-def _kind(growth: float) -> str:
-    if growth < 0.2:
-        return "bounded"
-    return "linear" if 0.8 <= growth <= 1.25 else "grows"
+    told = {"power": line["growth"], "largest": line["largest"], "t": line["lost_at"]}
+    return say(f"labs.energy-drift.{line['verdict']}", **told)

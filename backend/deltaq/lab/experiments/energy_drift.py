@@ -1,7 +1,8 @@
 """Energy drift: how far E + V − ∫P dt departs from its start over very many steps.
 
 Symplectic methods keep it within a band whose width does not grow for very long times; others lose or win energy,
-usually in proportion to the time. With step control the band is narrower, and drifts.
+usually in proportion to the time. With step control the band is narrower, and drifts. Growth is told together with the
+size: a method that has lost the energy does not count as one whose error grows little.
 Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, IX.8; Benettin, Giorgilli (1994).
 """
 
@@ -74,11 +75,16 @@ def _line(problem: Problem, method: Method, steps: Steps, scale: float) -> Docum
     times = sample_times(problem.t_end, steps.size if not steps.tolerance else 0.0)
     found = run_once(problem, method, times, np.zeros(1, dtype=np.int64), steps)
     off = departure(problem, found, scale)
+    growth = off.growth
     return head | {
         "status": outcome_of(int(found.result.outcome), {}).status,
         "t": rounded(off.times),
         "error": rounded(off.errors, 3),
-        "growth": off.growth,
+        "verdict": off.kind.value,
+        "largest": significant(off.largest, 3) if math.isfinite(off.largest) else None,
+        "lost_at": None if off.lost_at is None else significant(off.lost_at),
+        "growth": None if growth is None else significant(growth.power, 2),
+        "growth_interval": None if growth is None else rounded((growth.lower, growth.upper), 2),
         "steps": int(found.result.steps),
         "evaluations": int(found.result.evaluations),
         "time": significant(found.wall_time),
