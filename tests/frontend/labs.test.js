@@ -244,6 +244,16 @@ test("a map begins with the parameters that drive its scene", () => {
   assert.deepEqual(answered(ASKED, /** @type {any} */ (driven)), ASKED);
 });
 
+test("a lab opens on its own example as long as nobody has chosen a scene: chaos on a chaotic motion", () => {
+  const opened = { ...NOTHING, ...exampleOf("work-precision") };
+  const chaos = inLab(opened, "chaos");
+  assert.deepEqual([chaos.scene, chaos.initial], ["double-pendulum", { phi1: { value: 2 }, phi2: { value: 2.5 } }]);
+  const back = inLab(chaos, "work-precision");
+  assert.deepEqual([back.scene, back.initial], [opened.scene, {}]);
+  const chosen = { ...opened, initial: { phi1: { value: 0.1 } } };
+  assert.deepEqual(inLab(chosen, "chaos").initial, chosen.initial);
+});
+
 test("another lab keeps the scene, but for the map, which needs a driven one", async () => {
   const bench = createBench(/** @type {any} */ ({ run: async () => {}, scene: async () => SCENE, document: (/** @type {string} */ id) => id, lang: () => "en" }), { ...NOTHING, scene: "pendulum" });
   bench.open("chaos");

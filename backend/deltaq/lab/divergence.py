@@ -148,7 +148,8 @@ def _pair(problem: Problem, rhythm: Rhythm) -> Pair:
     if not isinstance(scheme, Tableau):
         raise TypeError("the tangent dynamics steps by an explicit Runge–Kutta method")
     driven = drive(problem, state)
-    largest = min(rhythm.stretch, math.tau / driven / PER_DRIVE) if driven else rhythm.stretch
+    largest = rhythm.stretch / 2.0  # at rest there is no error to choose the step by, yet a deviation turns
+    largest = min(largest, math.tau / driven / PER_DRIVE) if driven else largest
     tolerance = LOCAL_TOLERANCE * float(np.clip(rhythm.scales.max(), FINEST, 1.0))
     limit = max(STEP_BUDGET * 2 // max(problem.degrees, 2), PART)
     control = Control(tolerance, largest, largest, 8.0, 0.0, limit, scheme.stages, real_stability(scheme))

@@ -92,7 +92,7 @@ class Departure:
 
     @property
     def _growing(self) -> Kind:
-        """How an error grows that is no rounding: by its envelope, its power of the time, and the trend of its means."""
+        """How an error grows that is no rounding: by its envelope, its power, and the trend of its means."""
         growth = self.growth
         grows = growth is not None and growth.lower > FLAT
         if self._drifts or (growth is not None and grows and LINEAR[0] <= growth.power <= LINEAR[1]):

@@ -28,7 +28,7 @@ ENOUGH, NARROW = 16_000, 0.1  # stretches of a chaotic motion, and its interval 
 ANGLES, SAMPLES = 50, 8192  # of the 0–1 test
 IRREGULAR, REGULAR = 0.7, 0.4  # 0–1 test: beyond, below
 FLAT = 0.02  # growth in a typical period that may pass for none
-TREND, CHANGE = 5.0, 0.02  # t of a trend of the mean square speed, and its size: the motion has not settled
+TREND, CHANGE = 4.0, 0.02  # t of a trend of the mean square speed, and its size: the motion has not settled
 AT_REST = 1e-9  # of the scales
 
 

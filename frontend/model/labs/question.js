@@ -64,10 +64,16 @@ export function onScene(question, scene) {
   return { ...question, scene, parameters: {}, initial: {}, ...Object.fromEntries(ofScene) };
 }
 
-/** Another lab, on the same scene; where there is none, or not every scene will do, on the one that shows it best. @param {Question} question @param {string} lab @returns {Question} */
+/** Whether nobody has chosen anything: scene and values are still those that show the lab best. @param {Question} question */
+function isExample({ lab, scene, parameters, initial }) {
+  const { example } = experimentOf(lab);
+  return scene === example.scene && JSON.stringify([parameters, initial]) === JSON.stringify([example.parameters ?? {}, example.initial ?? {}]);
+}
+
+/** Another lab, on the same scene if somebody chose it; else, or where not every scene will do, on the one that shows it best. @param {Question} question @param {string} lab @returns {Question} */
 export function inLab(question, lab) {
   const { example, options, driven } = experimentOf(lab);
-  if (question.scene && !driven) return { ...question, lab };
+  if (question.scene && !driven && !isExample(question)) return { ...question, lab };
   const shown = { ...question, parameters: {}, initial: {}, ...example, lab };
   const said = options.filter(({ name, ofScene }) => ofScene && question[name] && shown.scene === question.scene);
   return { ...shown, ...Object.fromEntries(said.map(({ name }) => [name, question[name]])) };
