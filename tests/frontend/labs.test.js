@@ -7,7 +7,7 @@ import { cheapestFor, themed, withStep, withTolerance } from "../../frontend/mod
 import { createBench } from "../../frontend/model/labs/bench.js";
 import { experimentOf, OPTIONS } from "../../frontend/model/labs/experiments.js";
 import { titleOf } from "../../frontend/model/labs/ladder.js";
-import { answered, exampleOf, NOTHING, onScene, pointOf, readQuestion, requestOf, writeQuestion } from "../../frontend/model/labs/question.js";
+import { answered, exampleOf, inLab, NOTHING, onScene, pointOf, readQuestion, requestOf, writeQuestion } from "../../frontend/model/labs/question.js";
 import { inUnicode } from "../../frontend/model/labs/symbols.js";
 import { stepRange } from "../../frontend/model/labs/step.js";
 import { eventReader, experiment } from "../../frontend/model/labs/stream.js";
