@@ -29,7 +29,7 @@ APART = 1e-8  # of the twins, if nobody says
 DIGITS = range(2, 13)
 WRONG = 0.1  # an error this large ends a prediction
 MAP_SPAN = 15.0  # seconds; at most that of the motion
-SHOWN = 200  # points of a curve of the exponent
+SHOWN, SCANTY = 200, 0.05  # points of a curve of the exponent; the part of it whose means are over too few to show
 FIRST, LAST = 2, 39  # reports that the exponent is done at
 
 
@@ -74,7 +74,7 @@ def _exponent(motion: Followed, found: Exponent | None) -> Document:
     head: Document = {"status": motion.status, "span": significant(motion.span), "confidence": CONFIDENCE}
     if found is None:
         return head | {"t": [], "values": [], "last": None, "spread": None, "interval": None, "transient": None}
-    few = slice(None, None, max(1, len(found.times) // SHOWN))
+    few = slice(int(SCANTY * len(found.times)), None, max(1, len(found.times) // SHOWN))
     return head | {
         "t": rounded(found.times[few], 5),
         "values": rounded(found.values[few], 4),
