@@ -1,8 +1,10 @@
-"""The step at which a method fails: predicted from its stability function, and measured by running it.
+"""The step at which a method fails: predicted from its linearization, and measured by running it.
 
-A small deviation from the motion is multiplied by growth(hλ) in each step (for nonlinear scenes while the linearized
-motion hardly changes). A method fails where a deviation grows by more than one percent in a step beyond what the
-motion itself does.
+A method fails where it makes a small deviation grow in each step by one percent, and where deviations grow by
+themselves, by one percent more than half as fast again. Where one linearization holds along the motion, the growth of
+a step of the method on it against e^{h Re λ} predicts that, and two runs a little apart measure it. Elsewhere nothing
+is predicted, and the distance of the two runs is held against their true one; where the method has made another motion
+of it before it fails, it is accuracy that limits the step, and no step of failure can be told.
 Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2.
 """
 
@@ -10,123 +12,180 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 
 from ..simulation.kernels.motion import FINE, NEWTON_FAILED, STEP_LIMIT
 from ..simulation.method import Method
-from ..simulation.problem import Floats, Problem
-from ..simulation.run import Run, Steps, run
-from ..simulation.stability import Complexes, growth, largest_stable_step
+from ..simulation.problem import Floats
+from ..simulation.stability import largest_stable_step
+from .neighbours import KICK, SMALL, STEPS, Neighbours, Pair
+from .step_matrix import step_growth
 
 FAILING = 0.01  # growth in one step, above 1
+ROUNDING = 1e-6  # of a growth that is 1 on paper, where eigenvalues of a step may be double
+FASTER = 1.5  # times the rate at which deviations grow by themselves: less is an error, no failure
 FINEST, COARSEST, PER_DECADE = 1e-3, 1e2, 24  # steps looked at, times the largest |λ|
-STEPS = 1200  # in one run
-KICK, LINEAR = 1e-6, 1e-1  # deviations: at first, and as long as they follow the linearized motion
-NOISE = 1e-9  # of the state; below, deviations are those of rounding and of Newton iterations
+REACH = 3600.0  # how far a motion is followed, times 1 / the largest |λ|: a run with the coarsest explicit step
 FEWEST = 80  # steps that a deviation stays small, else it grows by ten percent in each
+ENOUGH = 2 * FEWEST  # steps for which it must stay small by itself to tell
 PRECISION = 2e-3  # of the step found
+LINEARIZATION, FLOW = "linearization", "flow"  # what a method is held against
+
+
+class Verdict(Enum):
+    """What a run with some step shows; the last three tell nothing of stability."""
+
+    HOLDS = "holds"
+    FAILS = "fails"
+    LOST = "motion-lost"
+    SPREADS = "motion-spreads"
+    UNKNOWN = "motion-unknown"
 
 
 @dataclass(frozen=True)
 class Failure:
-    """Steps in seconds; infinite where the method holds for every step looked at.
+    """Steps in seconds; infinite where the method holds for every step looked at, None where it cannot be told.
 
-    `bound` is the largest step for which nothing grows at all, `cause` how the failing run ended.
+    `bound` is the largest step for which nothing grows at all, `cause` how the failing run ended. `basis` says what the
+    method was held against; `reason` why no step was measured, and `limit` is the step from which on that is so.
     """
 
-    bound: float
-    predicted: float
-    measured: float
+    bound: float | None
+    predicted: float | None
+    measured: float | None
     cause: str
+    basis: str = LINEARIZATION
+    reason: str = ""
+    limit: float | None = None
 
     @property
     def deviation(self) -> float | None:
         """(measured − predicted) / predicted, where both are there."""
+        if self.predicted is None or self.measured is None:
+            return None
         if not (math.isfinite(self.predicted) and math.isfinite(self.measured)):
             return None
         return self.measured / self.predicted - 1.0
 
 
-def failure(problem: Problem, method: Method, eigenvalues: Complexes) -> Failure:
-    """Where a method with fixed steps fails on a motion with these eigenvalues at its start."""
-    fastest = float(np.abs(eigenvalues).max(initial=0.0))
-    bound = largest_stable_step(method.tableau, eigenvalues)
-    if fastest == 0.0:
-        return Failure(bound, math.inf, math.inf, "")
-    drive = max(0.0, float(eigenvalues.real.max()))
-    predicted = _first(lambda h: _excess(method, eigenvalues, h) > FAILING, fastest)
-    trial = _Trial(problem, method, drive, fastest)
-    measured = _first(trial.fails, fastest)
-    return Failure(bound, predicted, measured, trial.cause(measured))
+def failure(neighbours: Neighbours, method: Method) -> Failure:
+    """Where a method with fixed steps fails on a motion."""
+    if neighbours.fastest == 0.0:
+        return Failure(largest_stable_step(method.tableau, neighbours.eigenvalues), math.inf, math.inf, "")
+    basis = LINEARIZATION if neighbours.is_constant else FLOW
+    bound, predicted = _predicted(neighbours, method) if basis == LINEARIZATION else (None, None)
+    trial = _Trial(neighbours, method, basis)
+    limit, verdict = _first(trial.verdict, neighbours.fastest)
+    if verdict in (Verdict.HOLDS, Verdict.FAILS):
+        return Failure(bound, predicted, limit, trial.cause(limit), basis)
+    return Failure(bound, predicted, None, "", basis, verdict.value, limit)
 
 
-def _excess(method: Method, eigenvalues: Complexes, h: float) -> float:
-    """The growth in one step, beyond that of the motion itself."""
-    drive = max(0.0, float(eigenvalues.real.max()))
-    return float(growth(method.tableau, h * eigenvalues).max()) / math.exp(min(h * drive, 700.0)) - 1.0
+def _predicted(neighbours: Neighbours, method: Method) -> tuple[float, float]:
+    """The largest step with which nothing grows, and the first with which something grows too much."""
+
+    grown = step_growth(method.tableau, neighbours.linear)
+
+    def first(least: float) -> float:
+        def verdict(h: float) -> Verdict:
+            return Verdict.FAILS if grown(h) / _alone(h * neighbours.drive) - 1.0 > least else Verdict.HOLDS
+
+        return _first(verdict, neighbours.fastest)[0]
+
+    by_eigenvalues = method.is_explicit or neighbours.drive > 0.0
+    bound = largest_stable_step(method.tableau, neighbours.eigenvalues) if by_eigenvalues else first(ROUNDING)
+    return bound, first(FAILING)
 
 
-def _first(fails: Callable[[float], bool], fastest: float) -> float:
-    """The first step that fails: looked for from fine to coarse, then halved between the last two."""
+def _alone(power: float) -> float:
+    """What a deviation that grows by e^power in a step may grow by."""
+    return math.exp(min(FASTER * max(power, 0.0), 700.0))
+
+
+def _first(verdict: Callable[[float], Verdict], fastest: float) -> tuple[float, Verdict]:
+    """The first step that does not hold, and why: looked for from fine to coarse, then halved between the last two."""
     steps = np.geomspace(FINEST, COARSEST, int(PER_DECADE * math.log10(COARSEST / FINEST))) / fastest
     low = 0.0
-    for high in steps:
-        if fails(float(high)):
-            return _between(fails, low, float(high)) if low else float(high)
-        low = float(high)
-    return math.inf
+    for high in map(float, steps):
+        found = verdict(high)
+        if found is not Verdict.HOLDS:
+            return _between(verdict, low, high, found) if low else (high, found)
+        low = high
+    return math.inf, Verdict.HOLDS
 
 
-def _between(fails: Callable[[float], bool], low: float, high: float) -> float:
+def _between(verdict: Callable[[float], Verdict], low: float, high: float, last: Verdict) -> tuple[float, Verdict]:
     while high - low > PRECISION * high:
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if fails(middle) else (middle, high)
-    return 0.5 * (low + high)
+        found = verdict(middle)
+        if found is Verdict.HOLDS:
+            low = middle
+        else:
+            high, last = middle, found
+    return 0.5 * (low + high), last
 
 
 @dataclass(frozen=True)
 class _Trial:
-    """Two runs a little apart, and how their distance grows."""
+    """A method on two motions a little apart, and how their distance grows."""
 
-    problem: Problem
+    neighbours: Neighbours
     method: Method
-    drive: float
-    fastest: float
+    basis: str
 
-    def fails(self, h: float) -> bool:
-        first, second = self._pair(h)
-        if first.result.outcome not in (FINE, STEP_LIMIT) or second.result.outcome not in (FINE, STEP_LIMIT):
-            return True
-        distances = np.linalg.norm((first.states - second.states)[:, : self._scales.size] / self._scales, axis=1)
-        distances = np.maximum(distances, NOISE * np.abs(first.states[:, : self.problem.degrees]).max(axis=1))
-        small = int((distances < LINEAR).cumprod().sum())
-        if small < FEWEST:
-            return True
-        grown = growth_in_a_step(distances[:small])
-        return grown / math.exp(min(h * self.drive, 700.0)) - 1.0 > FAILING
-
-    @property
-    def _scales(self) -> Floats:
-        """Of coordinates and rates: so a vibration of the fastest part does not change its size while it turns."""
-        return np.repeat([1.0, self.fastest], self.problem.degrees)
+    def verdict(self, h: float) -> Verdict:
+        return self._by_linearization(h) if self.basis == LINEARIZATION else self._along_the_motion(h)
 
     def cause(self, h: float) -> str:
         """How the run at a step that fails ended."""
         if not math.isfinite(h):
             return ""
-        outcomes = [int(one.result.outcome) for one in self._pair(1.02 * h)]
-        return "newton_failed" if NEWTON_FAILED in outcomes else "grows"
+        pair = self.neighbours.by(self.method, 1.02 * h)
+        return "newton_failed" if NEWTON_FAILED in _outcomes(pair) else "grows"
 
-    def _pair(self, h: float) -> tuple[Run, Run]:
-        n, t_end = self.problem.degrees, STEPS * h
-        apart = KICK * self._scales * np.random.default_rng(0).normal(size=2 * n)
-        start = self.problem.state[: 2 * n] + apart
-        problem = replace(self.problem, t_end=t_end, step_limit=2 * STEPS)
-        other = replace(problem, values=tuple(map(float, start[:n])), rates=tuple(map(float, start[n:])))
-        times, flag = np.linspace(0.0, t_end, STEPS + 1), np.zeros(1, dtype=np.int64)
-        return run(problem, self.method, times, flag, Steps(h)), run(other, self.method, times, flag, Steps(h))
+    def _by_linearization(self, h: float) -> Verdict:
+        """Held against e^{t Re λ}."""
+        drive = self.neighbours.drive
+        if drive * h * ENOUGH > SMALL:
+            return Verdict.SPREADS
+        pair = self.neighbours.by(self.method, h)
+        exact = KICK * np.exp(np.minimum(drive * h * np.arange(STEPS + 1), 600.0))
+        return _judged(pair, exact, STEPS) if _ran(pair) else Verdict.FAILS
+
+    def _along_the_motion(self, h: float) -> Verdict:
+        """Held against the exact flow, while deviations are small and the motion is the same."""
+        steps = min(STEPS, int(REACH / (h * self.neighbours.fastest)))
+        exact = self.neighbours.exact(h, steps) if steps >= ENOUGH else None
+        if exact is None or not _ran(exact):
+            return Verdict.UNKNOWN
+        if exact.small < ENOUGH:
+            return Verdict.SPREADS
+        pair = self.neighbours.by(self.method, h, steps)
+        count = min(exact.small, max(pair.small, FEWEST))
+        if not self.neighbours.is_kept(exact.first, pair.first, count):
+            return Verdict.LOST
+        return _judged(pair, exact.distances, exact.small) if _ran(pair) else Verdict.FAILS
+
+
+def _judged(pair: Pair, exact: Floats, most: int) -> Verdict:
+    """Whether the distance grows faster than it would, as long as it is small."""
+    count = min(pair.small, most)
+    if count < FEWEST:
+        return Verdict.FAILS
+    alone = _alone(math.log(growth_in_a_step(exact[:count])))
+    return Verdict.FAILS if growth_in_a_step(pair.distances[:count]) / alone - 1.0 > FAILING else Verdict.HOLDS
+
+
+def _outcomes(pair: Pair) -> tuple[int, int]:
+    return int(pair.first.result.outcome), int(pair.second.result.outcome)
+
+
+def _ran(pair: Pair) -> bool:
+    """Whether both runs came to their ends."""
+    return all(outcome in (FINE, STEP_LIMIT) for outcome in _outcomes(pair))
 
 
 def growth_in_a_step(distances: Floats) -> float:

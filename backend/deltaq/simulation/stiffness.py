@@ -30,10 +30,10 @@ def spectrum(problem: Problem, time: float, state: Floats) -> Spectrum:
 
 def spectra(problem: Problem, times: Floats, states: Floats) -> list[Spectrum]:
     """The spectra at several states, one row each."""
-    jacobians = _jacobians(problem, times, states[:, : 2 * problem.degrees])
-    known = np.isfinite(jacobians).all(axis=(1, 2))
-    found = np.zeros(jacobians.shape[:2], dtype=complex)
-    found[known] = np.linalg.eigvals(jacobians[known])
+    matrices = jacobians(problem, times, states[:, : 2 * problem.degrees])
+    known = np.isfinite(matrices).all(axis=(1, 2))
+    found = np.zeros(matrices.shape[:2], dtype=complex)
+    found[known] = np.linalg.eigvals(matrices[known])
     sizes, lasts = np.abs(found), -found.real * problem.t_end < DEAD
     lasting = np.max(sizes, axis=1, where=lasts, initial=0.0)
     return [Spectrum(float(size), float(slow)) for size, slow in zip(sizes.max(axis=1), lasting, strict=True)]
@@ -41,7 +41,7 @@ def spectra(problem: Problem, times: Floats, states: Floats) -> list[Spectrum]:
 
 def eigenvalues(problem: Problem, time: float, state: Floats) -> np.ndarray:
     """Eigenvalues of ẏ = f(y) linearized at a state (q, q̇); a single zero where it has no value."""
-    (jacobian,) = _jacobians(problem, np.array([time]), state[None, :])
+    (jacobian,) = jacobians(problem, np.array([time]), state[None, :])
     return np.asarray(np.linalg.eigvals(jacobian)) if np.isfinite(jacobian).all() else np.zeros(1, dtype=complex)
 
 
@@ -60,7 +60,7 @@ def drive(problem: Problem, state: Floats) -> float:
     return float(np.sqrt(rate / swing)) if is_driven else 0.0
 
 
-def _jacobians(problem: Problem, times: Floats, states: Floats) -> Floats:
+def jacobians(problem: Problem, times: Floats, states: Floats) -> Floats:
     """∂f/∂y at each row of states, by central differences."""
     count, width = states.shape
     nudges = NUDGE * np.maximum(1.0, np.abs(states))

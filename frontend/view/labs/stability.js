@@ -1,4 +1,4 @@
-/** The step h on a slider, the step of failure of each method predicted and measured, and the failure to be played. */
+/** The step h on a slider, the step of failure of each method predicted and measured or why not, and the failure to be played. */
 
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
@@ -19,7 +19,25 @@ export function failures(view) {
         <th scope="col">${t("labs.stability.measured")}</th><th scope="col">${t("labs.stability.deviation")}</th><td></td></tr></thead>
       <tbody>${rows.map((/** @type {any} */ row) => line(view, row))}</tbody>
     </table>
+    ${untold(view, rows)}
     <p class="note">${t("labs.stability.note")}</p>`;
+}
+
+/** What stands for a step that cannot be told, and why. */
+const DASH = "—";
+/** @typedef {{method: string, bound: number | null, predicted: number | null, measured: number | null, deviation: number | null, basis?: string, cause?: string, reason?: string, limit?: number | null}} Row */
+
+/** Why there is no figure in some places, or another end than growth: each once; a number in the table points here. @param {Row[]} rows */
+const reasonsOf = (rows) => [...new Set(rows.flatMap(({ basis, reason, cause }) => [basis === "flow" ? "linearization-varies" : "", reason ?? "", cause === "newton_failed" ? cause : ""]))].filter(Boolean);
+
+/** @param {View} view @param {Row[]} rows */
+function untold({ bench, t, state }, rows) {
+  const reasons = reasonsOf(rows);
+  const { at, rest, varies = 0 } = /** @type {{at?: string, rest?: boolean, varies?: number}} */ (bench.result ?? {});
+  const percent = significant(100 * varies, 2, state.place.lang);
+  return html`
+    ${at === "rest" && rest === false ? html`<p class="note">${t("labs.stability.no-rest")}</p>` : nothing}
+    ${reasons.length ? html`<ol class="note reasons">${reasons.map((reason) => html`<li>${t(`labs.stability.reasons.${reason}`, { percent })}</li>`)}</ol>` : nothing}`;
 }
 
 /** @param {View} view */
@@ -35,14 +53,19 @@ export function slider({ bench, dial, turn, t, state }) {
     </div>`;
 }
 
-/** @param {View} view @param {any} row */
+/** @param {View} view @param {Row} row */
 function line({ methodTitle, t, state, watch, bench }, row) {
   const { lang } = state.place;
-  const seconds = (/** @type {number | null} */ value, /** @type {string} */ never) => (value === null ? t(never) : value === 0 ? t("labs.stability.always") : `${significant(value, 3, lang)} s`);
-  const play = () => watch({ method: row.method, step: 1.05 * row.measured, t_end: Math.min(200 * row.measured, bench.result?.t_end ?? 10) });
+  const seconds = (/** @type {number | null} */ value) => (value === null ? t("labs.stability.never") : value === 0 ? t("labs.stability.always") : `${significant(value, 3, lang)} s`);
+  const reasons = reasonsOf(bench.result?.methods ?? []);
+  const mark = (/** @type {string} */ reason) => html`<sup>${reasons.indexOf(reason) + 1}</sup>`;
+  const none = (/** @type {string} */ reason, /** @type {number | null} */ limit = null) => html`${limit === null ? DASH : t("labs.stability.from", { step: `${significant(limit, 2, lang)} s` })}${mark(reason)}`;
+  const foretold = (/** @type {number | null} */ value) => (row.basis === "flow" ? none("linearization-varies") : seconds(value));
+  const failing = row.measured ?? 0;
+  const play = () => watch({ method: row.method, step: 1.05 * failing, t_end: Math.min(200 * failing, bench.result?.t_end ?? 10) });
   return html`<tr>
     <th scope="row">${methodTitle(row.method)}</th>
-    <td>${seconds(row.bound, "labs.stability.never")}</td><td>${seconds(row.predicted, "labs.stability.never")}</td><td>${seconds(row.measured, "labs.stability.never")}</td>
+    <td>${foretold(row.bound)}</td><td>${foretold(row.predicted)}</td><td>${row.reason ? none(row.reason, row.limit) : seconds(row.measured)}${row.cause === "newton_failed" ? mark(row.cause) : nothing}</td>
     <td>${row.deviation === null ? "" : `${significant(100 * row.deviation, 2, lang)} %`}</td>
     <td>${row.measured ? html`<button class="quiet small" @click=${play}>${t("labs.stability.play")}</button>` : nothing}</td>
   </tr>`;

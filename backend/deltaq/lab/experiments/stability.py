@@ -1,7 +1,8 @@
 """Stability of methods: regions |R(z)| ≤ 1 with the scene's own hλ in them, and the step at which each method fails.
 
-The scene is linearized at its present state. The step of failure is predicted from the method's stability function
-and measured by running it; a series over a stiffness shows what explicit and implicit methods pay as it grows.
+The scene is linearized at its present state, or at rest. Where that holds along the motion, the step of failure is
+predicted from it and measured by running the method; elsewhere the method is held against the exact flow. A series over
+a stiffness shows what explicit and implicit methods pay as it grows.
 Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2–IV.3.
 """
 
@@ -11,6 +12,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from ...errors import RequestError
 from ...language.tree import Name
 from ...mechanics.loads.spring import Spring
 from ...mechanics.scene import Scene
@@ -19,11 +21,11 @@ from ...simulation.library import get_method
 from ...simulation.method import Method
 from ...simulation.problem import Problem
 from ...simulation.stability import Complexes
-from ...simulation.stiffness import eigenvalues
 from ..bounds import AT
 from ..charts.stability import charts
 from ..experiment import Experiment
 from ..failure import failure
+from ..neighbours import Neighbours
 from ..region import region
 from ..report import Document, Report, appended, significant
 from ..rest import at_rest
@@ -44,16 +46,33 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     stiffness = wanted or stiffness_of(subject.scene)
     place = parameter_of(subject, stiffness, "/stiffness") if stiffness else -1
     problem = bounded(subject, STEP_LIMIT)
-    problem = at_rest(problem, "/at") if at == "rest" else problem
-    found = eigenvalues(problem, 0.0, problem.state[: 2 * problem.degrees])
+    neighbours, is_rest = _place(problem, at)
     total = len(methods) + (len(FACTORS) * len(STIFFENED) if stiffness else 0)
-    result = subject.described | _spectrum(found) | {"at": at, "methods": [], "stiffness": stiffness, "series": []}
+    head = _spectrum(neighbours.eigenvalues) | {"at": at, "rest": is_rest, "varies": significant(neighbours.varies, 2)}
+    result = subject.described | head | {"methods": [], "stiffness": stiffness, "series": []}
     for done, method in enumerate(methods, 1):
-        result = appended(result, "methods", _row(problem, method, found))
+        result = appended(result, "methods", _row(neighbours, method))
         yield Report(done, total, result)
     for done, one in enumerate(_series(subject, place) if stiffness else (), len(methods) + 1):
         result = appended(result, "series", *one)
         yield Report(done, total, result)
+
+
+def _place(problem: Problem, at: str) -> tuple[Neighbours, bool]:
+    """Where the scene is linearized, and whether it rests there.
+
+    A scene without any rest whose linearization is the same everywhere, such as one that falls or slides down, is
+    linearized where it is. Raises RequestError where rest is wanted, and nothing is like it.
+    """
+    here = Neighbours(problem)
+    if at != "rest":
+        return here, False
+    try:
+        return Neighbours(at_rest(problem, "/at")), True
+    except RequestError:
+        if here.is_constant:
+            return here, False
+        raise
 
 
 def _series(subject: Subject, place: int) -> Iterator[list[Document]]:
@@ -82,8 +101,8 @@ def stiffness_of(scene: Scene) -> str:
     return next((parameter.name for parameter in scene.parameters if parameter.unit == "N/m"), "")
 
 
-def _row(problem: Problem, method: Method, found: Complexes) -> Document:
-    fails = failure(problem, method, found)
+def _row(neighbours: Neighbours, method: Method) -> Document:
+    fails = failure(neighbours, method)
     return {
         "method": method.id,
         "implicit": not method.is_explicit,
@@ -93,12 +112,15 @@ def _row(problem: Problem, method: Method, found: Complexes) -> Document:
         "measured": _finite(fails.measured),
         "deviation": None if fails.deviation is None else significant(fails.deviation, 2),
         "cause": fails.cause,
+        "basis": fails.basis,
+        "reason": fails.reason,
+        "limit": _finite(fails.limit),
     }
 
 
-def _finite(step: float) -> float | None:
-    """None for: every step."""
-    return significant(step) if math.isfinite(step) else None
+def _finite(step: float | None) -> float | None:
+    """None for: every step, and for one that cannot be told; `basis` and `reason` say which."""
+    return significant(step) if step is not None and math.isfinite(step) else None
 
 
 def _stiffened(subject: Subject, place: int, factor: float, name: str) -> Document:
