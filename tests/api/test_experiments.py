@@ -8,6 +8,7 @@ import io
 import json
 import time
 from collections.abc import AsyncIterator
+from datetime import UTC, datetime
 from typing import Any
 
 import httpx
@@ -189,17 +190,29 @@ async def test_another_language_measures_nothing(client: httpx.AsyncClient, app:
     assert service.laboratory.state.processor_seconds == spent
 
 
-async def test_measured_anew_on_demand_and_kept_then(client: httpx.AsyncClient, app: FastAPI) -> None:
+ANEW = [
+    pytest.param({"headers": {"Cache-Control": "no-cache"}}, {}, id="by the header"),
+    pytest.param({}, {"fresh": True}, id="by the field"),
+]
+
+
+@pytest.mark.parametrize(("how", "more"), ANEW)
+async def test_measured_anew_on_demand_and_kept_then(
+    client: httpx.AsyncClient, app: FastAPI, how: dict[str, Any], more: dict[str, Any]
+) -> None:
     question, cache = SMALL["work-precision"], app.state.service.cache
     first = await client.post(address("work-precision"), json=question)
     misses = cache.misses
     again = await client.post(address("work-precision"), json=question)
     assert (again.content, again.headers["etag"]) == (first.content, first.headers["etag"])
-    anew = await client.post(address("work-precision"), json=question, headers={"Cache-Control": "no-cache"})
+    anew = await client.post(address("work-precision"), json=question | more, **how)
     assert anew.json() != first.json()  # its times differ
     assert anew.headers["etag"] != first.headers["etag"]
     assert cache.misses == misses + 2  # the measurement and its charts
-    assert (await client.post(address("work-precision"), json=question)).json() == anew.json()
+    kept = await client.post(address("work-precision"), json=question | {"fresh": False})
+    assert kept.json() == anew.json()
+    dates = [datetime.fromisoformat(answer.json()["measured"]["date"]) for answer in (first, anew)]
+    assert dates[0] <= dates[1] <= datetime.now(UTC)
 
 
 async def test_given_up_frees_the_bench_within_a_second(client: httpx.AsyncClient, app: FastAPI) -> None:

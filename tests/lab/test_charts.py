@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import io
+import os
+from datetime import UTC, datetime
 from typing import Any
 
 import plotly.graph_objects as go
@@ -49,6 +51,45 @@ def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str)
     assert all(chart["subject"].startswith(reports[-1].result["title"][lang]) for chart in charts)  # type: ignore[index]
     assert table(charts).count("\n") > 10
     assert page(charts, lang).count("<figure>") == len(charts)
+
+
+def mentions(found: object, key: str) -> bool:
+    """Whether a document has such a member anywhere."""
+    if isinstance(found, dict):
+        return key in found or any(mentions(one, key) for one in found.values())
+    return isinstance(found, list) and any(mentions(one, key) for one in found)
+
+
+@pytest.mark.parametrize("name", [name for name in QUESTIONS if name != "fidelity"])
+def test_a_time_says_when_and_under_which_load_it_was_measured(name: str) -> None:
+    before = datetime.now(UTC).replace(microsecond=0)
+    result = next(get_experiment(name).run(QUESTIONS[name])).result
+    if not mentions(result, "time"):
+        return
+    measured = result["measured"]
+    assert isinstance(measured, dict)
+    assert before <= datetime.fromisoformat(measured["date"]) <= datetime.now(UTC)
+    assert measured["load"] is None or measured["load"] >= 0.0
+    assert measured["repetitions"] >= 1
+    assert measured["processors"] == os.cpu_count()
+
+
+@pytest.mark.parametrize("lang", ["de", "en"])
+def test_date_and_load_stand_in_the_caption_also_where_no_load_is_known(
+    lang: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def unknown() -> tuple[float, float, float]:
+        raise OSError
+
+    monkeypatch.setattr(os, "getloadavg", unknown)
+    experiment = get_experiment("work-precision")
+    result = next(experiment.run(QUESTIONS["work-precision"])).result
+    measured = result["measured"]
+    assert isinstance(measured, dict)
+    assert measured["load"] is None
+    caption = experiment.charts(result, words(text, lang))[0]["caption"]
+    assert f"{measured['date'][:10]} {measured['date'][11:16]} UTC" in caption
+    assert " – " in caption
 
 
 @pytest.mark.parametrize("name", ["convergence", "work-precision"])

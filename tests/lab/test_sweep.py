@@ -117,6 +117,24 @@ def test_a_slope_is_fitted_where_errors_are_neither_coarse_nor_rounding() -> Non
     assert order_of(points[:2], lambda p: 1.0 / p.setting.value, 1e-14) is None
 
 
+def test_a_slope_leaves_out_a_methods_own_rounding() -> None:
+    """Of a method whose rounding lies far above that of the reference: those points are no part of its order."""
+    errors = [1e-3 * 2.0 ** (-4 * k) for k in range(5)] + [3e-8, 2.5e-8, 4e-8]
+    points = [Point("x", Setting("step", 2.0**-k), "ok", error) for k, error in enumerate(errors)]
+    assert order_of(points, lambda p: 1.0 / p.setting.value, 1e-15) == pytest.approx(4.0, abs=0.1)
+
+
+def test_no_run_is_more_accurate_than_the_reference() -> None:
+    """Its own methods give back its own errors: zero, if they take the same steps."""
+    times, values = np.array([0.0, 1.0]), np.array([[0.1], [0.2]])
+    assert error_of(values, Reference(times, values, np.array([0.0, 3e-12]), ("a", "b"))) == 3e-12
+    found = last(work_precision({"scene": "double-pendulum", "t_end": 5.0, "methods": ["dop853", "gauss-6"]}))
+    reference, points = found["reference"], found["points"]
+    assert isinstance(reference, dict)
+    assert isinstance(points, list)
+    assert min(point["error"] for point in points if point["error"] is not None) >= reference["error"]
+
+
 def test_an_error_is_absolute_below_one_and_relative_above() -> None:
     times = np.array([0.0, 1.0])
     trusted = Reference(times, np.array([[0.1], [100.0]]), np.zeros(2), ("a", "b"))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 HELP = "run an experiment on a scene"
 DESCRIPTION = """Runs an experiment, such as work-precision, stability or fidelity, on a built-in scene (by its id) or
 one of your own (a TOML file), and writes what was found: JSON with all numbers, CSV with the curves, HTML with the
-charts."""
+charts. Times are measured anew each time; with them is written when, and how busy the machine was."""
 EXAMPLE = "deltaq lab work-precision double-pendulum --set t_end=20 --output chart.html --output numbers.csv"
 FILES = (".json", ".csv", ".html")
 WIDTH = 40
@@ -42,6 +42,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Measure, and write the files."""
+    from ..lab.charts.words import taken, words
     from ..lab.experiment import drawn
     from ..narration.catalog import text
 
@@ -51,14 +52,17 @@ def run(options: argparse.Namespace) -> None:
                 f"{output} is not a file in a folder that is there, with the suffix {' or '.join(FILES)}"
             )
     experiment = get_experiment(options.experiment)
-    result: dict[str, Any] = {}
-    for report in _with_progress(experiment.run(question_of(options))):
+    question, result = question_of(options), dict[str, Any]()
+    question.pop("fresh", None)  # here nothing is kept, and all is measured anew
+    for report in _with_progress(experiment.run(question)):
         result = report.result
     charts = drawn(experiment, result, text, options.lang)
     outputs = options.output or [Path(f"{experiment.id}-{result['scene']}{suffix}") for suffix in (".json", ".html")]
     for output in outputs:
         output.write_text(_file(output.suffix, {**result, "charts": charts}, options.lang), encoding="utf-8")
         print(f"→ {output}")
+    if "measured" in result:
+        print(taken(result["measured"], words(text, options.lang)))
 
 
 def _with_progress(reports: Iterator[Report]) -> Iterator[Report]:

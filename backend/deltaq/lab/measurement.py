@@ -115,10 +115,14 @@ def repeated(again: Callable[[], float], first: float, repeats: int) -> tuple[fl
 
 
 def error_of(values: Floats, reference: Reference) -> float | None:
-    """The largest error at any sample, or None where the run or the reference is not complete."""
+    """The largest error at any sample, or None where the run or the reference is not complete.
+
+    It is not known to be less than the reference's own: what is closer to the reference shares its errors.
+    """
     if values.shape != reference.values.shape:
         return None
-    return float(np.max(np.abs(values - reference.values) / np.maximum(1.0, np.abs(reference.values))))
+    apart = float(np.max(np.abs(values - reference.values) / np.maximum(1.0, np.abs(reference.values))))
+    return max(apart, floor_of(reference))
 
 
 def floor_of(reference: Reference) -> float:
@@ -133,9 +137,19 @@ def order_of(points: list[Point], x: Callable[[Point], float], floor: float) -> 
         for point in points
         if point.error is not None and 30.0 * floor < point.error < 1e-2 and x(point) > 0.0
     ]
-    if len(chosen) < 3:
-        return None
-    logs = np.log(np.array(chosen))
-    if np.ptp(logs[:, 0]) < np.log(3.0):
+    logs = _falling(np.log(np.array(sorted(chosen)).reshape(-1, 2)))
+    if len(logs) < 3 or np.ptp(logs[:, 0]) < np.log(3.0):
         return None
     return significant(-float(np.polyfit(logs[:, 0], logs[:, 1], 1)[0]), 3)
+
+
+def _falling(logs: Floats) -> Floats:
+    """Rows (log x, log error) without those at the end where the error hardly falls: a method's own rounding, which
+    may lie far above that of the reference.
+    """
+    while len(logs) > 2:
+        slopes = np.diff(logs[:, 1]) / np.maximum(np.diff(logs[:, 0]), 1e-300)
+        if slopes[-1] < 0.5 * float(np.median(slopes)):  # both are negative
+            break
+        logs = logs[:-1]
+    return logs

@@ -24,6 +24,7 @@ def peer_tracks(problem: Problem, reference: Reference) -> list[Track]:
     """One track for each of SciPy's integrators; none where SciPy is missing."""
     if find_spec("scipy") is None:
         return []
+    import_module("scipy.integrate")  # now, so that no run that is measured has to
     settings = [Setting("tolerance", tolerance) for tolerance in TOLERANCES if tolerance >= FINEST]
     return [Track(f"scipy-{name}", settings, partial(_measured, problem, reference, name)) for name in PEERS]
 

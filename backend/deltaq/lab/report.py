@@ -6,6 +6,7 @@ import os
 import platform
 from collections.abc import Iterable
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 
 Document = dict[str, object]
@@ -38,6 +39,27 @@ def rounded(numbers: Iterable[float], digits: int = 6) -> list[float]:
 def machine() -> Document:
     """What the times were measured on."""
     return {"processor": _processor(), "cores": os.cpu_count() or 1}
+
+
+def measured(repetitions: int) -> Document:
+    """When and under which circumstances times are measured, as of now.
+
+    `date` is ISO 8601 in UTC; `load` how many programs wanted to run, on average over the last minute and for each
+    processor, None where the system does not tell; `repetitions` how often a run is measured at most.
+    """
+    return {
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+        "load": _load(),
+        "repetitions": repetitions,
+        "processors": os.cpu_count() or 1,
+    }
+
+
+def _load() -> float | None:
+    try:
+        return significant(os.getloadavg()[0] / (os.cpu_count() or 1), 2)
+    except (AttributeError, OSError):  # not everywhere
+        return None
 
 
 def _processor() -> str:

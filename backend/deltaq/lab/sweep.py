@@ -61,7 +61,7 @@ class Track:
         if self.points and self.points[-1].status == "too_slow":
             return True
         errors = [point.error for point in self.points if point.error is not None]
-        return bool(errors) and (errors[-1] < floor or len(errors) - 1 - errors.index(min(errors)) >= WORSE)
+        return bool(errors) and (errors[-1] <= floor or len(errors) - 1 - errors.index(min(errors)) >= WORSE)
 
 
 def sweep(tracks: Sequence[Track], reference: Reference) -> Iterator[tuple[int, int]]:

@@ -1,7 +1,7 @@
 """Experiments: streamed as they are measured, or as one answer; as JSON, as a page, or as a table.
 
-All who ask for the same at once share one experiment, and what was measured is kept: a time that was measured here an
-hour ago is as good as one that is measured now. Who wants it measured anew says so by `Cache-Control: no-cache`.
+All who ask for the same at once share one experiment, and what was measured is kept: with it, where it has times, when
+and at which load of the machine. Who wants it measured anew says so, `fresh` or by `Cache-Control: no-cache`.
 Figures have no language: charts are drawn from them in each that is asked for; the parts of a shared stream are in that
 of who began it.
 
@@ -86,11 +86,12 @@ async def _measured(request: Request, experiment: str, body: ExperimentRequest) 
     """What was found, in the form that `Accept` asks for."""
     service = service_of(request)
     question = {"experiment": experiment, **question_of(request, body)}
+    anew = question.pop("fresh") or _wants_anew(request)  # no part of the question: the answer is kept for all
     job = replace(EXPERIMENT, deadline=service.settings.experiment_deadline)
     key, accepted = service.key(job.target, question | {"lang": ""}), request.headers.get("accept", "")
 
     async def measured(hear: Hear) -> bytes:
-        result = await service.measurement(key, job, question, hear, anew=_wants_anew(request))
+        result = await service.measurement(key, job, question, hear, anew=anew)
         return await _drawn(service, result, question["lang"])
 
     if MEDIA_TYPE in accepted:

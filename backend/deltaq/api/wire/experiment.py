@@ -16,6 +16,9 @@ class ExperimentRequest(SceneWithChanges):
     initial: InitialValues = Field({})
     t_end: float = Field(SPAN, ge=SHORTEST, le=LONGEST, description="seconds of motion", examples=[10.0])
     lang: AskedLanguage = None
+    fresh: bool = Field(
+        default=False, description="whether to measure anew what was measured before, as Cache-Control: no-cache does"
+    )
 
     model_config = examples({"scene": "pendulum"})
 
@@ -34,6 +37,15 @@ class Chart(Answer):
     layout: dict[str, Any]
 
 
+class Measured(Answer):
+    """When and under which circumstances times were measured."""
+
+    date: str = Field(description="ISO 8601, UTC", examples=["2026-11-22T12:57:00+00:00"])
+    load: float | None = Field(description="programs that wanted to run, mean of one minute, per processor")
+    repetitions: int = Field(description="how often a run was measured at most")
+    processors: int
+
+
 class ExperimentAnswer(Answer):
     """What was found, as numbers and as charts. Members besides these depend on the experiment."""
 
@@ -41,3 +53,4 @@ class ExperimentAnswer(Answer):
     scene: str
     t_end: float
     charts: tuple[Chart, ...]
+    measured: Measured | None = Field(None, description="where the answer has times")

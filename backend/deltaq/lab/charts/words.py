@@ -40,6 +40,17 @@ def spoken(value: object, language: str) -> object:
     return _written(value, language) if isinstance(value, float) else value
 
 
+def written_date(date: str) -> str:
+    """A date in ISO 8601 to the minute, as both languages read it."""
+    return f"{date[:10]} {date[11:16]} UTC"
+
+
+def taken(measured: Mapping[str, Any], say: Say) -> str:
+    """When and at which load times were measured, as a sentence."""
+    key = "labs.taken" if measured["repetitions"] > 1 else "labs.taken-once"
+    return str(say(key, **{**measured, "date": written_date(measured["date"])}))
+
+
 def _written(number: float, language: str) -> str:
     digits, _, power = f"{number:.3g}".partition("e")
     shown = digits.replace("-", "−").replace(".", "," if language in COMMA else ".")

@@ -21,7 +21,7 @@ from .chart import (
     joined,
     name_of,
 )
-from .words import Say
+from .words import Say, written_date
 
 RANGE = [-15.5, 2.0]  # decades of the error
 
@@ -34,6 +34,8 @@ def charts(result: Result, say: Say) -> list[Chart]:
         "methods": joined(reference["methods"], say),
         "error": reference["error"],
         "repeats": result["repeats"],
+        "date": written_date(result["measured"]["date"]),
+        "load": result["measured"]["load"],
         **machine,
     }
     return [

@@ -14,7 +14,7 @@ from ...simulation.reference import reference
 from ..charts.convergence import charts
 from ..experiment import Experiment
 from ..measurement import floor_of, measure, order_of, warm
-from ..report import Document, Report
+from ..report import Document, Report, measured
 from ..subject import bounded, methods_of, subject_of
 from ..sweep import SAMPLES, Track, fixed_steps, sweep
 from .work_precision import described
@@ -31,7 +31,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     trusted, settings = reference(problem), fixed_steps(problem)
     warm(problem, *methods)
     tracks = [Track(method.id, settings, partial(measure, problem, method, trusted, repeats=1)) for method in methods]
-    head = subject.described | {"reference": described(trusted, problem)}
+    head = subject.described | {"reference": described(trusted, problem), "measured": measured(1)}
     for done, total in sweep(tracks, trusted):
         yield Report(done, total, head | _found(tracks, floor_of(trusted)))
 

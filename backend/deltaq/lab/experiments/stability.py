@@ -27,7 +27,7 @@ from ..experiment import Experiment
 from ..failure import failure
 from ..neighbours import Neighbours
 from ..region import region
-from ..report import Document, Report, appended, significant
+from ..report import Document, Report, appended, measured, significant
 from ..rest import at_rest
 from ..subject import Subject, bounded, methods_of, parameter_of, subject_of
 
@@ -49,6 +49,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     neighbours, is_rest = _place(problem, at)
     total = len(methods) + (len(FACTORS) * len(STIFFENED) if stiffness else 0)
     head = _spectrum(neighbours.eigenvalues) | {"at": at, "rest": is_rest, "varies": significant(neighbours.varies, 2)}
+    head |= {"measured": measured(1)}
     result = subject.described | head | {"methods": [], "stiffness": stiffness, "series": []}
     for done, method in enumerate(methods, 1):
         result = appended(result, "methods", _row(neighbours, method))

@@ -20,7 +20,7 @@ from ..charts.stability_map import charts
 from ..experiment import Experiment
 from ..monodromy import Axis, Plane, StabilityMap
 from ..period import clocks, period
-from ..report import Document, Report, rounded, significant
+from ..report import Document, Report, measured, rounded, significant
 from ..subject import Subject, parameter_of, subject_of
 
 COARSEST = 8
@@ -36,11 +36,12 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     for key, axis in (("x", first), ("y", second)):
         parameter_of(subject, axis.parameter, f"/{key}/parameter")
     plane = Plane(subject.problem, first, second, _periods(subject, first, second))
-    strides, start = _strides(), perf_counter()
+    strides, start, circumstances = _strides(), perf_counter(), measured(1)
     total = sum((1.0 / stride) ** 2 for stride in strides)
     for index, found in enumerate(plane.refined(coarsest=COARSEST)):
         done = sum((1.0 / stride) ** 2 for stride in strides[: index + 1])
         result = subject.described | _told(found) | {"time": significant(perf_counter() - start)}
+        result |= {"measured": circumstances}
         yield Report(round(1000 * done / total), 1000, result)
 
 

@@ -16,7 +16,7 @@ from ..charts.work_precision import charts
 from ..experiment import Experiment
 from ..measurement import REPEATS, Point, floor_of, measure, order_of, warm
 from ..peers import peer_tracks
-from ..report import Document, Report, machine, significant
+from ..report import Document, Report, machine, measured, significant
 from ..subject import bounded, methods_of, subject_of
 from ..sweep import SAMPLES, Track, settings_of, sweep
 
@@ -38,6 +38,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     ]
     tracks += peer_tracks(problem, trusted) if with_peers else []
     head = subject.described | {"reference": described(trusted, problem), "machine": machine(), "repeats": REPEATS}
+    head |= {"measured": measured(REPEATS)}
     for done, total in sweep(tracks, trusted):
         yield Report(done, total, head | found(tracks, floor_of(trusted)))
 
