@@ -152,5 +152,13 @@ def test_what_takes_too_long_is_said_once_and_not_tried() -> None:
     assert [point.status for point in track.points] == ["ok", "too_slow"]
 
 
+@pytest.mark.parametrize("method", ["dop853", "dormand-prince-54", "radau-5"])
+def test_settings_that_take_the_same_steps_do_not_end_a_track(method: str) -> None:
+    """On a short span one step between two samples is enough for several tolerances: finer ones still gain."""
+    found = last(work_precision({"scene": "pendulum", "t_end": 1.0, "methods": [method]}))
+    errors = [point["error"] for point in points_of(found, method)]
+    assert min(error for error in errors if isinstance(error, float)) < 1e-12
+
+
 def test_nothing_is_cheapest_where_nothing_is_accurate() -> None:
     assert cheapest([Point("x", Setting("step", 1.0), "diverged", None)], 1e-3) is None

@@ -27,11 +27,9 @@ from .step_matrix import step_growth
 FAILING = 0.01  # growth in one step, above 1
 ROUNDING = 1e-6  # of a growth that is 1 on paper, where eigenvalues of a step may be double
 FASTER = 1.5  # times the rate at which deviations grow by themselves: less is an error, no failure
-FINEST, COARSEST, PER_DECADE = 1e-3, 1e2, 24  # steps looked at, times the largest |λ|
-REACH = 3600.0  # how far a motion is followed, times 1 / the largest |λ|: a run with the coarsest explicit step
+ALONG = 600  # steps in one run along a motion that the linearization changes on
 FEWEST = 80  # steps that a deviation stays small, else it grows by ten percent in each
 ENOUGH = 2 * FEWEST  # steps for which it must stay small by itself to tell
-PRECISION = 2e-3  # of the step found
 LINEARIZATION, FLOW = "linearization", "flow"  # what a method is held against
 
 
@@ -43,6 +41,42 @@ class Verdict(Enum):
     LOST = "motion-lost"
     SPREADS = "motion-spreads"
     UNKNOWN = "motion-unknown"
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Steps looked at, in even ratios and times the largest |λ|, and the precision of the step that is found."""
+
+    finest: float
+    coarsest: float
+    per_decade: int
+    precision: float
+
+    def first(self, verdict: Callable[[float], Verdict], fastest: float) -> tuple[float, Verdict]:
+        """The first step that does not hold, and why: from fine to coarse, then halved between the last two."""
+        count = int(self.per_decade * math.log10(self.coarsest / self.finest))
+        low = 0.0
+        for high in map(float, np.geomspace(self.finest, self.coarsest, count) / fastest):
+            found = verdict(high)
+            if found is not Verdict.HOLDS:
+                return self._between(verdict, low, high, found) if low else (high, found)
+            low = high
+        return math.inf, Verdict.HOLDS
+
+    def _between(
+        self, verdict: Callable[[float], Verdict], low: float, high: float, last: Verdict
+    ) -> tuple[float, Verdict]:
+        while high - low > self.precision * high:
+            middle = 0.5 * (low + high)
+            found = verdict(middle)
+            if found is Verdict.HOLDS:
+                low = middle
+            else:
+                high, last = middle, found
+        return 0.5 * (low + high), last
+
+
+GRIDS = {LINEARIZATION: Grid(1e-3, 1e2, 24, 2e-3), FLOW: Grid(3e-3, 1e1, 12, 1e-2)}
 
 
 @dataclass(frozen=True)
@@ -78,7 +112,7 @@ def failure(neighbours: Neighbours, method: Method) -> Failure:
     basis = LINEARIZATION if neighbours.is_constant else FLOW
     bound, predicted = _predicted(neighbours, method) if basis == LINEARIZATION else (None, None)
     trial = _Trial(neighbours, method, basis)
-    limit, verdict = _first(trial.verdict, neighbours.fastest)
+    limit, verdict = GRIDS[basis].first(trial.verdict, neighbours.fastest)
     if verdict in (Verdict.HOLDS, Verdict.FAILS):
         return Failure(bound, predicted, limit, trial.cause(limit), basis)
     return Failure(bound, predicted, None, "", basis, verdict.value, limit)
@@ -93,7 +127,7 @@ def _predicted(neighbours: Neighbours, method: Method) -> tuple[float, float]:
         def verdict(h: float) -> Verdict:
             return Verdict.FAILS if grown(h) / _alone(h * neighbours.drive) - 1.0 > least else Verdict.HOLDS
 
-        return _first(verdict, neighbours.fastest)[0]
+        return GRIDS[LINEARIZATION].first(verdict, neighbours.fastest)[0]
 
     by_eigenvalues = method.is_explicit or neighbours.drive > 0.0
     bound = largest_stable_step(method.tableau, neighbours.eigenvalues) if by_eigenvalues else first(ROUNDING)
@@ -103,29 +137,6 @@ def _predicted(neighbours: Neighbours, method: Method) -> tuple[float, float]:
 def _alone(power: float) -> float:
     """What a deviation that grows by e^power in a step may grow by."""
     return math.exp(min(FASTER * max(power, 0.0), 700.0))
-
-
-def _first(verdict: Callable[[float], Verdict], fastest: float) -> tuple[float, Verdict]:
-    """The first step that does not hold, and why: looked for from fine to coarse, then halved between the last two."""
-    steps = np.geomspace(FINEST, COARSEST, int(PER_DECADE * math.log10(COARSEST / FINEST))) / fastest
-    low = 0.0
-    for high in map(float, steps):
-        found = verdict(high)
-        if found is not Verdict.HOLDS:
-            return _between(verdict, low, high, found) if low else (high, found)
-        low = high
-    return math.inf, Verdict.HOLDS
-
-
-def _between(verdict: Callable[[float], Verdict], low: float, high: float, last: Verdict) -> tuple[float, Verdict]:
-    while high - low > PRECISION * high:
-        middle = 0.5 * (low + high)
-        found = verdict(middle)
-        if found is Verdict.HOLDS:
-            low = middle
-        else:
-            high, last = middle, found
-    return 0.5 * (low + high), last
 
 
 @dataclass(frozen=True)
@@ -157,13 +168,12 @@ class _Trial:
 
     def _along_the_motion(self, h: float) -> Verdict:
         """Held against the exact flow, while deviations are small and the motion is the same."""
-        steps = min(STEPS, int(REACH / (h * self.neighbours.fastest)))
-        exact = self.neighbours.exact(h, steps) if steps >= ENOUGH else None
-        if exact is None or not _ran(exact):
+        exact = self.neighbours.exact(h, ALONG)
+        if not _ran(exact):
             return Verdict.UNKNOWN
         if exact.small < ENOUGH:
             return Verdict.SPREADS
-        pair = self.neighbours.by(self.method, h, steps)
+        pair = self.neighbours.by(self.method, h, ALONG)
         count = min(exact.small, max(pair.small, FEWEST))
         if not self.neighbours.is_kept(exact.first, pair.first, count):
             return Verdict.LOST

@@ -60,8 +60,13 @@ class Track:
     def _is_done(self, floor: float) -> bool:
         if self.points and self.points[-1].status == "too_slow":
             return True
-        errors = [point.error for point in self.points if point.error is not None]
-        return bool(errors) and (errors[-1] <= floor or len(errors) - 1 - errors.index(min(errors)) >= WORSE)
+        known = [(point.error, point.evaluations) for point in self.points if point.error is not None]
+        if not known:
+            return False
+        least, work = min(known, key=lambda one: one[0])
+        after = known[known.index((least, work)) + 1 :]
+        in_vain = sum(evaluations > work for _, evaluations in after)  # what takes the same steps is no finer
+        return known[-1][0] <= floor or in_vain >= WORSE
 
 
 def sweep(tracks: Sequence[Track], reference: Reference) -> Iterator[tuple[int, int]]:

@@ -65,7 +65,7 @@ function line({ methodTitle, t, state, watch, bench }, row) {
   const play = () => watch({ method: row.method, step: 1.05 * failing, t_end: Math.min(200 * failing, bench.result?.t_end ?? 10) });
   return html`<tr>
     <th scope="row">${methodTitle(row.method)}</th>
-    <td>${foretold(row.bound)}</td><td>${foretold(row.predicted)}</td><td>${row.reason ? none(row.reason, row.limit) : seconds(row.measured)}${row.cause === "newton_failed" ? mark(row.cause) : nothing}</td>
+    <td>${foretold(row.bound)}</td><td>${foretold(row.predicted)}</td><td>${row.reason ? none(row.reason, row.limit) : row.basis === "flow" && row.measured ? `≈ ${significant(row.measured, 2, lang)} s` : seconds(row.measured)}${row.cause === "newton_failed" ? mark(row.cause) : nothing}</td>
     <td>${row.deviation === null ? "" : `${significant(100 * row.deviation, 2, lang)} %`}</td>
     <td>${row.measured ? html`<button class="quiet small" @click=${play}>${t("labs.stability.play")}</button>` : nothing}</td>
   </tr>`;
