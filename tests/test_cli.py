@@ -159,10 +159,13 @@ def test_unknown_benchmark() -> None:
 def test_lab_writes_what_it_found(tmp_path: Path) -> None:
     outputs = [tmp_path / name for name in ("found.json", "found.csv", "found.html")]
     chosen = [part for output in outputs for part in ("--output", str(output))]
-    ended = command("lab", "convergence", "pendulum", "--set", "t_end=1", "--set", 'methods=["heun"]', *chosen)
+    asked = ("--set", "t_end=1", "--set", 'methods=["heun"]', "--set", "fresh=true")
+    ended = command("lab", "convergence", "pendulum", *asked, *chosen)
     assert (ended.returncode, ended.stderr) == (0, "")
-    assert ended.stdout == "".join(f"→ {output}\n" for output in outputs)
     found = json.loads(outputs[0].read_text(encoding="utf-8"))
+    *files, taken = ended.stdout.splitlines()
+    assert files == [f"→ {output}" for output in outputs]
+    assert found["measured"]["date"][:10] in taken
     assert found["orders"]["heun"]["theory"] == 2
     assert outputs[1].read_text(encoding="utf-8").startswith("chart,curve,x,y,z\nconvergence,Heun")
     assert "<figure>" in outputs[2].read_text(encoding="utf-8")
