@@ -163,6 +163,8 @@ class _Trial:
         if drive * h * ENOUGH > SMALL:
             return Verdict.SPREADS
         pair = self.neighbours.by(self.method, h)
+        if not self.neighbours.is_at_start(pair.first, max(pair.small, FEWEST)):
+            return Verdict.LOST
         exact = KICK * np.exp(np.minimum(drive * h * np.arange(STEPS + 1), 600.0))
         return _judged(pair, exact, STEPS) if _ran(pair) else Verdict.FAILS
 

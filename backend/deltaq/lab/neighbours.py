@@ -108,6 +108,13 @@ class Neighbours:
             np.linalg.norm(seen - wanted, axis=(1, 2)).max() <= ALIKE * np.linalg.norm(wanted, axis=(1, 2)).max()
         )
 
+    def is_at_start(self, found: Run, count: int) -> bool:
+        """Whether the linearization at the start holds on the first samples of a run, however long it is."""
+        places = np.unique(np.linspace(0, min(count, len(found.times)) - 1, PLACES).astype(int))
+        matrices = self._alike(self._jacobians(found.times[places], found.states[places]))
+        size = np.linalg.norm(self._alike(self.linear.jacobian))
+        return bool(np.linalg.norm(matrices - self._alike(self.linear.jacobian), axis=(1, 2)).max() <= ALIKE * size)
+
     @property
     def _start(self) -> Floats:
         return self.problem.state[: 2 * self.problem.degrees]
