@@ -97,8 +97,8 @@ class Failure:
 
     @property
     def deviation(self) -> float | None:
-        """(measured − predicted) / predicted, where both are there."""
-        if self.predicted is None or self.measured is None:
+        """(measured − predicted) / predicted, where both are there and about the same: growth."""
+        if self.predicted is None or self.measured is None or self.cause == "newton_failed":
             return None
         if not (math.isfinite(self.predicted) and math.isfinite(self.measured)):
             return None
