@@ -26,6 +26,8 @@ from typing import Literal
 Parameter = str | int | float
 Severity = Literal["error", "warning"]
 
+MOST_PROBLEMS = 50  # that are told of one input: who has mended these asks again
+
 
 @dataclass(frozen=True)
 class Problem:

@@ -1,18 +1,31 @@
-"""Reading the body of a request: bounded in size and time, strict in syntax."""
+"""Reading the body of a request: bounded in size and time, strict in syntax, and at the expense of who sent it."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Coroutine
-from typing import Any
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from time import thread_time
+from typing import Any, TypeVar
+from weakref import WeakValueDictionary
 
 from fastapi import Request, Response
 from fastapi.routing import APIRoute
+from pydantic import TypeAdapter
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 
 from ..settings import Settings
-from .presence import while_present
+from .clients import ACCOUNT, METER
+from .ending import Ending
+from .presence import CLIENT_GONE, while_present
 from .strict_json import loads
+from .validation import validated
+from .workers.account import Account
+
+T = TypeVar("T")
+SMALL = 2**14  # bytes of a body that is read at once: the worst of them take 3 ms
 
 
 class BodyError(HTTPException):
@@ -23,8 +36,34 @@ class BodyError(HTTPException):
         self.parameters = parameters
 
 
+class LargeBodies:
+    """Reads large bodies beside the event loop: one at a time, and clients take turns."""
+
+    def __init__(self) -> None:
+        self._thread = ThreadPoolExecutor(1, "deltaq-bodies")
+        self._turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
+
+    async def read(self, work: Callable[[], T], account: Account) -> T:
+        """What the work gives, for which the account pays. QuotaExceeded if it cannot."""
+        turn = self._turns.setdefault(account.client, asyncio.Lock())
+        async with turn:
+            account.admit()
+            loop = asyncio.get_running_loop()
+            return await loop.run_in_executor(self._thread, partial(_paid, work, account))
+
+
+def _paid(work: Callable[[], T], account: Account) -> T:
+    begin = thread_time()
+    try:
+        return work()
+    finally:
+        account.pay(thread_time() - begin)
+
+
 class StrictRequest(Request):
     """A request whose body is read with bounds; `state.lang` is the language that the body asks for."""
+
+    wanted: TypeAdapter[Any] | None = None  # what the body must be
 
     async def body(self) -> bytes:
         if not hasattr(self, "_body"):
@@ -46,10 +85,17 @@ class StrictRequest(Request):
         return b"".join(chunks)
 
     async def json(self) -> Any:
-        document = loads(await self.body())
+        """What the body says, as the model that is wanted of it."""
+        document = await self._read(partial(loads, await self.body()))
         if isinstance(document, dict):
             self.state.lang = document.get("lang")
-        return document
+        return document if self.wanted is None else await self._read(partial(validated, document, self.wanted))
+
+    async def _read(self, work: Callable[[], T]) -> T:
+        if len(self._body) <= SMALL:
+            return work()
+        large: LargeBodies = self.app.state.service.large_bodies
+        return await large.read(work, ACCOUNT.get())
 
 
 def _is_json(request: Request) -> bool:
@@ -59,15 +105,26 @@ def _is_json(request: Request) -> bool:
 
 
 class StrictRoute(APIRoute):
-    """A route that reads its body by StrictRequest, and works only while the client is there."""
+    """A route that reads its body by StrictRequest, and works only while client and service are there."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         handler = super().get_route_handler()
+        field = self.body_field
+        wanted: TypeAdapter[Any] | None = TypeAdapter(field.field_info.annotation or Any) if field else None
+
+        async def answer(strict: StrictRequest) -> Response:
+            try:
+                body = await strict.body()
+            except ClientDisconnect:
+                return Response(status_code=CLIENT_GONE)
+            if body and wanted is not None and not _is_json(strict):
+                raise HTTPException(415)
+            return await while_present(strict, METER.get().measured(handler(strict)))
 
         async def handle(request: Request) -> Response:
             strict = StrictRequest(request.scope, request.receive)
-            if await strict.body() and self.body_field is not None and not _is_json(strict):
-                raise HTTPException(415)
-            return await while_present(strict, handler(strict))
+            strict.wanted = wanted
+            ending: Ending = request.app.state.service.ending
+            return await ending.unless(METER.get().measured(answer(strict)))
 
         return handle

@@ -1,17 +1,31 @@
-"""Connections that have to get on: who sends or reads too slowly is cut off, and holds no socket for long."""
+"""Connections that have to get on: who sends or reads too slowly is cut off, and holds no socket for long.
+
+Nor does anybody hold all of them: there are as many as there are descriptors, no client has more than half, and where
+there is no room for another, one that is idle has to go.
+"""
 
 from __future__ import annotations
 
 import asyncio
+import json
+import resource
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import h11
-from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
+
+from .clients import client_of
+from .languages import DEFAULT
+from .problems import MEDIA_TYPE, OVERLOADED, RETRY_AFTER, Report
 
 SLOWEST = 1024.0  # bytes per second that a client must read at least
+DESCRIPTORS = 16_384  # more are not asked of the system
+RESERVED = 96  # descriptors that are not for connections: files of the page, pipes to the workers, those just accepted
+ACCEPTED = 16  # connections at a time; they have to fit into the reserve, for they are counted afterwards
 
 
 @dataclass(frozen=True)
@@ -40,18 +54,93 @@ class Alarm:
             self._handle = None
 
 
+def most_connections() -> int:
+    """As many as there are descriptors for, after the process has been given as many as it may have, within reason."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    wanted = DESCRIPTORS if hard == resource.RLIM_INFINITY else min(DESCRIPTORS, hard)
+    if soft != resource.RLIM_INFINITY and soft < wanted:
+        with suppress(OSError, ValueError):  # some systems have another limit besides
+            resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
+    soft, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+    have = DESCRIPTORS if soft == resource.RLIM_INFINITY else min(DESCRIPTORS, soft)
+    return max(ACCEPTED, have - RESERVED)
+
+
+class Crowd:
+    """The connections that are open, by client: at most `most`, of one client half of them."""
+
+    def __init__(self, most: int) -> None:
+        self.most = most
+        self._by_address: dict[str, dict[Connection, None]] = {}  # the oldest first
+        self._count = 0
+
+    def __len__(self) -> int:
+        return self._count
+
+    def enter(self, connection: Connection) -> bool:
+        """Whether there is room, if need be in the place of one that is idle."""
+        own = self._by_address.get(connection.address, {})
+        if 2 * (len(own) + 1) > self.most and not self._make_room(own):
+            return False
+        if self._count >= self.most and not self._make_room(max(self._by_address.values(), key=len, default={})):
+            return False
+        self._by_address.setdefault(connection.address, {})[connection] = None
+        self._count += 1
+        return True
+
+    def leave(self, connection: Connection) -> None:
+        """It is closed; one that never entered may leave, too."""
+        own = self._by_address.get(connection.address, {})
+        if connection in own:
+            del own[connection]
+            self._count -= 1
+        if not own:
+            self._by_address.pop(connection.address, None)
+
+    def _make_room(self, own: dict[Connection, None]) -> bool:
+        """Close the oldest that is idle; False if none is."""
+        idle = next((one for one in own if one.is_idle), None)
+        if idle is None:
+            return False
+        self.leave(idle)
+        idle.transport.abort()
+        return True
+
+
+def refusal() -> bytes:
+    """What is told where there is no room: a problem document, before anything is read."""
+    report = Report(OVERLOADED, parameters={"seconds": RETRY_AFTER})
+    body = json.dumps(report.document(DEFAULT), ensure_ascii=False).encode()
+    head = f"HTTP/1.1 503 Service Unavailable\r\nContent-Type: {MEDIA_TYPE}\r\nContent-Length: {len(body)}\r\n"
+    return f"{head}Retry-After: {RETRY_AFTER}\r\nConnection: close\r\n\r\n".encode() + body
+
+
 class Connection(H11Protocol):
     """HTTP/1.1 with deadlines. The body of a request has its own (see body), and so has an idle connection."""
 
-    def __init__(self, *arguments: Any, patience: Patience, **options: Any) -> None:
+    address = ""  # of the client
+
+    def __init__(self, *arguments: Any, patience: Patience, crowd: Crowd, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self.patience = patience
+        self.crowd = crowd
         self._head = Alarm()
         self._reading = Alarm()
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # as H11Protocol has it
         super().connection_made(transport)
-        self._watch_head()
+        self.address = client_of({"client": self.client})
+        if self.crowd.enter(self):
+            self._watch_head()
+        else:
+            transport.write(refusal())
+            transport.close()
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no request is being read or answered."""
+        cycle: RequestResponseCycle | None = self.cycle
+        return cycle is None or cycle.response_complete
 
     def data_received(self, data: bytes) -> None:
         super().data_received(data)
@@ -64,6 +153,7 @@ class Connection(H11Protocol):
             self._watch_head()
 
     def connection_lost(self, exc: Exception | None) -> None:
+        self.crowd.leave(self)
         self._head.stop()
         self._reading.stop()
         super().connection_lost(exc)
@@ -95,6 +185,6 @@ class Connection(H11Protocol):
             self._watch_reading(size)
 
 
-def connections(patience: Patience) -> Callable[..., Connection]:
-    """What uvicorn makes a protocol with."""
-    return partial(Connection, patience=patience)
+def connections(patience: Patience, most: int) -> Callable[..., Connection]:
+    """What uvicorn makes a protocol with; at most so many are open."""
+    return partial(Connection, patience=patience, crowd=Crowd(most))

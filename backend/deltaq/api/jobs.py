@@ -12,6 +12,7 @@ from json import loads
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
+from ..errors import MOST_PROBLEMS, Problem
 from ..lab.library import get_experiment
 from ..mechanics.document import examine
 from ..mechanics.toml import read_toml
@@ -48,8 +49,9 @@ def simulate(document: Document) -> Document:
 def validate(document: Document) -> Document:
     """Whether a scene document can be used, and all its errors and warnings."""
     _, problems = examine(document["scene"])
+    told = [*problems[:MOST_PROBLEMS], *([Problem("more-problems")] if len(problems) > MOST_PROBLEMS else ())]
     valid = not any(problem.severity == "error" for problem in problems)
-    return {"valid": valid, "problems": described(problems, document["lang"])}
+    return {"valid": valid, "problems": described(told, document["lang"])}
 
 
 def read_scene_toml(document: Document) -> Document:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import logging
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import accumulate
 from typing import Any
 from uuid import uuid4
 
@@ -15,7 +16,7 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from ..errors import DeltaqError, InputError, Problem, UnknownNameError
+from ..errors import MOST_PROBLEMS, DeltaqError, InputError, Problem, UnknownNameError
 from ..narration.catalog import text
 from ..narration.problems import described
 from .languages import Language, language_of
@@ -27,6 +28,7 @@ from .workers.job import DeadlineExceeded, JobError, JobFailed, MemoryExceeded, 
 LOGGER = logging.getLogger("deltaq.api")
 MEDIA_TYPE = "application/problem+json"
 RETRY_AFTER = 2
+LONGEST_TEXT = 16_000  # characters of all pointers and of what fills the sentences
 
 
 @dataclass(frozen=True)
@@ -87,7 +89,7 @@ class Report:
 
     def document(self, language: Language) -> dict[str, Any]:
         """The members of RFC 9457, and `problems` with pointer, offset, length, code and message."""
-        told = described(self.problems, language)
+        told = described(first(self.problems), language)
         detail = _text(language, self.type, "detail", **self.parameters)
         return {
             "type": f"/problems/{self.type.name}",
@@ -102,6 +104,15 @@ class Report:
         body = json.dumps(self.document(language), ensure_ascii=False).encode("utf-8", "backslashreplace")
         headers = {"Content-Language": language, "Cache-Control": "no-store", **self.headers}
         return Response(body, self.type.status, headers, MEDIA_TYPE)
+
+
+def first(problems: Sequence[Problem]) -> list[Problem]:
+    """As many as are told; of more it is said that there are more."""
+    sizes = accumulate(
+        len(problem.pointer) + sum(len(str(one)) for one in problem.parameters.values()) for problem in problems
+    )
+    some = [problem for problem, size in zip(problems[:MOST_PROBLEMS], sizes, strict=False) if size <= LONGEST_TEXT]
+    return some if len(some) == len(problems) else [*some, Problem("more-problems")]
 
 
 def _text(language: Language, kind: ProblemType, part: str, **parameters: Any) -> str:

@@ -7,7 +7,7 @@ import functools
 import gzip
 import hashlib
 from collections.abc import Awaitable, Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from importlib import import_module
 from pathlib import Path
@@ -17,8 +17,11 @@ from fastapi import Request
 
 from ..settings import Settings
 from .assets import Assets
+from .body import LargeBodies
 from .cache import Cache, content_hash
 from .clients import ACCOUNT
+from .ending import Ending
+from .extremes import unless_extreme
 from .flights import Hear, ignore
 from .kernels import Kernels
 from .metrics import Metrics, make_metrics
@@ -45,6 +48,8 @@ class Service:
     assets: Assets
     metrics: Metrics
     kernels: Kernels
+    large_bodies: LargeBodies = field(default_factory=LargeBodies)
+    ending: Ending = field(default_factory=Ending)
 
     async def answer(self, key: str, job: Job, document: Any) -> bytes:
         """The gzipped JSON of a pure job, from the cache if it is there."""
@@ -59,14 +64,16 @@ class Service:
 
         async def compute(tell: Hear) -> bytes:
             await self.kernels.wait()
-            return await asyncio.to_thread(pack, await self.laboratory.run(job, document, tell, ACCOUNT.get()))
+            measured = self.laboratory.run(job, document, tell, ACCOUNT.get())
+            return await asyncio.to_thread(pack, await unless_extreme(measured, document))
 
         ask = self.cache.renew if anew else self.cache.get
         return await _shared(partial(ask, key, compute, hear))
 
     async def run(self, job: Job, document: Any) -> bytes:
         """The JSON of a job's answer, at the expense of the client that asks."""
-        return await self.pool.run(job, document, ignore, ACCOUNT.get())
+        question = document.get("request", document)  # as the client knows it
+        return await unless_extreme(self.pool.run(job, document, ignore, ACCOUNT.get()), question)
 
     @staticmethod
     def key(*question: Any) -> str:

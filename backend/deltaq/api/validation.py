@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from fastapi.exceptions import RequestValidationError
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from ..errors import Problem, RequestError, escaped
+from ..errors import MOST_PROBLEMS, Problem, RequestError, escaped
 
 _CODES = {
     "missing": "missing-field",
@@ -46,11 +46,18 @@ _QUOTED = re.compile(r"'([^']*)'")
 
 def checked(question: Mapping[str, object], model: type[BaseModel]) -> dict[str, Any]:
     """A request as a call of the API takes it. Raises RequestError for what that would refuse."""
+    found: BaseModel = validated(question, TypeAdapter(model))
+    return found.model_dump()
+
+
+def validated(document: object, wanted: TypeAdapter[Any]) -> Any:
+    """What is wanted, made of a document. Raises RequestError with some more problems than are told, at most."""
     try:
-        return model.model_validate(question).model_dump()
+        return wanted.validate_python(document)
     except ValidationError as error:
-        findings = [{**finding, "loc": ("body", *finding["loc"])} for finding in error.errors()]
-        raise RequestError(*problems_of(RequestValidationError(findings))) from None
+        findings = error.errors(include_url=False, include_input=False)[: MOST_PROBLEMS + 1]
+        located = [{**finding, "loc": ("body", *finding["loc"])} for finding in findings]
+        raise RequestError(*problems_of(RequestValidationError(located))) from None
 
 
 def problems_of(error: RequestValidationError) -> Iterator[Problem]:

@@ -79,13 +79,14 @@ def _run(listener: socket.socket, settings: Settings) -> None:
     import uvicorn
 
     from ..api.app import create_app
-    from ..api.connection import Patience, connections
+    from ..api.connection import ACCEPTED, Patience, connections, most_connections
     from ..api.logs import configure
+    from ..api.server import Server
 
     configure(settings.log_level)
     config = uvicorn.Config(
         create_app(settings),
-        http=connections(Patience(settings.head_timeout, settings.reading_timeout)),  # type: ignore[arg-type]  # makes protocols
+        http=connections(Patience(settings.head_timeout, settings.reading_timeout), most_connections()),  # type: ignore[arg-type]  # makes protocols
         ws="none",
         log_config=None,
         access_log=False,
@@ -94,8 +95,9 @@ def _run(listener: socket.socket, settings: Settings) -> None:
         timeout_graceful_shutdown=settings.drain_timeout,
         forwarded_allow_ips=list(settings.trusted_proxies),
         h11_max_incomplete_event_size=32768,
+        backlog=ACCEPTED,
     )
-    uvicorn.Server(config).run(sockets=[listener])
+    Server(config).run(sockets=[listener])
 
 
 def _listen(host: str, port: int) -> socket.socket:

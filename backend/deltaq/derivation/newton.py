@@ -24,6 +24,8 @@ SETTLED = 1e-11
 
 def root(field: Field, slopes: Slopes, start: Vector, scale: float) -> Vector | None:
     """A root near the start, if there is one: |F| is then below 1e-9 of `scale`, and the last step was tiny."""
+    if not math.isfinite(scale):
+        return None
     x, damping, value = list(start), DAMPING, field(start)
     for _ in range(ITERATIONS):
         if not _finite(value):
@@ -52,13 +54,17 @@ def _finite(values: Vector) -> bool:
 
 
 def step_of(slopes: Matrix, value: Vector, damping: float) -> Vector | None:
-    """The d that minimizes |F + J d|² + λ|d|², λ relative to the size of J."""
+    """The d that minimizes |F + J d|² + λ|d|², λ relative to the size of J; None if it is too large."""
     columns = [list(column) for column in zip(*slopes, strict=True)]
-    normal = [[math.fsum(map(mul, a, b)) for b in columns] for a in columns]
+    try:
+        normal = [[math.fsum(map(mul, a, b)) for b in columns] for a in columns]
+        right = [-math.fsum(map(mul, column, value)) for column in columns]
+    except (OverflowError, ValueError):  # a sum, or one of its terms, is infinite
+        return None
     size = max((normal[i][i] for i in range(len(normal))), default=0.0) or 1.0
     for i, row in enumerate(normal):
         row[i] += damping * size
-    return solved(normal, [-math.fsum(map(mul, column, value)) for column in columns])
+    return solved(normal, right)
 
 
 def solved(matrix: list[list[Any]], right: list[Any]) -> list[Any] | None:

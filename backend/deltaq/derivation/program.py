@@ -23,7 +23,11 @@ BY_CLASS: Mapping[str, Callable[..., arb]] = {
     # The slope of a jump: nothing beside it, and no value at it.
     "DiracDelta": lambda x, *_order: arb("nan") if x.contains(0) else arb(0),
 }
-CONSTANTS: Mapping[sp.Basic, Callable[[], arb]] = {sp.pi: arb.pi, sp.E: arb.const_e}
+CONSTANTS: Mapping[sp.Basic, Callable[[], arb]] = {
+    sp.pi: arb.pi,
+    sp.E: arb.const_e,
+    **dict.fromkeys((sp.oo, -sp.oo, sp.zoo, sp.nan), lambda: arb("nan")),  # where a number was too large
+}
 
 
 def number(expression: sp.Basic, point: Point) -> arb:

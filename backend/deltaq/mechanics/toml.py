@@ -10,21 +10,37 @@ from collections.abc import Iterator, Mapping, Sequence
 from ..errors import Problem, RequestError, escaped
 
 Document = dict[str, object]
+LONGEST = 2**16  # characters; the largest scene of the menu has 7,000
+MOST_ENTRIES = 5_000  # keys, values and tables; it has 800
+DEEPEST = 64
+LARGEST = 2**1023  # of whole numbers; as far as floating numbers go
+_LONG_KEY = re.compile(r"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){16}""")
 _PLACE = re.compile(r"^(.*?) \(at line (\d+), column (\d+)\)$", re.DOTALL)
 
 
 def read_toml(text: str) -> Document:
     """The table that a text describes, in the values that JSON has. Raises RequestError with line and column."""
+    _check_size(text)
     try:
         document: Document = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise RequestError(_syntax(text, str(error))) from None
+    except ValueError:  # from int(), which bounds its digits
+        raise RequestError(Problem("toml-digits")) from None
     except RecursionError:
         raise RequestError(Problem("toml-depth")) from None
     problems = [Problem("toml-value", pointer) for pointer in _strangers(document, "")]
     if problems:
         raise RequestError(*problems)
     return document
+
+
+def _check_size(text: str) -> None:
+    """Raises RequestError for what would take long: many entries, and keys of many parts, which cost their square."""
+    if _LONG_KEY.search(text) or "[" * DEEPEST in text:
+        raise RequestError(Problem("toml-depth"))
+    if len(text) > LONGEST or sum(map(text.count, "=,[{")) > MOST_ENTRIES:
+        raise RequestError(Problem("toml-too-large", parameters={"limit": LONGEST, "most": MOST_ENTRIES}))
 
 
 def _syntax(text: str, reason: str) -> Problem:
@@ -41,6 +57,8 @@ def _strangers(value: object, pointer: str) -> Iterator[str]:
         case Mapping():
             for key, one in value.items():
                 yield from _strangers(one, f"{pointer}/{escaped(str(key))}")
+        case int() if abs(value) > LARGEST:
+            yield pointer
         case str() | bool() | int():
             return
         case Sequence():

@@ -89,9 +89,6 @@ class Work:
         only = self._run(replace(fine, pieces=self.audit.before(self.tolerance)))
         return Attempt(only, (only,), None)
 
-    def _evaluations(self, steps: Steps) -> float:
-        return self.problem.t_end / steps.size * steps.ratio * self.method.tableau.stages
-
     @cached_property
     def audit(self) -> Audit:
         return Audit(self.problem, self.method)
@@ -152,7 +149,8 @@ class Work:
 
     def _both(self, coarse: Steps, fine: Steps) -> tuple[Run, Run]:
         """Two runs; side by side if they may take a while, for kernels hold no lock."""
-        if coarse.tolerance == 0.0 and self._evaluations(fine) < BRIEF:
+        work = self.problem.t_end * fine.ratio * self.method.tableau.stages
+        if coarse.tolerance == 0.0 and work < BRIEF * fine.size:
             return self._run(coarse), self._run(fine)
         of_fine, of_coarse = side_by_side(lambda: self._run(fine), lambda: self._run(coarse))
         return of_coarse, of_fine

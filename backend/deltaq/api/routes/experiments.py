@@ -24,6 +24,7 @@ from ...lab.library import experiment_ids
 from ...narration.catalog import text
 from ...packages import classes_of
 from ..body import StrictRoute
+from ..ending import Ending
 from ..flights import Hear, ignore
 from ..languages import language_of
 from ..problems import report_of
@@ -95,7 +96,7 @@ async def _measured(request: Request, experiment: str, body: ExperimentRequest) 
         return await _drawn(service, result, question["lang"])
 
     if MEDIA_TYPE in accepted:
-        return _streamed(request, measured)
+        return _streamed(request, measured, service.ending)
     answer = await measured(ignore)
     wanted = next((kind for kind in FILES if kind in accepted), None)
     if wanted is None:
@@ -114,9 +115,9 @@ def _wants_anew(request: Request) -> bool:
     return "no-cache" in request.headers.get("cache-control", "")
 
 
-def _streamed(request: Request, measured: Callable[[Hear], Awaitable[bytes]]) -> Response:
+def _streamed(request: Request, measured: Callable[[Hear], Awaitable[bytes]], ending: Ending) -> Response:
     async def work(hear: Hear) -> bytes:
-        return unpack(await measured(hear))
+        return unpack(await ending.unless(measured(hear)))
 
     def failure(error: Exception) -> dict[str, Any]:
         return report_of(error).document(language_of(request))

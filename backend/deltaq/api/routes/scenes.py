@@ -10,8 +10,9 @@ from fastapi import APIRouter, Body, Query, Request, Response
 from ...errors import Problem, RequestError
 from ...mechanics.library import family_of, load_scene, scene_ids
 from ...mechanics.scene import Scene
+from ...mechanics.toml import LONGEST
 from ...mechanics.writing import write_scene
-from ..body import StrictRoute
+from ..body import BodyError, StrictRoute
 from ..languages import language_of
 from ..responses import JSON, tagged
 from ..service import service_of
@@ -73,7 +74,10 @@ async def validate_scene(request: Request, scene: Annotated[SceneDocument, Body(
 )
 async def read_toml_scene(request: Request) -> Response:
     """A scene document written in TOML, as JSON. Whether it describes a mechanical system, `/scenes/validate` says."""
-    text = (await request.body()).decode("utf-8", errors="replace")
+    body = await request.body()
+    if len(body) > LONGEST:
+        raise BodyError(413, limit=LONGEST)
+    text = body.decode("utf-8", errors="replace")
     if not text:
         raise RequestError(Problem("missing-field", parameters={"field": "body"}))
     return Response(await service_of(request).run(READ, {"text": text, "lang": language_of(request)}), media_type=JSON)

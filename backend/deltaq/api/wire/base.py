@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
-from pydantic_core import PydanticCustomError
+from pydantic_core import PydanticCustomError, PydanticKnownError
 
 from ..languages import Language
+
+LONGEST_ID = 64  # characters of the name of a built-in scene
 
 
 class Request(BaseModel):
@@ -27,7 +29,14 @@ class Answer(BaseModel):
     model_config = ConfigDict(extra="allow", frozen=True)
 
 
+def items(**bounds: Any) -> Any:
+    """A field that is a list. Of its items the first that is wrong is told: each may be one of many."""
+    return Field(strict=False, fail_fast=True, **bounds)
+
+
 def _scene(value: Any) -> Any:
+    if isinstance(value, str) and len(value) > LONGEST_ID:
+        raise PydanticKnownError("string_too_long", {"max_length": LONGEST_ID})
     if isinstance(value, (str, dict)):
         return value
     raise PydanticCustomError("request-scene-type", "a scene is given by its id or as a document")
@@ -39,7 +48,7 @@ SceneReference = Annotated[
     WithJsonSchema(
         {
             "anyOf": [
-                {"type": "string", "description": "id of a built-in scene", "maxLength": 64},
+                {"type": "string", "description": "id of a built-in scene", "maxLength": LONGEST_ID},
                 {"type": "object", "description": "scene document, format 1"},
             ]
         }
@@ -64,10 +73,10 @@ class InitialValue(Request):
     rate: float | None = Field(None, description="its derivative at t = 0", examples=[0.0])
 
 
-Names = Annotated[tuple[Name, ...], Field(strict=False, max_length=32)]
+Names = Annotated[tuple[Name, ...], items(max_length=32)]
 Guides = Annotated[
     tuple[GuideChange, ...],
-    Field(strict=False, max_length=32, description="coordinates to be made functions of time"),
+    items(max_length=32, description="coordinates to be made functions of time"),
 ]
 Frozen = Annotated[Names, Field(description="coordinates to be held constant", examples=[[]])]
 Values = Annotated[dict[Name, float], Field(max_length=256, description="values of parameters", examples=[{"l": 0.8}])]

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from .base import AskedLanguage, Request, Syntax, examples
+from .base import AskedLanguage, Request, Syntax, examples, items
 from .task import TASK, SceneAskedAbout, TaskId
 
 ANSWER = Field(description="what was written")
@@ -28,7 +28,7 @@ class AnsweredTask(Request):
     answer: AnswerText = ANSWER
 
 
-Lines = Annotated[tuple[AnsweredTask, ...], Field(strict=False, max_length=24)]
+Lines = Annotated[tuple[AnsweredTask, ...], items(max_length=24)]
 
 
 class SingleCheck(SceneAskedAbout):
@@ -59,7 +59,7 @@ class PointScheme(Request):
 class LinesRequest(SceneAskedAbout):
     """A whole working."""
 
-    lines: Annotated[tuple[AnsweredTask, ...], Field(strict=False, min_length=1, max_length=24)] = Field(
+    lines: Annotated[tuple[AnsweredTask, ...], items(min_length=1, max_length=24)] = Field(
         description="tasks and answers, one after the other"
     )
     scheme: PointScheme = Field(PointScheme(), description="how points are given")
@@ -99,7 +99,7 @@ class CheckRequest(SingleCheck):
 class BatchRequest(Request):
     """Several answers at once."""
 
-    checks: Annotated[tuple[SingleCheck, ...], Field(strict=False, min_length=1, max_length=64)] = Field(
+    checks: Annotated[tuple[SingleCheck, ...], items(min_length=1, max_length=64)] = Field(
         description="one after the other, of the same or of different scenes"
     )
     lang: AskedLanguage = None

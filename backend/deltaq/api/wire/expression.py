@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from .base import Answer, AskedLanguage, Names, Request, SceneReference, Syntax, examples
+from .base import Answer, AskedLanguage, Names, Request, SceneReference, Syntax, examples, items
 from .problem import ProblemEntry
 
 Text = Annotated[str, Field(min_length=1, max_length=4000)]
@@ -33,7 +33,7 @@ class ExpressionsRequest(Request):
     """Several texts that use the names of one scene."""
 
     scene: SceneReference
-    expressions: Annotated[tuple[ExpressionText, ...], Field(strict=False, max_length=500, description="the texts")]
+    expressions: Annotated[tuple[ExpressionText, ...], items(max_length=500, description="the texts")]
     lang: AskedLanguage = None
 
     model_config = examples(

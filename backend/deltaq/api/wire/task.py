@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from .base import Answer, AskedLanguage, Request, SceneWithChanges, examples
+from .base import Answer, AskedLanguage, Request, SceneWithChanges, examples, items
 
 Seed = Annotated[str, Field(max_length=64)]
 SEED = Field(None, description="draws each student's own parameter values", examples=["student 7"])
@@ -31,7 +31,7 @@ class TasksRequest(SceneAskedAbout):
 class StackRequest(SceneAskedAbout):
     """Which tasks to export."""
 
-    tasks: Annotated[tuple[TaskId, ...], Field(strict=False, max_length=32, description="all if empty")] = ()
+    tasks: Annotated[tuple[TaskId, ...], items(max_length=32, description="all if empty")] = ()
     lang: AskedLanguage = None
 
     model_config = examples({"scene": "pendulum", "tasks": ["equation:phi"]})

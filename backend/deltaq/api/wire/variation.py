@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from .base import Answer, AskedLanguage, ExpressionText, Name, Names, Request, Syntax, Values, examples
+from .base import Answer, AskedLanguage, ExpressionText, Name, Names, Request, Syntax, Values, examples, items
 from .derivation import Chapter
 
 Latex = Annotated[str, Field(max_length=64, pattern=r"^(\\[A-Za-z]+|[A-Za-z])(_(\w|\{\w{1,16}\}))?$")]
@@ -20,8 +20,8 @@ class NamedFunction(Request):
 
 
 Texts = Annotated[dict[Name, ExpressionText], Field(max_length=8)]
-Functions = Annotated[tuple[Name | NamedFunction, ...], Field(strict=False, min_length=1, max_length=8)]
-Parameters = Annotated[tuple[Name | NamedFunction, ...], Field(strict=False, max_length=32)]
+Functions = Annotated[tuple[Name | NamedFunction, ...], items(min_length=1, max_length=8)]
+Parameters = Annotated[tuple[Name | NamedFunction, ...], items(max_length=32)]
 
 
 class ValueFunctional(Request):
@@ -64,7 +64,7 @@ class VariationRequest(Request):
     functional: ValueFunctional | IntegralFunctional | None = Field(
         None, discriminator="kind", description="what is made of the expression; the expression itself if empty"
     )
-    include: Annotated[tuple[Literal["quotient"], ...], Field(strict=False, max_length=1)] = Field(
+    include: Annotated[tuple[Literal["quotient"], ...], items(max_length=1)] = Field(
         (), description="quotient: difference quotients of the concrete functions against the derivative"
     )
     numeric: Numeric | None = Field(None, description="the concrete functions")

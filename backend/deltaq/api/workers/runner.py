@@ -11,7 +11,7 @@ from importlib import import_module
 from multiprocessing.connection import Connection
 from typing import Any
 
-from ...errors import InputError
+from ...errors import MOST_PROBLEMS, InputError
 from .limits import bound_memory, bound_processor_time, die_first, die_with_parent, keep_only
 from .message import PART, READY, Failure, encode_answer, encode_error, problem_data
 from .traces import trace_of
@@ -52,7 +52,7 @@ def replies_to(request: bytes) -> Iterator[bytes]:
         found = function_of(target)(document)
         yield from _streamed(found) if isinstance(found, Iterator) else (encode_answer(found),)
     except InputError as error:
-        problems = tuple(problem_data(problem) for problem in error.problems)
+        problems = tuple(problem_data(problem) for problem in error.problems[: MOST_PROBLEMS + 1])
         yield encode_error(Failure(type(error).__name__, problems=problems))
     except BaseException as error:  # noqa: BLE001  a worker answers whatever happens
         yield encode_error(failure_of(error))

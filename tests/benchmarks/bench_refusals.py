@@ -1,0 +1,145 @@
+"""How a service refuses the worst bodies that can be sent to it, and what that costs those who ask for something else.
+
+Run it from the checkout: `python -m tests.benchmarks.bench_refusals [share]`. Sends all bodies of
+`tests.api.worst_bodies`, or so great a share of them, one after the other, to a service on this machine; beside them
+another client reads its version all the time. Prints; judges nothing.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import random
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from time import perf_counter
+
+import httpx
+import numpy as np
+from tests.api.worst_bodies import Worst, worst_bodies
+from tests.benchmarks.memory import resident
+from tests.serving import Served, served
+
+PAUSE = 0.005  # seconds between two readings
+LISTED = 12  # of the slowest and of the largest
+
+
+@dataclass
+class Tally:
+    """What came of all bodies, and what the other client saw meanwhile."""
+
+    statuses: Counter[int] = field(default_factory=Counter)
+    seconds: list[tuple[float, str]] = field(default_factory=list)
+    sizes: list[tuple[int, str]] = field(default_factory=list)
+    readings: list[float] = field(default_factory=list)
+    memory: list[float] = field(default_factory=list)
+    bad: list[str] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        refusals, readings = [1e3 * s for s, _ in self.seconds], [1e3 * s for s in self.readings]
+        slow = [f"  {1e3 * seconds:7.1f} ms  {name}" for seconds, name in sorted(self.seconds)[-LISTED:]]
+        large = [f"  {size / 1e3:7.1f} kB  {name}" for size, name in sorted(self.sizes)[-LISTED:]]
+        return "\n".join(
+            [
+                f"{len(refusals)} bodies: {dict(sorted(self.statuses.items()))}",
+                f"answered within {told(refusals)}",
+                *slow,
+                f"largest answers: {max(self.sizes)[0] / 1e3:.1f} kB",
+                *large,
+                f"another's reading, {len(readings)} times: {told(readings)}",
+                f"memory of the web process {self.memory[0]:.0f} MiB, at most {max(self.memory) - self.memory[0]:+.0f}",
+                *(f"WRONG {one}" for one in self.bad),
+            ]
+        )
+
+
+def told(milliseconds: list[float]) -> str:
+    """Half, 99 in a hundred and all of them."""
+    p50, p99 = np.percentile(milliseconds, (50, 99))
+    return f"p50 {p50:.1f} ms, p99 {p99:.1f} ms, most {max(milliseconds):.1f} ms"
+
+
+async def send(client: httpx.AsyncClient, worst: Worst, tally: Tally) -> None:
+    """Send one body."""
+    content = worst.make()
+    begin = perf_counter()
+    try:
+        answer = await client.post(worst.path, content=content, headers={"Content-Type": worst.media_type})
+    except httpx.HTTPError as error:
+        tally.bad.append(f"{worst}: {error!r}")
+        return
+    tally.statuses[answer.status_code] += 1
+    tally.seconds.append((perf_counter() - begin, f"{answer.status_code} {worst}"))
+    tally.sizes.append((len(answer.content), f"{answer.status_code} {worst}"))
+    if answer.status_code >= 500:
+        tally.bad.append(f"{worst}: {answer.status_code}")
+
+
+def read(address: str, told: Connection) -> None:
+    """Read the version until told to stop, in a process that has nothing else to do; then tell how long each took."""
+    readings = []
+    with httpx.Client(base_url=address, timeout=300) as client:
+        while not told.poll(PAUSE):
+            begin = perf_counter()
+            client.get("/api/v1/version").raise_for_status()
+            readings.append(perf_counter() - begin)
+    told.send(readings)
+
+
+@contextmanager
+def reader(address: str, tally: Tally) -> Iterator[None]:
+    """Another client that reads."""
+    context = get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=read, args=(address, theirs))
+    process.start()
+    try:
+        yield
+        ours.send("stop")
+        tally.readings += ours.recv()
+    finally:
+        process.kill()
+        process.join()
+
+
+async def watch(service: Served, tally: Tally) -> None:
+    """Look at the memory for ever."""
+    while True:
+        tally.memory.append(resident(service.process.pid))
+        await asyncio.sleep(0.02)
+
+
+async def drive(service: Served, share: float) -> Tally:
+    """All bodies, or a share of them, while another client reads."""
+    tally, draw = Tally(), random.Random(1)
+    async with httpx.AsyncClient(base_url=service.address, timeout=300) as client:
+        document = (await client.get("/api/v1/openapi.json")).json()
+        chosen = [worst for worst in worst_bodies(document) if draw.random() < share]
+        draw.shuffle(chosen)
+        while (await client.get("/api/v1/ready")).status_code != 200:
+            await asyncio.sleep(0.2)
+        watching = asyncio.create_task(watch(service, tally))
+        with reader(service.address, tally):
+            await asyncio.sleep(2.0)
+            for number, worst in enumerate(chosen, 1):
+                await send(client, worst, tally)
+                if number % 500 == 0:
+                    print(f"{number} of {len(chosen)}", flush=True)
+        watching.cancel()
+    return tally
+
+
+def main() -> None:
+    share = float(sys.argv[1]) if len(sys.argv) > 1 else 1.0
+    with served(queue_patience=60) as service:
+        print(asyncio.run(drive(service, share)))
+        print(f"load of the machine {os.getloadavg()[0]:.1f}")
+
+
+if __name__ == "__main__":
+    main()
