@@ -19,7 +19,7 @@ from deltaq.api.app import create_app
 from deltaq.api.body import SMALL, LargeBodies
 from deltaq.api.clients import StepMeter
 from deltaq.api.strict_json import DEEPEST, LONGEST_NUMBER, LONGEST_TEXT, MOST_ENTRIES, MOST_MEMBERS, MOST_VALUES, loads
-from deltaq.api.workers.account import FREE
+from deltaq.api.workers.account import FREE, Account
 from deltaq.errors import MOST_PROBLEMS, RequestError
 from deltaq.settings import Settings
 
@@ -141,7 +141,6 @@ async def refused(client: httpx.AsyncClient, worst: Worst) -> str:
     return ", ".join(what for what, true in wrong.items() if true)
 
 
-@pytest.mark.usefixtures("laboratory")
 async def test_worst_bodies_are_refused_in_few_words(app: FastAPI, client: httpx.AsyncClient) -> None:
     found = {str(worst): await refused(client, worst) for worst in chosen(app.openapi())}
     assert {name: wrong for name, wrong in found.items() if wrong} == {}
@@ -229,8 +228,6 @@ async def test_large_bodies_are_read_beside_the_loop_and_clients_take_turns() ->
 
     def work(name: str) -> Callable[[], None]:
         return lambda: order.append((name, threading.current_thread() is threading.main_thread()))
-
-    from deltaq.api.workers.account import Account
 
     one, other = Account("192.0.2.1"), Account("192.0.2.2")
     await asyncio.gather(*(large.read(work("one"), one) for _ in range(3)), large.read(work("other"), other))

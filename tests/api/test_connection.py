@@ -201,3 +201,38 @@ def test_requests_under_way_are_answered_when_the_service_ends() -> None:
         service.process.communicate(timeout=30)
         with pytest.raises(httpx.ConnectError):
             httpx.get(f"{service.address}api/v1/health")
+
+
+def heard(service: Served, texts: list[str]) -> None:
+    """All that the stream of a long experiment says."""
+    question, stream = {"scene": "triple-pendulum", "t_end": 71.0, "peers": True}, {"Accept": "text/event-stream"}
+    address = f"{service.address}api/v1/experiments/work-precision"
+    texts.append(httpx.post(address, json=question, headers=stream, timeout=120).text)
+
+
+def test_those_who_still_wait_when_the_service_ends_are_told_so() -> None:
+    with served(workers=1, drain_timeout=2, simulation_deadline=120) as service:
+        settled(service)
+        while measuring(service):  # it still compiles
+            time.sleep(0.2)
+        answers: list[httpx.Response] = []
+        texts: list[str] = []
+        address = f"{service.address}api/v1/simulations"
+        asking = [
+            threading.Thread(target=lambda: answers.append(httpx.post(address, json=HEAVY, timeout=120))),
+            threading.Thread(target=heard, args=(service, texts)),
+        ]
+        for one in asking:
+            one.start()
+        assert within(20.0, service, 1)
+        end = time.monotonic() + 60
+        while not measuring(service) and time.monotonic() < end:
+            time.sleep(0.05)
+        service.process.send_signal(signal.SIGTERM)
+        for one in asking:
+            one.join(60)
+    assert [(answer.status_code, answer.json()["type"]) for answer in answers] == [(503, "/problems/interrupted")]
+    assert answers[0].headers["content-type"] == "application/problem+json"
+    last = texts[0].strip().split("\n\n")[-1].split("\n")
+    assert last[0] == "event: problem"
+    assert json.loads(last[1].removeprefix("data: "))["type"] == "/problems/interrupted"

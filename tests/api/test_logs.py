@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from deltaq.api.access import REQUEST_ID
-from deltaq.api.logs import Line, configure
+from deltaq.api.logs import Line, Repeats, configure
 
 
 def failed() -> logging.LogRecord:
@@ -74,3 +74,51 @@ def test_level(root_logger: logging.Logger, level: str, private: bool) -> None:
     assert root_logger.level == getattr(logging, level.upper())
     assert isinstance(handler.formatter, Line)
     assert handler.formatter.private is private
+
+
+class Clock:
+    """Shows what it is set to."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+def record(level: int, line: int, message: str = "x") -> logging.LogRecord:
+    return logging.LogRecord("asyncio", level, __file__, line, message, (), None)
+
+
+def test_warnings_from_one_place_are_told_a_few_times_and_then_counted() -> None:
+    clock = Clock()
+    repeats = Repeats(most=3, seconds=10.0, clock=clock)
+    passed = [repeats.filter(record(logging.ERROR, 1, f"socket {n}")) for n in range(1000)]
+    assert passed == [True] * 3 + [False] * 997
+    assert repeats.filter(record(logging.ERROR, 2))
+    clock.now = 10.0
+    later = [record(logging.ERROR, 1) for _ in range(2)]
+    assert [repeats.filter(one) for one in later] == [True, True]
+    assert [json.loads(Line().format(one)).get("left_out") for one in later] == [997, None]
+
+
+def test_lines_of_requests_are_all_told() -> None:
+    repeats = Repeats(most=3, clock=Clock())
+    assert all(repeats.filter(record(logging.INFO, 1)) for _ in range(1000))
+
+
+def test_what_was_raised_in_different_places_is_told_apart() -> None:
+    repeats, other = Repeats(most=1, clock=Clock()), failed()
+    try:
+        int("x")
+    except ValueError:
+        here = logging.LogRecord(
+            other.name, other.levelno, other.pathname, other.lineno, "incident", (), sys.exc_info()
+        )
+    assert [repeats.filter(one) for one in (other, here, other, here)] == [True, True, False, False]
+
+
+def test_the_log_of_the_service_has_the_filter(root_logger: logging.Logger) -> None:
+    configure("warning")
+    (handler,) = root_logger.handlers
+    assert [type(one) for one in handler.filters] == [Repeats]

@@ -25,6 +25,8 @@ from tests.api.worst_bodies import Worst, worst_bodies
 from tests.benchmarks.memory import resident
 from tests.serving import Served, served
 
+from deltaq.api.workers.meter import Clock, processor_clock
+
 PAUSE = 0.005  # seconds between two readings
 LISTED = 12  # of the slowest and of the largest
 
@@ -37,6 +39,8 @@ class Tally:
     seconds: list[tuple[float, str]] = field(default_factory=list)
     sizes: list[tuple[int, str]] = field(default_factory=list)
     readings: list[float] = field(default_factory=list)
+    quiet: list[float] = field(default_factory=list)
+    processor: list[float] = field(default_factory=list)
     memory: list[float] = field(default_factory=list)
     bad: list[str] = field(default_factory=list)
 
@@ -51,6 +55,8 @@ class Tally:
                 *slow,
                 f"largest answers: {max(self.sizes)[0] / 1e3:.1f} kB",
                 *large,
+                f"processor time of the web process for each {told([1e3 * s for s in self.processor])}",
+                f"another's reading before {told([1e3 * s for s in self.quiet])}",
                 f"another's reading, {len(readings)} times: {told(readings)}",
                 f"memory of the web process {self.memory[0]:.0f} MiB, at most {max(self.memory) - self.memory[0]:+.0f}",
                 *(f"WRONG {one}" for one in self.bad),
@@ -64,16 +70,17 @@ def told(milliseconds: list[float]) -> str:
     return f"p50 {p50:.1f} ms, p99 {p99:.1f} ms, most {max(milliseconds):.1f} ms"
 
 
-async def send(client: httpx.AsyncClient, worst: Worst, tally: Tally) -> None:
+async def send(client: httpx.AsyncClient, worst: Worst, clock: Clock, tally: Tally) -> None:
     """Send one body."""
     content = worst.make()
-    begin = perf_counter()
+    begin, used = perf_counter(), clock()
     try:
         answer = await client.post(worst.path, content=content, headers={"Content-Type": worst.media_type})
     except httpx.HTTPError as error:
         tally.bad.append(f"{worst}: {error!r}")
         return
     tally.statuses[answer.status_code] += 1
+    tally.processor.append(clock() - used)
     tally.seconds.append((perf_counter() - begin, f"{answer.status_code} {worst}"))
     tally.sizes.append((len(answer.content), f"{answer.status_code} {worst}"))
     if answer.status_code >= 500:
@@ -92,7 +99,7 @@ def read(address: str, told: Connection) -> None:
 
 
 @contextmanager
-def reader(address: str, tally: Tally) -> Iterator[None]:
+def reader(address: str, readings: list[float]) -> Iterator[None]:
     """Another client that reads."""
     context = get_context("spawn")
     ours, theirs = context.Pipe()
@@ -101,7 +108,7 @@ def reader(address: str, tally: Tally) -> Iterator[None]:
     try:
         yield
         ours.send("stop")
-        tally.readings += ours.recv()
+        readings += ours.recv()
     finally:
         process.kill()
         process.join()
@@ -116,18 +123,22 @@ async def watch(service: Served, tally: Tally) -> None:
 
 async def drive(service: Served, share: float) -> Tally:
     """All bodies, or a share of them, while another client reads."""
-    tally, draw = Tally(), random.Random(1)
+    tally, draw, clock = Tally(), random.Random(1), processor_clock(service.process.pid)
     async with httpx.AsyncClient(base_url=service.address, timeout=300) as client:
         document = (await client.get("/api/v1/openapi.json")).json()
         chosen = [worst for worst in worst_bodies(document) if draw.random() < share]
         draw.shuffle(chosen)
         while (await client.get("/api/v1/ready")).status_code != 200:
             await asyncio.sleep(0.2)
+        for small in list(worst_bodies(document, 1000))[::100]:
+            await send(client, small, clock, Tally())
         watching = asyncio.create_task(watch(service, tally))
-        with reader(service.address, tally):
+        with reader(service.address, tally.quiet):
+            await asyncio.sleep(5.0)
+        with reader(service.address, tally.readings):
             await asyncio.sleep(2.0)
             for number, worst in enumerate(chosen, 1):
-                await send(client, worst, tally)
+                await send(client, worst, clock, tally)
                 if number % 500 == 0:
                     print(f"{number} of {len(chosen)}", flush=True)
         watching.cancel()

@@ -82,8 +82,10 @@ class Crowd:
         own = self._by_address.get(connection.address, {})
         if 2 * (len(own) + 1) > self.most and not self._make_room(own):
             return False
-        if self._count >= self.most and not self._make_room(max(self._by_address.values(), key=len, default={})):
-            return False
+        if self._count >= self.most:
+            greediest_first = sorted(self._by_address.values(), key=len, reverse=True)
+            if not any(map(self._make_room, greediest_first)):
+                return False
         self._by_address.setdefault(connection.address, {})[connection] = None
         self._count += 1
         return True
