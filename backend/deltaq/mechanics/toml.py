@@ -14,7 +14,13 @@ LONGEST = 2**16  # characters; the largest scene of the menu has 7,000
 MOST_ENTRIES = 5_000  # keys, values and tables; it has 800
 DEEPEST = 64
 LARGEST = 2**1023  # of whole numbers; as far as floating numbers go
-_LONG_KEY = re.compile(r"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){16}""")
+_TEXT = re.compile(
+    r"""
+    \"{3}(?:\\.|.)*?(?:"{3}|\Z) | '{3}.*?(?:'{3}|\Z) | "(?:\\.|[^"\\\n])*"? | '[^'\n]*'? | \#[^\n]*
+    """,
+    re.VERBOSE | re.DOTALL,
+)  # in quotes of any kind, or a comment; one without an end counts too, so that none is looked through twice
+_LONG_KEY = re.compile(r"(?:\.[ \t]*[\w-]+[ \t]*){16}")
 _PLACE = re.compile(r"^(.*?) \(at line (\d+), column (\d+)\)$", re.DOTALL)
 
 
@@ -37,10 +43,14 @@ def read_toml(text: str) -> Document:
 
 def _check_size(text: str) -> None:
     """Raises RequestError for what would take long: many entries, and keys of many parts, which cost their square."""
-    if _LONG_KEY.search(text) or "[" * DEEPEST in text:
+    size = {"limit": LONGEST, "most": MOST_ENTRIES}
+    if len(text) > LONGEST:
+        raise RequestError(Problem("toml-too-large", parameters=size))
+    bare = _TEXT.sub("x", text)
+    if _LONG_KEY.search(bare) or "[" * DEEPEST in bare:
         raise RequestError(Problem("toml-depth"))
-    if len(text) > LONGEST or sum(map(text.count, "=,[{")) > MOST_ENTRIES:
-        raise RequestError(Problem("toml-too-large", parameters={"limit": LONGEST, "most": MOST_ENTRIES}))
+    if sum(map(bare.count, "=,[{")) > MOST_ENTRIES:
+        raise RequestError(Problem("toml-too-large", parameters=size))
 
 
 def _syntax(text: str, reason: str) -> Problem:
