@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-import socket
+from typing import Any
 
 import uvicorn
 
@@ -15,13 +15,13 @@ WAITING = 2048  # connections that may wait to be accepted
 class Server(uvicorn.Server):
     """Accepts connections a few at a time, and ends with an answer to everybody."""
 
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+    async def startup(self, sockets: list[Any] | None = None) -> None:
         """Uvicorn's backlog is also how many connections it accepts before it looks at any; more of them may wait."""
         await super().startup(sockets)
         for listener in sockets or ():
             listener.listen(WAITING)
 
-    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+    async def shutdown(self, sockets: list[Any] | None = None) -> None:
         """Requests under way get some time, and those that need more get a problem document."""
         ending: Ending = self.config.loaded_app.app.state.service.ending
         asyncio.get_running_loop().call_later(PART * (self.config.timeout_graceful_shutdown or 0), ending.begin)
