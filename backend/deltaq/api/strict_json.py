@@ -19,7 +19,7 @@ from ..errors import MOST_PROBLEMS, Problem, RequestError, escaped
 
 LONGEST_NUMBER = 400
 DEEPEST = 64
-MOST_VALUES = 20_000  # in a body; 64 checks of the largest scene of the menu have as many
+MOST_VALUES = 20_000  # in a body; the largest scene of the menu has 375, so 64 checks of it would be too many
 MOST_ENTRIES = 1_000  # in a list
 MOST_MEMBERS = 300  # in a table
 LONGEST_TEXT = 10_000  # characters; the longest that any request may have is an expression of 4,000
