@@ -7,7 +7,7 @@ import pytest
 
 from deltaq.api import flights
 from deltaq.api.cache import Cache, content_hash
-from deltaq.api.flights import Hear
+from deltaq.api.flights import Hear, Said
 from deltaq.api.stores.memory import Memory
 
 pytestmark = pytest.mark.anyio
@@ -25,7 +25,7 @@ class Counter:
 
     async def __call__(self, tell: Hear) -> bytes:
         self.runs += 1
-        tell(f"part of {self.runs}".encode())
+        tell(Said("part", f"part of {self.runs}".encode()))
         await self.may_end.wait()
         if self.error:
             raise self.error
@@ -137,11 +137,11 @@ async def test_all_who_wait_hear_the_parts_and_who_comes_late_hears_the_newest()
 
     async def compute(tell: Hear) -> bytes:
         for number, event in enumerate(may_go_on):
-            tell(b"%d" % number)
+            tell(Said("part", b"%d" % number))
             await event.wait()
         return b"answer"
 
-    heard: list[list[bytes]] = [[], [], []]
+    heard: list[list[Said]] = [[], [], []]
     early = asyncio.create_task(cache.get("k", compute, heard[0].append))
     await asyncio.sleep(0.01)
     may_go_on[0].set()
@@ -154,7 +154,7 @@ async def test_all_who_wait_hear_the_parts_and_who_comes_late_hears_the_newest()
     for event in may_go_on:
         event.set()
     assert await asyncio.gather(early, late) == [b"answer"] * 2
-    assert heard == [[b"0", b"1", b"2"], [b"1", b"2"], [b"1"]]
+    assert [[said.data for said in each] for each in heard] == [[b"0", b"1", b"2"], [b"1", b"2"], [b"1"]]
 
 
 async def test_renewed_answer_takes_the_place_of_the_kept_one() -> None:

@@ -5,26 +5,36 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
+from typing import Literal
 
 GRACE = 0.5  # seconds for which a computation goes on when nobody waits: pages that are reloaded ask again
 
-Hear = Callable[[bytes], object]
+
+@dataclass(frozen=True)
+class Said:
+    """What is said of a computation before its answer is there: `waiting` with its place, or `part` of the answer."""
+
+    kind: Literal["waiting", "part"]
+    data: bytes  # JSON
+
+
+Hear = Callable[[Said], object]
 Compute = Callable[[Hear], Awaitable[bytes]]
 
 
-def ignore(_part: bytes) -> None:
+def ignore(_said: object) -> None:
     """Hear nothing of what comes before the answer."""
 
 
 class Audience:
-    """Those who wait for a computation, and hear the parts of its answer.
+    """Those who wait for a computation, and hear what is said of it.
 
-    Each part says all that those before it said, so who comes late hears the newest one and has missed nothing.
+    Whatever is said replaces what was said before, so who comes late hears the newest and has missed nothing.
     """
 
     def __init__(self) -> None:
         self._members: list[Hear] = []
-        self._newest: bytes | None = None
+        self._newest: Said | None = None
 
     def __len__(self) -> int:
         return len(self._members)
@@ -39,11 +49,11 @@ class Audience:
         """Somebody waits no more."""
         self._members.remove(hear)
 
-    def tell(self, part: bytes) -> None:
-        """Let all hear a part."""
-        self._newest = part
+    def tell(self, said: Said) -> None:
+        """Let all hear it."""
+        self._newest = said
         for hear in self._members:
-            hear(part)
+            hear(said)
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,9 @@ import asyncio
 import functools
 import gzip
 import hashlib
+import json
 from collections.abc import Awaitable, Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
@@ -22,7 +23,7 @@ from .cache import Cache, content_hash
 from .clients import ACCOUNT
 from .ending import Ending
 from .extremes import unless_extreme
-from .flights import Hear, ignore
+from .flights import Hear, Said, ignore
 from .kernels import Kernels
 from .metrics import Metrics, make_metrics
 from .stores.disk import Disk
@@ -32,9 +33,11 @@ from .workers.account import Ledger, QuotaExceeded
 from .workers.job import Job
 from .workers.lane import Limits
 from .workers.pool import Pool
+from .workers.queue import Place
 
 PACKAGE = Path(__file__).parents[1]
 RESERVE = 1  # workers that slow jobs never get
+NICENESS = 5  # of the workers; of those that experiment twice as much
 
 
 @dataclass(frozen=True)
@@ -60,11 +63,19 @@ class Service:
         return await _shared(partial(self.cache.get, key, compute))
 
     async def measurement(self, key: str, job: Job, document: Any, hear: Hear, *, anew: bool) -> bytes:
-        """The gzipped JSON of an experiment; `hear` gets its parts before. `anew` measures what is kept already."""
+        """The gzipped JSON of an experiment; `hear` gets its place in the queue and its parts before.
+
+        `anew` measures what is kept already. Who has been let in waits for minutes, and is not refused for what the
+        experiments have cost that he asked for at the same time.
+        """
 
         async def compute(tell: Hear) -> bytes:
             await self.kernels.wait()
-            measured = self.laboratory.run(job, document, tell, ACCOUNT.get())
+            account = ACCOUNT.get()
+            account.admit()
+            measured = self.laboratory.run(
+                job, document, lambda part: tell(Said("part", part)), account.let_in(), lambda place: tell(_told(place))
+            )
             return await asyncio.to_thread(pack, await unless_extreme(measured, document))
 
         ask = self.cache.renew if anew else self.cache.get
@@ -81,6 +92,11 @@ class Service:
         return content_hash(source_digest(), *question)
 
 
+def _told(place: Place) -> Said:
+    """Where somebody stands in a queue."""
+    return Said("waiting", json.dumps({"place": place.number, "seconds": round(place.seconds, 1)}).encode())
+
+
 async def _shared(ask: Callable[[], Awaitable[bytes]]) -> bytes:
     """What somebody else may have asked for at the same time, who then pays; and if he cannot, we may."""
     try:
@@ -93,9 +109,12 @@ async def _shared(ask: Callable[[], Awaitable[bytes]]) -> bytes:
 
 def make_service(settings: Settings) -> Service:
     """A service; its workers are not started yet."""
-    limits = Limits(settings.worker_memory, settings.jobs_per_worker, settings.start_timeout, settings.queue_patience)
+    limits = Limits(
+        settings.worker_memory, settings.jobs_per_worker, settings.start_timeout, settings.queue_patience, NICENESS
+    )
     pool = Pool(settings.workers, settings.queue_length, limits, reserve=RESERVE)
-    laboratory = Pool(settings.experiment_workers, settings.experiment_queue, limits)
+    waiting_longer = replace(limits, patience=settings.experiment_patience, niceness=2 * NICENESS)
+    laboratory = Pool(settings.experiment_workers, settings.experiment_queue, waiting_longer)
     cache = Cache(Memory(settings.cache_size), *stores_of(settings))
     metrics = make_metrics({"requests": pool, "experiments": laboratory}, cache)
     return Service(settings, pool, laboratory, cache, Assets(static_root(settings.static)), metrics, Kernels())

@@ -7,6 +7,8 @@ import json
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Any
 
+from .flights import Hear, Said
+
 MEDIA_TYPE = "text/event-stream"
 
 
@@ -16,25 +18,25 @@ def event(kind: str, data: bytes) -> bytes:
 
 
 async def events(
-    work: Callable[[Callable[[bytes], object]], Awaitable[bytes]], failure: Callable[[Exception], dict[str, Any]]
+    work: Callable[[Hear], Awaitable[bytes]], failure: Callable[[Exception], dict[str, Any]]
 ) -> AsyncIterator[bytes]:
-    """`part` for each part that the work lets hear, then `result`, or `problem` with a problem document.
+    """What the work lets hear, `waiting` or `part`; then `result`, or `problem` with a problem document.
 
-    A part says all that those before it said, so a client that reads slowly gets the newest one only. When the client
-    goes away, the work is cancelled.
+    Each event replaces those before it, so a client that reads slowly gets the newest one only. When the client goes
+    away, the work is cancelled.
     """
-    parts: asyncio.Queue[bytes | None] = asyncio.Queue()
+    newest: asyncio.Queue[Said | None] = asyncio.Queue()
 
-    def hear(part: bytes) -> None:
-        if not parts.empty():
-            parts.get_nowait()
-        parts.put_nowait(part)
+    def hear(said: Said) -> None:
+        if not newest.empty():
+            newest.get_nowait()
+        newest.put_nowait(said)
 
     task = asyncio.ensure_future(work(hear))
-    task.add_done_callback(lambda _: parts.put_nowait(None))
+    task.add_done_callback(lambda _: newest.put_nowait(None))
     try:
-        while (part := await parts.get()) is not None:
-            yield event("part", part)
+        while (said := await newest.get()) is not None:
+            yield event(said.kind, said.data)
         yield event("result", task.result())
     except Exception as error:  # noqa: BLE001  the head has been sent, so a failure is an event
         yield event("problem", json.dumps(failure(error), ensure_ascii=False).encode())

@@ -137,9 +137,3 @@ def stack_request(document: Mapping[str, object]) -> Document:
     named = cast("Sequence[str]", document.get("tasks") or ())
     tasks = [workbook.task(identifier) for identifier in named] or workbook.tasks
     return {"xml": quiz(workbook, tasks, language_in(document))}
-
-
-def batch_request(document: Mapping[str, object]) -> Document:
-    """{checks, lang?} → the verdicts, one after the other."""
-    checks = cast("Sequence[Mapping[str, object]]", document["checks"])
-    return {"verdicts": [check_request({"lang": document.get("lang"), **one}) for one in checks]}

@@ -13,7 +13,7 @@ from deltaq.api.workers.job import DeadlineExceeded, Job, Overloaded, WorkerDied
 from deltaq.api.workers.lane import Lane, Limits
 from deltaq.api.workers.message import encode_request
 from deltaq.api.workers.pool import Pool
-from deltaq.api.workers.queue import FairQueue
+from deltaq.api.workers.queue import FairQueue, Lanes
 from deltaq.api.workers.task import Task
 
 LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, patience=30.0)
@@ -26,14 +26,14 @@ def task(name: str, document: object = None, account: Account | None = None) -> 
 
 
 def test_task_that_was_cancelled_is_not_begun() -> None:
-    lane, cancelled = Lane(FairQueue(1), LIMITS), task("echo")
+    lane, cancelled = Lane(FairQueue(1, Lanes(1, 1)), LIMITS), task("echo")
     cancelled.answer.cancel()
     lane.serve(cancelled)
     assert (lane.worker, lane.served) == (None, 0)
 
 
 def test_client_that_used_up_its_share_while_waiting_gets_no_worker() -> None:
-    lane, debtor = Lane(FairQueue(1), LIMITS), Account("one", Ledger(0.5, 10.0))
+    lane, debtor = Lane(FairQueue(1, Lanes(1, 1)), LIMITS), Account("one", Ledger(0.5, 10.0))
     debtor.pay(100.0)
     found = lane.outcome(task("echo", account=debtor))
     assert isinstance(found, QuotaExceeded)
@@ -41,7 +41,7 @@ def test_client_that_used_up_its_share_while_waiting_gets_no_worker() -> None:
 
 
 def test_lane_that_stops_refuses() -> None:
-    lane = Lane(FairQueue(1), LIMITS)
+    lane = Lane(FairQueue(1, Lanes(1, 1)), LIMITS)
     lane.stop()
     found = lane.attempt(task("echo"))
     assert isinstance(found, Overloaded)
@@ -58,9 +58,9 @@ def test_lane_that_stops_refuses() -> None:
 def test_start_that_fails_is_told_unless_the_service_stops(
     failures: int, told: list[str], monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    lane, left = Lane(FairQueue(1), LIMITS), iter(range(failures))
+    lane, left = Lane(FairQueue(1, Lanes(1, 1)), LIMITS), iter(range(failures))
 
-    def fails(_memory: int, _timeout: float) -> NoReturn:
+    def fails(_memory: int, _timeout: float, _niceness: int) -> NoReturn:
         if next(left, None) is None:
             lane.stop()
         raise EOFError
@@ -79,7 +79,7 @@ def test_start_that_fails_is_told_unless_the_service_stops(
     ],
 )
 def test_end_of_a_worker(number: signal.Signals, kind: type[Exception], text: str) -> None:
-    lane = Lane(FairQueue(1), LIMITS)
+    lane = Lane(FairQueue(1, Lanes(1, 1)), LIMITS)
     found = lane.attempt(task("end_by_signal", int(number)))
     assert type(found) is kind
     assert str(found) == text
@@ -88,9 +88,9 @@ def test_end_of_a_worker(number: signal.Signals, kind: type[Exception], text: st
 
 @pytest.mark.anyio
 async def test_pool_without_any_worker_refuses_in_the_end() -> None:
-    pool = Pool(1, 1, Limits(memory=2**31, jobs=1, start_timeout=1.0, patience=-4.9))
-    with pytest.raises(Overloaded, match="no worker came up"):
-        await pool.run(Job("tests.api.workers.jobs:echo", 0.0), None)
+    pool = Pool(1, 1, Limits(memory=2**31, jobs=1, start_timeout=1.0, patience=0.05))
+    with pytest.raises(Overloaded, match="waited too long"):
+        await pool.run(Job("tests.api.workers.jobs:echo", 30.0), None)
     assert pool.state.waiting == 0
 
 

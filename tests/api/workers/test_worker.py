@@ -9,7 +9,7 @@ import pytest
 from deltaq.api.workers import lane as lane_module
 from deltaq.api.workers.job import Job
 from deltaq.api.workers.lane import Lane, Limits
-from deltaq.api.workers.queue import FairQueue
+from deltaq.api.workers.queue import FairQueue, Lanes
 from deltaq.api.workers.worker import Worker, start_worker
 
 LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, patience=30.0)
@@ -31,14 +31,14 @@ def test_worker_that_is_not_ready_in_time_is_given_up() -> None:
 def test_lane_tries_again_until_a_worker_comes_up(monkeypatch: pytest.MonkeyPatch, error: Exception) -> None:
     attempts: list[int] = []
 
-    def start_third_time(memory: int, timeout: float) -> Worker:
+    def start_third_time(memory: int, timeout: float, niceness: int) -> Worker:
         attempts.append(1)
         if len(attempts) < 3:
             raise error
         return start_worker(memory, timeout)
 
     monkeypatch.setattr(lane_module, "start_worker", start_third_time)
-    lane = Lane(FairQueue(10), LIMITS)
+    lane = Lane(FairQueue(10, Lanes(1, 1)), LIMITS)
     worker = lane.ready_worker()
     assert worker is not None
     assert worker.ask(b'["tests.api.workers.jobs:echo", 10, 5]', Job("", 10.0)) == b"+5"
@@ -47,10 +47,10 @@ def test_lane_tries_again_until_a_worker_comes_up(monkeypatch: pytest.MonkeyPatc
 
 
 def test_stopped_lane_gives_up_starting(monkeypatch: pytest.MonkeyPatch) -> None:
-    def never(memory: int, timeout: float) -> Worker:
+    def never(memory: int, timeout: float, niceness: int) -> Worker:
         raise OSError("no more processes")
 
     monkeypatch.setattr(lane_module, "start_worker", never)
-    lane = Lane(FairQueue(10), LIMITS)
+    lane = Lane(FairQueue(10, Lanes(1, 1)), LIMITS)
     threading.Timer(0.2, lane.stop).start()
     assert lane.ready_worker() is None

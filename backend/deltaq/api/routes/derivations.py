@@ -11,6 +11,7 @@ from fastapi import APIRouter, Path, Request, Response
 
 from ...errors import Problem, UnknownNameError
 from ..body import StrictRoute
+from ..costs import expected
 from ..responses import packed
 from ..samples import BY_ID
 from ..service import service_of
@@ -20,6 +21,7 @@ from .common import COMPUTING, PREFIX, failures, question_of
 
 router = APIRouter(prefix="/derivations", tags=["derivations"], route_class=StrictRoute)
 DERIVE = Job("deltaq.api.jobs:derive", deadline=5.0)
+FAST = 6  # degrees of freedom
 
 
 @router.post("", response_model=DerivationAnswer, responses=COMPUTING)
@@ -28,7 +30,7 @@ async def derive(request: Request, body: DerivationRequest) -> Response:
     service = service_of(request)
     question = question_of(request, body)
     key = service.key(DERIVE.target, question)
-    job = DERIVE.within(service.settings.derivation_deadline)
+    job = expected(DERIVE.within(service.settings.derivation_deadline), question, FAST)
     answer = await service.answer(key, job, {"id": key, "request": question})
     return packed(request, key, answer, f"{PREFIX}/derivations/{key}")
 

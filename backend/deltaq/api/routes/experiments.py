@@ -3,7 +3,8 @@
 All who ask for the same at once share one experiment, and what was measured is kept: with it, where it has times, when
 and at which load of the machine. Who wants it measured anew says so, `fresh` or by `Cache-Control: no-cache`.
 Figures have no language: charts are drawn from them in each that is asked for; the parts of a shared stream are in that
-of who began it.
+of who began it. A stream tells first what place the experiment has in the queue: `waiting`, with `place` (1: the next)
+and the `seconds` until it should begin.
 
 There is a call for whatever stands in `lab/experiments/`; what may be asked of it stands in `wire/experiments/`.
 """
@@ -36,8 +37,8 @@ from ..workers.job import Job
 from .common import COMPUTING, question_of
 
 EXPERIMENT = Job("deltaq.api.jobs:experiment", deadline=180.0, threads=8, pace="slow")
-CHARTS = Job("deltaq.api.jobs:draw_charts", deadline=30.0, pace="slow")
-EXPORT = Job("deltaq.api.jobs:export_charts", deadline=30.0, pace="slow")
+CHARTS = Job("deltaq.api.jobs:draw_charts", deadline=30.0)
+EXPORT = Job("deltaq.api.jobs:export_charts", deadline=30.0)
 FILES = {"text/html": "html", "text/csv": "csv"}
 ANEW: dict[str, Any] = {
     "parameters": [
@@ -88,7 +89,7 @@ async def _measured(request: Request, experiment: str, body: ExperimentRequest) 
     service = service_of(request)
     question = {"experiment": experiment, **question_of(request, body)}
     anew = question.pop("fresh") or _wants_anew(request)  # no part of the question: the answer is kept for all
-    job = replace(EXPERIMENT, deadline=service.settings.experiment_deadline)
+    job = replace(EXPERIMENT, deadline=service.settings.experiment_deadline, name=experiment)
     key, accepted = service.key(job.target, question | {"lang": ""}), request.headers.get("accept", "")
 
     async def measured(hear: Hear) -> bytes:

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Request, Response
 
 from ..body import StrictRoute
+from ..costs import expected
 from ..service import service_of, unpack
 from ..wire.export import ExportRequest, Form
 from ..workers.job import Job
@@ -15,6 +16,7 @@ from .common import COMPUTING, question_of
 
 router = APIRouter(prefix="/exports", tags=["exports"], route_class=StrictRoute)
 EXPORT = Job("deltaq.handout.service:export_request", deadline=5.0)
+FAST = 4  # degrees of freedom
 MEDIA_TYPES = {"latex": "application/x-tex", "markdown": "text/markdown", "python": "text/x-python"}
 FILES: dict[int | str, dict[str, Any]] = {
     200: {"content": {media_type: {"schema": {"type": "string"}} for media_type in MEDIA_TYPES.values()}}
@@ -28,7 +30,7 @@ async def export_derivation(
     """The derivation as a LaTeX or Markdown file, or a Python program that computes the motion with SciPy."""
     service = service_of(request)
     question = {"form": form, **question_of(request, body)}
-    job = EXPORT.within(service.settings.derivation_deadline)
+    job = expected(EXPORT.within(service.settings.derivation_deadline), question, FAST)
     answer = await service.answer(service.key(EXPORT.target, question), job, question)
     file = loads(unpack(answer))
     headers = {"Content-Disposition": f'attachment; filename="{file["name"]}"', "Vary": "Accept-Language"}

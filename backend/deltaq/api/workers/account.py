@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from threading import Lock
 
 from .job import JobError
@@ -59,10 +59,15 @@ class Account:
 
     client: str
     ledger: Ledger | None = None
+    is_in: bool = False
+
+    def let_in(self) -> Account:
+        """The same account for what has been admitted and may take its time to begin."""
+        return replace(self, is_in=True)
 
     def admit(self) -> None:
         """QuotaExceeded if the client has used more than its share."""
-        if self.ledger:
+        if self.ledger and not self.is_in:
             self.ledger.admit(self.client)
 
     def pay(self, seconds: float) -> None:

@@ -9,6 +9,7 @@ from typing import Literal
 from ...errors import DeltaqError
 
 Pace = Literal["fast", "slow"]
+MOMENT = 1.0  # seconds of a processor
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,9 @@ class Job:
     process wait for longer than such a moment, and that is not the job's fault.
     A `pure` job has no effect but its answer, so it may be run again when its worker was killed from outside. A
     function that returns an iterator gives parts, the last of which is the answer. `threads` is how many of them the
-    job may keep busy. A job whose usual time is more than a moment is `slow`: one worker is never given such a job.
+    job may keep busy. A job whose usual time is more than a MOMENT is `slow`: one worker is never given such a job. One
+    that was thought `fast` and has used more counts as slow from then on; where no slow one has a place, it is stopped,
+    if it is pure, and waits for one. How long jobs take is remembered by their `kind`.
     """
 
     target: str
@@ -29,6 +32,12 @@ class Job:
     threads: int = 1
     pace: Pace = "fast"
     processor: float = math.inf
+    name: str = ""
+
+    @property
+    def kind(self) -> str:
+        """Jobs of one kind take about as long as each other: those of one name, else of one target."""
+        return self.name or self.target
 
     @property
     def processor_time(self) -> float:
@@ -50,6 +59,10 @@ class DeadlineExceeded(JobError):
 
 class GivenUp(JobError):
     """Nobody waits for the answer any more; its process was killed."""
+
+
+class Outgrown(JobError):
+    """A job that was thought fast is not, and no slow one has a place now; its process was killed."""
 
 
 class MemoryExceeded(JobError):

@@ -3,44 +3,41 @@
 from __future__ import annotations
 
 import logging
-import time
-from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from threading import Event, Thread
-from typing import get_args
 
 from ...errors import DeltaqError, InputError
 from .account import QuotaExceeded
-from .job import GivenUp, JobError, JobFailed, Overloaded, Pace, WorkerKilled
+from .job import GivenUp, JobError, JobFailed, Outgrown, Overloaded, WorkerKilled
 from .message import decode_reply
 from .queue import FairQueue
 from .task import Task
 from .worker import Worker, start_worker
 
 LOGGER = logging.getLogger("deltaq.workers")
-ANY_PACE: tuple[Pace, ...] = get_args(Pace)
 FIRST_PAUSE, LONGEST_PAUSE = 0.05, 5.0
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What every worker of a pool is held to: bytes of memory, jobs before it is replaced, seconds."""
+    """What every worker of a pool is held to: bytes of memory, jobs before it is replaced, seconds, niceness."""
 
     memory: int
     jobs: int
     start_timeout: float
     patience: float
+    niceness: int = 0
 
 
 class Lane(Thread):
-    """Takes tasks of its paces from the queue one by one, until the queue is closed."""
+    """Takes tasks from the queue one by one, until the queue is closed."""
 
-    def __init__(self, tasks: FairQueue, limits: Limits, paces: Collection[Pace] = ANY_PACE) -> None:
+    def __init__(self, tasks: FairQueue, limits: Limits) -> None:
         super().__init__(name="deltaq-lane", daemon=True)
         self.tasks = tasks
         self.limits = limits
-        self.paces = paces
         self.worker: Worker | None = None
         self.served = 0
         self.kills = 0
@@ -50,7 +47,7 @@ class Lane(Thread):
 
     def run(self) -> None:
         self.ready_worker()
-        while not self.stopping.is_set() and (task := self.tasks.take(self.paces)) is not None:
+        while not self.stopping.is_set() and (task := self.tasks.take()) is not None:
             self.serve(task)
         self.drop_worker()
 
@@ -63,7 +60,7 @@ class Lane(Thread):
         pause = FIRST_PAUSE
         while self.worker is None and not self.stopping.is_set():
             try:
-                self.worker = start_worker(self.limits.memory, self.limits.start_timeout)
+                self.worker = start_worker(self.limits.memory, self.limits.start_timeout, self.limits.niceness)
                 self.served = 0
             except Exception as error:  # noqa: BLE001  killed while it started, no memory … : another one may come up
                 if self.stopping.wait(pause):
@@ -80,7 +77,8 @@ class Lane(Thread):
 
     def serve(self, task: Task) -> None:
         """Give the task's future an answer or an error; nothing that happens here may end the lane."""
-        if not task.answer.set_running_or_notify_cancel():
+        if not begins(task):
+            self.tasks.done(task)
             return
         self.busy = True
         try:
@@ -90,22 +88,35 @@ class Lane(Thread):
             self.drop_worker()  # it may be in the middle of a reply
             outcome = JobFailed(f"{type(error).__name__}: {error}")
         self.busy = False
-        with suppress(Exception):  # the future may have been given up meanwhile
-            task.answer.set_result(outcome) if isinstance(outcome, bytes) else task.answer.set_exception(outcome)
+        self.tasks.done(task, answered=isinstance(outcome, bytes))
+        self.tell(task, outcome)
         if self.served >= self.limits.jobs:
             self.drop_worker()
         self.ready_worker()
 
+    def tell(self, task: Task, outcome: bytes | DeltaqError) -> None:
+        """Let the future have it; what has outgrown its lane waits for another one instead."""
+        try:
+            if isinstance(outcome, Outgrown):
+                self.tasks.put_back(task)
+                return
+        except Overloaded as error:
+            outcome = error
+        with suppress(Exception):  # the future may have been given up meanwhile
+            task.answer.set_result(outcome) if isinstance(outcome, bytes) else task.answer.set_exception(outcome)
+
     def outcome(self, task: Task) -> bytes | DeltaqError:
         """Run it; once more if it is pure and the worker was killed from outside."""
-        if time.monotonic() - task.asked_at > self.limits.patience:
-            return Overloaded("waited too long")
         try:
             task.account.admit()  # others of its tasks may have used up the share meanwhile
             first = self.attempt(task)
             return self.attempt(task) if isinstance(first, WorkerKilled) and task.job.pure else first
         except QuotaExceeded as error:
             return error
+
+    def may_go_on(self, task: Task) -> bool:
+        """Whether a task that has used more than a moment keeps its worker; one with an effect is never begun twice."""
+        return self.tasks.outgrow(task) or not task.job.pure
 
     def pay(self, task: Task, seconds: float) -> None:
         """Charge processor time to the client, and count it."""
@@ -118,12 +129,19 @@ class Lane(Thread):
         if worker is None:
             return Overloaded("the service is stopping")
         try:
-            outcome = decode_reply(worker.ask(task.request, task.job, task.listener))
+            outcome = decode_reply(worker.ask(task.request, task.job, task.listener, partial(self.may_go_on, task)))
         except JobError as error:
             outcome = error
         self.served += 1
         self.pay(task, worker.meter.seconds)
         if isinstance(outcome, JobError) and not isinstance(outcome, InputError):
-            self.kills += not isinstance(outcome, GivenUp)
+            self.kills += not isinstance(outcome, (GivenUp, Outgrown))
             self.drop_worker()
         return outcome
+
+
+def begins(task: Task) -> bool:
+    """Whether anybody still waits for a task; its future is then under way."""
+    if task.answer.running():  # it has been put back
+        return not task.listener.has_gone()
+    return task.answer.set_running_or_notify_cancel()

@@ -43,6 +43,11 @@ def die_first() -> None:
         Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
 
 
+def step_back(niceness: int) -> None:
+    """What computes leaves the processors to who answers, as it takes long anyway; 19 at most (nice(2))."""
+    os.nice(niceness)
+
+
 def bound_memory(size: int) -> None:
     """Address space in bytes; beyond it allocations raise MemoryError. To be set after the large imports."""
     _, hard = resource.getrlimit(resource.RLIMIT_AS)

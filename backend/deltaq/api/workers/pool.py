@@ -1,4 +1,4 @@
-"""The pool: a bounded queue in front of a few lanes, some of which are for fast jobs alone."""
+"""The pool: a bounded queue in front of a few lanes, of which slow jobs never get all."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from threading import Event
 from typing import Any
 
 from .account import FREE, Account
-from .job import Job, Overloaded, Pace
-from .lane import ANY_PACE, Lane, Limits
+from .job import Job, Overloaded
+from .lane import Lane, Limits
 from .message import encode_request
-from .queue import FairQueue
+from .queue import FairQueue, Lanes, Place
 from .task import Task
 from .worker import PRELOAD, Listener, start_fork_server
 
-FAST_ALONE: tuple[Pace, ...] = ("fast",)
+AT_ONCE, AGAIN = 0.2, 2.0  # seconds after which one who waits is told so, and told again
 
 
 @dataclass(frozen=True)
@@ -31,21 +31,20 @@ class PoolState:
     processor_seconds: float = field(default=0.0, compare=False)
 
 
-def _ignore(_part: bytes) -> None:
-    """Nobody wants the parts."""
+def _ignore(_said: object) -> None:
+    """Nobody wants to hear it."""
 
 
 class Pool:
-    """Runs jobs in `size` worker processes, and fast ones in `reserve` more; at most `queue_length` tasks wait."""
+    """Runs `size` slow jobs at once, each in a process, and with fast ones `reserve` more; `queue_length` may wait."""
 
     def __init__(
         self, size: int, queue_length: int, limits: Limits, modules: Sequence[str] = (PRELOAD,), reserve: int = 0
     ) -> None:
-        self._tasks = FairQueue(queue_length)
+        self._tasks = FairQueue(queue_length, Lanes(size + reserve, size))
         self._limits = limits
         self._modules = tuple(modules)
-        paces = [ANY_PACE] * size + [FAST_ALONE] * reserve
-        self._lanes = tuple(Lane(self._tasks, limits, own) for own in paces)
+        self._lanes = tuple(Lane(self._tasks, limits) for _ in range(size + reserve))
 
     def start(self) -> None:
         """Start the lanes; returns at once, the workers come up in the background."""
@@ -65,31 +64,53 @@ class Pool:
             lane.drop_worker()
 
     async def run(
-        self, job: Job, document: Any, hear: Callable[[bytes], object] = _ignore, account: Account = FREE
+        self,
+        job: Job,
+        document: Any,
+        hear: Callable[[bytes], object] = _ignore,
+        account: Account = FREE,
+        wait: Callable[[Place], object] | None = None,
     ) -> bytes:
-        """The JSON of the job's answer; `hear` gets its parts before, in the event loop; `account` pays.
+        """The JSON of the job's answer; `hear` gets its parts before, in the event loop; `account` pays. As long as it
+        has to wait, `wait` hears of its place in the queue.
 
         InputError as the job raised it; Overloaded, QuotaExceeded, DeadlineExceeded, MemoryExceeded, WorkerDied or
-        JobFailed otherwise. Always ends: with a full queue at once, else after patience and deadlines. When it is
-        cancelled, the worker is freed.
+        JobFailed otherwise. Always ends: with a full queue at once, else after patience where it has not begun by
+        then, and deadlines. When it is cancelled, the worker is freed.
         """
         account.admit()
         loop, gone = asyncio.get_running_loop(), Event()
         listener = Listener(lambda part: loop.call_soon_threadsafe(hear, part), gone.is_set)
         task = Task(job, encode_request(job.target, job.processor_time, document), listener, account)
         try:
-            return await self._answer(task)
+            return await self._answer(task, wait)
         finally:
             gone.set()
             self._tasks.discard(task)
 
-    async def _answer(self, task: Task) -> bytes:
+    async def _answer(self, task: Task, wait: Callable[[Place], object] | None = None) -> bytes:
         self._tasks.put(task)
-        longest = self._limits.patience + 2 * task.job.deadline + 5.0
+        loop, patience = asyncio.get_running_loop(), self._limits.patience
+        refusal = loop.call_later(patience, self._refuse, task)
+        if wait is not None:
+            loop.call_later(AT_ONCE, self._tell_place, task, wait)
         try:
-            return await asyncio.wait_for(asyncio.wrap_future(task.answer), longest)
+            return await asyncio.wait_for(asyncio.wrap_future(task.answer), patience + 2 * task.job.deadline + 5.0)
         except TimeoutError:
             raise Overloaded("no worker came up") from None
+        finally:
+            refusal.cancel()
+
+    def _refuse(self, task: Task) -> None:
+        """Its patience is over. What has begun is not refused any more, also where it has to wait again."""
+        if not task.answer.running() and self._tasks.discard(task):
+            task.answer.set_exception(Overloaded("waited too long"))
+
+    def _tell_place(self, task: Task, wait: Callable[[Place], object]) -> None:
+        """Now and again, as long as it waits."""
+        if (place := self._tasks.place_of(task)) is not None:
+            wait(place)
+            asyncio.get_running_loop().call_later(AGAIN, self._tell_place, task, wait)
 
     @property
     def state(self) -> PoolState:

@@ -12,18 +12,19 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from ...errors import MOST_PROBLEMS, InputError
-from .limits import bound_memory, bound_processor_time, die_first, die_with_parent, keep_only
+from .limits import bound_memory, bound_processor_time, die_first, die_with_parent, keep_only, step_back
 from .message import PART, READY, Failure, encode_answer, encode_error, problem_data
 from .traces import trace_of
 
 
-def run(connection: Connection, memory: int) -> None:
+def run(connection: Connection, memory: int, niceness: int = 0) -> None:
     """Serve requests until the other end of the pipe is closed."""
     keep_only(connection.fileno())
     die_with_parent()
     die_first()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which then closes the pipe
     bound_memory(memory)
+    step_back(niceness)
     collect_rarely()
     connection.send_bytes(READY)
     while True:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 
@@ -20,4 +19,3 @@ class Task:
     listener: Listener = NOBODY
     account: Account = FREE
     answer: Future[bytes] = field(default_factory=Future)
-    asked_at: float = field(default_factory=time.monotonic)

@@ -12,7 +12,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from threading import Lock
 
-from .job import DeadlineExceeded, GivenUp, Job, WorkerDied, WorkerKilled
+from .job import MOMENT, DeadlineExceeded, GivenUp, Job, Outgrown, WorkerDied, WorkerKilled
 from .message import PART
 from .meter import Meter, processor_clock
 from .runner import run
@@ -37,6 +37,10 @@ class Listener:
 NOBODY = Listener(lambda _part: None, lambda: False)
 
 
+def _always() -> bool:
+    return True
+
+
 @dataclass(frozen=True)
 class Worker:
     """A running process, the pipe to it, and what it has used; used by one thread only."""
@@ -49,10 +53,13 @@ class Worker:
     def pid(self) -> int:
         return self.process.pid or 0
 
-    def ask(self, request: bytes, job: Job, listener: Listener = NOBODY) -> bytes:
+    def ask(
+        self, request: bytes, job: Job, listener: Listener = NOBODY, may_go_on: Callable[[], bool] = _always
+    ) -> bytes:
         """The reply to the request of a job, within its bounds; its parts go to the listener.
 
-        DeadlineExceeded, WorkerDied, or GivenUp when the listener has gone; after an error only kill the worker.
+        Whether it `may_go_on` is asked again and again once it has used more than a moment. DeadlineExceeded,
+        WorkerDied, GivenUp when the listener has gone, Outgrown; after an error only kill the worker.
         """
         end = time.monotonic() + job.deadline
         self.meter.start()
@@ -61,8 +68,11 @@ class Worker:
             while (left := end - time.monotonic()) > 0.0:
                 if listener.has_gone():
                     raise GivenUp("nobody waits for the answer")
-                if (unused := job.processor_time - self.meter.seconds) <= 0.0:
+                used = self.meter.seconds
+                if (unused := job.processor_time - used) <= 0.0:
                     raise DeadlineExceeded(f"no answer within {job.processor_time} s of a processor")
+                if used > MOMENT and not may_go_on():
+                    raise Outgrown(f"no answer within {MOMENT} s of a processor")
                 if not self.connection.poll(min(left, LOOK_UP, max(unused / job.threads, SHORTEST_LOOK))):
                     continue
                 reply = self.connection.recv_bytes()
@@ -92,10 +102,10 @@ class Worker:
             self.process.close()
 
 
-def start_worker(memory: int, timeout: float) -> Worker:
+def start_worker(memory: int, timeout: float, niceness: int = 0) -> Worker:
     """A worker that has said it is ready; OSError, EOFError or TimeoutError if it does not come up."""
     ours, theirs = _CONTEXT.Pipe()
-    process = _CONTEXT.Process(target=run, args=(theirs, memory), daemon=True, name="deltaq-worker")
+    process = _CONTEXT.Process(target=run, args=(theirs, memory, niceness), daemon=True, name="deltaq-worker")
     with _PROCESSES:
         process.start()
     theirs.close()
