@@ -48,7 +48,7 @@ const documentOf = (id) => (id === OWN && own ? own : id);
 const bench = createBench({
   lang,
   document: documentOf,
-  run: (name, body, hear, signal, anew) => experiment(send, name, body, hear, signal, anew),
+  run: (name, body, hear, signal, anew, wait) => experiment(send, name, body, hear, signal, anew, wait),
   scene: async (id) => (id === OWN && own ? completed(own) : api.scene(id, lang())),
 }, usual(readQuestion(location.search)));
 

@@ -33,6 +33,9 @@ export function significant(value, digits, lang) {
   return `${factor}·10${raised(exponent)}`;
 }
 
+/** A time to wait, told so coarsely that it does not change at every look: tens of seconds, or minutes. @param {number} seconds */
+export const roughly = (seconds) => (seconds <= 60 ? `${Math.max(10, 10 * Math.ceil(seconds / 10))} s` : `${Math.ceil(seconds / 60)} min`);
+
 /**
  * A duration of computing: µs, ms or s.
  * @param {number} seconds @param {string} lang

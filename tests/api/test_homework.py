@@ -4,6 +4,7 @@ from typing import Any
 
 import httpx
 import pytest
+from fastapi import FastAPI
 
 from deltaq.api.wire.check import CheckRequest
 from deltaq.api.wire.task import TaskList
@@ -80,6 +81,22 @@ async def test_batch_answers_in_order(client: httpx.AsyncClient) -> None:
     checks = [BASE, BASE | {"answer": {"value": "ddot(phi) = -g/l*sin(phi)"}}]
     response = await client.post(f"{API}/checks/batch", json={"checks": checks})
     assert [verdict["outcome"] for verdict in response.json()["verdicts"]] == ["wrong", "correct"]
+
+
+async def test_checks_of_a_batch_are_those_that_are_asked_one_by_one(client: httpx.AsyncClient, app: FastAPI) -> None:
+    one = BASE | {"answer": {"value": "l*ddot(phi) = -2*g*sin(phi)"}}
+    alone = (await client.post(f"{API}/checks", json=one)).json()
+    misses = app.state.service.cache.misses
+    together = (await client.post(f"{API}/checks/batch", json={"checks": [one, one]})).json()
+    assert together == {"verdicts": [alone, alone]}
+    assert app.state.service.cache.misses == misses
+
+
+@pytest.mark.parametrize("change", [{"task": "equation:psi"}, {"scene": "pendulun"}], ids=["task", "scene"])
+async def test_wrong_question_in_a_batch(client: httpx.AsyncClient, change: dict[str, Any]) -> None:
+    response = await client.post(f"{API}/checks/batch", json={"checks": [BASE, BASE | change]})
+    assert response.status_code == 404
+    assert [one["pointer"] for one in response.json()["problems"]] == [f"/checks/1/{next(iter(change))}"]
 
 
 async def test_batch_is_bounded(client: httpx.AsyncClient) -> None:

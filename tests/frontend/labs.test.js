@@ -34,6 +34,14 @@ test("an experiment lets hear its parts and ends with its result", async () => {
   assert.deepEqual([heard, found], [[{ done: 1 }], { experiment: "chaos" }]);
 });
 
+test("an experiment that has to wait tells its place", async () => {
+  const text = 'event: waiting\ndata: {"place":2,"seconds":14.5}\n\nevent: waiting\ndata: {"place":0,"seconds":0}\n\n' + TEXT;
+  /** @type {any[]} */
+  const told = [];
+  await experiment(answering(text), "chaos", {}, () => told.push("part"), signal, false, (waiting) => told.push(waiting));
+  assert.deepEqual(told, [{ place: 2, seconds: 14.5 }, { place: 0, seconds: 0 }, "part"]);
+});
+
 test("what was measured before is measured anew on demand alone", async () => {
   /** @type {any[]} */
   const asked = [];
@@ -177,6 +185,33 @@ test("the bench shows parts, then the result; stopped, it keeps what was measure
   ends[1]();
   await second;
   assert.deepEqual([bench.get().running, bench.get().stopped, bench.get().charts.length, bench.get().result], [false, "stopped", 1, null]);
+});
+
+test("the bench says where an experiment stands in the queue until it is measured, stopped or refused", async () => {
+  /** @type {any[]} */
+  const seen = [];
+  const place = { place: 3, seconds: 40 };
+  const bench = createBench(/** @type {any} */ ({
+    run: async (/** @type {any} */ ...[, , hear, , , wait]) => {
+      wait(place);
+      seen.push(bench.get().waiting);
+      if (seen.length === 2) throw new ApiError({ title: "Busy", detail: "", problems: [], status: 503 });
+      if (seen.length === 3) return new Promise(() => {});
+      hear({ done: 1, total: 4, charts: [] });
+      seen.push(bench.get().waiting);
+      return { experiment: "chaos", charts: [] };
+    },
+    scene: async () => SCENE, document: (/** @type {string} */ id) => id, lang: () => "en",
+  }), { ...NOTHING, scene: "pendulum" });
+  await bench.start();
+  assert.deepEqual([seen, bench.get().waiting], [[place, null], null]);
+  seen.pop();
+  await bench.start();
+  assert.deepEqual([seen, bench.get().waiting, bench.get().failure?.status], [[place, place], null, 503]);
+  void bench.start();
+  assert.deepEqual(bench.get().waiting, place);
+  bench.stop();
+  assert.deepEqual([bench.get().waiting, bench.get().running], [null, false]);
 });
 
 test("a file that cannot be had is told, and what was measured stays", async () => {

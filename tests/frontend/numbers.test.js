@@ -1,8 +1,11 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { decimalsOf, duration, fixed, niceFloor, significant, unitText } from "../../frontend/model/numbers.js";
+import { decimalsOf, duration, fixed, niceFloor, roughly, significant, unitText } from "../../frontend/model/numbers.js";
 
 const CASES = [
+  ["a time to wait is ten seconds at least", roughly(0), "10 s"],
+  ["a time to wait in tens of seconds", roughly(41.2), "50 s"],
+  ["a time to wait in minutes", roughly(61), "2 min"],
   ["decimal comma in German", fixed(1.25, 2, "de"), "1,25"],
   ["decimal point in English", fixed(1.25, 2, "en"), "1.25"],
   ["true minus sign", fixed(-0.5, 1, "en"), "−0.5"],

@@ -9,11 +9,13 @@ import { inLab, onScene, requestOf } from "./question.js";
 /** @typedef {import("./stream.js").Chart} Chart */
 /** @typedef {import("./stream.js").Part} Part */
 /** @typedef {import("./stream.js").Result} Result */
+/** @typedef {import("./stream.js").Waiting} Waiting */
 /**
  * @typedef {object} Bench
  * @property {Question} question
  * @property {import("../types.js").Scene | null} scene
  * @property {boolean} running
+ * @property {Waiting | null} waiting  its place in the queue, until it begins
  * @property {number} progress 0 to 1
  * @property {Chart[]} charts
  * @property {Result | null} result
@@ -22,10 +24,10 @@ import { inLab, onScene, requestOf } from "./question.js";
  */
 
 /** @type {Omit<Bench, "question" | "scene">} */
-const EMPTY = { running: false, progress: 0, charts: [], result: null, failure: null, stopped: "" };
+const EMPTY = { running: false, waiting: null, progress: 0, charts: [], result: null, failure: null, stopped: "" };
 
 /**
- * @param {{run: (name: string, body: object, hear: (part: Part) => void, signal: AbortSignal, anew: boolean) => Promise<Result>,
+ * @param {{run: (name: string, body: object, hear: (part: Part) => void, signal: AbortSignal, anew: boolean, wait: (waiting: Waiting) => void) => Promise<Result>,
  *   scene: (id: string) => Promise<import("../types.js").Scene>, document: (id: string) => string | object, lang: () => string}} around
  * @param {Question} question
  */
@@ -40,7 +42,7 @@ export function createBench({ run, scene, document, lang }, question) {
 
   function stop() {
     renew();
-    if (get().running) set({ running: false, stopped: "stopped" });
+    if (get().running) set({ running: false, waiting: null, stopped: "stopped" });
   }
 
   /** @param {Partial<Bench>} cleared  what is shown until something comes @param {boolean} renews  whether what has just been measured is measured anew */
@@ -51,14 +53,15 @@ export function createBench({ run, scene, document, lang }, question) {
     set({ ...cleared, running: true });
     const body = requestOf(question, document(question.scene), lang());
     const asked = JSON.stringify([question.lab, body]);
-    const hear = (/** @type {Part} */ { done, total, charts }) => signal.aborted || set({ progress: done / total, charts });
+    const hear = (/** @type {Part} */ { done, total, charts }) => signal.aborted || set({ waiting: null, progress: done / total, charts });
+    const wait = (/** @type {Waiting} */ waiting) => signal.aborted || set({ waiting });
     try {
-      const result = await run(question.lab, body, hear, signal, renews && before !== null && asked === answered);
+      const result = await run(question.lab, body, hear, signal, renews && before !== null && asked === answered, wait);
       if (signal.aborted) return;
       answered = asked;
-      set({ running: false, progress: 1, result, charts: result.charts });
+      set({ running: false, waiting: null, progress: 1, result, charts: result.charts });
     } catch (error) {
-      if (!signal.aborted) set({ running: false, failure: failureIn(error) });
+      if (!signal.aborted) set({ running: false, waiting: null, failure: failureIn(error) });
     }
   }
 

@@ -1,8 +1,9 @@
-/** Server-sent events in the body of a response: parts of an experiment as they are measured, then its result. */
+/** Server-sent events in the body of a response: where an experiment stands in the queue, its parts as they are measured, then its result. */
 
 import { ApiError, failureOf } from "../api.js";
 
 /** @typedef {{done: number, total: number, charts: Chart[]}} Part */
+/** @typedef {{place: number, seconds: number}} Waiting  place 1 is the next, 0 has begun; seconds until it should begin */
 /** @typedef {{id: string, title: string, subject: string, caption: string, data: any[], layout: Record<string, any>}} Chart */
 /** @typedef {{experiment: string, charts: Chart[], [key: string]: any}} Result */
 /** @typedef {{kind: string, data: any}} StreamEvent */
@@ -28,13 +29,13 @@ function eventOf(block) {
 }
 
 /**
- * Runs an experiment, or with `anew` runs again what was measured before; `hear` gets its parts. An ApiError where it is
- * refused or breaks off.
+ * Runs an experiment, or with `anew` runs again what was measured before; `hear` gets its parts, and `wait` its place
+ * before it begins. An ApiError where it is refused or breaks off.
  * @param {typeof fetch} send @param {string} name @param {object} body
- * @param {(part: Part) => void} hear @param {AbortSignal} signal @param {boolean} [anew]
+ * @param {(part: Part) => void} hear @param {AbortSignal} signal @param {boolean} [anew] @param {(waiting: Waiting) => void} [wait]
  * @returns {Promise<Result>}
  */
-export async function experiment(send, name, body, hear, signal, anew = false) {
+export async function experiment(send, name, body, hear, signal, anew = false, wait = () => {}) {
   const response = await ask(send, name, body, { accept: "text/event-stream", ...(anew ? { "cache-control": "no-cache" } : {}) }, signal);
   const reader = response.body?.pipeThrough(new TextDecoderStream()).getReader();
   const read = eventReader();
@@ -42,6 +43,7 @@ export async function experiment(send, name, body, hear, signal, anew = false) {
     const { done, value } = (await reader?.read()) ?? { done: true, value: "" };
     if (done) throw new ApiError(failureOf(0, null));
     for (const { kind, data } of read(value)) {
+      if (kind === "waiting") wait(data);
       if (kind === "part") hear(data);
       if (kind === "problem") throw new ApiError(failureOf(data.status, data));
       if (kind === "result") return data;

@@ -2,7 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
-import { significant } from "../../model/numbers.js";
+import { roughly, significant } from "../../model/numbers.js";
 import { failure } from "../failure.js";
 import { titled, top } from "../top.js";
 import { canvas } from "./cursor.js";
@@ -67,7 +67,13 @@ function progress({ bench, t }) {
   const percent = Math.round(100 * bench.progress);
   return html`<div class="progress" role="status">
     <progress max="100" value=${percent} aria-label=${t("labs.progress")}></progress>
-    <span>${bench.running ? (bench.progress ? t("labs.measuring", { percent }) : t("labs.waiting")) : t("labs.stopped", { percent })}</span></div>`;
+    <span>${bench.running ? underWay(bench, percent, t) : t("labs.stopped", { percent })}</span></div>`;
+}
+
+/** @param {View["bench"]} bench @param {number} percent @param {View["t"]} t */
+function underWay({ waiting, progress }, percent, t) {
+  if (waiting?.place) return t("labs.queued", { place: String(waiting.place), time: roughly(waiting.seconds) });
+  return progress || waiting ? t("labs.measuring", { percent }) : t("labs.waiting");
 }
 
 /** @param {View} view */

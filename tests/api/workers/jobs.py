@@ -57,7 +57,10 @@ def spin(document: Any) -> Any:
 
 
 def burn(document: Any) -> Any:
-    """So many seconds of processor time on each of some threads, and then some sleep."""
+    """So many seconds of processor time on each of some threads, and then some sleep; a mark tells of each begin."""
+    if "mark" in document:
+        with Path(document["mark"]).open("a", encoding="utf-8") as mark:
+            mark.write("x")
 
     def work() -> None:
         end = time.thread_time() + document["seconds"]

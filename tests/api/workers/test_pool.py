@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -269,15 +270,82 @@ async def test_full_queue_refuses_at_once(make_pool: MakePool, tmp_path: Path) -
     assert await asyncio.gather(running, *waiting) == ["open", 0, 1]
 
 
-async def test_job_that_waited_too_long_is_refused(make_pool: MakePool, tmp_path: Path) -> None:
-    pool, door = make_pool(1, patience=1.0), tmp_path / "door"
+async def test_job_that_waited_too_long_is_refused_while_the_lane_is_still_taken(
+    make_pool: MakePool, tmp_path: Path
+) -> None:
+    pool, door = make_pool(1, patience=0.3), tmp_path / "door"
     running = await held(pool, door)
-    late = asyncio.create_task(run(pool, "echo"))
-    await asyncio.sleep(1.1)
-    door.touch()
+    begin = time.monotonic()
     with pytest.raises(Overloaded, match="waited too long"):
-        await late
+        await run(pool, "echo")
+    assert 0.3 <= time.monotonic() - begin < 1.3
+    assert (pool.state.busy, pool.state.waiting) == (1, 0)
+    door.touch()
     assert await running == "open"
+
+
+async def test_what_has_begun_is_not_refused(make_pool: MakePool, tmp_path: Path) -> None:
+    pool, door = make_pool(1, patience=0.2), tmp_path / "door"
+    running = await held(pool, door)
+    await asyncio.sleep(0.3)
+    door.touch()
+    assert await running == "open"
+
+
+async def test_what_is_not_as_fast_as_was_thought_waits_for_a_slow_jobs_lane(
+    make_pool: MakePool, tmp_path: Path
+) -> None:
+    pool, door, mark = make_pool(1, reserve=1, patience=1.5), tmp_path / "door", tmp_path / "mark"
+    slow = replace(job("wait_at"), pace="slow")
+    running = asyncio.create_task(pool.run(slow, str(door)))
+    while not pool.state.busy:
+        await asyncio.sleep(0.005)
+    burning = asyncio.create_task(pool.run(job("burn"), {"seconds": 1.3, "mark": str(mark)}))
+    while not pool.state.waiting or not mark.exists():  # it has begun, and was put back
+        await asyncio.sleep(0.01)
+    assert await run(pool, "echo", "fast") == "fast"
+    await asyncio.sleep(1.0)  # what has begun is not refused when patience is over
+    door.touch()
+    assert (await running, json.loads(await burning)["seconds"]) == (b'"open"', 1.3)
+    assert pool.state == PoolState(workers=2, ready=2, busy=0, waiting=0, kills=0)
+    assert len(mark.read_text()) == 2
+
+
+async def test_what_is_not_as_fast_as_was_thought_goes_on_where_there_is_room(
+    make_pool: MakePool, tmp_path: Path
+) -> None:
+    mark = tmp_path / "mark"
+    await make_pool(1, reserve=1).run(job("burn"), {"seconds": 1.3, "mark": str(mark)})
+    assert len(mark.read_text()) == 1
+
+
+async def test_one_who_waits_hears_the_place_and_the_beginning(make_pool: MakePool, tmp_path: Path) -> None:
+    pool, doors = make_pool(), [tmp_path / "first", tmp_path / "second"]
+    first = await held(pool, doors[0])
+    told: list[list[int]] = [[], []]
+    waiting = [
+        asyncio.create_task(pool.run(job("wait_at"), str(doors[1]), wait=lambda place, to=to: to.append(place.number)))
+        for to in told
+    ]
+    while not all(told):
+        await asyncio.sleep(0.01)
+    doors[0].touch()
+    while told[0][-1]:
+        await asyncio.sleep(0.01)
+    doors[1].touch()
+    await asyncio.gather(first, *waiting)
+    assert (told[0][0], told[0][-1], set(told[1])) == (1, 0, {2, 1})
+
+
+async def test_one_who_need_not_wait_hears_nothing(make_pool: MakePool) -> None:
+    told: list[Any] = []
+    await make_pool().run(job("sleep"), 0.4, wait=told.append)
+    assert told == []
+
+
+async def test_jobs_step_back_behind_the_service(make_pool: MakePool) -> None:
+    pid = (await run(make_pool(niceness=7), "pid"))["pid"]
+    assert os.getpriority(os.PRIO_PROCESS, pid) == min(19, os.getpriority(os.PRIO_PROCESS, 0) + 7)
 
 
 async def test_job_that_nobody_waits_for_any_more_is_not_run(make_pool: MakePool, tmp_path: Path) -> None:

@@ -3,8 +3,8 @@
 All who ask for the same at once share one experiment, and what was measured is kept: with it, where it has times, when
 and at which load of the machine. Who wants it measured anew says so, `fresh` or by `Cache-Control: no-cache`.
 Figures have no language: charts are drawn from them in each that is asked for; the parts of a shared stream are in that
-of who began it. A stream tells first what place the experiment has in the queue: `waiting`, with `place` (1: the next)
-and the `seconds` until it should begin.
+of who began it. Where an experiment has to wait, its stream tells first what place it has in the queue: `waiting`, with
+`place` (1: the next, 0: begun) and the `seconds` until it should begin.
 
 There is a call for whatever stands in `lab/experiments/`; what may be asked of it stands in `wire/experiments/`.
 """

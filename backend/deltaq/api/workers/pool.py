@@ -12,11 +12,11 @@ from .account import FREE, Account
 from .job import Job, Overloaded
 from .lane import Lane, Limits
 from .message import encode_request
-from .queue import FairQueue, Lanes, Place
+from .queue import BEGUN, FairQueue, Lanes, Place
 from .task import Task
 from .worker import PRELOAD, Listener, start_fork_server
 
-AT_ONCE, AGAIN = 0.2, 2.0  # seconds after which one who waits is told so, and told again
+FIRST, AGAIN = 0.2, 1.0  # seconds after which one who waits is told so, and told again
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class Pool:
         loop, patience = asyncio.get_running_loop(), self._limits.patience
         refusal = loop.call_later(patience, self._refuse, task)
         if wait is not None:
-            loop.call_later(AT_ONCE, self._tell_place, task, wait)
+            loop.call_later(FIRST, self._tell_place, task, wait)
         try:
             return await asyncio.wait_for(asyncio.wrap_future(task.answer), patience + 2 * task.job.deadline + 5.0)
         except TimeoutError:
@@ -107,10 +107,16 @@ class Pool:
             task.answer.set_exception(Overloaded("waited too long"))
 
     def _tell_place(self, task: Task, wait: Callable[[Place], object]) -> None:
-        """Now and again, as long as it waits."""
+        """Now and again, as long as it waits; then that it has begun. Of what begins at once nothing is told."""
         if (place := self._tasks.place_of(task)) is not None:
             wait(place)
-            asyncio.get_running_loop().call_later(AGAIN, self._tell_place, task, wait)
+            asyncio.get_running_loop().call_later(AGAIN, self._tell_begin, task, wait)
+
+    def _tell_begin(self, task: Task, wait: Callable[[Place], object]) -> None:
+        """That what has waited has begun, if it has; else where it stands."""
+        if self._tasks.is_running(task):
+            wait(BEGUN)
+        self._tell_place(task, wait)
 
     @property
     def state(self) -> PoolState:

@@ -48,6 +48,9 @@ class Place:
     seconds: float
 
 
+BEGUN = Place(0, 0.0)
+
+
 @dataclass(frozen=True)
 class Run:
     """A task that a lane is at."""
@@ -176,6 +179,10 @@ class FairQueue:
                     return Place(number, sum(ahead) / self._lanes.all)
                 ahead.append(self._durations.usual(one.job.kind))
             return None
+
+    def is_running(self, task: Task) -> bool:
+        """Whether a lane is at it."""
+        return task in self._running
 
     def close(self) -> list[Task]:
         """End all waiting; the tasks that are left."""
