@@ -100,6 +100,27 @@ async def test_a_stream_has_growing_parts_and_ends_with_the_result(client: httpx
     assert again == result  # from the cache: times would differ
 
 
+async def streamed(app: FastAPI, address_of_client: str, question: dict[str, Any]) -> list[tuple[str, Any]]:
+    """All events of an experiment that a client at this address asks for."""
+    transport = httpx.ASGITransport(app=app, client=(address_of_client, 1))
+    async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test", timeout=150) as one:
+        response = await one.post(address("convergence"), json=question, headers={"Accept": "text/event-stream"})
+        return [event async for event in events_of(response)]
+
+
+async def test_different_experiments_of_a_class_wait_for_each_other_and_all_finish(app: FastAPI) -> None:
+    questions = [SMALL["convergence"] | {"t_end": 1.0 + number / 64} for number in range(30)]
+    found = await asyncio.gather(*(streamed(app, f"192.0.2.{n}", question) for n, question in enumerate(questions, 1)))
+    assert [events[-1][0] for events in found] == ["result"] * 30
+    assert len({events[-1][1]["t_end"] for events in found}) == 30
+    waiting = [[told for kind, told in events if kind == "waiting"] for events in found]
+    assert {places[0]["place"] for places in waiting if places} >= set(range(1, 20))  # as they stood at first
+    for places in waiting:
+        numbers = [told["place"] for told in places]
+        assert numbers == sorted(numbers, reverse=True)
+        assert all(told.keys() == {"place", "seconds"} and told["seconds"] >= 0.0 for told in places)
+
+
 async def test_a_stream_that_is_refused_says_why(client: httpx.AsyncClient) -> None:
     question = {"scene": "pendulum", "x": {**AXES["x"], "parameter": "l"}, "y": {**AXES["y"], "parameter": "g"}}
     headers = {"Accept": "text/event-stream"}

@@ -153,17 +153,21 @@ async def until(seconds: float, *endless: Coroutine[Any, Any, None]) -> None:
 
 
 async def beside_a_greedy_client(service: Served, wanted: Callable[[int], Iterator[Question]]) -> None:
-    """What it takes others while one client asks for the worst."""
-    greed, told = Told(), Told()
+    """What it takes others, before there is a client that asks for the worst, and beside it."""
+    greed, before, beside = Told(), Told(), Told()
+    await until(SECONDS / 3, *others(service, before, 1))
+    begun = asyncio.ensure_future(greedy(service, greed, wanted))
+    await asyncio.sleep(BEFORE)
+    await until(SECONDS, *others(service, beside, 1 + OTHERS))
+    begun.cancel()
+    await asyncio.gather(begun, return_exceptions=True)
+    print(f"\nwithout a greedy client\n{before}")
+    print(f"beside one: {wanted.__name__}, load of the machine {os.getloadavg()[0]:.1f}\n{greed}\n{beside}", flush=True)
 
-    async def later(which: int) -> None:
-        await asyncio.sleep(BEFORE)
-        await other(service, told, which)
 
-    others = (later(1 + which) for which in range(OTHERS))
-    await until(SECONDS, greedy(service, greed, wanted), *others)
-    print(f"\nbeside a client that asks for the worst: {wanted.__name__}, load {os.getloadavg()[0]:.1f}")
-    print(f"{greed}\n{told}", flush=True)
+def others(service: Served, told: Told, first: int) -> Iterator[Coroutine[Any, Any, None]]:
+    """Some other clients, numbered from the first."""
+    return (other(service, told, first + each) for each in range(OTHERS))
 
 
 @dataclass

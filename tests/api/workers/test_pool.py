@@ -16,6 +16,7 @@ from typing import Any
 
 import pytest
 
+from deltaq.api.workers import worker
 from deltaq.api.workers.job import DeadlineExceeded, Job, JobFailed, MemoryExceeded, Overloaded, WorkerDied
 from deltaq.api.workers.pool import Pool, PoolState
 from deltaq.errors import Problem, SceneError, UnknownNameError
@@ -293,29 +294,31 @@ async def test_what_has_begun_is_not_refused(make_pool: MakePool, tmp_path: Path
 
 
 async def test_what_is_not_as_fast_as_was_thought_waits_for_a_slow_jobs_lane(
-    make_pool: MakePool, tmp_path: Path
+    make_pool: MakePool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pool, door, mark = make_pool(1, reserve=1, patience=1.5), tmp_path / "door", tmp_path / "mark"
+    monkeypatch.setattr(worker, "MOMENT", 0.1)
+    pool, door, mark = make_pool(1, reserve=1, patience=0.5), tmp_path / "door", tmp_path / "mark"
     slow = replace(job("wait_at"), pace="slow")
     running = asyncio.create_task(pool.run(slow, str(door)))
     while not pool.state.busy:
         await asyncio.sleep(0.005)
-    burning = asyncio.create_task(pool.run(job("burn"), {"seconds": 1.3, "mark": str(mark)}))
+    burning = asyncio.create_task(pool.run(job("burn"), {"seconds": 0.3, "mark": str(mark)}))
     while not pool.state.waiting or not mark.exists():  # it has begun, and was put back
         await asyncio.sleep(0.01)
     assert await run(pool, "echo", "fast") == "fast"
-    await asyncio.sleep(1.0)  # what has begun is not refused when patience is over
+    await asyncio.sleep(0.6)  # what has begun is not refused when patience is over
     door.touch()
-    assert (await running, json.loads(await burning)["seconds"]) == (b'"open"', 1.3)
+    assert (await running, json.loads(await burning)["seconds"]) == (b'"open"', 0.3)
     assert pool.state == PoolState(workers=2, ready=2, busy=0, waiting=0, kills=0)
     assert len(mark.read_text()) == 2
 
 
 async def test_what_is_not_as_fast_as_was_thought_goes_on_where_there_is_room(
-    make_pool: MakePool, tmp_path: Path
+    make_pool: MakePool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(worker, "MOMENT", 0.1)
     mark = tmp_path / "mark"
-    await make_pool(1, reserve=1).run(job("burn"), {"seconds": 1.3, "mark": str(mark)})
+    await make_pool(1, reserve=1).run(job("burn"), {"seconds": 0.3, "mark": str(mark)})
     assert len(mark.read_text()) == 1
 
 
