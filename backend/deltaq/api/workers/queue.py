@@ -19,6 +19,7 @@ from .job import Overloaded, Pace
 from .task import Task
 
 FIRST_GUESS = 10.0  # seconds that a job takes of whose like none has ended yet
+OVERTIME = 0.25  # of the seconds that a job has taken, where it has taken longer than usual
 RECENT = 0.3  # weight of the last duration in the mean
 
 
@@ -220,8 +221,9 @@ class FairQueue:
         return "slow" if task in self._outgrown else task.job.pace
 
     def _left(self, run: Run) -> float:
-        """Seconds that a job should still take."""
-        return max(0.0, self._durations.usual(run.task.job.kind) - (self._clock() - run.since))
+        """Seconds that a job should still take: what takes longer than usual goes on for some time."""
+        elapsed = self._clock() - run.since
+        return max(self._durations.usual(run.task.job.kind) - elapsed, OVERTIME * elapsed)
 
     def _in_turn(self) -> Iterator[Task]:
         """The tasks that wait, in the order in which they would be taken if none were kept from it by its pace."""
