@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import asyncio
 import signal
+from dataclasses import replace
 from typing import NoReturn
 
 import pytest
 
 from deltaq.api.workers.account import Account, Ledger, QuotaExceeded
 from deltaq.api.workers.job import DeadlineExceeded, Job, Overloaded, WorkerDied, WorkerKilled
-from deltaq.api.workers.lane import Lane, Limits
+from deltaq.api.workers.lane import Lane, Limits, begins
 from deltaq.api.workers.message import encode_request
+from deltaq.api.workers.occupancy import Lanes
 from deltaq.api.workers.pool import Pool
-from deltaq.api.workers.queue import FairQueue, Lanes
+from deltaq.api.workers.queue import FairQueue
 from deltaq.api.workers.task import Task
+from deltaq.api.workers.worker import Listener
 
 LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, patience=30.0)
 
@@ -107,3 +110,19 @@ async def test_stop_passes_over_what_was_cancelled() -> None:
     pool.stop(0.0)
     with pytest.raises(Overloaded, match="the service is stopping"):
         await waiting[1]
+
+
+def test_what_has_begun_and_waits_again_is_not_refused_any_more() -> None:
+    pool, begun, new = Pool(1, 2, LIMITS), task("echo"), task("echo")
+    begun.answer.set_running_or_notify_cancel()
+    for one in (begun, new):
+        pool._tasks.put(one)
+        pool._refuse(one)
+    assert (begun.answer.done(), new.answer.done(), pool.state.waiting) == (False, True, 1)
+
+
+@pytest.mark.parametrize("gone", [False, True])
+def test_what_was_put_back_is_begun_again_only_if_somebody_waits(*, gone: bool) -> None:
+    waiting = replace(task("echo"), listener=Listener(lambda _part: None, lambda: gone))
+    assert begins(waiting)
+    assert begins(waiting) is not gone

@@ -297,7 +297,7 @@ async def test_what_is_not_as_fast_as_was_thought_waits_for_a_slow_jobs_lane(
     make_pool: MakePool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(worker, "MOMENT", 0.1)
-    pool, door, mark = make_pool(1, reserve=1, patience=0.5), tmp_path / "door", tmp_path / "mark"
+    pool, door, mark = make_pool(1, reserve=1), tmp_path / "door", tmp_path / "mark"
     slow = replace(job("wait_at"), pace="slow")
     running = asyncio.create_task(pool.run(slow, str(door)))
     while not pool.state.busy:
@@ -306,7 +306,6 @@ async def test_what_is_not_as_fast_as_was_thought_waits_for_a_slow_jobs_lane(
     while not pool.state.waiting or not mark.exists():  # it has begun, and was put back
         await asyncio.sleep(0.01)
     assert await run(pool, "echo", "fast") == "fast"
-    await asyncio.sleep(0.6)  # what has begun is not refused when patience is over
     door.touch()
     assert (await running, json.loads(await burning)["seconds"]) == (b'"open"', 0.3)
     assert pool.state == PoolState(workers=2, ready=2, busy=0, waiting=0, kills=0)

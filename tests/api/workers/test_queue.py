@@ -11,7 +11,8 @@ import pytest
 
 from deltaq.api.workers.account import Account
 from deltaq.api.workers.job import Job, Overloaded, Pace
-from deltaq.api.workers.queue import Durations, FairQueue, Lanes, Place
+from deltaq.api.workers.occupancy import Durations, Lanes
+from deltaq.api.workers.queue import FairQueue, Place
 from deltaq.api.workers.task import Task
 
 MANY = Lanes(100, 100)
@@ -299,6 +300,6 @@ def test_what_was_given_up_tells_nothing_of_durations() -> None:
     queue.put(given_up := task("x"))
     queue.take()
     clock.now += 0.1
-    before = queue._durations.usual("x")
+    before = queue._running.durations.usual("x")
     queue.done(given_up)
-    assert queue._durations.usual("x") == before
+    assert queue._running.durations.usual("x") == before

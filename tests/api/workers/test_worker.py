@@ -9,7 +9,8 @@ import pytest
 from deltaq.api.workers import lane as lane_module
 from deltaq.api.workers.job import Job
 from deltaq.api.workers.lane import Lane, Limits
-from deltaq.api.workers.queue import FairQueue, Lanes
+from deltaq.api.workers.occupancy import Lanes
+from deltaq.api.workers.queue import FairQueue
 from deltaq.api.workers.worker import Worker, start_worker
 
 LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, patience=30.0)

@@ -12,7 +12,8 @@ from .account import FREE, Account
 from .job import Job, Overloaded
 from .lane import Lane, Limits
 from .message import encode_request
-from .queue import BEGUN, FairQueue, Lanes, Place
+from .occupancy import Lanes
+from .queue import BEGUN, FairQueue, Place
 from .task import Task
 from .worker import PRELOAD, Listener, start_fork_server
 

@@ -1,0 +1,119 @@
+"""Which jobs run, which others may begin beside them, and how long they should go on. Guarded by the queue's lock.
+
+A process cannot be taken from a job without losing what it has done, so what must stay free is never given away: of
+the lanes one is never a client's who has all the others, one is never a slow job's, and of those that slow jobs may
+have one is never a client's who has all the others of them. Where there is one such lane, it is anybody's. The nameless
+client, who asks from the machine itself, may have them all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from .job import Pace
+from .task import Task
+
+FIRST_GUESS = 10.0  # seconds that a job takes of whose like none has ended yet
+OVERTIME = 0.25  # of the seconds that a job has taken, where it has taken longer than usual
+RECENT = 0.3  # weight of the last duration in the mean
+
+
+@dataclass(frozen=True)
+class Lanes:
+    """How many jobs may run at once, and how many slow ones among them."""
+
+    all: int
+    slow: int
+
+    @property
+    def of_client(self) -> int:
+        """The jobs of one client that may run at once."""
+        return max(1, self.all - 1)
+
+    @property
+    def slow_of_client(self) -> int:
+        """The slow jobs of one client that may run at once."""
+        return max(1, self.slow - 1)
+
+
+@dataclass(frozen=True)
+class Run:
+    """A task that a lane is at."""
+
+    task: Task
+    pace: Pace
+    since: float
+
+
+class Durations:
+    """How many seconds jobs of a kind usually take; the recent ones count most."""
+
+    def __init__(self) -> None:
+        self._means: dict[str, float] = {}
+
+    def note(self, kind: str, seconds: float) -> None:
+        """One has ended."""
+        mean = self._means.get(kind, seconds)
+        self._means[kind] = mean + RECENT * (seconds - mean)
+
+    def usual(self, kind: str) -> float:
+        """The mean of its kind; of a new kind that of all kinds."""
+        of_all = sum(self._means.values()) / len(self._means) if self._means else FIRST_GUESS
+        return self._means.get(kind, of_all)
+
+
+class Occupancy:
+    """The jobs that run in some lanes."""
+
+    def __init__(self, lanes: Lanes, clock: Callable[[], float]) -> None:
+        self.lanes = lanes
+        self.durations = Durations()
+        self._clock = clock
+        self._runs: dict[Task, Run] = {}
+
+    def __contains__(self, task: Task) -> bool:
+        return task in self._runs
+
+    def begin(self, task: Task, pace: Pace) -> None:
+        """A lane is at it from now on."""
+        self._runs[task] = Run(task, pace, self._clock())
+
+    def end(self, task: Task, *, answered: bool) -> None:
+        """Its lane is free; how long it took is remembered if it came to its end."""
+        run = self._runs.pop(task, None)
+        if run is not None and answered:
+            self.durations.note(task.job.kind, self._clock() - run.since)
+
+    def has_lane(self, client: str, pace: Pace) -> bool:
+        """Whether another job of this client may begin."""
+        if len(self._runs) >= self.lanes.all or (client and len(self._of(client)) >= self.lanes.of_client):
+            return False
+        return pace == "fast" or self._has_slow_lane(client)
+
+    def outgrow(self, task: Task) -> bool:
+        """Whether a task that has run for more than a moment may go on, as a slow one from now on."""
+        run = self._runs.get(task)
+        if run is None or run.pace == "slow":
+            return True
+        if not self._has_slow_lane(task.account.client):
+            return False
+        self._runs[task] = Run(task, "slow", run.since)
+        return True
+
+    @property
+    def left(self) -> list[float]:
+        """Seconds that each job should still take: what takes longer than usual goes on for some time."""
+        return [self._left(run) for run in self._runs.values()]
+
+    def _left(self, run: Run) -> float:
+        elapsed = self._clock() - run.since
+        return max(self.durations.usual(run.task.job.kind) - elapsed, OVERTIME * elapsed)
+
+    def _has_slow_lane(self, client: str) -> bool:
+        of_client = sum(run.pace == "slow" for run in self._of(client))
+        of_all = sum(run.pace == "slow" for run in self._runs.values())
+        return of_all < self.lanes.slow and not (client and of_client >= self.lanes.slow_of_client)
+
+    def _of(self, client: str) -> list[Run]:
+        return [run for run in self._runs.values() if run.task.account.client == client]
