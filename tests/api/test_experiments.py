@@ -88,8 +88,9 @@ async def test_a_stream_has_growing_parts_and_ends_with_the_result(client: httpx
     async with client.stream("POST", address("work-precision"), json=question, headers=headers) as response:
         assert response.headers["content-type"].startswith("text/event-stream")
         assert response.headers["cache-control"] == "no-store"
-        found = [event async for event in events_of(response)]
-    kinds = [kind for kind, _ in found]
+        events = [event async for event in events_of(response)]
+    found = [event for number, event in enumerate(events) if event[0] != "waiting" or "part" in dict(events[:number])]
+    kinds = [kind for kind, _ in found]  # it may have waited for a worker before its first part, not after
     assert kinds == ["part"] * (len(kinds) - 1) + ["result"]
     parts = [data for kind, data in found if kind == "part"]
     assert parts
