@@ -16,6 +16,7 @@ import numpy as np
 from ..mechanics.library import load_scene
 from ..simulation.integration import explicit_weights, motion_of
 from ..simulation.kernels.motion import FINE, STEP_LIMIT
+from ..simulation.kernels.plan import make_plan
 from ..simulation.kernels.step import make_room
 from ..simulation.kernels.step_control import Control
 from ..simulation.kernels.tangent import Pace, Pair, Trace, accompany, begin_pair
@@ -152,7 +153,8 @@ def _pair(problem: Problem, rhythm: Rhythm) -> Pair:
     largest = min(largest, math.tau / driven / PER_DRIVE) if driven else largest
     tolerance = LOCAL_TOLERANCE * float(np.clip(rhythm.scales.max(), FINEST, 1.0))
     limit = max(STEP_BUDGET * 2 // max(problem.degrees, 2), PART)
-    control = Control(tolerance, largest, largest, 8.0, 0.0, limit, scheme.stages, real_stability(scheme))
+    plan = make_plan(np.array([np.inf]), np.array([largest]), 2 * problem.degrees)
+    control = Control(tolerance, largest, 8.0, 0.0, limit, scheme.stages, real_stability(scheme), plan)
     weights = explicit_weights(scheme)
     rooms = make_room(state.copy(), weights), make_room(state.copy(), weights)
     return Pair(motion_of(problem), weights, control, *rooms, rhythm.scales)
