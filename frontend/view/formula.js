@@ -2,6 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { Directive, directive } from "lit-html/directive.js";
+import { pieces } from "../model/prose.js";
 import { Fitting } from "./fitting.js";
 import { typeset } from "./typesetting.js";
 import { Waiting } from "./waiting.js";
@@ -70,8 +71,5 @@ export const inline = (latex, className = "", later = false) => html`<span class
 /** A formula on a line of its own. @param {string} latex @param {boolean} [later] it is not seen yet */
 export const displayed = (latex, later = false) => html`<div class="formula" tabindex="-1" ${typesetInto(latex, true, later)}></div>`;
 
-/** A sentence with formulas between dollar signs. @param {string} text @param {boolean} [later] it is not seen yet */
-export const prose = (text, later = false) => text.split("$").map((part, i) => (i % 2 ? inline(part, "", later) : part));
-
-/** A sentence without markup, for titles and screen readers. @param {string} text */
-export const plainly = (text) => text.replace(/\$[^$]*\$/g, (formula) => formula.slice(1, -1).replace(/\\(htmlClass\{[^}]*\}|[a-z]+)|[{}\\]/g, "$1"));
+/** A sentence of the server with its formulas. @param {import("../model/prose.js").CatalogText} sentence @param {boolean} [later] it is not seen yet */
+export const prose = (sentence, later = false) => pieces(sentence).map(({ text, formula }) => (formula ? inline(text, "", later) : text));

@@ -1,7 +1,7 @@
 /** Bringing the current step before the reader's eyes and ears. */
 
 import { indexOf } from "../model/reveal.js";
-import { plainly } from "./formula.js";
+import { plainly } from "../model/prose.js";
 
 /** @param {HTMLElement} root @param {string} id */
 const stepElement = (root, id) => root.querySelector(`[data-step="${CSS.escape(id)}"]`);

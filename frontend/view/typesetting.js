@@ -1,12 +1,14 @@
 /** KaTeX into the DOM; what it refuses is shown as plain text. */
 
+import { areOfFormulas } from "../model/prose.js";
+
 /** Display formulas shrink to this part of their size, 11 pixels on a phone, before they scroll. */
 export const SMALLEST = 0.56;
 /** Formulas that would become smaller are rather broken, where that is not said otherwise. */
 const BEARABLE = 0.78;
 
-/** @param {{command: string}} context  only classes, which carry the colours, and only in LaTeX from the server */
-const onlyClasses = (context) => context.command === "\\htmlClass";
+/** @param {{command: string, class?: string}} context  only classes, and only those that carry the colours of formulas */
+const onlyClasses = (context) => context.command === "\\htmlClass" && areOfFormulas(context.class ?? "");
 
 /** @param {HTMLElement} element @param {string} latex @param {boolean} display @param {"html" | "mathml" | "htmlAndMathml"} [output]  to be seen, to be heard, or both */
 export function typeset(element, latex, display, output = "htmlAndMathml") {

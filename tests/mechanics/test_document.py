@@ -38,7 +38,7 @@ def test_events_are_written_where_there_are_any() -> None:
     scene = read_scene({**PENDULUM, "events": [event]})
     assert write_scene(scene)["events"] == [event]
     assert read_scene(write_scene(scene)) == scene
-    assert scene.events[0].called("en") == "slack"
+    assert scene.events[0].called("en").plain == "slack"
     assert scene.events[0].called("de") == "slack"
     assert "events" not in write_scene(read_scene(PENDULUM))
 

@@ -19,8 +19,9 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     """One line for each scene."""
     from ..mechanics.library import load_scene, scene_ids
+    from ..mechanics.user_text import in_language
 
     width = max(map(len, scene_ids()))
     for identifier in scene_ids():
         scene = load_scene(identifier)
-        print(f"{identifier:{width}}  {len(scene.free)}  {scene.title[options.lang]}")
+        print(f"{identifier:{width}}  {len(scene.free)}  {in_language(scene.title, options.lang).line}")

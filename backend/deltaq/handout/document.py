@@ -7,13 +7,16 @@ from dataclasses import dataclass
 from typing import cast
 
 from ..derivation.engine import check_formulation, derive
+from ..derivation.step import Derivation
 from ..derivation.system import System
 from ..language.latex_printer import Typography
 from ..language.latex_printer import latex as latex_text
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
+from ..mechanics.user_text import UserText, in_language
 from ..narration.catalog import text
 from ..narration.derive import narrator_of
+from ..narration.prose import CatalogText, words
 
 
 @dataclass(frozen=True)
@@ -38,8 +41,8 @@ class Line:
 
     number: str
     depth: int
-    title: str
-    text: str
+    title: CatalogText
+    text: CatalogText
     latex: str
 
 
@@ -47,22 +50,22 @@ class Line:
 class Part:
     """A chapter."""
 
-    title: str
+    title: CatalogText
     lines: tuple[Line, ...]
 
 
 @dataclass(frozen=True)
 class Handout:
-    """A derivation to be written down. Sentences hold formulas between dollar signs."""
+    """A derivation to be written down: what the scene's author wrote, and sentences with formulas."""
 
     language: str
-    title: str
-    summary: str
+    title: UserText
+    summary: UserText
     coordinates: tuple[Value, ...]
     parameters: tuple[Value, ...]
     parts: tuple[Part, ...]
 
-    def say(self, key: str) -> str:
+    def say(self, key: str) -> CatalogText:
         """A sentence of the handout itself."""
         return text(self.language, f"handout.{key}")
 
@@ -72,19 +75,21 @@ def handout_of(scene: Scene, language: str, formulation: str, *, substeps: bool 
     check_formulation(formulation)
     with inside("/scene"):
         system, derivation = derive(scene, formulation)
+    return written_down(system, derivation, language, substeps=substeps)
+
+
+def written_down(system: System, derivation: Derivation, language: str, *, substeps: bool = True) -> Handout:
+    """The handout of a derivation that has been made."""
+    scene = system.scene
     chapters = narrator_of(system, language).chapters(derivation)
     return Handout(
         language,
-        _in_language(scene.title, language),
-        _in_language(scene.summary, language),
+        in_language(scene.title, language),
+        in_language(scene.summary, language),
         tuple(_initial_values(system)),
         tuple(Value(_latex(scene, p.name), p.name, p.value, _unit(p.unit)) for p in scene.parameters),
         tuple(_part(str(i), chapter, substeps=substeps) for i, chapter in enumerate(chapters, 1)),
     )
-
-
-def _in_language(texts: Mapping[str, str], language: str) -> str:
-    return texts.get(language) or next(iter(texts.values()), "")
 
 
 def _latex(scene: Scene, name: str) -> str:
@@ -97,23 +102,24 @@ def _initial_values(system: System) -> Iterator[Value]:
     typography = Typography(scene.names)
     for coordinate in scene.free:
         latex = _latex(scene, coordinate.name)
-        yield Value(f"{latex}(0)", coordinate.name, coordinate.value, _unit(coordinate.unit))
-        rate, unit = latex_text(system.rate(coordinate.name), typography), coordinate.unit
+        unit = _unit(coordinate.unit)
+        yield Value(f"{latex}(0)", coordinate.name, coordinate.value, unit)
+        rate = latex_text(system.rate(coordinate.name), typography)
         yield Value(f"{rate}(0)", f"dot({coordinate.name})", coordinate.rate, f"{unit or 1}/s")
 
 
 def _unit(unit: str) -> str:
-    return "" if unit == "1" else unit
+    return "" if unit == "1" else UserText(unit).line
 
 
 def _part(number: str, chapter: Mapping[str, object], *, substeps: bool) -> Part:
     steps = cast("Sequence[Mapping[str, object]]", chapter["steps"])
     lines = (line for i, step in enumerate(steps, 1) for line in _lines(step, f"{number}.{i}", 0))
-    return Part(str(chapter["title"]), tuple(line for line in lines if substeps or line.depth == 0))
+    return Part(words(chapter["title"]), tuple(line for line in lines if substeps or line.depth == 0))
 
 
 def _lines(step: Mapping[str, object], number: str, depth: int) -> Iterator[Line]:
-    yield Line(number, depth, str(step["title"]), str(step["text"]), str(step["latex"]))
+    yield Line(number, depth, words(step["title"]), words(step["text"]), str(step["latex"]))
     below = cast("Sequence[Mapping[str, object]]", step["substeps"])
     for i, substep in enumerate(below, 1):
         yield from _lines(substep, f"{number}.{i}", depth + 1)

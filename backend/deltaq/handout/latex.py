@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from types import MappingProxyType
 from unicodedata import normalize
 
+from ..mechanics.units import dimension_of
+from ..narration.prose import CatalogText, pieces
 from .document import Handout, Line, Part, Value
 
 PREAMBLE = r"""\documentclass[11pt,a4paper]{article}
@@ -29,6 +31,11 @@ PREAMBLE = r"""\documentclass[11pt,a4paper]{article}
 SPECIAL = MappingProxyType(
     {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
     | {sign: f"\\{sign}" for sign in "&%$#_{}"}
+    | {
+        '"': r"\textquotedbl{}",
+        "[": "{[}",
+        "]": "{]}",
+    }  # a shorthand of babel; what a command before may take for its own
 )
 # Signs of sentences that 8-bit fonts lack, as mathematics.
 MATHEMATICS = MappingProxyType(
@@ -86,7 +93,8 @@ MATHEMATICS = MappingProxyType(
 SPACES = MappingProxyType({"\u00a0": "~", "\u2009": r"\,", "\u202f": r"\,"})
 DOT_ABOVE = "\u0307"
 _KEPT = re.compile(r"[\x20-\x7e\u00a1-\u00ff„“”‚‘’–—…]")
-_UNIT = re.compile(r"[A-Za-z0-9/^.()-]+")
+_UNIT = re.compile(r"(?:[A-Za-z0-9/.()-]|\^-?\d+(?![A-Za-z0-9]))+")
+_FOREIGN = re.compile(r"[^\x00-\x7f]+")
 _BABEL = MappingProxyType({"de": "ngerman", "en": "english"})
 
 
@@ -95,12 +103,12 @@ def latex_file(handout: Handout) -> str:
     return "\n".join(
         [
             PREAMBLE % {"babel": _BABEL[handout.language]},
-            f"\\title{{{prose(handout.title)}}}",
+            f"\\title{{{escaped(handout.title.line)}}}",
             f"\\author{{{prose(handout.say('author'))}}}",
             "\\date{}",
             "\\begin{document}",
             "\\maketitle",
-            prose(handout.summary),
+            escaped(handout.summary.line),
             "",
             *_values(handout),
             *(line for part in handout.parts for line in _part(part)),
@@ -110,12 +118,16 @@ def latex_file(handout: Handout) -> str:
     )
 
 
-def prose(sentence: str) -> str:
-    """A sentence with formulas between dollar signs; everything else in it is text."""
-    pieces = sentence.split("$")
-    if len(pieces) % 2 == 0:  # a lone dollar sign is none of ours
-        return escaped(sentence)
-    return "".join(f"${piece}$" if i % 2 else escaped(piece) for i, piece in enumerate(pieces))
+def prose(sentence: CatalogText) -> str:
+    """A sentence with its formulas; everything else in it is text."""
+    return "".join(
+        f"${mathematics(each.text)}$" if each.is_formula else escaped(each.text) for each in pieces(sentence)
+    )
+
+
+def mathematics(latex: str) -> str:
+    """LaTeX of δq in signs that every engine has; beyond ASCII it holds the words of names only."""
+    return _FOREIGN.sub(lambda sign: escaped(sign[0]), latex)
 
 
 def escaped(text: str) -> str:
@@ -139,8 +151,10 @@ def _values(handout: Handout) -> Iterator[str]:
 
 
 def _value(value: Value) -> str:
-    unit = re.sub(r"\^(-?\d+)", r"^{\1}", value.unit) if _UNIT.fullmatch(value.unit) else ""
-    return f"${value.equation}\\,\\mathrm{{{unit}}}$" if unit else f"${value.equation}$ {escaped(value.unit)}".strip()
+    known = _UNIT.fullmatch(value.unit) and dimension_of(value.unit)
+    unit = re.sub(r"\^(-?\d+)", r"^{\1}", value.unit) if known else ""
+    equation = mathematics(value.equation)
+    return f"${equation}\\,\\mathrm{{{unit}}}$" if unit else f"${equation}$ {escaped(value.unit)}".strip()
 
 
 def _part(part: Part) -> Iterator[str]:
@@ -154,4 +168,4 @@ def _line(line: Line) -> Iterator[str]:
     if line.text:
         yield prose(line.text)
     if line.latex:
-        yield f"\\displayed{{{line.latex}}}"
+        yield f"\\displayed{{{mathematics(line.latex)}}}"

@@ -5,28 +5,37 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from ..narration.prose import CatalogText, pieces
 from .document import Handout, Line, Part, Value
 
-_SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|$~&])")
+# With a meaning anywhere; a colon or dot where an address would be found without any mark.
+_SPECIAL = re.compile(r"[`*_{}\[\]<>#|~&^@]|:(?=//)|(?<=www)\.", re.IGNORECASE)
+_AT_START = re.compile(r"(?P<number>\d+)(?P<sign>[.)])|[-+=:%]")
+# Viewers look for these once more in the finished page, where a backslash before them is gone.
+_INERT = str.maketrans({"$": "＄", "\\": "＼"})
 
 
 def markdown_file(handout: Handout) -> str:
     """The whole file."""
-    lines = [f"# {prose(handout.title)}", "", prose(handout.summary), "", *_values(handout)]
+    lines = [f"# {escaped(handout.title.line)}", "", _paragraph(escaped(handout.summary.line)), "", *_values(handout)]
     return "\n".join([*lines, *(line for part in handout.parts for line in _part(part))]).rstrip() + "\n"
 
 
-def prose(sentence: str) -> str:
-    """A sentence with formulas between dollar signs; no other sign of it means anything."""
-    pieces = " ".join(sentence.split()).split("$")
-    if len(pieces) % 2 == 0:
-        return escaped(sentence)
-    return "".join(f"${piece}$" if i % 2 else escaped(piece) for i, piece in enumerate(pieces))
+def prose(sentence: CatalogText) -> str:
+    """A sentence with its formulas; no other sign of it means anything."""
+    return "".join(f"${each.text}$" if each.is_formula else escaped(each.text) for each in pieces(sentence))
 
 
 def escaped(text: str) -> str:
-    """Text as it is, without meaning to Markdown or HTML."""
-    return _SPECIAL.sub(r"\\\1", text)
+    """Text as it is, without meaning to Markdown, HTML or mathematics."""
+    return _SPECIAL.sub(r"\\\g<0>", text.translate(_INERT))
+
+
+def _paragraph(text: str) -> str:
+    """A paragraph whose first signs open no list, no line and no definition."""
+    found = _AT_START.match(text)
+    place = found.start("sign") if found and found["sign"] else 0
+    return f"{text[:place]}\\{text[place:]}" if found else text
 
 
 def _values(handout: Handout) -> Iterator[str]:
@@ -53,6 +62,6 @@ def _line(line: Line) -> Iterator[str]:
     yield f"### {title}" if line.depth == 0 else f"**{title}**"
     yield ""
     if line.text:
-        yield from (prose(line.text), "")
+        yield from (_paragraph(prose(line.text)), "")
     if line.latex:
         yield from ("$$", line.latex.replace("\n", " "), "$$", "")

@@ -9,6 +9,7 @@ from ..derivation.matrix_form import forcing, mass_matrix
 from ..derivation.system import System
 from ..mechanics.event import Event
 from ..mechanics.scene import Scene
+from ..mechanics.user_text import UserText
 from .words import Words, event_symbol
 
 TEMPLATE = """\
@@ -106,7 +107,7 @@ def script(scene: Scene, language: str, t_end: float) -> str:
     }
     events = [_event(event, system, words, language, unpacked) for event in scene.events]
     content = unpacked | {
-        "title": comment(scene.title.get(language) or scene.id),
+        "title": comment((scene.title.get(language) or UserText(scene.id)).line),
         "parameters": "\n".join(_parameters(scene, words)) or "# This scene has no parameters.",
         "coordinates": repr([c.name for c in free]),
         "values": repr([float(c.value) for c in free]),
@@ -127,7 +128,7 @@ def script(scene: Scene, language: str, t_end: float) -> str:
 def _event(event: Event, system: System, words: Words, language: str, unpacked: Mapping[str, str]) -> str:
     """A function that is positive until the event happens, and ends the integration there."""
     value = words.text(system.guided(system.expression(event.value.tree)))
-    title = comment(event.title.get(language) or event.name)
+    title = comment(event.called(language).line)
     return EVENT.format(name=words.called(event_symbol(event.name)), title=title, value=value, **unpacked)
 
 

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import cast
 
 from ..errors import InputError, Problem, RequestError, escaped
+from ..mechanics.user_text import Translated, translated
 from .task import Task
 from .workbook import Workbook, workbook_of
 
@@ -50,7 +51,7 @@ class AssignedTask:
 class Assignment:
     """The tasks in order; `individual` draws each student's parameter values from a seed."""
 
-    title: Mapping[str, str]
+    title: Translated
     tasks: tuple[AssignedTask, ...]
     individual: bool = False
     follow_through: float = 0.5
@@ -76,7 +77,8 @@ def read_assignment(document: object) -> Assignment:
         raise RequestError(*problems)
     tasks = tuple(_task(entry, f"/tasks/{n}") for n, entry in enumerate(document["tasks"]))
     share = float(document.get("follow_through", 0.5))
-    return Assignment(dict(document.get("title") or {}), tasks, bool(document.get("individual", False)), share)
+    title = translated(document.get("title") or {})
+    return Assignment(title, tasks, bool(document.get("individual", False)), share)
 
 
 def _problems(document: Mapping[str, object]) -> Iterator[Problem]:

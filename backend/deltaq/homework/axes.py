@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from ..mechanics.scene import Scene
 from ..narration.catalog import text
+from ..narration.prose import CatalogText, joined
 from ..narration.things import called
 
 
-def axes_text(scene: Scene, language: str) -> str:
+def axes_text(scene: Scene, language: str) -> CatalogText:
     """A sentence on the axes, and the origin where a labelled point stands in it."""
     direction = text(language, f"homework.axes.{scene.dimension}-{scene.drawing.vertical}")
     at_zero = [point.name for point in scene.points if all(part.text.strip() == "0" for part in point.position)]
-    origin = next((called(scene, name, language) for name in at_zero if name in scene.labels), "")
-    return f"{direction}; {text(language, 'homework.axes.origin', place=origin)}." if origin else f"{direction}."
+    origin = next((called(scene, name, language) for name in at_zero if name in scene.labels), None)
+    parts = [direction, text(language, "homework.axes.origin", place=origin)] if origin else [direction]
+    return joined("", [joined("; ", parts), "."])

@@ -12,6 +12,7 @@ from ..language.tree import Equation, Node, Sum, Vector
 from ..mechanics.homogeneity import DimensionCheck
 from ..mechanics.scene import Scene
 from ..mechanics.units import Dimension, dimension_of
+from ..narration.prose import formula
 from .equality import Parts
 from .reading import Reading
 
@@ -55,7 +56,7 @@ def _told(problem: Problem, scene: Scene, syntax: Syntax) -> dict[str, str]:
         typeset = latex(to_sympy(parse(term, scene.names, syntax).tree, Symbols(scene.names)), Typography(scene.names))
     except ExpressionError:
         return told | {"term": f"“{term}”"}
-    return told | {"term": f"${typeset}$"}
+    return told | {"term": formula(typeset)}
 
 
 def _raised(unit: str) -> str:

@@ -10,7 +10,8 @@ from ..language.parser import parse
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..mechanics.scene import Scene
-from ..narration.catalog import message, text
+from ..narration.catalog import message, sentence, text
+from ..narration.prose import CatalogText, formula, joined
 from ..narration.things import called
 from .counterexamples import rounded_text
 from .verdict import Counterexample, Verdict
@@ -25,7 +26,7 @@ def verdict_document(verdict: Verdict, scene: Scene, language: str) -> Document:
     document: Document = {
         "outcome": verdict.outcome,
         "understood_as": verdict.understood_as,
-        "feedback": " ".join(_sentences(verdict, scene, language)),
+        "feedback": joined(" ", _sentences(verdict, scene, language)),
         "remark": verdict.remark or None,
         "misconception": verdict.misconceptions[0] if verdict.misconceptions else None,
         "misconceptions": [_named(each, verdict, scene, language) for each in verdict.misconceptions],
@@ -48,31 +49,32 @@ def _named(identifier: str, verdict: Verdict, scene: Scene, language: str) -> Do
     return {"id": identifier, "title": text(language, f"homework.misconceptions.{identifier}.title", **values)}
 
 
-def _sentences(verdict: Verdict, scene: Scene, language: str) -> list[str]:
+def _sentences(verdict: Verdict, scene: Scene, language: str) -> list[CatalogText]:
     """The outcome, what can be said of it, and the hint that leads on; never the right answer."""
     sentences = [text(language, f"homework.outcomes.{verdict.outcome}")]
-    sentences += [message(language, problem) for problem in verdict.problems]
+    sentences += [sentence(language, problem) for problem in verdict.problems]
     if verdict.remark:
         sentences.append(text(language, f"homework.remarks.{verdict.remark}"))
     if verdict.misconceptions:
         key = f"homework.misconceptions.{verdict.misconceptions[0]}.hint"
         sentences.append(text(language, key, **_about(verdict, scene, language)))
     if verdict.slip:
-        slip = text(language, f"homework.slips.{verdict.slip.kind}", term=verdict.slip.term)
+        slip = text(language, f"homework.slips.{verdict.slip.kind}", term=formula(verdict.slip.term))
         besides = verdict.misconceptions and text(language, "homework.feedback.besides", slip=slip)
-        sentences.append(str(besides or slip))
+        sentences.append(besides or slip)
     if verdict.counterexample and not (verdict.misconceptions or verdict.slip):
         sentences.append(_told(verdict.counterexample, scene, language))
     return sentences
 
 
-def _told(example: Counterexample, scene: Scene, language: str) -> str:
-    state = ", ".join(f"${_typeset(name, scene)} = {_number(v, language)}$" for name, v in example.state.items())
+def _told(example: Counterexample, scene: Scene, language: str) -> CatalogText:
+    values = (f"{_typeset(name, scene)} = {_number(v, language)}" for name, v in example.state.items())
+    state = joined(", ", map(formula, values))
     what = f"{_typeset(example.of, scene)} = " if example.of and not example.of.isdecimal() else ""
-    yours, right = (f"${what}{_number(value, language)}$" for value in (example.yours, example.right))
+    yours, right = (formula(f"{what}{_number(value, language)}") for value in (example.yours, example.right))
     told = {"state": state, "yours": yours, "right": right}
     if example.of.isdecimal():
-        component = AXES[int(example.of) - 1]
+        component = formula(AXES[int(example.of) - 1])
         return text(language, "homework.feedback.counterexample-component", component=component, **told)
     return text(language, "homework.feedback.counterexample", **told)
 
@@ -82,21 +84,21 @@ def _number(value: float, language: str) -> str:
     return rounded_text(value).replace(".", text(language, "homework.decimal"))
 
 
-def _about(verdict: Verdict, scene: Scene, language: str) -> dict[str, str]:
+def _about(verdict: Verdict, scene: Scene, language: str) -> dict[str, str | CatalogText]:
     """What the texts of a misconception may speak of."""
     return {**about_texts(verdict.about, scene, language), **verdict.parameters}
 
 
-def about_texts(about: str, scene: Scene, language: str) -> dict[str, str]:
+def about_texts(about: str, scene: Scene, language: str) -> dict[str, CatalogText]:
     """Two names mixed up (a/b), the body of a load (load:body), or one name, as a sentence calls them."""
     parts = [label(part, scene, language) for part in about.replace(":", "/").split("/") if part]
-    return {"about": ", ".join(parts[-2:] if "/" in about else parts[-1:])}
+    return {"about": joined(", ", parts[-2:] if "/" in about else parts[-1:])}
 
 
-def label(name: str, scene: Scene, language: str) -> str:
+def label(name: str, scene: Scene, language: str) -> CatalogText:
     """A coordinate or parameter as a formula, a body or load by its label."""
     symbol = scene.names.get(name)
-    return f"${symbol.typeset}$" if symbol else called(scene, name, language)
+    return formula(symbol.typeset) if symbol else called(scene, name, language)
 
 
 def _example(example: Counterexample | None, scene: Scene) -> Document | None:

@@ -10,6 +10,7 @@ from ..language.latex_printer import Typography, latex
 from ..language.parser import Syntax
 from ..language.plain_printer import plain
 from ..mechanics.requests import inside
+from ..mechanics.user_text import plainly
 from ..mechanics.writing import write_scene
 from ..narration.catalog import language_in
 from .assignment import AssignedTask, read_assignment
@@ -118,7 +119,7 @@ def assignment_request(document: Mapping[str, object]) -> Document:
     seed = cast("str | None", document.get("seed")) if sheet.individual else None
     language = language_in(document)
     return {
-        "title": dict(sheet.title),
+        "title": plainly(sheet.title),
         "follow_through": sheet.follow_through,
         "tasks": [_assigned_document(assigned, seed, language) for assigned in sheet.tasks],
     }

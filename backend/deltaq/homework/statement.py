@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..language.latex_printer import Typography, latex
 from ..language.plain_printer import plain
 from ..narration.catalog import text
+from ..narration.prose import formula, joined
 from .axes import axes_text
 from .feedback import Document, label
 from .task import Task
@@ -51,7 +52,8 @@ def _subject(task: Task, workbook: Workbook, language: str) -> dict[str, object]
     if task.quantity.kind in ("linearized", "eigenfrequencies"):
         typography = Typography(scene.names)
         rest = workbook.road.rest or {}
-        values["rest"] = ", ".join(f"${latex(q, typography)} = {latex(v, typography)}$" for q, v in rest.items())
+        equations = (f"{latex(q, typography)} = {latex(v, typography)}" for q, v in rest.items())
+        values["rest"] = joined(", ", map(formula, equations))
     if task.quantity.kind == "conserved":
         coordinate = workbook.road.conserved_of[int(task.subject) - 1]
         kind = "momentum" if coordinate else "energy"

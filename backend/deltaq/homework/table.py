@@ -12,10 +12,11 @@ from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from ..mechanics.user_text import as_cell
+
 SEPARATORS = ",;\t"
 TOLD = "sep="  # the first line by which spreadsheets tell each other the separator
 BEYOND = "beyond the header"  # the key of cells for which the header has no name
-FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 Row = dict[str, str]
 
@@ -33,12 +34,12 @@ class Style:
         writer = csv.writer(out, delimiter=self.separator, lineterminator="\n")
         writer.writerow(header)
         writer.writerows([self._cell(value) for value in row] for row in rows)
-        return (BOM_UTF8 if self.marked else b"") + out.getvalue().encode()
+        return (BOM_UTF8 if self.marked else b"") + out.getvalue().encode(errors="replace")
 
     def _cell(self, value: object) -> str:
         if isinstance(value, float):
             return f"{value:g}".replace(".", "," if self.separator == ";" else ".")
-        return f"'{value}" if str(value).startswith(FORMULA) else str(value)
+        return as_cell(str(value))
 
 
 @dataclass(frozen=True)

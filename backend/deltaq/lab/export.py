@@ -10,6 +10,7 @@ from importlib import import_module
 from itertools import zip_longest
 from typing import Any
 
+from ..mechanics.user_text import as_cell
 from .charts.chart import WITHOUT_RESULT, Chart
 
 _PAGE = """<!doctype html>
@@ -47,7 +48,7 @@ def table(charts: Sequence[Chart]) -> str:
     for chart in charts:
         for trace in chart["data"]:
             if "name" in trace or "z" in trace:
-                writer.writerows([chart["id"], trace.get("name", ""), *row] for row in _rows(trace))
+                writer.writerows([chart["id"], as_cell(trace.get("name", "")), *row] for row in _rows(trace))
     return out.getvalue()
 
 

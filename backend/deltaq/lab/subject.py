@@ -10,6 +10,7 @@ from ..errors import RequestError, UnknownNameError
 from ..language.spelling import in_unicode, latex_of
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
+from ..mechanics.user_text import plainly
 from ..simulation.fields import Fields
 from ..simulation.library import get_method, method_ids
 from ..simulation.method import Method
@@ -43,7 +44,7 @@ class Subject:
         starts = zip(self.scene.free, self.problem.values, self.problem.rates, strict=True)
         return {
             "scene": self.scene.id,
-            "title": dict(self.scene.title),
+            "title": plainly(self.scene.title),
             "names": _names(self.scene),
             "t_end": self.problem.t_end,
             "parameters": dict(values),
@@ -54,7 +55,7 @@ class Subject:
 def _names(scene: Scene) -> Document:
     """How what the scene names is to be written: symbols of quantities, words for its parts in every language."""
     latex = {one.name: one.latex for one in scene.coordinates} | {one.name: one.latex for one in scene.parameters}
-    words: Document = {name: dict(label) for name, label in scene.labels.items()}
+    words: Document = {name: plainly(label) for name, label in scene.labels.items()}
     return words | {name: in_unicode(symbol or latex_of(name)) for name, symbol in latex.items()}
 
 

@@ -12,6 +12,10 @@ from ..errors import Problem, SceneError
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")  # of places and loads: they become classes and keys of the page
 
 LATEX = re.compile(r"(?:\\[A-Za-z]+|[A-Za-z0-9_^{} ,'*+-])*")
+# An index without anything to it; two carets are more than that: TeX reads ^^5c as a backslash.
+BARE_INDEX = re.compile(r"[_^]\s*(?:[_^}'+*,-]|$)")
+ACCENTS = ("mathrm", "mathbf", "mathit", "mathcal", "mathsf", "text", "bar", "hat", "tilde", "vec", "underline")
+BARE_ACCENT = re.compile(rf"\\(?:{'|'.join(ACCENTS)})\s*(?:[_^}}'+*,-]|$)")
 # fmt: off
 COMMANDS = frozenset(
     [
@@ -19,7 +23,7 @@ COMMANDS = frozenset(
         "kappa", "lambda", "mu", "nu", "xi", "pi", "varpi", "rho", "varrho", "sigma", "varsigma", "tau",
         "upsilon", "phi", "varphi", "chi", "psi", "omega", "Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi",
         "Sigma", "Upsilon", "Phi", "Psi", "Omega", "ell", "hbar", "prime", "infty", "parallel", "perp",
-        "mathrm", "mathbf", "mathit", "mathcal", "mathsf", "text", "bar", "hat", "tilde", "vec", "underline",
+        *ACCENTS,
     ]
 )
 # fmt: on
@@ -48,8 +52,9 @@ def load_name_problem(name: str, pointer: str) -> Problem | None:
 def latex_problem(latex: str, pointer: str = "/latex") -> Problem | None:
     """A symbol in LaTeX: letters, digits, indices and a few commands; it is printed as it is, so no more."""
     commands = set(re.findall(r"\\([A-Za-z]*)", latex))
-    sound = len(latex) <= 40 and LATEX.fullmatch(latex) and commands <= COMMANDS and _is_balanced(latex)
-    return None if sound else Problem("invalid-latex", pointer, parameters={"latex": latex[:40]})
+    known = len(latex) <= 40 and LATEX.fullmatch(latex) and commands <= COMMANDS
+    whole = _is_balanced(latex) and not BARE_INDEX.search(latex) and not BARE_ACCENT.search(latex)
+    return None if known and whole else Problem("invalid-latex", pointer, parameters={"latex": latex[:40]})
 
 
 def _is_balanced(latex: str) -> bool:

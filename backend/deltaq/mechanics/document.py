@@ -22,6 +22,7 @@ from .point import Point
 from .reader import Context, Reader
 from .scene import Scene
 from .soundness import soundness_problems
+from .user_text import Translated
 
 T = TypeVar("T")
 FORMAT = 1
@@ -94,7 +95,7 @@ def _identifier(root: Reader) -> str:
     return identifier
 
 
-def _labels(root: Reader) -> Mapping[str, Mapping[str, str]]:
+def _labels(root: Reader) -> Mapping[str, Translated]:
     table = Reader(root.get("labels", Mapping, {}) or {}, "/labels", root.problems)
     return {str(name)[:40]: table.translated(str(name)) for name in table.table}
 

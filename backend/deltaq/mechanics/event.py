@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ..errors import Problem
@@ -10,6 +9,7 @@ from ..language.expression import Expression
 from ..language.tree import Rate, walk
 from .checks import demand, name_problem
 from .reader import Reader
+from .user_text import Translated, UserText
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Event:
 
     name: str
     value: Expression
-    title: Mapping[str, str] = field(default_factory=dict)
+    title: Translated = field(default_factory=dict)
     at: str | None = None
 
     def __post_init__(self) -> None:
@@ -39,6 +39,6 @@ class Event:
     def __hash__(self) -> int:
         return hash((self.name, self.value))
 
-    def called(self, language: str) -> str:
+    def called(self, language: str) -> UserText:
         """What happens, in a language; the name where there is no title."""
-        return self.title.get(language, self.name)
+        return self.title.get(language) or UserText(self.name)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from fractions import Fraction
-from typing import TypeVar, cast
+from typing import TypeVar
 
 from ..errors import InputError, Parameter, Problem, escaped
 from ..language.expression import Expression
@@ -19,6 +19,7 @@ from ..language.names import Names
 from ..language.parser import parse
 from ..language.tree import Number
 from .checks import as_float, default_name
+from .user_text import Translated, translated
 
 T = TypeVar("T")
 NOT_OF: Mapping[type, str] = {
@@ -89,11 +90,9 @@ class Reader:
         self.used.add(key)
         return None if self.table.get(key) is None else self.number(key, 0.0)
 
-    def translated(self, key: str) -> Mapping[str, str]:
+    def translated(self, key: str) -> Translated:
         """A text by language; one without a language is for all."""
-        found = self.get(key, (Mapping, str), {}) or {}
-        texts = {"en": found, "de": found} if isinstance(found, str) else found
-        return {str(lang): str(text)[:1000] for lang, text in cast("Mapping[str, object]", texts).items()}
+        return translated(self.get(key, (Mapping, str), {}) or {})
 
     def strings(self, key: str) -> tuple[str, ...]:
         values = self.get(key, (list, tuple), None)

@@ -22,8 +22,7 @@ from .loads import Load
 from .material import Material
 from .parameter import Parameter
 from .point import Point
-
-Translated = Mapping[str, str]
+from .user_text import Translated
 
 
 @dataclass(frozen=True)

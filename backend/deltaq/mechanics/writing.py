@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import fields
 
 from ..language.expression import Expression
@@ -15,6 +16,7 @@ from .material import Material
 from .parameter import Parameter
 from .point import Point
 from .scene import Scene
+from .user_text import UserText, plainly
 
 
 def write_scene(scene: Scene) -> dict[str, object]:
@@ -27,8 +29,8 @@ def write_scene(scene: Scene) -> dict[str, object]:
     return {
         "format": FORMAT,
         "id": scene.id,
-        "title": dict(scene.title),
-        "summary": dict(scene.summary),
+        "title": plainly(scene.title),
+        "summary": plainly(scene.summary),
         "dimension": scene.dimension,
         "coordinates": [_write(thing) for thing in scene.coordinates],
         "parameters": [_write(thing) for thing in scene.parameters],
@@ -37,7 +39,7 @@ def write_scene(scene: Scene) -> dict[str, object]:
         "loads": [_write(thing) for thing in scene.loads],
         "guides": [_write(thing) for thing in scene.guides],
         **({"events": [_write(thing) for thing in scene.events]} if scene.events else {}),
-        "labels": {name: dict(label) for name, label in scene.labels.items()},
+        "labels": {name: plainly(label) for name, label in scene.labels.items()},
         "drawing": {key: value for key, value in drawing.items() if value is not None},
     }
 
@@ -53,4 +55,8 @@ def _plain(value: object) -> object:
         return value.text
     if isinstance(value, Material):
         return value.write()
+    if isinstance(value, UserText):
+        return value.plain
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
     return [_plain(item) for item in value] if isinstance(value, tuple) else value

@@ -14,6 +14,7 @@ from string import Formatter
 from typing import cast
 
 from ..errors import Problem
+from .prose import CatalogText, joined, plain, words
 
 LANGUAGES = ("en", "de")
 Catalog = Mapping[str, object]
@@ -40,7 +41,7 @@ def template(language: str, key: str) -> str:
     return str(entry)
 
 
-def text(language: str, key: str, **parameters: object) -> str:
+def text(language: str, key: str, **parameters: object) -> CatalogText:
     """The sentence under a key, its {placeholders} put in."""
     return filled(template(language, key), parameters)
 
@@ -53,20 +54,25 @@ def keys(language: str, key: str) -> tuple[str, ...]:
     return tuple(cast("Catalog", entry))
 
 
-def filled(template: str, parameters: Mapping[str, object]) -> str:
-    """The template with its {placeholders} put in; a user's text is put in as it is, never read as a template."""
+def filled(template: str, parameters: Mapping[str, object]) -> CatalogText:
+    """The template with its {placeholders} put in, as words unless they are sentences or formulas of δq themselves."""
     pieces = (
-        literal + ("" if field is None else str(parameters.get(field, "")))
+        literal + ("" if field is None else words(parameters.get(field, "")))
         for literal, field, _, _ in Formatter().parse(template)
     )
-    return "".join(pieces)
+    return CatalogText("".join(pieces))
+
+
+def sentence(language: str, problem: Problem) -> CatalogText:
+    """What a problem says to the user, with the suggestion where there is one."""
+    told = text(language, f"errors.{problem.code}", **problem.parameters)
+    suggestion = problem.parameters.get("suggestion")
+    return joined(" ", [told, text(language, "errors.suggestion", suggestion=suggestion)]) if suggestion else told
 
 
 def message(language: str, problem: Problem) -> str:
-    """What a problem says to the user, with the suggestion where there is one."""
-    sentence = text(language, f"errors.{problem.code}", **problem.parameters)
-    suggestion = problem.parameters.get("suggestion")
-    return f"{sentence} {text(language, 'errors.suggestion', suggestion=suggestion)}" if suggestion else sentence
+    """The sentence of a problem for places where no formulas are typeset."""
+    return plain(sentence(language, problem))
 
 
 def language_in(document: Mapping[str, object]) -> str:

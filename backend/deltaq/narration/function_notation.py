@@ -15,6 +15,7 @@ from ..language.order import split_symbol
 from ..language.spelling import latex_of
 from .function_writing import NEIGHBOUR
 from .notation import Notation
+from .prose import CatalogText, words
 
 SYMBOLS: Mapping[str, str] = {
     "function": "f",
@@ -125,8 +126,8 @@ class FunctionSymbols:
     def latex(self, quantity: Quantity) -> str:
         return SYMBOLS[quantity.kind].format(at=self.at)
 
-    def label(self, name: str) -> str:
-        return name
+    def label(self, name: str) -> CatalogText:
+        return words(name)
 
     def is_varied(self, name: str) -> bool:
         return name in self.coordinate_latex

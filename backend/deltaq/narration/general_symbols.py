@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from ..derivation.formula import Quantity
 from ..language.names import Names, Symbol
+from .prose import CatalogText, words
 
 # Symbol of a quantity; {i} is its index.
 SYMBOLS: Mapping[str, str] = {
@@ -79,8 +80,8 @@ class GeneralSymbols:
     def latex(self, quantity: Quantity) -> str:
         return self.wrap(CLASSES.get(quantity.kind, ""), SYMBOLS[quantity.kind].format(i=quantity.of))
 
-    def label(self, name: str) -> str:
-        return name
+    def label(self, name: str) -> CatalogText:
+        return words(name)
 
     def is_varied(self, name: str) -> bool:
         return name in DIRECTIONS

@@ -11,6 +11,7 @@ from .catalog import filled, template, text
 from .letters import Letters, in_sentence
 from .marks import without_classes
 from .notation import Notation
+from .prose import CatalogText, formula, joined
 
 Document = dict[str, object]
 
@@ -50,15 +51,15 @@ class Narrator:
             "substeps": [self.step(substep) for substep in step.substeps],
         }
 
-    def _sentence(self, key: str, names: Mapping[str, str]) -> str:
+    def _sentence(self, key: str, names: Mapping[str, CatalogText]) -> CatalogText:
         return filled(in_sentence(template(self.language, key), self.letters), names)
 
-    def _names(self, about: Mapping[str, str]) -> dict[str, str]:
+    def _names(self, about: Mapping[str, str]) -> dict[str, CatalogText]:
         """Names for a sentence; coordinates become mathematics between dollar signs."""
         return {key: self._name(key, value) for key, value in about.items()}
 
-    def _name(self, key: str, value: str) -> str:
+    def _name(self, key: str, value: str) -> CatalogText:
         if key != "coordinate":
-            return ", ".join(map(self.notation.symbols.label, value.split(", ")))
+            return joined(", ", map(self.notation.symbols.label, value.split(", ")))
         latex = self.notation.symbols.coordinate_latex
-        return ", ".join(f"${latex.get(name, name)}$" for name in value.split(", "))
+        return joined(", ", (formula(latex.get(name, name)) for name in value.split(", ")))

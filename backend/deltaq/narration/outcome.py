@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .catalog import text
+from .prose import plain
 
 Document = dict[str, Any]
 
@@ -13,9 +14,9 @@ def explained(answer: Document, language: str) -> Document:
     """`reason`, `remedy`, the event and why the method was chosen in words, from what the simulation gave."""
     code, parameters, event = answer["reason"]["code"], answer["reason"]["parameters"], answer["event"]
     if event:
-        event = {**event, "title": event["title"].get(language, event["name"])}
+        event = {**event, "title": event["title"].get(language) or event["name"]}
         parameters = {**parameters, "title": event["title"]}
-    told = {part: text(language, f"statuses.{code}.{part}", **parameters) for part in ("reason", "remedy")}
+    told = {part: plain(text(language, f"statuses.{code}.{part}", **parameters)) for part in ("reason", "remedy")}
     choice = answer["choice"]
-    why = choice and text(language, f"statuses.{choice['code']}.reason", **choice["parameters"])
+    why = choice and plain(text(language, f"statuses.{choice['code']}.reason", **choice["parameters"]))
     return {**told, "choice": why, "event": event}

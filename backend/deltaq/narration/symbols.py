@@ -11,6 +11,7 @@ from typing import Protocol
 from ..derivation.formula import Quantity
 from ..mechanics.scene import Scene
 from .letters import Letters, in_symbol, letters_of
+from .prose import CatalogText
 from .things import called
 
 NUMBERED = re.compile(r"q_\{?(\d+)\}?")
@@ -82,7 +83,7 @@ class SymbolTable(Protocol):
     def latex(self, quantity: Quantity) -> str:
         """The symbol of a quantity."""
 
-    def label(self, name: str) -> str:
+    def label(self, name: str) -> CatalogText:
         """What a sentence calls a place or a load."""
 
     def is_varied(self, name: str) -> bool:
@@ -118,7 +119,7 @@ class QuantitySymbols:
         """A moment has the index of its load, which tells it from a parameter M."""
         return pattern if kind in ALWAYS_INDEXED else in_symbol(pattern, self.letters)
 
-    def label(self, name: str) -> str:
+    def label(self, name: str) -> CatalogText:
         return called(self.scene, name, self.language)
 
     def is_varied(self, name: str) -> bool:

@@ -7,15 +7,16 @@ from collections.abc import Mapping
 
 from ..mechanics.scene import Scene
 from .catalog import catalog
+from .prose import CatalogText, words
 
 # What has no name is called by its kind, with a number where there are several: gravity, spring-2, particle2.
 NAMELESS = re.compile(r"([a-z]+)-?(\d*)")
 
 
-def called(scene: Scene, name: str, language: str) -> str:
+def called(scene: Scene, name: str, language: str) -> CatalogText:
     """The label in this language, else the word for the kind of what has no name of its own, else the name."""
     label = scene.labels.get(name, {}).get(language)
     match = NAMELESS.fullmatch(name)
-    words = catalog(language)["page"]
-    word = words.get(f"kinds.{match[1]}") if match and isinstance(words, Mapping) else None
-    return label or (f"{word} {match[2]}".strip() if match and word else name)
+    kinds = catalog(language)["page"]
+    word = kinds.get(f"kinds.{match[1]}") if match and isinstance(kinds, Mapping) else None
+    return words(label or (f"{word} {match[2]}".strip() if match and word else name))

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from ..mechanics.user_text import plainly
 from ..model.model import Observation
 from .choice import Choice
 from .columns import WRITERS, Column
@@ -93,7 +94,7 @@ def _event(request: Request, trajectory: Trajectory) -> Document | None:
     event = request.scene.events[found.index]
     time, doubt = np.array([found.time]), np.array([found.error or UNKNOWN_ERROR])
     error = None if found.error is None else float(f"{found.error:.3g}")
-    return {"name": event.name, "title": dict(event.title), "t": float(rounded(time, doubt)[0]), "error": error}
+    return {"name": event.name, "title": plainly(event.title), "t": float(rounded(time, doubt)[0]), "error": error}
 
 
 def _energy(

@@ -1,9 +1,10 @@
 /** A whole working: one line for each step, each the answer to a task; marked together, with points. */
 
 import { html, nothing } from "lit-html";
-import { displayed, plainly, prose } from "../formula.js";
+import { displayed, prose } from "../formula.js";
 import { marked as parted } from "../../model/editor/problems.js";
 import { fingerprint } from "../../model/homework/working.js";
+import { plainly } from "../../model/prose.js";
 import { icon } from "../icons.js";
 import { entryField, keyboard, remember } from "./entry.js";
 import { failureLine } from "./trouble.js";

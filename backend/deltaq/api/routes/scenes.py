@@ -11,6 +11,7 @@ from ...errors import Problem, RequestError
 from ...mechanics.library import family_of, load_scene, scene_ids
 from ...mechanics.scene import Scene
 from ...mechanics.toml import LONGEST
+from ...mechanics.user_text import plainly
 from ...mechanics.writing import write_scene
 from ..body import BodyError, StrictRoute
 from ..languages import language_of
@@ -34,7 +35,7 @@ def _entries() -> tuple[dict[str, Any], ...]:
 
 def _entry(scene: Scene) -> dict[str, Any]:
     """What the list says of a scene; of a family also which whole number chooses its member, with its bounds."""
-    titles = {"title": dict(scene.title), "summary": dict(scene.summary)}
+    titles = {"title": plainly(scene.title), "summary": plainly(scene.summary)}
     entry = {"id": scene.id, **titles, "degrees_of_freedom": len(scene.free)}
     family = family_of(scene.id)
     if family is None:

@@ -13,7 +13,10 @@ from itertools import islice
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ...language.latex_printer import Typography, latex
+from ...mechanics.scene import Scene
+from ...mechanics.user_text import UserText
 from ...narration.catalog import text
+from ...narration.prose import CatalogText, joined, pieces, plain, words
 from ..feedback import about_texts
 from ..statement import task_document
 from ..task import Task
@@ -23,7 +26,10 @@ from .maxima import maxima_name
 
 VERSION = "2025030700"
 MOST_MISCONCEPTIONS = 8
-MATHEMATICS = re.compile(r"\$([^$]+)\$")
+_MARKUP = re.compile(r"[\[\]{}@#$<>&\"'`|~]")
+_TYPESET = str.maketrans(
+    {"$": "＄", "\\": "＼"}
+)  # entities do not hide these, for formulas are sought in the finished page
 SETTINGS = {
     "questionsimplify": "1",
     "assumepositive": "0",
@@ -80,8 +86,8 @@ def question(workbook: Workbook, task: Task, language: str) -> Element:
     told = task_document(task, workbook, language)
     right = workbook.shown(task)
     element = Element("question", type="stack")
-    _text(element, "name", f"{workbook.scene.title.get(language, workbook.scene.id)}: {told['title']}".replace("$", ""))
-    _text(element, "questiontext", _statement(workbook, task, str(told["statement"]), language), "html")
+    _text(element, "name", _name(workbook.scene, words(told["title"]), language))
+    _text(element, "questiontext", _statement(workbook, task, words(told["statement"]), language), "html")
     _text(element, "generalfeedback", _solution(workbook, task), "html")
     for name, content in (("defaultgrade", f"{task.quantity.points:g}"), ("penalty", "0.1"), ("hidden", "0")):
         SubElement(element, name).text = content
@@ -103,22 +109,33 @@ def _text(parent: Element, name: str, content: str, form: str = "") -> None:
     SubElement(element, "text").text = content
 
 
-def _html(sentence: str) -> str:
-    """A sentence of the catalogs: $…$ is \\(…\\) in Moodle, the rest is plain text."""
-    return MATHEMATICS.sub(lambda found: rf"\({found.group(1)}\)", escape(sentence, quote=False))
+def _html(sentence: CatalogText) -> str:
+    """A sentence of the catalogs: formulas stand between \\(…\\) in Moodle, the rest is plain text."""
+    return "".join(rf"\({escape(each.text)}\)" if each.is_formula else inert(each.text) for each in pieces(sentence))
 
 
-def _statement(workbook: Workbook, task: Task, statement: str, language: str) -> str:
+def inert(text: str) -> str:
+    """Words that mean nothing to CASText, to HTML, to the filters of Moodle, and to what typesets the page at last."""
+    return _MARKUP.sub(lambda sign: f"&#{ord(sign[0])};", text.translate(_TYPESET))
+
+
+def _name(scene: Scene, title: CatalogText, language: str) -> str:
+    """The name of a question, in which Moodle knows no way to quote."""
+    told = scene.title.get(language) or UserText(scene.id)
+    return _MARKUP.sub("", joined(": ", [told, plain(title)]).replace("＄", "").replace("\\", ""))
+
+
+def _statement(workbook: Workbook, task: Task, statement: CatalogText, language: str) -> str:
     """What is asked, how its symbols are typed, and the field."""
     typography = Typography(workbook.scene.names)
     used = {s for part in workbook.shown(task) for s in part.free_symbols}
     names = sorted((maxima_name(s.name), typography.symbol(s.name)) for s in used)
-    spelling = ", ".join(rf"<code>{escape(name)}</code> \({shown}\)" for name, shown in names)
-    summary = escape(workbook.scene.summary.get(language, ""), quote=False)
+    spelling = ", ".join(rf"<code>{escape(name)}</code> \({escape(shown)}\)" for name, shown in names)
+    summary = inert(workbook.scene.summary.get(language, UserText("")).line)
     form = text(language, f"homework.forms.{'list' if task.quantity.form == 'equations' else task.quantity.form}")
     write = text(language, "homework.stack.write", form=form if task.quantity.form != "set" else "{a, b}")
     return (
-        f"<p>{summary}</p>\n<p>{_html(statement)}</p>\n<p>{escape(write)} {spelling}</p>\n"
+        f"<p>{summary}</p>\n<p>{_html(statement)}</p>\n<p>{_html(write)} {spelling}</p>\n"
         f"<p>[[input:{ANSWER}]]</p>\n<div>[[validation:{ANSWER}]]</div>"
     )
 
@@ -126,7 +143,7 @@ def _statement(workbook: Workbook, task: Task, statement: str, language: str) ->
 def _solution(workbook: Workbook, task: Task) -> str:
     typography = Typography(workbook.scene.names)
     ending = " = 0" if task.quantity.form in ("equation", "equations") else ""
-    return "\n".join(rf"<p>\[{latex(part, typography)}{ending}\]</p>" for part in workbook.shown(task))
+    return "\n".join(rf"<p>\[{escape(latex(part, typography))}{ending}\]</p>" for part in workbook.shown(task))
 
 
 def _input(parent: Element) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_UNTAGGED = str.maketrans("<>", "‹›")  # charts read tags in their texts
 COMMA = frozenset({"de"})  # languages with a decimal comma
 
 
@@ -36,7 +37,7 @@ def spoken(value: object, language: str) -> object:
     if value is None:
         return "–"
     if isinstance(value, Mapping):
-        return value.get(language) or next(iter(value.values()), "–")
+        return str(value.get(language) or next(iter(value.values()), "–")).translate(_UNTAGGED)
     return _written(value, language) if isinstance(value, float) else value
 
 

@@ -8,8 +8,9 @@ from dataclasses import replace
 from ...mechanics.drawing import Element
 from ...mechanics.loads import Load
 from ...mechanics.parameter import Parameter
-from ...mechanics.scene import Scene, Translated
+from ...mechanics.scene import Scene
 from ...mechanics.soundness import expressions
+from ...mechanics.user_text import Translated
 
 
 def fresh(scene: Scene, wanted: str) -> str:
