@@ -16,7 +16,7 @@ from ..packages import modules_of
 from ..settings import Settings
 from . import problems
 from .access import Access
-from .clients import Clients
+from .clients import Clients, Proxies
 from .description import DESCRIPTION, SUMMARY, DescribedAPI, operation_id, subjects
 from .headers import SecurityHeaders
 from .heads import Heads
@@ -68,7 +68,7 @@ def _add_layers(app: FastAPI, service: Service) -> None:
         app.add_middleware(CORSMiddleware, allow_origins=settings.cors_origins, **CROSS_ORIGIN)
     app.add_middleware(Heads)
     app.add_middleware(SecurityHeaders, frame_ancestors=settings.frame_ancestors)
-    app.add_middleware(Clients, ledger=make_ledger(settings))
+    app.add_middleware(Clients, ledger=make_ledger(settings), proxies=Proxies.of(settings.trusted_proxies))
     app.add_middleware(Access, metrics=service.metrics)
 
 

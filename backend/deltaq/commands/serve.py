@@ -60,6 +60,8 @@ def _settings(listener: socket.socket) -> Settings:
         settings = Settings.from_environment()
     except SettingsError as error:
         raise CommandError(str(error)) from None
+    if missing := settings.missing_package():
+        raise CommandError(missing)
     if not settings.allowed_hosts and listener.getsockname()[0] in {"127.0.0.1", "::1"}:
         return replace(settings, allowed_hosts=("localhost",))
     return settings
@@ -93,7 +95,7 @@ def _run(listener: socket.socket, settings: Settings) -> None:
         server_header=False,
         timeout_keep_alive=15,
         timeout_graceful_shutdown=settings.drain_timeout,
-        forwarded_allow_ips=list(settings.trusted_proxies),
+        proxy_headers=False,  # api.clients reads them
         h11_max_incomplete_event_size=32768,
         backlog=ACCEPTED,
     )
