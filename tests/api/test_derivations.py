@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 from typing import Any, get_args
 
 import httpx
@@ -8,6 +9,7 @@ import pytest
 from fastapi import FastAPI
 
 from deltaq.api.wire.derivation import DerivationAnswer, DerivationRequest, Formulation
+from deltaq.cli import main
 from deltaq.derivation.engine import formulation_names
 from deltaq.mechanics.library import scene_ids
 
@@ -237,3 +239,41 @@ async def test_examples_of_the_documentation_work(client: httpx.AsyncClient, num
     schema = (await client.get("/api/v1/openapi.json")).json()["components"]["schemas"]["DerivationRequest"]
     response = await client.post(DERIVATIONS, json=schema["examples"][number])
     assert response.status_code == 200, response.text
+
+
+PENDULUM = {"scene": "pendulum"}
+TASK = {"task": "kinetic-energy", "answer": {"syntax": "plain", "value": "0"}}
+OTHERS = [
+    ("checks", PENDULUM | TASK),
+    ("tasks", PENDULUM),
+    ("tasks/solution", PENDULUM | {"task": "kinetic-energy"}),
+    ("variations", {"expression": "x^2", "functions": ["x"]}),
+    ("simulations", PENDULUM | {"t_end": 0.1, "samples": 3, "method": "rk4"}),
+]
+
+
+@pytest.mark.parametrize(("address", "body"), OTHERS, ids=[address for address, _ in OTHERS])
+async def test_ids_of_derivations_lead_to_nothing_else(client: httpx.AsyncClient, address: str, body: Any) -> None:
+    """Whatever has a name in the cache: asked for as a derivation, it is unknown."""
+    answer = await client.post(f"/api/v1/{address}", json=body)
+    assert answer.status_code == 200, answer.text
+    name = answer.headers["etag"].strip('"')
+    assert len(name) == 32
+    for asked in (name, f"{name}.derivation", f"x{name}", name.upper(), name[:-1]):
+        response = await client.get(f"{DERIVATIONS}/{asked}")
+        assert response.status_code == 404, asked
+
+
+async def test_a_derivation_has_one_id(client: httpx.AsyncClient, capsys: pytest.CaptureFixture[str]) -> None:
+    """In its answer, in its address, in its entity tag, and in the answer of the shell, which the API then knows."""
+    for options, body in (
+        (["--lang", "de"], {"lang": "de"}),
+        (["--set", "formulation=hamilton"], {"formulation": "hamilton"}),
+    ):
+        assert main(["derive", "pendulum", "--format", "json", *options]) == 0
+        told = json.loads(capsys.readouterr().out)
+        answer = await client.post(DERIVATIONS, json=PENDULUM | body)
+        assert answer.json() == told
+        assert answer.headers["content-location"] == f"{DERIVATIONS}/{told['id']}"
+        assert answer.headers["etag"] == f'"{told["id"]}"'
+        assert (await client.get(answer.headers["content-location"])).json() == told

@@ -190,6 +190,19 @@ async def test_scene_in_toml(client: httpx.AsyncClient) -> None:
     assert response.json() == {"scene": scene}
 
 
+@pytest.mark.parametrize("kind", ["text/plain", "application/x-www-form-urlencoded", "multipart/form-data", None])
+async def test_toml_is_not_taken_from_a_page_that_may_not_call(client: httpx.AsyncClient, kind: str | None) -> None:
+    """These kinds a browser sends for any page without asking whether it may."""
+    headers = {"content-type": kind} if kind else {}
+    response = await client.post("/api/v1/scenes/toml", content=b"format = 1", headers=headers)
+    assert response.status_code == 415
+    told = response.json()
+    assert (told["title"], told["detail"]) == (
+        "The body is not called TOML",
+        "Send it with the header content-type: application/toml.",
+    )
+
+
 @pytest.mark.parametrize(
     ("body", "code", "offset"),
     [
@@ -199,7 +212,9 @@ async def test_scene_in_toml(client: httpx.AsyncClient) -> None:
     ],
 )
 async def test_no_toml(client: httpx.AsyncClient, body: bytes, code: str, offset: int | None) -> None:
-    response = await client.post("/api/v1/scenes/toml?lang=de", content=body)
+    response = await client.post(
+        "/api/v1/scenes/toml?lang=de", content=body, headers={"content-type": "application/toml"}
+    )
     assert response.status_code == 422
     (problem,) = response.json()["problems"]
     assert (problem["code"], problem["offset"], problem["pointer"]) == (code, offset, "")

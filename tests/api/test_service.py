@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import asyncio
+import shutil
 import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import httpx
 import pytest
 from fastapi import FastAPI
 
 from deltaq import __version__
+from deltaq.api import service as service_module
 from deltaq.api.app import create_app
-from deltaq.api.service import source_digest
+from deltaq.api.assets import Assets
+from deltaq.api.routes.derivations import derivation_id
+from deltaq.api.service import Service, source_digest
 from deltaq.lab.library import experiment_ids
 from deltaq.settings import Settings
 from deltaq.simulation.library import method_ids
@@ -163,3 +170,54 @@ async def test_life_of_the_application() -> None:
 async def test_web_process_does_not_load_the_libraries_of_the_workers(module: str) -> None:
     code = f"import deltaq.api.app, sys; deltaq.api.app.create_app(); sys.exit({module!r} in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_other_code_has_other_keys(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An answer of the version before is no answer of this one; the same question has the same key else."""
+    question = {"scene": "pendulum"}
+    derivation = {"scene": "pendulum", "formulation": "hamilton"}
+    before = Service.key("a job", question), derivation_id(derivation)
+    assert (Service.key("a job", dict(question)), derivation_id(dict(derivation))) == before
+    monkeypatch.setattr(service_module, "source_digest", lambda: "another version")
+    assert not {Service.key("a job", question), derivation_id(derivation)} & set(before)
+
+
+def test_the_digest_is_of_all_code(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each kind of file in each package counts, wherever it stands; the files of the page do not."""
+    copy = tmp_path / "deltaq"
+    shutil.copytree(service_module.PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__", "static"))
+    monkeypatch.setattr(service_module, "PACKAGE", copy)
+    kinds = {
+        (file.parent, file.suffix): file for file in sorted(copy.rglob("*")) if file.suffix in (".py", ".toml", ".json")
+    }
+    digests = {_digest_now()}
+    for file in kinds.values():
+        file.write_bytes(file.read_bytes() + b" ")
+        digests.add(_digest_now())
+    assert len(digests) == 1 + len(kinds) > 30
+    (copy / "static").mkdir()
+    (copy / "static" / "page.json").touch()
+    assert _digest_now() in digests
+    source_digest.cache_clear()
+
+
+def _digest_now() -> str:
+    source_digest.cache_clear()
+    return source_digest()
+
+
+def test_a_file_is_compressed_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However many ask for it at the same time."""
+    (tmp_path / "a.js").write_text("let a = 1;\n" * 2000)
+    compressed: list[int] = []
+
+    def slowly(content: bytes, **options: int) -> bytes:
+        compressed.append(len(content))
+        time.sleep(0.05)
+        return content[:10]
+
+    monkeypatch.setattr("deltaq.api.assets.brotli.compress", slowly)
+    with ThreadPoolExecutor(30) as pool:
+        found = list(pool.map(lambda _: Assets(tmp_path).find("a.js"), range(30)))
+    assert len(compressed) == 1
+    assert len({id(asset.content) for asset in found if asset}) == 1

@@ -29,9 +29,9 @@ SMALL = 2**14  # bytes of a body that is read at once: the worst of them take 3 
 
 
 class BodyError(HTTPException):
-    """The body is too large or too slow; `parameters` fill the sentence that says so."""
+    """The body is too large, too slow or of another kind; `parameters` fill the sentence that says so."""
 
-    def __init__(self, status: int, **parameters: float) -> None:
+    def __init__(self, status: int, **parameters: float | str) -> None:
         super().__init__(status, headers={"Connection": "close"})
         self.parameters = parameters
 
@@ -98,10 +98,12 @@ class StrictRequest(Request):
         return await large.read(work, ACCOUNT.get())
 
 
-def _is_json(request: Request) -> bool:
-    """Whether the body is said to be JSON. A page of another origin can say so only if it may call the API."""
-    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    return kind == "application/json" or kind.endswith("+json")
+def demand_kind(request: Request, kind: str) -> None:
+    """BodyError unless the body says it is JSON, or TOML. A page of another origin can say so only if it may call."""
+    media = f"application/{kind.lower()}"
+    told = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if told != media and not told.endswith(f"+{kind.lower()}"):
+        raise BodyError(415, syntax=kind, media=media)
 
 
 class StrictRoute(APIRoute):
@@ -117,8 +119,8 @@ class StrictRoute(APIRoute):
                 body = await strict.body()
             except ClientDisconnect:
                 return Response(status_code=CLIENT_GONE)
-            if body and wanted is not None and not _is_json(strict):
-                raise HTTPException(415)
+            if body and wanted is not None:
+                demand_kind(strict, "JSON")
             return await while_present(strict, METER.get().measured(handler(strict)))
 
         async def handle(request: Request) -> Response:

@@ -31,7 +31,7 @@ PART_PAUSE = 0.4  # seconds between two parts of a stream
 def derive(document: Document) -> Document:
     """A derivation with its content hash."""
     answer: Document = import_module("deltaq.narration.derive").derive_request(document["request"])
-    return {**answer, "id": document["id"]}
+    return {"id": document["id"], **answer}
 
 
 def vary(document: Document) -> Document:

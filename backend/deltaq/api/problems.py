@@ -93,7 +93,7 @@ class Report:
         detail = _text(language, self.type, "detail", **self.parameters)
         return {
             "type": f"/problems/{self.type.name}",
-            "title": _text(language, self.type, "title"),
+            "title": _text(language, self.type, "title", **self.parameters),
             "status": self.type.status,
             "detail": detail or " ".join(one["message"] for one in told[:3]),
             "problems": told,

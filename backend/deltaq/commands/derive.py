@@ -31,16 +31,23 @@ def run(options: argparse.Namespace) -> None:
     question = question_of(options)
     match options.format:
         case "json":
-            from ..api.validation import checked
-            from ..api.wire.derivation import DerivationRequest
-            from ..narration.derive import derive_request
-
-            text = json.dumps(derive_request(checked(question, DerivationRequest)), ensure_ascii=False, indent=1)
+            text = json.dumps(_derived(question), ensure_ascii=False, indent=1)
         case "notebook":
             text = _notebook(_exported(question, "markdown"), _exported(question, "python"))
         case form:
             text = _exported(question, form)
     write(text, options.output)
+
+
+def _derived(question: dict[str, Any]) -> dict[str, Any]:
+    """What POST /derivations answers to the same question, with the same id."""
+    from ..api.jobs import derive
+    from ..api.routes.derivations import derivation_id
+    from ..api.validation import checked
+    from ..api.wire.derivation import DerivationRequest
+
+    request = checked(question, DerivationRequest)
+    return derive({"id": derivation_id(request), "request": request})
 
 
 def _exported(question: dict[str, Any], form: str) -> str:

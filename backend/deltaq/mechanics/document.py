@@ -197,5 +197,4 @@ def _kind(package: str, table: Reader) -> type:
 
 
 def _text(table: Mapping[str, object], key: str) -> str:
-    value = table.get(key, "")
-    return value if isinstance(value, str) else ""
+    return value if isinstance(value := table.get(key, ""), str) else ""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Mapping
 
 from ..derivation.engine import USUAL, check_formulation, derive
@@ -23,7 +21,7 @@ Document = dict[str, object]
 
 
 def derive_request(document: Mapping[str, object]) -> Document:
-    """Derives what the request names. Raises InputError for what cannot be read.
+    """Derives what the request names, all but its id. Raises InputError for what cannot be read.
 
     `document`: {scene: id or document, guides?, freeze?, parameters?, formulation?, lang?}, already checked for types.
     """
@@ -33,9 +31,7 @@ def derive_request(document: Mapping[str, object]) -> Document:
     with inside("/scene"):
         system, derivation = derive(scene, formulation)
     language = language_in(document)
-    key = json.dumps(document, sort_keys=True, ensure_ascii=False)
     return {
-        "id": hashlib.sha256(key.encode()).hexdigest()[:24],
         "scene": scene.id,
         "formulation": formulation,
         "chapters": narrator_of(system, language).chapters(derivation),

@@ -13,7 +13,7 @@ from ...mechanics.scene import Scene
 from ...mechanics.toml import LONGEST
 from ...mechanics.user_text import plainly
 from ...mechanics.writing import write_scene
-from ..body import BodyError, StrictRoute
+from ..body import BodyError, StrictRoute, demand_kind
 from ..languages import language_of
 from ..responses import JSON, tagged
 from ..service import service_of
@@ -75,6 +75,7 @@ async def validate_scene(request: Request, scene: Annotated[SceneDocument, Body(
 )
 async def read_toml_scene(request: Request) -> Response:
     """A scene document written in TOML, as JSON. Whether it describes a mechanical system, `/scenes/validate` says."""
+    demand_kind(request, "TOML")
     body = await request.body()
     if len(body) > LONGEST:
         raise BodyError(413, limit=LONGEST)

@@ -13,7 +13,7 @@ from .store import sealed, unsealed
 
 LOGGER = logging.getLogger("deltaq.cache")
 KEPT = 0.9  # part of the room that stays in use when room is made
-_KEY = re.compile("[0-9a-f]{32}")
+_KEY = re.compile(r"[0-9a-f]{32}(\.[a-z]+)?")  # of a kind that can be asked for by its id, or not
 
 
 class Disk:
