@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from pickle import UnpicklingError
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ import deltaq
 from deltaq.model.model import compile_model
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.kernels import explicit_runge_kutta
-from deltaq.simulation.kernels.compiler import source_stamp
+from deltaq.simulation.kernels.compiler import kernel, source_stamp
 from deltaq.simulation.kernels.explicit_runge_kutta import integrate
 from deltaq.simulation.kernels.motion import SMALLEST_PIVOT, factor, solve, solve_small
 from deltaq.simulation.library import get_method
@@ -142,3 +144,20 @@ def test_fixed_steps_are_known_to_be_many_beforehand() -> None:
     found = simulate(problem, get_method("rk4"), step=1e-4, with_error=False)
     assert problem.model.is_thorough
     assert (found.outcome.status, found.cost.steps) == ("ok", 100_000)
+
+
+@pytest.mark.parametrize("error", [OSError(errno.ENOSPC, "full"), PermissionError(), EOFError(), UnpicklingError()])
+def test_a_kernel_that_cannot_be_kept_is_run_all_the_same(error: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The disk is full, or what it has is damaged: that costs a compilation, not the simulation."""
+
+    def twice(x: float) -> float:
+        return 2.0 * x
+
+    compiled = kernel(twice)
+
+    def fails(*_: object) -> None:
+        raise error
+
+    for name in ("save", "load"):
+        monkeypatch.setattr(compiled._cache._cache_file, name, fails)
+    assert compiled(2.5) == 5.0

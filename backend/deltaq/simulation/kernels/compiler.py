@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Callable
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
+from pickle import UnpicklingError
 from typing import Any, TypeVar, cast
 
 from numba import njit
 
+LOGGER = logging.getLogger("deltaq.simulation")
 F = TypeVar("F", bound=Callable[..., object])
 
 
@@ -35,7 +39,23 @@ def _compiled(function: F, *, forceinline: bool) -> F:
     # Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
     stamp = source_stamp(Path(function.__code__.co_filename))
     compiled._cache._cache_file._source_stamp = stamp  # noqa: SLF001 - Numba offers no other way
+    compiled._cache._guard_against_spurious_io_errors = _unkept  # noqa: SLF001
     return cast("F", compiled)
+
+
+@contextmanager
+def _unkept() -> Iterator[None]:
+    """A kernel that cannot be kept, or not be read, is compiled anew: a full disk costs time, not the simulation."""
+    try:
+        yield
+    except (OSError, EOFError, UnpicklingError) as error:
+        _warn(type(error).__name__)
+
+
+@cache
+def _warn(what: str) -> None:
+    """Said once for each kind: there are many kernels."""
+    LOGGER.warning("kernels cannot be kept on disk, and are compiled in each process: %s", what)
 
 
 @cache
