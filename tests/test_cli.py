@@ -106,7 +106,7 @@ def test_wrong_arguments(arguments: list[str], message: str) -> None:
 
 def test_wrong_setting_is_told_without_a_trace() -> None:
     ended = command("serve", "--port", "0", DELTAQ_WORKERS="none")
-    assert (ended.returncode, ended.stderr) == (2, "deltaq: DELTAQ_WORKERS must be a number, not 'none'\n")
+    assert (ended.returncode, ended.stderr) == (2, "deltaq: DELTAQ_WORKERS must be a whole number, not 'none'\n")
 
 
 def test_host_that_does_not_exist() -> None:

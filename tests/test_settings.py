@@ -28,7 +28,6 @@ def test_every_variable_that_the_code_names_is_a_setting() -> None:
 
 
 def test_environment_changes_what_it_names(tmp_path: Path) -> None:
-    (tmp_path / "index.html").touch()
     settings = Settings.from_environment(
         {"DELTAQ_WORKERS": "7", "DELTAQ_QUEUE_PATIENCE": "0.5", "DELTAQ_STATIC": str(tmp_path), "HOME": "/"}
     )
@@ -186,7 +185,7 @@ LISTS = {
     ),
     "scheduler": (["host:8786", "http://host", "tcp://", "tcp://host:99999"], ["tcp://host:8786", "tls://host:8786"]),
     "log_level": (["loud", "INFO", ""], ["debug", "error"]),
-    "static": (["/nowhere", "/etc"], [""]),
+    "static": (["/nowhere", "/etc/passwd"], ["", "/tmp"]),
     "cache_folder": (["/etc/passwd", "/etc/passwd/below", "/dev/null"], ["", "/tmp", "/tmp/not-there-yet"]),
     "model_cache": (["/etc/passwd", "/dev/null/x"], ["", "/tmp"]),
 }

@@ -62,11 +62,9 @@ def folder(value: str) -> str:
     return "" if not value or place.is_dir() or not _is_there(place) else f"must be a folder, and {value!r} is none"
 
 
-def folder_of_page(value: str) -> str:
-    """The folder of the page's files."""
-    return (
-        "" if not value or (Path(value) / "index.html").is_file() else f"needs a folder with index.html, not {value!r}"
-    )
+def folder_there(value: str) -> str:
+    """A folder that is there."""
+    return "" if not value or Path(value).is_dir() else f"must be a folder that is there, not {value!r}"
 
 
 def is_host(name: str) -> bool:

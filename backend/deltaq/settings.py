@@ -15,7 +15,7 @@ from .admissible import (
     address,
     each,
     folder,
-    folder_of_page,
+    folder_there,
     is_calling,
     is_framing,
     is_host,
@@ -120,7 +120,7 @@ class Settings:
         "warning", f"what is logged: {', '.join(LOG_LEVELS)} (info: each request)", one_of(*LOG_LEVELS)
     )
     model_cache: str = setting("", "folder of compiled models", folder)  # read by deltaq.model.store
-    static: str = setting("", "folder of the page's files", folder_of_page)
+    static: str = setting("", "folder of the page's files", folder_there)
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:

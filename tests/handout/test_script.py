@@ -13,6 +13,7 @@ import pytest
 from deltaq.handout.script import comment, script
 from deltaq.handout.service import export_request
 from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.user_text import UserText
 from deltaq.simulation.service import run
 
 T_END = 2.0
@@ -89,9 +90,9 @@ HOSTILE = [
 
 @pytest.mark.parametrize("title", HOSTILE)
 def test_title_stays_a_comment(title: str, tmp_path: Path) -> None:
-    scene = replace(load_scene("pendulum"), title={"en": title})
+    scene = replace(load_scene("pendulum"), title={"en": UserText(title)})
     text = script(scene, "en", 1.0)
-    assert text.splitlines()[0] == f"# {comment(title)}"
+    assert text.splitlines()[0] == f"# {comment(UserText(title).line)}"
     assert text.splitlines()[1:] == script(load_scene("pendulum"), "en", 1.0).splitlines()[1:]
 
 
