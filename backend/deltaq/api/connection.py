@@ -18,7 +18,7 @@ from typing import Any
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
-from .clients import client_of
+from .clients import Proxies, client_of
 from .languages import DEFAULT
 from .problems import MEDIA_TYPE, OVERLOADED, RETRY_AFTER, Report
 
@@ -131,7 +131,7 @@ class Connection(H11Protocol):
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # as H11Protocol has it
         super().connection_made(transport)
-        self.address = client_of({"client": self.client})
+        self.address = client_of({"client": self.client, "headers": []}, Proxies())  # who is connected, not for whom
         if self.crowd.enter(self):
             self._watch_head()
         else:
