@@ -40,7 +40,7 @@ def _failed(
 ) -> Outcome | None:
     """Friction that holds the motion, or a run that came to no end."""
     if best.chosen.held is not None:
-        return outcome_of(HELD, told | {"name": problem.model.layout.switches[best.chosen.held]})
+        return outcome_of(HELD, told | {"name": problem.model.layout.switches[best.chosen.held.index]})
     failed = next((run for run in (best.chosen, *best.runs) if not run.is_complete), None)
     if failed is None:
         return None

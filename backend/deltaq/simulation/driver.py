@@ -16,6 +16,7 @@ from .integration import Flag
 from .method import Method
 from .problem import Floats, Problem
 from .refinement import ByStep, ByTolerance, Refinement
+from .run import Stop
 from .trajectory import Cost, Trajectory
 
 LEAST_SAMPLES = 200  # intervals that errors are compared on, however few samples are asked for
@@ -98,6 +99,8 @@ def _shown(best: Attempt, every: int) -> tuple[Floats, Floats, Floats]:
         count = min(count, int(np.searchsorted(chosen.times, best.reached, side="right")))
     shown = slice(0, count, every)
     errors = np.zeros(count) if found is None else found.errors
+    if chosen.held is not None and best.is_complete:
+        return _with_stop(chosen.held, found, chosen.times[shown], chosen.states[shown], errors[shown])
     if chosen.event is None or not best.is_complete:
         return chosen.times[shown], chosen.states[shown], errors[shown]
     return (
@@ -105,6 +108,19 @@ def _shown(best: Attempt, every: int) -> tuple[Floats, Floats, Floats]:
         np.vstack([chosen.states[shown], chosen.event.state]),
         np.append(errors[shown], errors[-1]),
     )
+
+
+def _with_stop(
+    stop: Stop, found: Estimate | None, times: Floats, states: Floats, errors: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """The samples, and the state in which friction holds the motion as the last one."""
+    before = times < stop.time
+    times, states, errors = times[before], states[before], errors[before]
+    last = states[-1].copy() if len(states) else stop.state.copy()
+    count = len(stop.state) // 2 * 2
+    last[:count] = stop.state[:count]
+    error = max(errors[-1] if len(errors) else 0.0, 0.0 if found is None else found.stop)
+    return np.append(times, stop.time), np.vstack([states, last]), np.append(errors, error)
 
 
 def _happening(best: Attempt) -> Happening | None:

@@ -24,6 +24,7 @@ from .stiffness import NUDGE
 NEAR, FAR, SHARE = 160, 20, 0.25
 TURNING = 4.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
 ROUNDING, EPSILON = 4e-16, 2.0**-52
+STOPS = 1.5  # times the difference of two stops
 MATTERS = 0.1  # of the estimate: rounding that could be more is looked at
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 
@@ -34,13 +35,14 @@ class Estimate:
 
     `worst` is the largest error in the measure of a tolerance: absolute below 1 and relative above. `event` is the
     error of the time of the event that ended both runs; the last of `errors` is that of the state then. `doubtful` is
-    an event that may have happened or not, as far as the errors tell.
+    an event that may have happened or not, as far as the errors tell. `stop` is the error of where friction holds it.
     """
 
     errors: Floats
     worst: float
     horizon: float | None
     event: float | None = None
+    stop: float = 0.0
     doubtful: Happening | None = None
 
 
@@ -60,10 +62,11 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
         # Beyond the horizon both runs are wrong, and their difference may shrink by chance.
         late = times >= horizon
         errors[:, late] = 2.0 * np.maximum.accumulate(errors[:, late], axis=1)
-    worst = float(np.max(errors / ones))
+    stop = _of_stop(problem, coarse, fine, factor)
+    worst = max(float(np.max(errors / ones)), stop)
     doubts = np.vstack([errors, np.maximum(spread[n:], grain)])
     of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
-    return Estimate(errors.max(axis=0), worst, horizon, of_event, _doubtful(problem, coarse, fine, times, doubts))
+    return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, _doubtful(problem, coarse, fine, times, doubts))
 
 
 def rounding_matters(problem: Problem, fine: Run, found: Estimate) -> bool:
@@ -75,7 +78,7 @@ def rounding_matters(problem: Problem, fine: Run, found: Estimate) -> bool:
     if len(times) < 2 or not fine.conditioning > 0.0:
         return False
     scales = _time_scales(problem, times, states)
-    radians = max(1.0, *(problem.t_end / scales[scales > 0.0]))
+    radians = max((1.0, *(problem.t_end / scales[scales > 0.0])))
     sizes = np.abs(states[: problem.degrees])
     share = np.max(sizes / np.maximum(1.0, sizes))
     return bool(EPSILON / fine.conditioning * radians * share > MATTERS * found.worst)
@@ -107,6 +110,14 @@ def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats,
     rates[n : 2 * n] = accelerations(problem, at, fine.event.state[None, :])[0]
     moved = coarse.event.state + late * rates
     return np.append(times, at), np.column_stack([states, fine.event.state]), np.column_stack([others, moved])
+
+
+def _of_stop(problem: Problem, coarse: Run, fine: Run, factor: float) -> float:
+    """The error of where friction holds the motion, by the two runs; no stop is better than of order 2."""
+    if coarse.held is None or fine.held is None:
+        return 0.0
+    n = problem.degrees
+    return max(factor, STOPS) * float(np.max(np.abs(coarse.held.state[:n] - fine.held.state[:n])))
 
 
 def _of_event(problem: Problem, coarse: Run, fine: Run, factor: float, doubts: Floats) -> float | None:

@@ -24,11 +24,20 @@ SHORT = 100_000  # right-hand sides; the time for so many is about that of compi
 
 
 @dataclass(frozen=True)
+class Stop:
+    """Which switching function holds a motion by friction, since when, and the state then (its ∫P dt is not known)."""
+
+    index: int
+    time: float
+    state: Floats
+
+
+@dataclass(frozen=True)
 class Run:
     """States (q, q̇ and, where power is fed in, ∫P dt) at `times`, as far as the run came.
 
     `event` is what ended it, if an event did; else `approaches` tell how close it came to each of the scene's events.
-    `held` is the number of the switching function that holds it. `mesh_times` and `mesh_states` (q, q̇) are the ends of
+    `held` is where friction holds it. `mesh_times` and `mesh_states` (q, q̇) are the ends of
     its steps, or of every `stride`-th, where they were recorded.
     """
 
@@ -38,7 +47,7 @@ class Run:
     conditioning: float  # smallest pivot of M met, relative to the diagonal entry it is left of
     wall_time: float
     event: Event | None = None
-    held: int | None = None
+    held: Stop | None = None
     approaches: tuple[Approach, ...] = ()
     mesh_times: Floats = field(default_factory=lambda: np.empty(0))
     mesh_states: Floats = field(default_factory=lambda: np.empty((0, 0)))
@@ -122,7 +131,7 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
     wall_time = perf_counter() - start
     out, conditioning = setting.out, float(setting.motion.conditioning[0])
     good = int(np.isfinite(out[: result.samples]).all(axis=1).cumprod().sum())
-    held = int(setting.watch.switch.which[0]) if result.outcome == HELD else None
+    held = _stop(setting) if result.outcome == HELD else None
     count, stride = int(plan.progress[COUNT]), int(plan.progress[STRIDE])
     mesh = (plan.times[:count], plan.states[:count]) if steps.is_recorded else (np.empty(0), np.empty((0, 0)))
     found = Run(
@@ -138,6 +147,12 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
         steps=steps,
     )
     return found if setting.watch.functions == 0 else _ended(found, setting)
+
+
+def _stop(setting: Setting) -> Stop:
+    """Where the kernel found the motion held."""
+    switch = setting.watch.switch
+    return Stop(int(switch.which[0]), float(switch.when[0]), switch.middle.copy())
 
 
 def _ended(run: Run, setting: Setting) -> Run:

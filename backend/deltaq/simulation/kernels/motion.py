@@ -96,7 +96,7 @@ def solve_small(m: Floats, n: int, known: float, out: Floats) -> float:
     determinant, largest = a * c - b * b, a * c
     inverse = 1.0 / determinant
     out[2], out[3] = (c * f - b * g) * inverse, (a * g - b * f) * inverse
-    if determinant >= known * largest and a > 0.0:  # the second pivot is determinant / a
+    if determinant >= known * largest and determinant > 0.0 and a > 0.0:  # the second pivot is determinant / a
         return known
     ratio = determinant / largest
     if np.isnan(ratio) and not (a == 0.0 or c == 0.0):

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inner
+from .compiler import inner, kernel
 from .motion import FINE, HELD, Floats, Motion, slope
 from .pointer import call
 
@@ -54,7 +54,7 @@ def make_switch(addresses: tuple[int, int], count: int, inputs: Floats, width: i
     return Switch(*addresses, count, inputs, before, after, values, gradient, middle, state, rates, here, which, when)
 
 
-@inner
+@kernel
 def switching(switch: Switch, degrees: int, t: float, state: Floats, out: Floats) -> None:
     """The switching functions of a state."""
     for d in range(2 * degrees):
@@ -63,7 +63,7 @@ def switching(switch: Switch, degrees: int, t: float, state: Floats, out: Floats
     call(switch.address, switch.data, out, switch.inputs)
 
 
-@inner
+@kernel
 def steepen(switch: Switch, degrees: int, t: float, k: int) -> tuple[float, float]:
     """∂s/∂(q, q̇) of function k at the middle state into `gradient`; returns its square and ∂s/∂t."""
     square = 0.0
@@ -85,7 +85,7 @@ def steepen(switch: Switch, degrees: int, t: float, k: int) -> tuple[float, floa
     return square, (ahead - switch.values[k]) / (2.0 * nudge)
 
 
-@inner
+@kernel
 def rate_beside(motion: Motion, switch: Switch, t: float, off: float, square: float, by_time: float) -> float:
     """ṡ a distance `off` beside s = 0, at the middle state; NaN where it has none."""
     n, total = motion.degrees, by_time
@@ -98,7 +98,7 @@ def rate_beside(motion: Motion, switch: Switch, t: float, off: float, square: fl
     return total
 
 
-@inner
+@kernel
 def is_held(motion: Motion, switch: Switch, t: float, k: int, size: float) -> bool:
     """Whether function k holds the motion at the middle state, which is near its zero; `size` is that of s nearby."""
     n = motion.degrees
@@ -118,15 +118,10 @@ def is_held(motion: Motion, switch: Switch, t: float, k: int, size: float) -> bo
     return bool(closer < 0.5 * above and other > 0.5 * below)  # a jump stays, a slope shrinks
 
 
-@inner
-def hold_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats) -> int:
-    """HELD if a function that comes to zero within `reach`, as the slope says, holds the motion there, else FINE.
-
-    For the start, and for where a step fails. At a zero, what stays there by itself is not held.
-    """
+@kernel
+def held_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats) -> int:
+    """`hold_ahead` where there are switching functions; a call, not a part of every stepping loop."""
     n = motion.degrees
-    if switch.functions == 0:
-        return FINE
     switching(switch, n, t, state, switch.before)
     for k in range(switch.functions):
         for d in range(2 * n):
@@ -137,12 +132,22 @@ def hold_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Fl
         if square == 0.0 or speed == 0.0 or -switch.before[k] / speed > reach or switch.before[k] * speed > 0.0:
             continue
         wait = -switch.before[k] / speed
-        for d in range(2 * n):
-            switch.middle[d] = state[d] + wait * rates[d]
+        for d in range(n):
+            switch.middle[d] = state[d] + wait * (rates[d] + 0.5 * wait * rates[n + d])
+            switch.middle[n + d] = state[n + d] + wait * rates[n + d]
         if is_held(motion, switch, t + wait, k, abs(switch.before[k])):
             switch.which[0], switch.when[0] = k, t + wait
             return HELD
     return FINE
+
+
+@inner
+def hold_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats) -> int:
+    """HELD if a function that comes to zero within `reach`, as the slope says, holds the motion there, else FINE.
+
+    For the start, and for where a step fails. At a zero, what stays there by itself is not held.
+    """
+    return FINE if switch.functions == 0 else held_ahead(motion, switch, t, reach, state, rates)
 
 
 @inner
@@ -159,29 +164,40 @@ def is_near(switch: Switch) -> bool:
     return False
 
 
-@inner
-def hold(motion: Motion, switch: Switch, t: float, h: float, is_fixed: int, old: Floats, new: Floats) -> int:
-    """HELD if a function that changed its sign in the step holds the motion, else FINE.
-
-    Step control meets every zero closely; behind fixed steps it is asked, too, whether the next one would.
-    """
-    if switch.functions == 0:
-        return FINE
+@kernel
+def held_within(motion: Motion, switch: Switch, t: float, h: float, is_fixed: int, old: Floats, new: Floats) -> int:
+    """`hold` where there are switching functions; a call, not a part of every stepping loop."""
     n, outcome = motion.degrees, FINE
     switching(switch, n, t + h, new, switch.after)
     for k in range(switch.functions):
         before, after = switch.before[k], switch.after[k]
         if outcome == FINE and (before * after < 0.0 or (after == 0.0 and before != 0.0)):
+            if (
+                slope(motion, t, old, switch.here) == FINE
+                and held_ahead(motion, switch, t, 2.0 * h, old, switch.here) == HELD
+            ):
+                outcome, switch.when[0] = HELD, min(switch.when[0], t + h)
+                break
+            switching(switch, n, t, old, switch.before)
             part = before / (before - after)
             for d in range(2 * n):
                 switch.middle[d] = old[d] + part * (new[d] - old[d])
             if is_held(motion, switch, t + part * h, k, abs(before) + abs(after)):
                 outcome, switch.which[0], switch.when[0] = HELD, k, t + part * h
     if outcome == FINE and is_fixed != 0 and is_near(switch) and slope(motion, t + h, new, switch.here) == FINE:
-        outcome = hold_ahead(motion, switch, t + h, h, new, switch.here)
+        outcome = held_ahead(motion, switch, t + h, h, new, switch.here)
     for k in range(switch.functions):
         switch.before[k] = switch.after[k]
     return outcome
+
+
+@inner
+def hold(motion: Motion, switch: Switch, t: float, h: float, is_fixed: int, old: Floats, new: Floats) -> int:
+    """HELD if a function that changed its sign in the step holds the motion, else FINE.
+
+    Step control meets every zero closely; behind fixed steps it is asked, too, whether the next one would.
+    """
+    return FINE if switch.functions == 0 else held_within(motion, switch, t, h, is_fixed, old, new)
 
 
 @inner
