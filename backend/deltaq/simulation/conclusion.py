@@ -39,9 +39,14 @@ def _failed(
     problem: Problem, method: Method, best: Attempt, step: float | None, told: dict[str, Number]
 ) -> Outcome | None:
     """Friction that holds the motion, or a run that came to no end."""
-    if best.chosen.held is not None:
-        return outcome_of(HELD, told | {"name": problem.model.layout.switches[best.chosen.held.index]})
+    held = [run.held for run in best.runs if run.held is not None]
+    if len(held) == len(best.runs):
+        return outcome_of(HELD, told | {"name": problem.model.layout.switches[held[0].index]})
     failed = next((run for run in (best.chosen, *best.runs) if not run.is_complete), None)
+    if failed is None and held:  # friction holds one run and not the other
+        first = min(stop.time for stop in held)
+        size = problem.t_end / max(best.chosen.result.steps, 1)
+        return Outcome("unresolved", "unresolved", told | {"t": _short(first), "step": _short(0.1 * size)})
     if failed is None:
         return None
     steps = int(failed.result.steps + failed.result.rejected)

@@ -22,10 +22,10 @@ from .stiffness import NUDGE
 
 # Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
 NEAR, FAR, SHARE = 160, 20, 0.25
-TURNING = 4.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
+TURNING = 8.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
 ROUNDING, EPSILON = 4e-16, 2.0**-52
 STOPS = 1.5  # times the difference of two stops
-MATTERS = 0.1  # of the estimate: rounding that could be more is looked at
+MATTERS = 0.02  # of the estimate: rounding that could be more is looked at
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 
 
@@ -88,7 +88,7 @@ def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> E
     """The estimate, not below what rounding does: that is what the disturbance of the model did, scaled down."""
     count = min(len(found.errors), len(other.times), len(fine.times))
     moved = np.abs(other.states[:count, : problem.degrees] - fine.states[:count, : problem.degrees]).T
-    floor = 2.0 * EPSILON / DISTURBANCE * _spread(moved)
+    floor = 4.0 * EPSILON / DISTURBANCE * _spread(moved)
     errors = found.errors.copy()
     errors[:count] = np.maximum(errors[:count], floor.max(axis=0))
     ones = np.maximum(1.0, np.abs(fine.states[:count, : problem.degrees].T))

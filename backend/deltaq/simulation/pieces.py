@@ -12,6 +12,7 @@ from .problem import Floats
 
 JOINED = 4.0  # neighbouring pieces whose largest steps differ by less are one
 MOST_PIECES = 2000
+ROOM = 8.0  # units in the last place of a time
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class Pieces:
                 else:
                     found.append((end, step, step))
             if len(found) <= MOST_PIECES:
-                return cls((*(end for end, _, _ in found[:-1]), t_end), tuple(step for _, step, _ in found))
+                return cls(*zip(*_with_room(t_end, [(end, step) for end, step, _ in found]), strict=True))
             share *= 2.0
 
     @property
@@ -102,6 +103,24 @@ class Pieces:
     def bounded(self, size: float) -> Floats:
         """The largest steps, none above the size."""
         return np.asarray(np.minimum(np.array(self.largest), size))
+
+
+def _with_room(t_end: float, pieces: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Pieces (end, largest step) with jumps a few units in the last place of the time wider on both sides.
+
+    The time t + h of a last stage is rounded, and must not be behind the jump that the step ends before.
+    """
+    found: list[tuple[float, float]] = []
+    steps = [step for _, step in pieces]
+    for (planned, step), following in zip(pieces, [*steps[1:], np.inf], strict=True):
+        room = ROOM * float(np.spacing(planned))
+        end = planned + room if step == 0.0 else planned - room if following == 0.0 else planned
+        start, before = found[-1] if found else (0.0, np.inf)
+        if step == before == 0.0:
+            found[-1] = (max(end, start), 0.0)
+        elif end > start:
+            found.append((end, step))
+    return [*found[:-1], (t_end, found[-1][1])]
 
 
 def _alike(step: float, piece: tuple[float, float, float], share: float) -> bool:

@@ -94,7 +94,7 @@ class ByStep:
 
     @property
     def factor_of_fine(self) -> float:
-        return float(max(0.3, 3.0 / (2**self.order - 1)))
+        return float(max(0.1, 3.0 / (2**self.order - 1)))
 
     def least_part(self, _before: float, _resolution: float) -> float:
         return 0.0
