@@ -7,10 +7,11 @@ import pytest
 
 from deltaq.lab.ladder.building import simplified
 from deltaq.lab.ladder.centre import centre_of
+from deltaq.lab.ladder.distance import Yardstick
 from deltaq.lab.ladder.findings import Part
 from deltaq.lab.ladder.footing import Footing
 from deltaq.lab.ladder.mean import Mean
-from deltaq.lab.ladder.measurement import deviation, ride, yardstick
+from deltaq.lab.ladder.measurement import deviation, full_ride, ride, yardstick
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.scene import Scene
@@ -22,8 +23,12 @@ LINEARIZED = (Part("linearized", {}),)
 SPAN, SMALL = 3.0, 1e-3
 
 
+def motion(scene: Scene) -> Yardstick:
+    return yardstick(full_ride(scene, SPAN, np.zeros(1, dtype=np.int64)))
+
+
 def footing(scene: Scene) -> Footing:
-    centre = centre_of(scene, SPAN)
+    centre = centre_of(scene, motion(scene))
     return Footing(scene, centre.values if centre else {}, Mean.of(scene, SPAN))
 
 
@@ -57,7 +62,7 @@ def test_eigenvalues_are_those_of_the_full_scene_at_rest(identifier: str) -> Non
 def test_driven_scenes_too_are_right_for_small_amplitudes(identifier: str) -> None:
     """With guides, what their accelerations do to small deviations belongs to the stiffness: Kapitza's pendulum."""
     scene = load_scene(identifier)
-    centre = centre_of(scene, SPAN)
+    centre = centre_of(scene, motion(scene))
     assert centre is not None
     small = footing(scene).with_scene(centre.at(SMALL))
     flag = np.zeros(1, dtype=np.int64)

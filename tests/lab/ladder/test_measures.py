@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from deltaq.lab.ladder.distance import Yardstick
+from deltaq.lab.ladder.distance import Accuracy, Yardstick
 from deltaq.lab.ladder.mean import Mean
 from deltaq.lab.ladder.quadrature import running_integral
 from deltaq.mechanics.document import read_scene
@@ -32,7 +32,9 @@ def rod(**more: object) -> Scene:
 
 def yardstick(states: np.ndarray) -> Yardstick:
     scene = rod()
-    return Yardstick(problem_of(scene, 1.0), total_mass(scene), np.linspace(0.0, 1.0, len(states)), states, 0.0)
+    times = np.linspace(0.0, 1.0, len(states))
+    turns = (0.0, 1.0)
+    return Yardstick(problem_of(scene, 1.0), total_mass(scene), times, states, 0.0, turns, Accuracy(1e-8, len(states)))
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ and only one of them may be worth it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from functools import partial
@@ -22,7 +23,7 @@ from ..experiment import Experiment
 from ..ladder.climb import climb
 from ..ladder.distance import Yardstick
 from ..ladder.findings import Finding, Growth, Ladder, Least, Measured, Rung
-from ..ladder.measurement import ride, yardstick
+from ..ladder.measurement import full_ride, yardstick
 from ..measurement import Point, Setting, too_slow, warm
 from ..report import Document, Report, appended, machine, rounded, significant
 from ..subject import Subject, subject_of
@@ -77,6 +78,10 @@ def _measured(found: Measured) -> Document:
         told = found.deviation
         head |= {"largest": significant(told.largest)}
         head |= {} if told.relative is None else {"error": significant(max(told.relative, told.floor))}
+    if found.survives is not None:
+        head |= {"survives": found.survives}
+    if found.nudged is not None and math.isfinite(found.nudged):
+        head |= {"nudged": significant(found.nudged)}
     if found.cost is not None:
         cost = found.cost
         head |= {
@@ -97,7 +102,7 @@ def _growth(found: Growth) -> Document:
 def _methods(subject: Subject) -> Iterator[list[Document]]:
     """The full model by several methods, roughly and finely, in the same measure as the rungs."""
     flag = np.zeros(1, dtype=np.int64)
-    full = yardstick(ride(subject.scene, subject.problem.t_end, flag))
+    full = yardstick(full_ride(subject.scene, subject.problem.t_end, flag))
     methods = [get_method(name) for name in METHODS]
     warm(full.problem, *methods)
     for method in methods:

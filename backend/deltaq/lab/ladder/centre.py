@@ -16,14 +16,14 @@ import numpy as np
 from ...mechanics.coordinate import Coordinate
 from ...mechanics.scene import Scene
 from ...simulation.problem import Floats, Problem
-from ...simulation.service import problem_of
 from ...simulation.stiffness import eigenvalues
-from .distance import mass_matrices
+from .distance import Yardstick, mass_matrices
 from .mean import Mean
 from .momenta import Conserved
 
+# In the units in which coordinates change by as much as the motion does (`Yardstick.units`):
 TRIES, NUDGE, CLOSE, STILL = 120, 1e-6, 1e-10, 1e-7
-FAR, SMALL = 100.0, 1e-8  # times the size of the start; a value that is zero but for rounding
+FAR, SMALL = 100.0, 1e-8  # where the search ends; a value that is zero but for rounding
 GROWS = 1e-3  # real part of an eigenvalue, relative to the largest, that differences cannot explain
 REGULAR = 1e10  # condition of M
 
@@ -35,35 +35,41 @@ class Centre:
     `values` are those of all free coordinates at rest; in steady motion, of those that are not cyclic.
     """
 
-    scene: Scene
-    span: float
+    steady: Steady
     values: Mapping[str, float]
-
-    @cached_property
-    def _steady(self) -> _Steady:
-        return _Steady.of(self.scene, self.span)
 
     def at(self, amplitude: float) -> Scene:
         """The scene with the deviation from the centre that many times larger, and the same momenta."""
-        steady, free = self._steady, self.scene.free
+        steady, free = self.steady, self.steady.scene.free
         place = np.array([_scaled(each.value, self.values.get(each.name, each.value), amplitude) for each in free])
         rates = steady.rates(place, amplitude * np.array([each.rate for each in free]))
         found = {c.name: (float(q), float(v)) for c, q, v in zip(free, place, rates, strict=True)}
-        return replace(self.scene, coordinates=tuple(_set(each, found) for each in self.scene.coordinates))
+        return starting(steady.scene, found)
 
 
-def centre_of(scene: Scene, span: float) -> Centre | None:
-    """The centre of a scene nearest to its initial state; one at which nothing grows, if there is such a one."""
-    steady = _Steady.of(scene, span)
+def starting(scene: Scene, values: Mapping[str, tuple[float, float]]) -> Scene:
+    """The scene with other initial values and rates of the coordinates named."""
+    return replace(scene, coordinates=tuple(_set(each, values) for each in scene.coordinates))
+
+
+def centre_of(scene: Scene, full: Yardstick) -> Centre | None:
+    """The centre of a scene nearest to its initial state; one at which nothing grows, if there is such a one.
+
+    `full` is the scene's motion, whose size is the measure of what is near.
+    """
+    if not len(full.times):
+        return None
+    steady = Steady.of(scene, full)
     found = [place for start in steady.starts() if (place := steady.settled(start)) is not None]
     if not found:
         return None
     here = np.array([each.value for each in scene.free])
-    nearest = min(found, key=lambda place: (not steady.lasts(place), float(np.abs(place - here).max())))
-    stays = not np.any(np.abs(steady.rates(nearest, np.zeros(len(nearest)))) > CLOSE)
+    nearest = min(found, key=lambda place: (not steady.lasts(place), full.apart(place, here)))
+    turns = steady.rates(nearest, np.zeros(len(nearest))) / full.units * full.problem.t_end
+    stays = not np.any(np.abs(turns[~full.can_be_boosted]) > CLOSE)
     kept = [each.name for each in scene.free if stays or each.name not in steady.conserved.names]
     values = dict(zip((each.name for each in scene.free), nearest.tolist(), strict=True))
-    return Centre(scene, span, {name: values[name] for name in kept})
+    return Centre(steady, {name: values[name] for name in kept})
 
 
 def _scaled(value: float, rest: float, amplitude: float) -> float:
@@ -79,18 +85,36 @@ def _set(coordinate: Coordinate, found: Mapping[str, tuple[float, float]]) -> Co
 
 
 @dataclass(frozen=True)
-class _Steady:
+class Steady:
     """The forces on a scene that stands still but for its cyclic coordinates, whose momenta are given."""
 
     scene: Scene
-    problem: Problem
+    full: Yardstick
     conserved: Conserved
     mean: Mean
 
     @classmethod
-    def of(cls, scene: Scene, span: float) -> _Steady:
-        problem = problem_of(scene, span)
-        return cls(scene, problem, Conserved.of(scene, problem), Mean.of(scene, span))
+    def of(cls, scene: Scene, full: Yardstick) -> Steady:
+        return cls(scene, full, Conserved.of(scene, full.problem), Mean.of(scene, full.problem.t_end))
+
+    @property
+    def problem(self) -> Problem:
+        return self.full.problem
+
+    @cached_property
+    def _units(self) -> Floats:
+        """How far to go at once."""
+        return self.full.wide_units
+
+    @cached_property
+    def _moving(self) -> np.ndarray:
+        return np.flatnonzero(~self._is_cyclic)
+
+    @cached_property
+    def _strength(self) -> float:
+        """The largest force, times the unit of its coordinate, that is met where the search begins."""
+        works = (np.abs(self.force(start)).max(initial=0.0) for start in self.starts())
+        return max((work for work in works if np.isfinite(work)), default=0.0)
 
     @cached_property
     def _is_cyclic(self) -> np.ndarray:
@@ -102,14 +126,14 @@ class _Steady:
         return np.asarray(found[0])
 
     def force(self, place: Floats) -> Floats:
-        """The mean over time of the forces on the coordinates that are not cyclic."""
+        """The mean over time of the forces on the coordinates that are not cyclic, times the units of these."""
         rates = self.rates(place, np.zeros(len(place)))
         times = self.mean.times
         states = np.tile(np.concatenate([place, rates]), (len(times), 1))
         n = self.problem.degrees
         first = n * (n + 1) // 2
         table = self.problem.model.motion.table(self.problem.inputs(times, states))[:, first : first + n]
-        return np.asarray((self.mean.weights @ table)[~self._is_cyclic])
+        return np.asarray((self.mean.weights @ table * self._units)[self._moving])
 
     def settled(self, start: Floats) -> Floats | None:
         """Where the forces vanish, by Newton's method from a start; None if it does not get there.
@@ -118,39 +142,36 @@ class _Steady:
         """
         if self._is_cyclic.all():
             return start
-        place, far = start, FAR * (1.0 + float(np.abs(start).max()))
-        first = float(np.abs(self.force(start)).max())
+        place = start
         for _ in range(TRIES):
             force = self.force(place)
-            if not np.isfinite(force).all() or np.abs(place).max() > far:
+            if not np.isfinite(force).all() or np.abs((place - start) / self._units).max() > FAR:
                 return None
             moved = self._stepped(place, force)
-            if np.abs(moved - place).max() <= CLOSE * (1.0 + np.abs(place).max()):
-                is_still = np.abs(force).max() <= STILL * max(first, 1.0)
-                return np.where(np.abs(moved) < SMALL, 0.0, moved) if is_still and self._is_regular(moved) else None
+            if np.all(np.abs(moved - place) <= CLOSE * (self._units + np.abs(place))):
+                is_still = np.abs(force).max() <= STILL * self._strength
+                rounded = np.where(np.abs(moved) < SMALL * self._units, 0.0, moved)
+                return rounded if is_still and self._is_regular(moved) else None
             place = moved
         return None
 
     def _is_regular(self, place: Floats) -> bool:
         state = np.concatenate([place, np.zeros(len(place))])[None]
-        mass = mass_matrices(self.problem, np.zeros(1), state)[0]
+        mass = mass_matrices(self.problem, np.zeros(1), state)[0] * np.outer(self._units, self._units)
         return bool(np.isfinite(mass).all() and np.linalg.cond(mass) < REGULAR)
 
     def _stepped(self, place: Floats, force: Floats) -> Floats:
-        """One step, no longer than half a radian or half the size of the place."""
-        moving = np.flatnonzero(~self._is_cyclic)
+        """One step, no longer than half a unit."""
         step = -np.linalg.lstsq(self._slopes(place), force, rcond=1e-9)[0]
-        longest = 0.5 * max(1.0, float(np.abs(place).max()))
-        shrink = min(1.0, longest / max(float(np.abs(step).max()), 1e-300))
+        shrink = min(1.0, 0.5 / max(float(np.abs(step).max()), 1e-300))
         moved = place.copy()
-        moved[moving] += shrink * step
+        moved[self._moving] += shrink * step * self._units[self._moving]
         return moved
 
     def _slopes(self, place: Floats) -> Floats:
-        columns = []
-        for index in np.flatnonzero(~self._is_cyclic):
-            nudge = NUDGE * np.eye(len(place))[index]
-            columns.append((self.force(place + nudge) - self.force(place - nudge)) / (2 * NUDGE))
+        """Of the forces, over the coordinates that are not cyclic, both in units."""
+        nudges = (NUDGE * np.diag(self._units))[self._moving]
+        columns = [(self.force(place + nudge) - self.force(place - nudge)) / (2 * NUDGE) for nudge in nudges]
         slopes = np.array(columns).T
         return slopes if np.isfinite(slopes).all() else np.zeros_like(slopes)
 
@@ -163,21 +184,31 @@ class _Steady:
 
     def _changes(self, place: Floats) -> bool:
         """Whether the laws depend on time; guides that turn evenly need not make them so."""
-        times = self.mean.times
-        states = np.tile(np.concatenate([place + 0.1, np.zeros(len(place))]), (len(times), 1))
-        table = self.problem.model.motion.table(self.problem.inputs(times, states))
-        return bool(np.ptp(table, axis=0).max() > CLOSE * np.abs(table).max())
+        times, n = self.mean.times, self.problem.degrees
+        states = np.tile(np.concatenate([place + 0.1 * self._units, np.zeros(n)]), (len(times), 1))
+        table = self.problem.model.motion.table(self.problem.inputs(times, states))[:, : n * (n + 1) // 2 + n]
+        rows, columns = np.tril_indices(n)
+        scaled = table * np.concatenate([self._units[rows] * self._units[columns], self._units])
+        return any(np.ptp(part, axis=0).max() > CLOSE * np.abs(part).max() for part in np.split(scaled, [-n], axis=1))
 
     def starts(self) -> Iterator[Floats]:
-        """The initial state, the origin, and a few others within the coordinates' ranges."""
-        here = np.array([each.value for each in self.scene.free])
-        yield here
-        yield np.zeros(len(here))
-        for part in (0.25, 0.5, 0.75):
-            yield np.array([_between(each, part) for each in self.scene.free])
+        """The initial state, and others within the motion and within the ranges of the coordinates.
+
+        None of them depends on where the coordinates begin.
+        """
+        places = self.full.states[:, : self.problem.degrees]
+        for found in self._somewhere(places):
+            yield np.where(self._is_cyclic, places[0], found)
+
+    def _somewhere(self, places: Floats) -> Iterator[Floats]:
+        yield places[0]
+        yield places.mean(axis=0)
+        ranges = np.array([_range(each, unit) for each, unit in zip(self.scene.free, self._units, strict=True)])
+        for low, high in ((places.min(axis=0), places.max(axis=0)), (ranges[:, 0], ranges[:, 1])):
+            yield from (low + part * (high - low) for part in (0.25, 0.5, 0.75))
 
 
-def _between(coordinate: Coordinate, part: float) -> float:
-    low = coordinate.value - 1.0 if coordinate.min is None else coordinate.min
-    high = coordinate.value + 1.0 if coordinate.max is None else coordinate.max
-    return low + part * (high - low)
+def _range(coordinate: Coordinate, unit: float) -> tuple[float, float]:
+    low = coordinate.value - unit if coordinate.min is None else coordinate.min
+    high = coordinate.value + unit if coordinate.max is None else coordinate.max
+    return low, high

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -18,12 +19,13 @@ from .distance import Yardstick
 from .findings import FULL, Deviation, Finding, Growth, Ladder, Least, Measured, Rung
 from .footing import Footing
 from .mean import Mean
-from .measurement import cost, deviation, ride, yardstick
+from .measurement import CERTAIN, Ride, cost, deviation, full_ride, ride, yardstick
+from .nudge import WAYS, is_harmless, nudged
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0)
 MOST_AMPLITUDES, MOST_REPEATS, LARGEST_SPAN = 8, 25, 1000.0
 WHOLE = 0.99  # of the full motion, which a rung must last for
-CERTAIN, ROUNDING = 10.0, 1e-10  # an error counts in a slope if it is so many times that of the integration
+ROUNDING = 1e-10  # an error below it says nothing of a slope
 
 
 def climb(
@@ -37,19 +39,20 @@ def climb(
     """The ladder of a scene over [0, span], found step by step: the rungs, each one measured, how errors grow.
 
     `tolerance` is the relative error allowed: the largest distance from the full motion (`distance.py`) as a part of
-    the extent of that motion. `amplitudes` are factors of the scene's initial deviation from rest or steady motion.
+    the extent of that motion. A rung must also hold after a nudge (`nudge.py`) to be the least. `amplitudes` are factors of the scene's initial deviation from rest or steady motion.
     A rung that cannot be built or run is kept, with its reason. Raises RequestError for numbers out of bounds.
     """
     _check(span, amplitudes, tolerance, repeats)
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    centre = centre_of(scene, span)
+    full = yardstick(full_ride(scene, span, flag))
+    centre = centre_of(scene, full)
     footing = Footing(scene, centre.values if centre else {}, Mean.of(scene, span))
     found = [rung_of(footing, chain) for chain in ((), *chains(footing))]
     factors = tuple(sorted({1.0, *amplitudes})) if centre else (1.0,)
     sound = [rung for rung in found if rung.scene is not None]
     count = len(sound) + (len(sound) - 1) * (len(factors) > 1) + 1
     yield Ladder(tuple(found), dict(centre.values) if centre else {}, span, factors, count)
-    yield from _Climb(footing, centre, span, factors, repeats, flag).findings(sound, tolerance)
+    yield from _Climb(footing, centre, full, tolerance, factors, repeats, flag).findings(sound)
 
 
 def _check(span: float, amplitudes: Sequence[float], tolerance: float, repeats: int) -> None:
@@ -74,39 +77,75 @@ def _check(span: float, amplitudes: Sequence[float], tolerance: float, repeats: 
 class _Climb:
     footing: Footing
     centre: Centre | None
-    span: float
+    full: Yardstick
+    tolerance: float
     amplitudes: tuple[float, ...]
     repeats: int
     cancelled: Flag
 
-    def findings(self, rungs: list[Rung], tolerance: float) -> Iterator[Finding]:
-        full, measured = {1.0: self._full(1.0)}, []
+    def findings(self, rungs: list[Rung]) -> Iterator[Finding]:
+        measured = []
         for rung in rungs:
-            measured.append(self._measured(rung, full[1.0]))
+            measured.append(self._measured(rung))
             if self.cancelled[0]:
                 return
             yield measured[-1]
-        full |= {factor: self._full(factor) for factor in self.amplitudes if factor != 1.0}
-        for rung in rungs if len(full) > 1 else ():
+        others = {factor: self._full(self._footing(factor)) for factor in self.amplitudes if factor != 1.0}
+        full = {1.0: self.full} | others
+        for rung in rungs if others else ():
             if rung.parts and not self.cancelled[0]:
                 yield self._growth(rung, full)
         if not self.cancelled[0]:
-            yield Least(tolerance, _least(rungs, measured, tolerance, full[1.0].end))
+            yield Least(self.tolerance, _least(rungs, measured))
 
-    def _full(self, amplitude: float) -> Yardstick:
-        return yardstick(ride(self._footing(amplitude).scene, self.span, self.cancelled))
+    def _full(self, footing: Footing) -> Yardstick:
+        return yardstick(full_ride(footing.scene, self.full.problem.t_end, self.cancelled))
+
+    def _ride(self, scene: Scene, full: Yardstick) -> Ride:
+        return ride(scene, full.problem.t_end, self.cancelled, full.accuracy)
 
     def _footing(self, amplitude: float) -> Footing:
         return self.footing if self.centre is None else self.footing.with_scene(self.centre.at(amplitude))
 
-    def _measured(self, rung: Rung, full: Yardstick) -> Measured:
+    def _measured(self, rung: Rung) -> Measured:
         try:
             below = simplified(self.footing, rung.parts)
-            found = ride(below.scene, self.span, self.cancelled)
+            found = self._ride(below.scene, self.full)
         except InputError as error:
             return Measured(rung.id, _refusal(error), None, None)
         price = cost(found, self.repeats, self.cancelled) if found.is_complete else None
-        return Measured(rung.id, found.outcome, price, deviation(full, found, below.back))
+        apart = deviation(self.full, found, below.back)
+        if price is None or not found.is_sound(self.full, self.tolerance) or not _is_within(apart, self.tolerance, self.full):
+            return Measured(rung.id, found.outcome, price, apart)
+        after = self._after_nudges(rung.parts) if rung.parts else 0.0
+        return Measured(rung.id, found.outcome, price, apart, after, self._survives(apart, after))
+
+    def _survives(self, apart: Deviation | None, after: float) -> bool:
+        before = apart.largest / self.full.size if apart else 0.0
+        return is_harmless(before, after, self.tolerance if self.full.extent > 0.0 else 0.0)
+
+    def _after_nudges(self, chain: Chain) -> float:
+        """The largest error of the rung from nudged values, as a part of the size of the full motion.
+
+        Infinite where one of the two now ends, and the other does not.
+        """
+        return max(self._after(chain, footing, full) for footing, full in self._nudged)
+
+    def _after(self, chain: Chain, footing: Footing, full: Yardstick) -> float:
+        try:
+            below = simplified(footing, chain)
+            found = self._ride(below.scene, full)
+        except InputError:
+            return math.inf
+        apart = deviation(full, found, below.back)
+        return apart.largest / self.full.size if apart and _lasts(apart, full.end) else math.inf
+
+    @cached_property
+    def _nudged(self) -> tuple[tuple[Footing, Yardstick], ...]:
+        """The full model from nudged values."""
+        scenes = (nudged(self.footing.scene, self.full, way) for way in range(WAYS))
+        footings = tuple(self.footing.with_scene(scene) for scene in scenes)
+        return tuple((footing, self._full(footing)) for footing in footings)
 
     def _growth(self, rung: Rung, full: dict[float, Yardstick]) -> Growth:
         found = [self._deviation(rung.parts, factor, full[factor]) for factor in self.amplitudes]
@@ -117,10 +156,10 @@ class _Climb:
     def _deviation(self, chain: Chain, amplitude: float, full: Yardstick) -> Deviation | None:
         try:
             below = simplified(self._footing(amplitude), chain)
-            found = ride(below.scene, self.span, self.cancelled)
+            found = self._ride(below.scene, full)
         except InputError:
             return None
-        apart = deviation(full, found, below.back) if found.is_sound else None
+        apart = deviation(full, found, below.back) if found.is_sound(full, self.tolerance) else None
         return apart if apart and _lasts(apart, full.end) else None
 
 
@@ -142,23 +181,25 @@ def _slope(amplitudes: tuple[float, ...], found: list[Deviation | None]) -> floa
     return float(np.polyfit(across, up, 1)[0])
 
 
-def _least(rungs: list[Rung], measured: list[Measured], tolerance: float, end: float) -> str:
-    """Of the rungs within the tolerance up to the end, the one of fewest degrees of freedom, then of operations."""
+def _least(rungs: list[Rung], measured: list[Measured]) -> str:
+    """Of the rungs that survive, the one of fewest degrees of freedom, then of operations."""
     good = [
         (rung.degrees, each.cost.operations.total, rung.id)
         for rung, each in zip(rungs, measured, strict=True)
-        if each.cost is not None and _is_within(each.deviation, tolerance, end)
+        if each.cost is not None and each.survives
     ]
     return min(good)[-1] if good and measured[0].cost is not None else FULL
 
 
 def _lasts(deviation: Deviation, end: float) -> bool:
     """Whether the rung goes on as long as the full motion, which an event may end."""
-    return deviation.times[-1] >= WHOLE * end
+    return deviation.until >= WHOLE * end
 
 
-def _is_within(deviation: Deviation | None, tolerance: float, end: float) -> bool:
+def _is_within(deviation: Deviation | None, tolerance: float, full: Yardstick) -> bool:
     """Where the full motion stands still, only what stands still with it is."""
-    if deviation is None or not _lasts(deviation, end):
+    if deviation is None or not _lasts(deviation, full.end):
         return False
-    return deviation.largest == 0.0 if deviation.relative is None else deviation.relative <= tolerance
+    if deviation.relative is None:
+        return deviation.largest <= deviation.floor * full.size
+    return deviation.relative <= tolerance

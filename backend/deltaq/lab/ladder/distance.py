@@ -7,6 +7,8 @@ for angles the chord 2 sin(Δφ/2), so that one that is off by a whole turn is r
 E = ½ q̇ᵀ M q̇ makes M the metric of the configuration space, so to first order d is the root mean square distance, over
 all mass, between where a particle is and where the rung puts it. Angles and lengths come in one unit, heavy parts
 count for more, and no coordinate is invisible, as the spin of a top is in the position of its centre of mass.
+
+What an error is measured against must not depend on the observer: see `Yardstick.extent` and `drift.py`.
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §8.6 (the metric); Lurie, Analytical Mechanics, ch. 4.
 """
 
@@ -18,24 +20,43 @@ from functools import cached_property
 
 import numpy as np
 
+from ...mechanics.scene import Scene
 from ...simulation.problem import Floats, Problem
+from .drift import Directions, directions, drift
+
+NOISE = 1e-13  # rounding of a coordinate, relative to its size
+DEGREE = np.pi / 180.0
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """How finely motions are computed: the tolerance of the integration, and the number of even samples."""
+
+    tolerance: float
+    samples: int
 
 
 @dataclass(frozen=True)
 class Yardstick:
-    """The full motion at `times`, its states (q, q̇), the mass of all bodies, and the error of the integration."""
+    """The full motion at `times`, its states (q, q̇), the mass of all bodies, and the error of the integration.
+
+    `floor` is that error as integration measures it: absolute for coordinates below 1, relative above. `radians` holds
+    for each coordinate how many there are in its unit, 0 for lengths. `accuracy` is that of the rungs to compare.
+    """
 
     problem: Problem
     mass: float
     times: Floats
     states: Floats
     floor: float
+    radians: tuple[float, ...]
+    accuracy: Accuracy
 
     def errors(self, values: Mapping[str, Floats]) -> Floats:
         """d at each sample that a rung, its values by coordinate, has in common with the full motion, in metres."""
         count = min(len(self.times), *(len(each) for each in values.values()))
         rung = np.column_stack([values[name][:count] for name in self.problem.model.layout.free])
-        return self._lengths(rung, self.states[:count, : self.problem.degrees])
+        return self._lengths(rung - self._values[:count])
 
     @property
     def end(self) -> float:
@@ -44,17 +65,119 @@ class Yardstick:
 
     @cached_property
     def extent(self) -> float:
-        """How far the motion gets from where it began, in metres."""
-        values = self.states[:, : self.problem.degrees]
-        return float(self._lengths(values[:1], values).max(initial=0.0))
+        """How far the motion gets from uniform motion, in metres; 0 where no more is left than the integration errs by.
 
-    def _lengths(self, values: Floats, full: Floats) -> Floats:
-        """The distances of values from the full motion, sample by sample."""
-        count, angular = len(full), np.array(self.problem.angular)
-        apart = np.where(angular, 2.0 * np.sin((values - full) / 2.0), values - full)
-        masses = mass_matrices(self.problem, self.times[:count], self.states[:count])
-        squares = np.einsum("ti,tij,tj->t", apart, masses, apart)
+        Uniform motion that a moving observer would not see, and the even drift of coordinates on whose values nothing
+        depends, is taken away (`drift.py`): it would grow with the span and make every error small beside it.
+        """
+        found = self._reach(self._values - np.outer(self.times, self._drift))
+        return found if found > max(self.uncertainty(self.floor), self._noise) else 0.0
+
+    def uncertainty(self, worst: float) -> float:
+        """An error in the measure of the integration's tolerance, in metres: no less than it can be."""
+        sizes = np.maximum(1.0, np.abs(self._values).max(axis=0, initial=0.0))
+        return worst * float(self._arms @ sizes)
+
+    @cached_property
+    def size(self) -> float:
+        """A length to measure by: the extent or, at rest, that of a turn by a radian or of the coordinates' values."""
+        if self.extent > 0.0:
+            return self.extent
+        turns = self._arms * self._in_radians
+        values = np.abs(self._values).max(axis=0, initial=0.0)
+        candidates = (turns.max(initial=0.0), self._reach(self._values), (self._arms * values).max(initial=0.0), 1.0)
+        return float(next(each for each in candidates if each > self._noise))
+
+    @cached_property
+    def units(self) -> Floats:
+        """For each coordinate the change that moves the mass by `size`; no more than a radian."""
+        return self._units(self.size)
+
+    def apart(self, one: Floats, other: Floats) -> float:
+        """√(Δqᵀ M Δq / m) of two places, M that of the start; angles count in full."""
+        step = one - other
+        return float(np.sqrt(max(0.0, step @ self._masses[0] @ step) / self.mass))
+
+    def tolerance(self, usual: float, enough: float) -> float:
+        """The tolerance at which each coordinate is right to `enough` of its unit; the usual one if that will do."""
+        sizes = np.maximum(1.0, np.abs(self._values).max(axis=0, initial=0.0))
+        return float(min(usual, enough * np.min(self.units / sizes, initial=1.0)))
+
+    @cached_property
+    def wide_units(self) -> Floats:
+        """For each angle a radian; for each length what moves the mass as far, or by `size` if that is more."""
+        turns = self._in_radians
+        wide = self._units(max(self.size, float((self._arms * turns).max(initial=0.0))))
+        return np.where(turns > 0.0, turns, wide)
+
+    @property
+    def can_be_boosted(self) -> np.ndarray:
+        """Which coordinates may be given another rate without any other consequence."""
+        return self._directions.can_be_boosted()
+
+    @cached_property
+    def _directions(self) -> Directions:
+        return directions(self.problem, self.times, self.states, self._raw_units, self._in_radians == 0.0)
+
+    @cached_property
+    def _raw_units(self) -> Floats:
+        """By all of the motion, its drift included."""
+        wide = self._reach(self._values)
+        return self._units(wide if wide > self._noise else 1.0)
+
+    @cached_property
+    def _drift(self) -> Floats:
+        """The rates of the uniform motion that is no extent."""
+        along = self._raw_units[:, None] * self._directions.both
+        return drift(self.times, self.states, self._masses, along)
+
+    @property
+    def _values(self) -> Floats:
+        return self.states[:, : self.problem.degrees]
+
+    @cached_property
+    def _masses(self) -> Floats:
+        return mass_matrices(self.problem, self.times, self.states)
+
+    @cached_property
+    def _arms(self) -> Floats:
+        """Metres for each unit of a coordinate: √(Mᵢᵢ/m), the largest of the motion."""
+        diagonals = np.einsum("tii->ti", self._masses)
+        return np.asarray(np.sqrt(np.maximum(diagonals, 0.0).max(axis=0, initial=0.0) / self.mass))
+
+    @property
+    def _in_radians(self) -> Floats:
+        """1 rad in the unit of each angle, 0 for lengths."""
+        radians = np.array(self.radians)
+        return np.divide(1.0, radians, out=np.zeros_like(radians), where=radians > 0.0)
+
+    def _units(self, size: float) -> Floats:
+        arms = self._arms
+        found = np.divide(size, arms, out=np.full_like(arms, size), where=arms > 0.0)
+        return np.where(self._in_radians > 0.0, np.minimum(found, self._in_radians), found)
+
+    @property
+    def _noise(self) -> float:
+        """What rounding alone makes of the coordinates, in metres."""
+        return NOISE * float(self._arms @ np.abs(self._values).max(axis=0, initial=0.0))
+
+    def _reach(self, values: Floats) -> float:
+        """How far values get from the first of them."""
+        return float(self._lengths(values - values[:1]).max(initial=0.0))
+
+    def _lengths(self, steps: Floats) -> Floats:
+        """The lengths of differences from the full motion, sample by sample."""
+        radians = np.array(self.radians)
+        turn = np.where(radians > 0.0, radians, 1.0)
+        apart = np.where(radians > 0.0, 2.0 / turn * np.sin(steps * turn / 2.0), steps)
+        squares = np.einsum("ti,tij,tj->t", apart, self._masses[: len(steps)], apart)
         return np.asarray(np.sqrt(np.maximum(squares, 0.0) / self.mass))
+
+
+def radians(scene: Scene, problem: Problem) -> tuple[float, ...]:
+    """How many radians each free coordinate's unit has; 0 for what is no angle."""
+    pairs = zip(scene.free, problem.angular, strict=True)
+    return tuple((DEGREE if each.unit in ("°", "deg") else 1.0) if angular else 0.0 for each, angular in pairs)
 
 
 def mass_matrices(problem: Problem, times: Floats, states: Floats) -> Floats:

@@ -86,7 +86,8 @@ class Deviation:
     """How far a rung is from the full model over time (`distance.py` has the norm).
 
     `errors` are in metres, one for each of `times`; `largest` is the largest of them and `relative` that as a part of
-    the extent of the full motion, None where that stands still. `floor` is what the integration itself may err by.
+    the extent of the full motion, None where that stands still. `floor` is what the integrations themselves may err by,
+    as a part of the same. `until` is how long both could be compared, in seconds.
     """
 
     times: tuple[float, ...]
@@ -94,16 +95,23 @@ class Deviation:
     largest: float
     relative: float | None
     floor: float
+    until: float
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A rung at the initial values of the scene; what could not be computed is None, and `outcome` says why."""
+    """A rung at the initial values of the scene; what could not be computed is None, and `outcome` says why.
+
+    `nudged` is its relative error after a nudge of all initial values by 10⁻⁶ (`nudge.py`), tried where the rung is
+    within the tolerance, and `survives` whether the verdict stands then; None where nothing was tried.
+    """
 
     rung: str
     outcome: Outcome
     cost: Cost | None
     deviation: Deviation | None
+    nudged: float | None = None
+    survives: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -122,7 +130,10 @@ class Growth:
 
 @dataclass(frozen=True)
 class Least:
-    """Of the rungs within the tolerance, the one with the fewest degrees of freedom, then operations."""
+    """Of the rungs within the tolerance that survive a nudge, the one with the fewest degrees of freedom.
+
+    Of several with as many, the one with the fewest operations.
+    """
 
     tolerance: float
     rung: str

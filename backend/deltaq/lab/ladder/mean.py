@@ -12,7 +12,7 @@ from ...mechanics.soundness import expressions
 from ...simulation.problem import Floats
 from ..period import period
 
-COUNT, LONG = 4096, 100.0  # seconds, where there is no period
+COUNT, LONG = 4096, 100.0  # spans, where there is no period
 
 
 @dataclass(frozen=True)
@@ -35,4 +35,4 @@ class Mean:
         try:
             return cls(period(scene) * phases, np.full(COUNT, 1.0 / COUNT))
         except SceneError:  # it depends on the time in another way
-            return cls(max(span, LONG) * phases, (1.0 - np.cos(2.0 * np.pi * phases)) / COUNT)
+            return cls(LONG * span * phases, (1.0 - np.cos(2.0 * np.pi * phases)) / COUNT)

@@ -18,14 +18,18 @@ from ...simulation.outcome import OK, Outcome
 from ...simulation.problem import Floats, Problem
 from ...simulation.service import problem_of
 from ...simulation.trajectory import Trajectory
-from .distance import Yardstick
+from .distance import Accuracy, Yardstick, radians
 from .findings import Cost, Deviation, Timing
 from .footing import Back, Motion
 
-TOLERANCE = 1e-8  # of the integration: what is left is the error of the rung
-SAMPLES = 1601  # dense, since the way back may have to integrate
-SHOWN = 4  # every so many of them are told
+TOLERANCE, LEAST_TOLERANCE = 1e-8, 1e-11  # of the integration: what is left is the error of the rung
+ENOUGH = 1e-6  # of the size of the motion: its error, which asks for a tighter tolerance where that is small
+SAMPLES, MOST_SAMPLES = 1601, 60_001  # dense, since errors are seen at samples and the way back may have to integrate
+PER_STEP = 2  # samples for each step of the full motion
+SHOWN = 400  # about so many of them are told
 STEP_LIMIT = 200_000  # of one run
+CERTAIN = 10.0  # times as large as the error of the integration: what it cannot explain
+USUAL = Accuracy(TOLERANCE, SAMPLES)
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,7 @@ class Ride:
     problem: Problem
     choice: Choice
     trajectory: Trajectory
+    accuracy: Accuracy
 
     @property
     def outcome(self) -> Outcome:
@@ -48,9 +53,14 @@ class Ride:
         """Whether it came to the end, or to an event that ended it."""
         return self.trajectory.event is not None or self.trajectory.reached >= self.problem.t_end
 
-    @property
-    def is_sound(self) -> bool:
-        return self.is_complete and (self.outcome.is_ok or self.trajectory.event is not None)
+    def is_sound(self, full: Yardstick, tolerance: float) -> bool:
+        """Whether its own integration errs by far less than the error that is allowed of it.
+
+        It may have missed a tolerance far below that, over thousands of turns.
+        """
+        errs = full.uncertainty(self.floor) / full.size
+        within = self.outcome.status == "tolerance_missed" and CERTAIN * errs <= tolerance
+        return self.is_complete and (self.outcome.is_ok or self.trajectory.event is not None or within)
 
     @cached_property
     def sampled(self) -> tuple[Floats, Floats]:
@@ -61,23 +71,35 @@ class Ride:
 
     @property
     def floor(self) -> float:
-        """The error of the integration, relative to coordinates above 1."""
-        return self.trajectory.estimate.worst if self.trajectory.estimate else TOLERANCE
+        """The error of the integration: absolute for coordinates below 1, relative above."""
+        return self.trajectory.estimate.worst if self.trajectory.estimate else self.accuracy.tolerance
 
 
-def ride(scene: Scene, span: float, cancelled: Flag) -> Ride:
-    """The motion of a scene by the method that suits it, to `TOLERANCE`."""
-    problem = replace(problem_of(scene, span, SAMPLES), step_limit=STEP_LIMIT)
+def ride(scene: Scene, span: float, cancelled: Flag, accuracy: Accuracy = USUAL) -> Ride:
+    """The motion of a scene by the method that suits it."""
+    problem = replace(problem_of(scene, span, accuracy.samples), step_limit=STEP_LIMIT)
     problem.model.settle()
-    choice = choose(AUTO, scene, problem, None, TOLERANCE)
-    return Ride(scene, problem, choice, simulate(problem, choice.method, tolerance=TOLERANCE, cancelled=cancelled))
+    choice = choose(AUTO, scene, problem, None, accuracy.tolerance)
+    found = simulate(problem, choice.method, tolerance=accuracy.tolerance, cancelled=cancelled)
+    return Ride(scene, problem, choice, found, accuracy)
+
+
+def full_ride(scene: Scene, span: float, cancelled: Flag) -> Ride:
+    """The motion that others are measured against: computed anew where it is small in its units, or has many turns."""
+    found = ride(scene, span, cancelled)
+    tolerance = max(LEAST_TOLERANCE, yardstick(found).tolerance(TOLERANCE, ENOUGH))
+    samples = min(MOST_SAMPLES, max(SAMPLES, PER_STEP * found.trajectory.cost.steps + 1))
+    wanted = Accuracy(tolerance, samples)
+    return found if wanted == found.accuracy else ride(scene, span, cancelled, wanted)
 
 
 def yardstick(full: Ride) -> Yardstick:
     """The full motion, as long as its digits can be trusted."""
-    times, states = full.sampled
+    (times, states), problem = full.sampled, full.problem
     count = int(np.count_nonzero(times <= full.trajectory.trusted_until))
-    return Yardstick(full.problem, total_mass(full.scene), times[:count], states[:count], full.floor)
+    turns = radians(full.scene, problem)
+    mass = total_mass(full.scene)
+    return Yardstick(problem, mass, times[:count], states[:count], full.floor, turns, full.accuracy)
 
 
 def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
@@ -85,14 +107,16 @@ def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
     if not len(full.times) or not len(rung.sampled[0]):
         return None
     errors = full.errors(back(seen(rung)).values)
+    errors = errors[full.times[: len(errors)] <= rung.trajectory.trusted_until]
     good = int(np.isfinite(errors).cumprod().sum())
     if good == 0:
         return None
     errors, largest = errors[:good], float(errors[:good].max())
+    floor = full.uncertainty(max(full.floor, rung.floor))
     relative = largest / full.extent if full.extent > 0.0 else None
-    shown = slice(0, good, SHOWN)
+    shown = slice(0, good, max(1, full.accuracy.samples // SHOWN))
     times, curve = full.times[shown].tolist(), errors[shown].tolist()
-    return Deviation(tuple(times), tuple(curve), largest, relative, max(full.floor, rung.floor))
+    return Deviation(tuple(times), tuple(curve), largest, relative, floor / full.size, float(full.times[good - 1]))
 
 
 def seen(rung: Ride) -> Motion:
@@ -109,10 +133,10 @@ def _named(names: tuple[str, ...], columns: Floats) -> dict[str, Floats]:
 
 
 def cost(rung: Ride, repeats: int, cancelled: Flag) -> Cost:
-    """What the rung takes: the run that meets `TOLERANCE`, repeated; medians and quartiles."""
+    """What the rung takes: the run that meets the tolerance, repeated; medians and quartiles."""
     method = rung.choice.method
     runs = [
-        simulate(rung.problem, method, tolerance=TOLERANCE, with_error=False, cancelled=cancelled).cost
+        simulate(rung.problem, method, tolerance=rung.accuracy.tolerance, with_error=False, cancelled=cancelled).cost
         for _ in range(repeats)
     ]
     return Cost(
