@@ -122,7 +122,7 @@ class _Climb:
 
     def _survives(self, apart: Deviation | None, after: float) -> bool:
         before = apart.largest / self.full.size if apart else 0.0
-        return is_harmless(before, after, self.tolerance if self.full.extent > 0.0 else 0.0)
+        return is_harmless(before, after, self.tolerance if self.full.extent > 0.0 else 0.0, self.full)
 
     def _after_nudges(self, chain: Chain) -> float:
         """The largest error of the rung from nudged values, as a part of the size of the full motion.

@@ -15,10 +15,12 @@ import math
 import numpy as np
 
 from ...mechanics.scene import Scene
+from ...simulation.problem import Floats
 from .centre import starting
 from .distance import Yardstick
 
-NUDGE = 1e-6  # of the units of the coordinates; rates by as much over the whole span
+NUDGE = 1e-6  # radians, and metres of what turns by them; rates by as much over the whole span
+MOST = 1e-4  # of the size of the motion: what a nudge may be of one that is small itself
 WAYS = 2
 GROWS = 100.0  # times the nudge: what a motion makes of it in which nothing grows
 
@@ -26,19 +28,23 @@ GROWS = 100.0  # times the nudge: what a motion makes of it in which nothing gro
 def nudged(scene: Scene, full: Yardstick, way: int) -> Scene:
     """The scene with all initial values and rates a little off."""
     n = len(scene.free)
-    parts = NUDGE * np.array([_part(way * 2 * n + k) for k in range(2 * n)])
-    values = parts[:n] * full.units
-    rates = parts[n:] * full.units / full.problem.t_end
+    parts = np.array([_part(way * 2 * n + k) for k in range(2 * n)])
+    values, rates = parts[:n] * _steps(full), parts[n:] * _steps(full) / full.problem.t_end
     found = {c.name: (c.value + dq, c.rate + dv) for c, dq, dv in zip(scene.free, values, rates, strict=True)}
     return starting(scene, found)
 
 
-def _part(count: int) -> float:
-    """Between ½ and 1 in size, of both signs, no two alike: multiples of the golden section, which never repeat."""
-    fraction = math.modf((count + 1) * (math.sqrt(5.0) - 1.0) / 2.0)[0]
-    return math.copysign(0.5 + 0.5 * fraction, math.cos(math.pi * math.floor((count + 1) * math.sqrt(2.0))))
-
-
-def is_harmless(before: float, after: float, tolerance: float) -> bool:
+def is_harmless(before: float, after: float, tolerance: float, full: Yardstick) -> bool:
     """Whether an error, as a part of the size of the full motion, stays allowed or grows only as the nudge does."""
-    return after <= max(tolerance, before + GROWS * NUDGE)
+    return after <= max(tolerance, before + GROWS * float(np.max(_steps(full) / full.units)))
+
+
+def _steps(full: Yardstick) -> Floats:
+    """How far each coordinate is nudged."""
+    return np.minimum(NUDGE * full.wide_units, MOST * full.units)
+
+
+def _part(count: int) -> float:
+    """Between 1 and 2 in size, of both signs, no two alike: multiples of the golden section, which never repeat."""
+    fraction = math.modf((count + 1) * (math.sqrt(5.0) - 1.0) / 2.0)[0]
+    return math.copysign(1.0 + fraction, math.cos(math.pi * math.floor((count + 1) * math.sqrt(2.0))))
