@@ -95,7 +95,7 @@ class Steady:
 
     @classmethod
     def of(cls, scene: Scene, full: Yardstick) -> Steady:
-        return cls(scene, full, Conserved.of(scene, full.problem), Mean.of(scene, full.problem.t_end))
+        return cls(scene, full, Conserved.of(scene), Mean.of(scene, full.problem.t_end))
 
     @property
     def problem(self) -> Problem:

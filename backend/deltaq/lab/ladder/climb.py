@@ -10,7 +10,9 @@ from functools import cached_property
 import numpy as np
 
 from ...errors import InputError, Problem, RequestError
+from ...mechanics.document import read_scene
 from ...mechanics.scene import Scene
+from ...model.linear_laws import is_linear
 from ...simulation.integration import Flag
 from ...simulation.outcome import Outcome
 from .building import Chain, chains, rung_of, simplified
@@ -26,6 +28,7 @@ AMPLITUDES = (0.1, 0.2, 0.5, 1.0)
 MOST_AMPLITUDES, MOST_REPEATS, LARGEST_SPAN = 8, 25, 1000.0
 WHOLE = 0.99  # of the full motion, which a rung must last for
 ROUNDING = 1e-10  # an error below it says nothing of a slope
+ALIKE = 1e-2  # of the tolerance: errors below that are none
 
 
 def climb(
@@ -96,7 +99,7 @@ class _Climb:
             if rung.parts and not self.cancelled[0]:
                 yield self._growth(rung, full)
         if not self.cancelled[0]:
-            yield Least(self.tolerance, _least(rungs, measured))
+            yield Least(self.tolerance, _least(rungs, measured, self.tolerance))
 
     def _full(self, footing: Footing) -> Yardstick:
         return yardstick(full_ride(footing.scene, self.full.problem.t_end, self.cancelled))
@@ -181,14 +184,24 @@ def _slope(amplitudes: tuple[float, ...], found: list[Deviation | None]) -> floa
     return float(np.polyfit(across, up, 1)[0])
 
 
-def _least(rungs: list[Rung], measured: list[Measured]) -> str:
-    """Of the rungs that survive, the one of fewest degrees of freedom, then of operations."""
+def _least(rungs: list[Rung], measured: list[Measured], tolerance: float) -> str:
+    """The simplest of the rungs that survive; the full model where there is none, or the motion cannot be had."""
     good = [
-        (rung.degrees, each.cost.operations.total, rung.id)
-        for rung, each in zip(rungs, measured, strict=True)
-        if each.cost is not None and each.survives
+        (_complexity(rung, each.deviation, tolerance), place)
+        for place, (rung, each) in enumerate(zip(rungs, measured, strict=True))
+        if each.survives and each.deviation is not None
     ]
-    return min(good)[-1] if good and measured[0].cost is not None else FULL
+    return rungs[min(good)[1]].id if good and measured[0].cost is not None else FULL
+
+
+def _complexity(rung: Rung, deviation: Deviation, tolerance: float) -> tuple[int, bool, bool, float]:
+    """What a model asks for: degrees of freedom, nonlinear equations, nothing left out; then its error.
+
+    Operations do not count: an expression is longer or shorter by where coordinates begin. Errors far below the
+    tolerance are alike; among those the shorter chain comes first.
+    """
+    is_nonlinear = rung.scene is None or not is_linear(read_scene(rung.scene))
+    return rung.degrees, is_nonlinear, not rung.parts, max(deviation.relative or 0.0, ALIKE * tolerance)
 
 
 def _lasts(deviation: Deviation, end: float) -> bool:

@@ -132,7 +132,7 @@ class Growth:
 class Least:
     """Of the rungs within the tolerance that survive a nudge, the one with the fewest degrees of freedom.
 
-    Of several with as many, the one with the fewest operations.
+    Of several with as many, one with linear equations, one that leaves something out, the most accurate one.
     """
 
     tolerance: float

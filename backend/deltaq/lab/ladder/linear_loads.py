@@ -14,7 +14,7 @@ from fractions import Fraction
 from ...language.expression import Expression
 from ...language.names import is_name
 from ...language.parser import parse
-from ...language.tree import Name, Number
+from ...language.tree import Number
 from ...mechanics.coordinate import Coordinate
 from ...mechanics.loads import Load
 from ...mechanics.loads.dissipation import Dissipation
@@ -24,6 +24,7 @@ from ...mechanics.loads.potential import Potential
 from ...mechanics.parameter import Parameter
 from ...mechanics.point import Point
 from ...mechanics.scene import Scene
+from ...mechanics.units import dimension_of
 from ...model.linear_laws import Coefficient, Entries, LinearLaws
 from .names import fresh, with_parameters
 
@@ -45,9 +46,11 @@ def with_linear_loads(laws: LinearLaws, rest: Mapping[str, str]) -> Scene:
     loads: list[Load] = [Potential("restoring", _sum(energy, scene))] if energy else []
     loads += [Dissipation("damping", _sum(_form(damping, rates), scene))] if damping else []
     pushed = [each for each in scene.free if skew[each.name]]
-    loads += [_push(scene, each, _sum(skew[each.name], scene)) for each in pushed]
-    points = tuple(_place(scene, each) for each in pushed if each.unit == "m")
-    return replace(scene, points=(*scene.points, *points), loads=tuple(loads))
+    units = {each.name: unit for each in pushed if (unit := _unit(scene, each)) is not None}
+    wider = with_parameters(scene, tuple(units.values()))
+    loads += [_push(wider, each, units.get(each.name), _sum(skew[each.name], scene)) for each in pushed]
+    points = tuple(_place(wider, each, units.get(each.name)) for each in pushed if _is_length(each))
+    return replace(wider, points=(*scene.points, *points), loads=tuple(loads))
 
 
 def _sum(terms: Iterable[str], scene: Scene) -> Expression:
@@ -94,17 +97,34 @@ def _negative(text: str) -> str:
     return text[2:-1] if text.startswith("(-") and is_name(text[2:-1]) else f"-{text}"
 
 
-def _push(scene: Scene, coordinate: Coordinate, force: Expression) -> Load:
+def _is_length(coordinate: Coordinate) -> bool:
+    found = dimension_of(coordinate.unit)
+    return found is not None and found.length == 1
+
+
+def _unit(scene: Scene, coordinate: Coordinate) -> Parameter | None:
+    """How many metres or radians the coordinate's unit has; None where it is one."""
+    found, name = dimension_of(coordinate.unit), fresh(scene, f"unit_{coordinate.name}")
+    if found is None or found.scale == 1.0:
+        return None
+    return Parameter(name, unit=f"{'m' if _is_length(coordinate) else 'rad'}/{coordinate.unit}", value=found.scale)
+
+
+def _push(scene: Scene, coordinate: Coordinate, unit: Parameter | None, force: Expression) -> Load:
     """A generalized force: at a point that moves by a length, or as a moment on an angle."""
     name = f"along_{coordinate.name}"[:32]
-    if coordinate.unit == "m":
-        return Force(name, _place(scene, coordinate).name, (force, *(NOTHING,) * (scene.dimension - 1)))
-    return FreeMoment(name, _itself(coordinate), force)
+    if unit is not None:
+        force = parse(f"({force.text})/{unit.name}", scene.names)
+    if _is_length(coordinate):
+        place = _place(scene, coordinate, unit).name
+        return Force(name, place, (force, *(NOTHING,) * (scene.dimension - 1)))
+    return FreeMoment(name, _itself(scene, coordinate, unit), force)
 
 
-def _place(scene: Scene, coordinate: Coordinate) -> Point:
-    return Point(f"place_{coordinate.name}"[:32], (_itself(coordinate), *(NOTHING,) * (scene.dimension - 1)))
+def _place(scene: Scene, coordinate: Coordinate, unit: Parameter | None) -> Point:
+    position = (_itself(scene, coordinate, unit), *(NOTHING,) * (scene.dimension - 1))
+    return Point(f"place_{coordinate.name}"[:32], position)
 
 
-def _itself(coordinate: Coordinate) -> Expression:
-    return Expression(coordinate.name, Name(coordinate.name))
+def _itself(scene: Scene, coordinate: Coordinate, unit: Parameter | None) -> Expression:
+    return parse(coordinate.name if unit is None else f"{coordinate.name}*{unit.name}", scene.names)

@@ -9,7 +9,9 @@ import numpy as np
 from ...mechanics.scene import Scene
 from ...model.cyclic import cyclic_coordinates
 from ...simulation.problem import Floats, Problem
+from ...simulation.service import problem_of
 from .distance import mass_matrices
+from .rest_frame import in_rest_frame
 
 
 def momenta(problem: Problem, times: Floats, states: Floats) -> Floats:
@@ -33,8 +35,10 @@ class Conserved:
     values: Floats
 
     @classmethod
-    def of(cls, scene: Scene, problem: Problem) -> Conserved:
-        names = cyclic_coordinates(scene)
+    def of(cls, scene: Scene) -> Conserved:
+        """Those of the frame in which the scene rests: in another they may depend on where it has got to."""
+        resting = in_rest_frame(scene)
+        names, problem = cyclic_coordinates(resting), problem_of(resting, 1.0)
         places = tuple(index for index, each in enumerate(scene.free) if each.name in names)
         start = momenta(problem, np.zeros(1), problem.state[None, : 2 * problem.degrees])
         return cls(problem, names, places, start[0, list(places)])

@@ -1,7 +1,7 @@
 """Cyclic coordinates removed by Routh's reduction: exact, with fewer degrees of freedom.
 
 Their momenta p are constants, given by the initial values; an effective potential ½ pᵀ M_c⁻¹ p takes their place. The
-way back is q̇_c = M_c⁻¹ (p − M_cn q̇ₙ), integrated over time.
+way back is q̇_c = M_c⁻¹ (p − M_cn q̇ₙ), integrated over time. A scene that moves uniformly is reduced where it rests.
 Source: Routh (1877); Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §8.3; Lurie, Analytical Mechanics, §7.16.
 """
 
@@ -23,23 +23,23 @@ from ....model.cyclic import cyclic_coordinates
 from ....model.elimination import eliminated
 from ....model.routh import reduction
 from ....simulation.problem import Floats
-from ....simulation.service import problem_of
 from ..findings import Part
 from ..footing import Back, Footing, Kind, Motion, Simplified
 from ..momenta import Conserved
 from ..names import fresh, tidied, with_parameters
 from ..quadrature import running_integral
+from ..rest_frame import in_rest_frame
 
 
 def _offered(footing: Footing) -> Iterator[Part]:
-    names = cyclic_coordinates(footing.scene)
+    names = cyclic_coordinates(in_rest_frame(footing.scene))
     if 0 < len(names) < len(footing.scene.free):
         yield Part("cyclic", {"coordinate": ", ".join(names)})
 
 
 def _simplify(footing: Footing, _part: Part) -> Simplified:
-    scene = footing.scene
-    conserved = Conserved.of(scene, problem_of(scene, 1.0))
+    scene = in_rest_frame(footing.scene)
+    conserved = Conserved.of(scene)
     coordinates = tuple(each for each in scene.free if each.name in conserved.names)
     momenta = {each.name: fresh(scene, f"p_{each.name}") for each in coordinates}
     starts = {each.name: fresh(scene, f"{each.name}_0") for each in coordinates}
