@@ -1,4 +1,4 @@
-/** The rungs of the ladder as a table, each to be opened as a scene, and the least one that will do. */
+/** The rungs of the ladder as a table, each to be opened as a scene, the least one that will do, and those that only seem to. */
 
 import { html, nothing } from "lit-html";
 import { significant } from "../../model/numbers.js";
@@ -9,9 +9,17 @@ export function rungs(view) {
   const { bench, t, state } = view;
   const { result } = bench;
   if (!result) return nothing;
+  const { lang } = state.place;
+  const title = (/** @type {any} */ rung) => titleOf(rung, t, result.names, lang);
   const least = result.rungs.find((/** @type {any} */ rung) => rung.id === result.least);
   return html`
-    ${least ? html`<p class="verdict">${t("labs.fidelity.least", { tolerance: significant(100 * result.tolerance, 2, state.place.lang), title: titleOf(least, t, result.names, state.place.lang) })}</p>` : nothing}
+    ${least ? html`<p class="verdict">${t("labs.fidelity.least", { tolerance: significant(100 * result.tolerance, 2, lang), title: title(least) })}</p>` : nothing}
+    ${until(view)}
+    ${result.measured.filter((/** @type {any} */ one) => one.survives === false).map((/** @type {any} */ one) => {
+      const rung = result.rungs.find((/** @type {any} */ each) => each.id === one.rung);
+      const error = one.nudged === undefined ? t("labs.fidelity.fragile-ended") : `${significant(100 * one.nudged, 2, lang)} %`;
+      return html`<p class="hint fragile">${t("labs.fidelity.fragile", { title: title(rung), error })}</p>`;
+    })}
     <table class="numbers failures">
       <caption>${t("labs.fidelity.table")}</caption>
       <thead><tr><th scope="col">${t("labs.fidelity.rung")}</th>${["degrees", "operations", "time", "error"].map((key) => html`<th scope="col">${t(`labs.fidelity.${key}`)}</th>`)}<td></td></tr></thead>
@@ -25,6 +33,14 @@ function outcome(status, t) {
   return words === `labs.status.${status}` ? t("status.incomplete") : words;
 }
 
+/** How far the comparison goes, where that is not all of it. @param {import("./page.js").View} view */
+function until({ bench, t, state }) {
+  const { result } = bench;
+  const full = result?.measured.find((/** @type {any} */ each) => each.rung === "full");
+  if (!full || full.until === undefined || full.until >= 0.99 * result.t_end) return nothing;
+  return html`<p class="hint">${t("labs.fidelity.until", { time: significant(full.until, 3, state.place.lang) })}</p>`;
+}
+
 /** @param {import("./page.js").View} view @param {any} rung */
 function line({ bench, t, state, open }, rung) {
   const { lang } = state.place;
@@ -33,7 +49,7 @@ function line({ bench, t, state, open }, rung) {
   return html`<tr class=${rung.id === bench.result?.least ? "least" : ""}>
     <th scope="row">${titleOf(rung, t, bench.result?.names, lang)}</th><td>${rung.degrees}</td><td>${one.operations?.total ?? ""}</td>
     <td>${one.time ? `${significant(1e3 * one.time[0], 3, lang)} ms` : ""}</td>
-    <td>${one.error === undefined ? failed : `${significant(100 * one.error, 2, lang)} %`}</td>
+    <td>${one.error === undefined ? failed : `${significant(100 * one.error, 2, lang)} %`}${one.survives === false ? html`<br><small>${t("labs.fidelity.fragile-mark")}</small>` : nothing}</td>
     <td>${rung.scene ? html`<button class="quiet small" @click=${() => open(rung.scene)}>${t("labs.fidelity.open")}</button>` : nothing}</td>
   </tr>`;
 }

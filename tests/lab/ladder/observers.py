@@ -13,6 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from tests.lab.ladder.climbing import Climbed
+
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.writing import write_scene
@@ -39,12 +41,11 @@ DIMENSIONS: Mapping[str, Mapping[str, tuple[int, int, int]]] = {
     "distributed": {"position": (1, 0, 0), "density": (1, -2, 1)},
     "events": {"value": (0, 0, 0)},
 }
-MATERIAL = ("material",)
 
 
 @dataclass(frozen=True)
 class Observer:
-    """How many of the new units one old unit is; degrees instead of radians; by how much each coordinate begins earlier.
+    """How many of the new units one old unit is; degrees instead of radians; how much earlier each coordinate begins.
 
     `boost` is the velocity of the observer's frame, in old units, along each axis in turn; `carried` are rates added to
     coordinates, and taken out of what they mean.
@@ -58,6 +59,7 @@ class Observer:
     origins: tuple[float, ...] = ()
     boost: tuple[float, ...] = ()
     carried: Mapping[str, float] = field(default_factory=dict)
+    nudge: float = 0.0  # of all initial values, in old units: not the same motion, but not another verdict either
 
     def sees(self, scene: Scene) -> Scene:
         return _Rewriting(self, scene).scene()
@@ -91,7 +93,11 @@ class _Rewriting:
     def _coordinate(self, one: dict[str, Any]) -> dict[str, Any]:
         name, scale = one["name"], self._scale(one["unit"])[1]
         origin, rate = self._origin(name), one["rate"] + self.observer.carried.get(name, 0.0)
-        moved = {key: scale * (one[key] + origin) for key in ("value", "min", "max") if one.get(key) is not None}
+        moved = {
+            key: scale * (one[key] + origin + self.observer.nudge * (key == "value"))
+            for key in ("value", "min", "max")
+            if one.get(key) is not None
+        }
         unit = "deg" if self.observer.in_degrees and one["unit"] == "rad" else one["unit"]
         return one | moved | {"rate": scale * rate / self.observer.second, "unit": unit}
 
@@ -151,11 +157,15 @@ class _Rewriting:
 
 
 UNITS = (
-    Observer("mm, cs, g", metre=1e3, second=100.0, kilogram=1e3),
+    Observer("mm, ds, g", metre=1e3, second=10.0, kilogram=1e3),
     Observer("km, h", metre=1e-3, second=1 / 3600.0),
     Observer("degrees", in_degrees=True),
 )
 ORIGINS = (Observer("origins", origins=(0.7, -1.3, 2.9)), Observer("far origins", origins=(-31.0, 57.0)))
+
+
+EXACT, NUDGED = 1e-5, 1e-3  # what the errors of rungs may differ by: integration, and what a nudge really changes
+NUDGES = tuple(Observer(f"nudge of {size:g}", origins=(), nudge=size) for size in (1e-6, -1e-6))
 
 
 def frames(dimension: int) -> tuple[Observer, ...]:
@@ -164,3 +174,45 @@ def frames(dimension: int) -> tuple[Observer, ...]:
         Observer(f"frame along axis {axis}", boost=tuple(3.7 * (k == axis) for k in range(dimension)))
         for axis in range(dimension)
     )
+
+
+def another(dimension: int) -> Observer:
+    """All of it at once."""
+    return Observer("another", 1e3, 10.0, 1e-3, True, (0.7, -1.3, 2.9), tuple(3.7 for _ in range(dimension)))
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a ladder says of a scene, without what depends on the observer's words."""
+
+    rungs: frozenset[str]
+    least: str
+    survive: Mapping[str, bool | None]
+    errors: Mapping[str, float | None]
+
+    @classmethod
+    def of(cls, found: Climbed) -> Verdict:
+        sound = {name: each for name, each in found.measured.items() if each.deviation is not None}
+        return cls(
+            frozenset(rung.id for rung in found.ladder.rungs),
+            found.least.rung,
+            {name: each.survives for name, each in found.measured.items()},
+            {name: each.deviation.relative for name, each in sound.items() if each.deviation is not None},
+        )
+
+    def differs(self, other: Verdict, apart: float) -> list[str]:
+        """In what another verdict is not the same, one line each; errors may be `apart` by that and two per cent."""
+        found = [f"rungs {sorted(self.rungs ^ other.rungs)}"] if self.rungs != other.rungs else []
+        found += [f"least {self.least} {other.least}"] if self.least != other.least else []
+        for name in sorted(self.rungs & other.rungs):
+            if self.survive.get(name) != other.survive.get(name):
+                found.append(f"{name} survives {self.survive.get(name)} {other.survive.get(name)}")
+            if not _alike(self.errors.get(name), other.errors.get(name), apart):
+                found.append(f"{name} errs by {self.errors.get(name)} {other.errors.get(name)}")
+        return found
+
+
+def _alike(one: float | None, other: float | None, apart: float) -> bool:
+    if one is None or other is None:
+        return one is other
+    return abs(one - other) <= 0.02 * max(one, other) + apart

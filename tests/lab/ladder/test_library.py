@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
-from tests.lab.ladder.climbing import climbed
+from tests.lab.ladder.climbing import Climbed, climbed
+from tests.lab.ladder.observers import EXACT, Verdict, another
 
 from deltaq.lab.ladder.findings import FULL
 from deltaq.mechanics.document import examine, read_scene
@@ -11,10 +14,26 @@ from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.narration.derive import derive
 from deltaq.simulation.service import run
 
+SPAN = 2.0
+
+
+@cache
+def own(identifier: str) -> Climbed:
+    return climbed(load_scene(identifier), SPAN, (0.5, 1.0))
+
+
+@pytest.mark.parametrize("identifier", scene_ids())
+def test_another_observer_says_the_same(identifier: str) -> None:
+    """In other units, from other origins and in a moving frame."""
+    scene = load_scene(identifier)
+    observer = another(scene.dimension)
+    seen = climbed(observer.sees(scene), SPAN * observer.second)
+    assert Verdict.of(own(identifier)).differs(Verdict.of(seen), EXACT) == []
+
 
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_scene_climbs(identifier: str) -> None:
-    found = climbed(load_scene(identifier), 2.0, (0.5, 1.0))
+    found = own(identifier)
     rungs = found.ladder.rungs
     assert found.count == found.ladder.count
     assert found.least.rung in found.measured

@@ -38,7 +38,7 @@ def _cost(result: Result, titles: Mapping[str, str], say: Say) -> Chart:
 
 
 def _rungs(result: Result, titles: Mapping[str, str], say: Say) -> Iterator[Trace]:
-    """One mark for each rung; the least that meets the tolerance is ringed."""
+    """One mark for each rung; the least that meets the tolerance is ringed, one that survives no nudge is hollow."""
     order = [rung["id"] for rung in result["rungs"]]
     degrees = {rung["id"]: rung["degrees"] for rung in result["rungs"]}
     for one in result["measured"]:
@@ -56,7 +56,7 @@ def _rungs(result: Result, titles: Mapping[str, str], say: Say) -> Iterator[Trac
             "hoverinfo": "text",
             "marker": {
                 "color": PALETTE[place % len(PALETTE)],
-                "symbol": SYMBOLS[place % len(SYMBOLS)],
+                "symbol": SYMBOLS[place % len(SYMBOLS)] + ("" if one.get("survives", True) else "-open"),
                 "size": 15,
                 "line": {"width": 3 if is_least else 0.5, "color": INK},
             },
@@ -66,7 +66,8 @@ def _rungs(result: Result, titles: Mapping[str, str], say: Say) -> Iterator[Trac
 def _hover(one: Mapping[str, Any], title: str, degrees: int, say: Say) -> str:
     cost = say("labs.hover.cost", evaluations=one["evaluations"], milliseconds=1e3 * one["time"][0])
     count = say("labs.fidelity.hover", degrees=degrees, operations=one["operations"]["total"])
-    return f"<b>{title}</b><br>{count}<br>{say('labs.hover.error', value=one['error'])}<br>{cost}"
+    found = f"<b>{title}</b><br>{count}<br>{say('labs.hover.error', value=one['error'])}<br>{cost}"
+    return found if one.get("survives", True) else f"{found}<br>{say('labs.fidelity.fragile-mark')}"
 
 
 def _methods(result: Result, say: Say) -> Iterator[Trace]:

@@ -76,7 +76,7 @@ def _measured(found: Measured) -> Document:
     head: Document = {"rung": found.rung, "status": found.outcome.status}
     if found.deviation is not None:
         told = found.deviation
-        head |= {"largest": significant(told.largest)}
+        head |= {"largest": significant(told.largest), "until": significant(told.until)}
         head |= {} if told.relative is None else {"error": significant(max(told.relative, told.floor))}
     if found.survives is not None:
         head |= {"survives": found.survives}

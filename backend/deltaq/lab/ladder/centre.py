@@ -111,6 +111,12 @@ class Steady:
         return np.flatnonzero(~self._is_cyclic)
 
     @cached_property
+    def _moments(self) -> tuple[Floats, Floats]:
+        """Times and weights of the mean; one time where nothing changes."""
+        here = self.full.states[0, : self.problem.degrees]
+        return (self.mean.times, self.mean.weights) if self._changes(here) else (np.zeros(1), np.ones(1))
+
+    @cached_property
     def _strength(self) -> float:
         """The largest force, times the unit of its coordinate, that is met where the search begins."""
         works = (np.abs(self.force(start)).max(initial=0.0) for start in self.starts())
@@ -128,12 +134,12 @@ class Steady:
     def force(self, place: Floats) -> Floats:
         """The mean over time of the forces on the coordinates that are not cyclic, times the units of these."""
         rates = self.rates(place, np.zeros(len(place)))
-        times = self.mean.times
+        times, weights = self._moments
         states = np.tile(np.concatenate([place, rates]), (len(times), 1))
         n = self.problem.degrees
         first = n * (n + 1) // 2
         table = self.problem.model.motion.table(self.problem.inputs(times, states))[:, first : first + n]
-        return np.asarray((self.mean.weights @ table * self._units)[self._moving])
+        return np.asarray((weights @ table * self._units)[self._moving])
 
     def settled(self, start: Floats) -> Floats | None:
         """Where the forces vanish, by Newton's method from a start; None if it does not get there.

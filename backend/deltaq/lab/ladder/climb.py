@@ -42,7 +42,8 @@ def climb(
     """The ladder of a scene over [0, span], found step by step: the rungs, each one measured, how errors grow.
 
     `tolerance` is the relative error allowed: the largest distance from the full motion (`distance.py`) as a part of
-    the extent of that motion. A rung must also hold after a nudge (`nudge.py`) to be the least. `amplitudes` are factors of the scene's initial deviation from rest or steady motion.
+    the extent of that motion. A rung must also hold after a nudge (`nudge.py`) to be the least. `amplitudes` are
+    factors of the scene's initial deviation from rest or steady motion.
     A rung that cannot be built or run is kept, with its reason. Raises RequestError for numbers out of bounds.
     """
     _check(span, amplitudes, tolerance, repeats)
@@ -118,7 +119,11 @@ class _Climb:
             return Measured(rung.id, _refusal(error), None, None)
         price = cost(found, self.repeats, self.cancelled) if found.is_complete else None
         apart = deviation(self.full, found, below.back)
-        if price is None or not found.is_sound(self.full, self.tolerance) or not _is_within(apart, self.tolerance, self.full):
+        if (
+            price is None
+            or not found.is_sound(self.full, self.tolerance)
+            or not _is_within(apart, self.tolerance, self.full)
+        ):
             return Measured(rung.id, found.outcome, price, apart)
         after = self._after_nudges(rung.parts) if rung.parts else 0.0
         return Measured(rung.id, found.outcome, price, apart, after, self._survives(apart, after))

@@ -149,7 +149,7 @@ class Yardstick:
     def _in_radians(self) -> Floats:
         """1 rad in the unit of each angle, 0 for lengths."""
         radians = np.array(self.radians)
-        return np.divide(1.0, radians, out=np.zeros_like(radians), where=radians > 0.0)
+        return np.asarray(np.divide(1.0, radians, out=np.zeros_like(radians), where=radians > 0.0))
 
     def _units(self, size: float) -> Floats:
         arms = self._arms

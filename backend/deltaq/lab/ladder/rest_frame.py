@@ -64,7 +64,7 @@ def _common(speeds: tuple[Expr, ...], moving: Vector) -> Expr:
 
 def _seen(thing: Placed, velocity: tuple[str, ...], scene: Scene) -> Placed:
     moved = (_less(each, speed, scene) for each, speed in zip(thing.position, velocity, strict=True))
-    return replace(thing, position=tuple(moved))
+    return replace(thing, position=tuple(moved))  # type: ignore[type-var]
 
 
 def _less(component: Expression, speed: str, scene: Scene) -> Expression:

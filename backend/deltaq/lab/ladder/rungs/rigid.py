@@ -7,14 +7,13 @@ Integration, 2nd ed., XIV.3 (stiff springs and their rigid limit).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from ....language.expression import Expression
-from ....language.floats import evaluate
 from ....language.tree import Node
 from ....mechanics.changes import change
 from ....mechanics.coordinate import Coordinate
@@ -22,15 +21,18 @@ from ....mechanics.guide import Guide
 from ....mechanics.loads import Load
 from ....mechanics.parameter import Parameter
 from ....mechanics.scene import Scene
+from ....model.compiled import compile_expressions
 from ....model.dependence import dependencies, solved
 from ....model.elimination import eliminated
+from ....model.symbols import Symbols
+from ....model.symengine_algebra import to_symengine
 from ....simulation.problem import Floats
 from ..findings import Part
 from ..footing import Back, Footing, Kind, Motion, Simplified
 from ..names import fresh, tidied, with_parameters
 from ..stretch import length
 
-STEP = 1e-5
+AHEAD = 1e-3  # of the time between two samples
 
 
 def _offered(footing: Footing) -> Iterator[Part]:
@@ -106,13 +108,20 @@ def _ways(load: Load, footing: Footing) -> Iterator[_Way]:
 
 def _at_rest(footing: Footing, length: Node) -> float:
     """The length at rest, the mean where guides move its ends."""
-    scene = footing.scene
+    scene, mean = footing.scene, footing.mean
     known = {each.name: footing.centre.get(each.name, each.value) for each in scene.coordinates}
-    values = {each.name: each.value for each in scene.parameters} | known
-    moments = [values | {"t": time} for time in footing.mean.times.tolist()]
-    guided = [now | {each.coordinate: evaluate(each.value.tree, now) for each in scene.guides} for now in moments]
-    lengths = np.array([evaluate(length, now) for now in guided])
-    return float(footing.mean.weights @ lengths)
+    values = {each.name: each.value for each in scene.parameters} | known | {"t": mean.times}
+    guided = {each.coordinate: _sampled(each.value.tree, values) for each in scene.guides}
+    return float(mean.weights @ _sampled(length, values | guided))
+
+
+def _sampled(node: Node, values: Mapping[str, Floats | float]) -> Floats:
+    """An expression at all samples; what does not change is one number. NaN where it is not defined."""
+    names = tuple(name for name in values if name != "t")
+    symbols = Symbols((), (), names)
+    found = compile_expressions([symbols.values[name] for name in (*names, "t")], [to_symengine(node, symbols)])
+    rows = np.broadcast_arrays(*(values[name] for name in (*names, "t")))
+    return np.asarray(found.table(np.column_stack(rows))[:, 0])
 
 
 def _back(scene: Scene, name: str, value: Expression) -> Back:
@@ -121,12 +130,11 @@ def _back(scene: Scene, name: str, value: Expression) -> Back:
 
     def at(motion: Motion, ahead: float) -> Floats:
         moved = {key: motion.values[key] + ahead * motion.rates[key] for key in motion.values}
-        columns = moved | {"t": motion.times + ahead}
-        rows = (constants | {key: float(each[k]) for key, each in columns.items()} for k in range(len(motion.times)))
-        return np.array([evaluate(value.tree, row) for row in rows])
+        return _sampled(value.tree, constants | moved | {"t": motion.times + ahead})
 
     def back(motion: Motion) -> Motion:
-        rate = (at(motion, STEP) - at(motion, -STEP)) / (2 * STEP)
+        step = AHEAD * float(np.ptp(motion.times[:2])) or AHEAD
+        rate = (at(motion, step) - at(motion, -step)) / (2 * step)
         values, rates = {**motion.values, name: at(motion, 0.0)}, {**motion.rates, name: rate}
         return Motion(motion.times, values, rates)
 
