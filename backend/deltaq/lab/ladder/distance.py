@@ -2,7 +2,8 @@
 
     d² = Δqᵀ M(q) Δq / m,   Δq = q of the rung − q of the full model,   m the mass of all bodies;
 
-for angles the chord 2 sin(Δφ/2), so that one that is off by a whole turn is right.
+for angles the chord 2 sin(Δφ/2), so that one that is off by a whole turn is right. Coordinates may jump where nothing
+else does, as the azimuth at a pole: where all bodies are particles, d is no more than thrice the distance in space.
 
 E = ½ q̇ᵀ M q̇ makes M the metric of the configuration space, so to first order d is the root mean square distance, over
 all mass, between where a particle is and where the rung puts it. Angles and lengths come in one unit, heavy parts
@@ -15,15 +16,18 @@ Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §8.6 (the metric
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
+from ...language.floats import evaluate
+from ...mechanics.bodies.particle import Particle
 from ...mechanics.scene import Scene
 from ...simulation.problem import Floats, Problem
 from .drift import Directions, directions, drift
 
+IN_SPACE = 3.0  # times the distance in space that one by coordinates may be
 NOISE = 1e-13  # rounding of a coordinate, relative to its size
 DEGREE = np.pi / 180.0
 
@@ -42,6 +46,7 @@ class Yardstick:
 
     `floor` is that error as integration measures it: absolute for coordinates below 1, relative above. `radians` holds
     for each coordinate how many there are in its unit, 0 for lengths. `accuracy` is that of the rungs to compare.
+    `particles` are the masses of the bodies by name if all of them are particles, else there are none.
     """
 
     problem: Problem
@@ -51,12 +56,27 @@ class Yardstick:
     floor: float
     radians: tuple[float, ...]
     accuracy: Accuracy
+    particles: Mapping[str, float] = field(default_factory=dict)
 
     def errors(self, values: Mapping[str, Floats]) -> Floats:
         """d at each sample that a rung, its values by coordinate, has in common with the full motion, in metres."""
         count = min(len(self.times), *(len(each) for each in values.values()))
         rung = np.column_stack([values[name][:count] for name in self.problem.model.layout.free])
-        return self._lengths(rung - self._values[:count])
+        found = self._lengths(rung - self._values[:count])
+        return np.minimum(found, IN_SPACE * self._in_space(rung)) if self.particles else found
+
+    def _in_space(self, values: Floats) -> Floats:
+        """The root mean square distance, over all mass, between the particles and where other values put them."""
+        count, n = len(values), self.problem.degrees
+        there, here = self._positions(np.hstack([values, self.states[:count, n : 2 * n]])), self._positions(self.states)
+        squares = (
+            mass * np.sum((there[name] - here[name][:count]) ** 2, axis=1) for name, mass in self.particles.items()
+        )
+        return np.asarray(np.sqrt(sum(squares) / self.mass))
+
+    def _positions(self, states: Floats) -> Mapping[str, Floats]:
+        inputs = self.problem.inputs(self.times[: len(states)], states[:, : 2 * self.problem.degrees])
+        return self.problem.model.observe(inputs).positions
 
     @property
     def end(self) -> float:
@@ -188,3 +208,11 @@ def mass_matrices(problem: Problem, times: Floats, states: Floats) -> Floats:
     matrices = np.zeros((len(times), n, n))
     matrices[:, lower[0], lower[1]] = matrices[:, lower[1], lower[0]] = table[:, : len(lower[0])]
     return matrices
+
+
+def particles(scene: Scene) -> dict[str, float]:
+    """The masses of the bodies by name where all of them are particles, else nothing."""
+    if not all(isinstance(body, Particle) for body in scene.bodies):
+        return {}
+    values = {parameter.name: parameter.value for parameter in scene.parameters}
+    return {body.name: evaluate(body.mass.tree, values) for body in scene.bodies if isinstance(body, Particle)}

@@ -18,7 +18,7 @@ from ...simulation.outcome import OK, Outcome
 from ...simulation.problem import Floats, Problem
 from ...simulation.service import problem_of
 from ...simulation.trajectory import Trajectory
-from .distance import Accuracy, Yardstick, radians
+from .distance import Accuracy, Yardstick, particles, radians
 from .findings import Cost, Deviation, Timing
 from .footing import Back, Motion
 
@@ -98,8 +98,8 @@ def yardstick(full: Ride) -> Yardstick:
     (times, states), problem = full.sampled, full.problem
     count = int(np.count_nonzero(times <= full.trajectory.trusted_until))
     turns = radians(full.scene, problem)
-    mass = total_mass(full.scene)
-    return Yardstick(problem, mass, times[:count], states[:count], full.floor, turns, full.accuracy)
+    mass, bodies = total_mass(full.scene), particles(full.scene)
+    return Yardstick(problem, mass, times[:count], states[:count], full.floor, turns, full.accuracy, bodies)
 
 
 def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
