@@ -11,15 +11,15 @@ export function rungs(view) {
   if (!result) return nothing;
   const { lang } = state.place;
   const title = (/** @type {any} */ rung) => titleOf(rung, t, result.names, lang);
+  const fragile = result.measured.filter((/** @type {any} */ one) => one.survives === false).map((/** @type {any} */ one) => {
+    const error = one.nudged === undefined ? t("labs.fidelity.fragile-ended") : `${significant(100 * one.nudged, 2, lang)} %`;
+    return `${title(result.rungs.find((/** @type {any} */ rung) => rung.id === one.rung))} (${error})`;
+  });
   const least = result.rungs.find((/** @type {any} */ rung) => rung.id === result.least);
   return html`
     ${least ? html`<p class="verdict">${t("labs.fidelity.least", { tolerance: significant(100 * result.tolerance, 2, lang), title: title(least) })}</p>` : nothing}
     ${until(view)}
-    ${result.measured.filter((/** @type {any} */ one) => one.survives === false).map((/** @type {any} */ one) => {
-      const rung = result.rungs.find((/** @type {any} */ each) => each.id === one.rung);
-      const error = one.nudged === undefined ? t("labs.fidelity.fragile-ended") : `${significant(100 * one.nudged, 2, lang)} %`;
-      return html`<p class="hint fragile">${t("labs.fidelity.fragile", { title: title(rung), error })}</p>`;
-    })}
+    ${fragile.length ? html`<p class="purpose fragile">${t("labs.fidelity.fragile", { titles: fragile.join("; ") })}</p>` : nothing}
     <table class="numbers failures">
       <caption>${t("labs.fidelity.table")}</caption>
       <thead><tr><th scope="col">${t("labs.fidelity.rung")}</th>${["degrees", "operations", "time", "error"].map((key) => html`<th scope="col">${t(`labs.fidelity.${key}`)}</th>`)}<td></td></tr></thead>
@@ -38,7 +38,7 @@ function until({ bench, t, state }) {
   const { result } = bench;
   const full = result?.measured.find((/** @type {any} */ each) => each.rung === "full");
   if (!full || full.until === undefined || full.until >= 0.99 * result.t_end) return nothing;
-  return html`<p class="hint">${t("labs.fidelity.until", { time: significant(full.until, 3, state.place.lang) })}</p>`;
+  return html`<p class="purpose">${t("labs.fidelity.until", { time: significant(full.until, 3, state.place.lang) })}</p>`;
 }
 
 /** @param {import("./page.js").View} view @param {any} rung */
