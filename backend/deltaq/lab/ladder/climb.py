@@ -10,25 +10,22 @@ from functools import cached_property
 import numpy as np
 
 from ...errors import InputError, Problem, RequestError
-from ...mechanics.document import read_scene
 from ...mechanics.scene import Scene
-from ...model.linear_laws import is_linear
 from ...simulation.integration import Flag
 from ...simulation.outcome import Outcome
 from .building import Chain, chains, rung_of, simplified
 from .centre import Centre, centre_of
 from .distance import Yardstick
-from .findings import FULL, Deviation, Finding, Growth, Ladder, Least, Measured, Rung
+from .findings import Deviation, Finding, Growth, Ladder, Least, Measured, Rung
 from .footing import Footing
 from .mean import Mean
 from .measurement import CERTAIN, Ride, cost, deviation, full_ride, ride, yardstick
-from .nudge import WAYS, is_harmless, nudged
+from .nudge import WAYS, allowed, nudged
+from .verdict import is_within, lasts, least
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0)
 MOST_AMPLITUDES, MOST_REPEATS, LARGEST_SPAN = 8, 25, 1000.0
-WHOLE = 0.99  # of the full motion, which a rung must last for
 ROUNDING = 1e-10  # an error below it says nothing of a slope
-ALIKE = 1e-2  # of the tolerance: errors below that are none
 
 
 def climb(
@@ -100,7 +97,7 @@ class _Climb:
             if rung.parts and not self.cancelled[0]:
                 yield self._growth(rung, full)
         if not self.cancelled[0]:
-            yield Least(self.tolerance, _least(rungs, measured, self.tolerance))
+            yield Least(self.tolerance, least(rungs, measured, self.tolerance))
 
     def _full(self, footing: Footing) -> Yardstick:
         return yardstick(full_ride(footing.scene, self.full.problem.t_end, self.cancelled))
@@ -122,15 +119,15 @@ class _Climb:
         if (
             price is None
             or not found.is_sound(self.full, self.tolerance)
-            or not _is_within(apart, self.tolerance, self.full)
+            or not is_within(apart, self.tolerance, self.full)
         ):
             return Measured(rung.id, found.outcome, price, apart)
         after = self._after_nudges(rung.parts) if rung.parts else 0.0
         return Measured(rung.id, found.outcome, price, apart, after, self._survives(apart, after))
 
     def _survives(self, apart: Deviation | None, after: float) -> bool:
-        before = apart.largest / self.full.size if apart else 0.0
-        return is_harmless(before, after, self.tolerance if self.full.extent > 0.0 else 0.0, self.full)
+        before = apart.relative if apart else None
+        return after <= (self.tolerance if before is None else allowed(before, self.tolerance, self.full))
 
     def _after_nudges(self, chain: Chain) -> float:
         """The largest error of the rung from nudged values, as a part of the size of the full motion.
@@ -140,13 +137,17 @@ class _Climb:
         return max(self._after(chain, footing, full) for footing, full in self._nudged)
 
     def _after(self, chain: Chain, footing: Footing, full: Yardstick) -> float:
+        """No less than integration may err by; at rest it is measured by what motion the nudge makes."""
         try:
             below = simplified(footing, chain)
             found = self._ride(below.scene, full)
         except InputError:
             return math.inf
         apart = deviation(full, found, below.back)
-        return apart.largest / self.full.size if apart and _lasts(apart, full.end) else math.inf
+        if apart is None or not lasts(apart, full.end):
+            return math.inf
+        error = max(apart.largest, CERTAIN * apart.floor * full.size)
+        return error / (self.full.extent or full.size)
 
     @cached_property
     def _nudged(self) -> tuple[tuple[Footing, Yardstick], ...]:
@@ -168,7 +169,7 @@ class _Climb:
         except InputError:
             return None
         apart = deviation(full, found, below.back) if found.is_sound(full, self.tolerance) else None
-        return apart if apart and _lasts(apart, full.end) else None
+        return apart if apart and lasts(apart, full.end) else None
 
 
 def _refusal(error: InputError) -> Outcome:
@@ -187,37 +188,3 @@ def _slope(amplitudes: tuple[float, ...], found: list[Deviation | None]) -> floa
         return None
     across, up = np.array(points).T
     return float(np.polyfit(across, up, 1)[0])
-
-
-def _least(rungs: list[Rung], measured: list[Measured], tolerance: float) -> str:
-    """The simplest of the rungs that survive; the full model where there is none, or the motion cannot be had."""
-    good = [
-        (_complexity(rung, each.deviation, tolerance), place)
-        for place, (rung, each) in enumerate(zip(rungs, measured, strict=True))
-        if each.survives and each.deviation is not None
-    ]
-    return rungs[min(good)[1]].id if good and measured[0].cost is not None else FULL
-
-
-def _complexity(rung: Rung, deviation: Deviation, tolerance: float) -> tuple[int, bool, bool, float]:
-    """What a model asks for: degrees of freedom, nonlinear equations, nothing left out; then its error.
-
-    Operations do not count: an expression is longer or shorter by where coordinates begin. Errors far below the
-    tolerance are alike; among those the shorter chain comes first.
-    """
-    is_nonlinear = rung.scene is None or not is_linear(read_scene(rung.scene))
-    return rung.degrees, is_nonlinear, not rung.parts, max(deviation.relative or 0.0, ALIKE * tolerance)
-
-
-def _lasts(deviation: Deviation, end: float) -> bool:
-    """Whether the rung goes on as long as the full motion, which an event may end."""
-    return deviation.until >= WHOLE * end
-
-
-def _is_within(deviation: Deviation | None, tolerance: float, full: Yardstick) -> bool:
-    """Where the full motion stands still, only what stands still with it is."""
-    if deviation is None or not _lasts(deviation, full.end):
-        return False
-    if deviation.relative is None:
-        return deviation.largest <= deviation.floor * full.size
-    return deviation.relative <= tolerance

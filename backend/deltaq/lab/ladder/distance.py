@@ -21,15 +21,12 @@ from functools import cached_property
 
 import numpy as np
 
-from ...language.floats import evaluate
-from ...mechanics.bodies.particle import Particle
-from ...mechanics.scene import Scene
 from ...simulation.problem import Floats, Problem
 from .drift import Directions, directions, drift
+from .metric import mass_matrices
 
 IN_SPACE = 3.0  # times the distance in space that one by coordinates may be
 NOISE = 1e-13  # rounding of a coordinate, relative to its size
-DEGREE = np.pi / 180.0
 
 
 @dataclass(frozen=True)
@@ -192,27 +189,3 @@ class Yardstick:
         apart = np.where(radians > 0.0, 2.0 / turn * np.sin(steps * turn / 2.0), steps)
         squares = np.einsum("ti,tij,tj->t", apart, self._masses[: len(steps)], apart)
         return np.asarray(np.sqrt(np.maximum(squares, 0.0) / self.mass))
-
-
-def radians(scene: Scene, problem: Problem) -> tuple[float, ...]:
-    """How many radians each free coordinate's unit has; 0 for what is no angle."""
-    pairs = zip(scene.free, problem.angular, strict=True)
-    return tuple((DEGREE if each.unit in ("°", "deg") else 1.0) if angular else 0.0 for each, angular in pairs)
-
-
-def mass_matrices(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """M(q, t) at the samples: shape (samples, degrees, degrees)."""
-    n = problem.degrees
-    table = problem.model.motion.table(problem.inputs(times, states))
-    lower = np.tril_indices(n)
-    matrices = np.zeros((len(times), n, n))
-    matrices[:, lower[0], lower[1]] = matrices[:, lower[1], lower[0]] = table[:, : len(lower[0])]
-    return matrices
-
-
-def particles(scene: Scene) -> dict[str, float]:
-    """The masses of the bodies by name where all of them are particles, else nothing."""
-    if not all(isinstance(body, Particle) for body in scene.bodies):
-        return {}
-    values = {parameter.name: parameter.value for parameter in scene.parameters}
-    return {body.name: evaluate(body.mass.tree, values) for body in scene.bodies if isinstance(body, Particle)}

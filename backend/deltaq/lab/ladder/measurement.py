@@ -18,9 +18,10 @@ from ...simulation.outcome import OK, Outcome
 from ...simulation.problem import Floats, Problem
 from ...simulation.service import problem_of
 from ...simulation.trajectory import Trajectory
-from .distance import Accuracy, Yardstick, particles, radians
+from .distance import Accuracy, Yardstick
 from .findings import Cost, Deviation, Timing
 from .footing import Back, Motion
+from .metric import particles, radians
 
 TOLERANCE, LEAST_TOLERANCE = 1e-8, 1e-11  # of the integration: what is left is the error of the rung
 ENOUGH = 1e-6  # of the size of the motion: its error, which asks for a tighter tolerance where that is small
@@ -29,6 +30,7 @@ PER_STEP = 2  # samples for each step of the full motion
 SHOWN = 400  # about so many of them are told
 STEP_LIMIT = 200_000  # of one run
 CERTAIN = 10.0  # times as large as the error of the integration: what it cannot explain
+ROUGH = 1e-4  # of the size: an error of the integration that asks for the least tolerance
 USUAL = Accuracy(TOLERANCE, SAMPLES)
 
 
@@ -85,9 +87,14 @@ def ride(scene: Scene, span: float, cancelled: Flag, accuracy: Accuracy = USUAL)
 
 
 def full_ride(scene: Scene, span: float, cancelled: Flag) -> Ride:
-    """The motion that others are measured against: computed anew where it is small in its units, or has many turns."""
+    """The motion that others are measured against.
+
+    It is computed anew where it is small in its units or has many turns, and where small errors grow in it.
+    """
     found = ride(scene, span, cancelled)
-    tolerance = max(LEAST_TOLERANCE, yardstick(found).tolerance(TOLERANCE, ENOUGH))
+    seen = yardstick(found)
+    is_rough = seen.uncertainty(seen.floor) > ROUGH * seen.size
+    tolerance = LEAST_TOLERANCE if is_rough else max(LEAST_TOLERANCE, seen.tolerance(TOLERANCE, ENOUGH))
     samples = min(MOST_SAMPLES, max(SAMPLES, PER_STEP * found.trajectory.cost.steps + 1))
     wanted = Accuracy(tolerance, samples)
     return found if wanted == found.accuracy else ride(scene, span, cancelled, wanted)

@@ -10,7 +10,7 @@ from ...mechanics.scene import Scene
 from ...model.cyclic import cyclic_coordinates
 from ...simulation.problem import Floats, Problem
 from ...simulation.service import problem_of
-from .distance import mass_matrices
+from .metric import mass_matrices
 from .rest_frame import in_rest_frame
 
 

@@ -4,7 +4,8 @@ A rung may agree with the full motion by symmetry alone: a spring pendulum that 
 is allowed to or not. A parametric or internal resonance, or an equilibrium that is unstable, makes much of the least
 deviation; nothing real keeps it out. So the full model and the rung are run again from values nudged by 10⁻⁶, each
 coordinate and rate by its own part of that and in two ways, such that no mode is left out. Both are nudged: that
-nearby motions of the full model part from each other, as chaotic ones do, is no fault of the rung.
+nearby motions of the full model part from each other, as chaotic ones do, is no fault of the rung. Where the full
+motion stands still, the motion after the nudge is all there is to get right.
 Source: Landau, Lifshitz, Mechanics, §27 and §29; Nayfeh, Mook, Nonlinear Oscillations, ch. 5 and 6.
 """
 
@@ -34,9 +35,9 @@ def nudged(scene: Scene, full: Yardstick, way: int) -> Scene:
     return starting(scene, found)
 
 
-def is_harmless(before: float, after: float, tolerance: float, full: Yardstick) -> bool:
-    """Whether an error, as a part of the size of the full motion, stays allowed or grows only as the nudge does."""
-    return after <= max(tolerance, before + GROWS * float(np.max(_steps(full) / full.units)))
+def allowed(before: float, tolerance: float, full: Yardstick) -> float:
+    """The error allowed after a nudge, as a part of the extent: the tolerance, or what grows only as the nudge does."""
+    return max(tolerance, before + GROWS * float(np.max(_steps(full) / full.units)))
 
 
 def _steps(full: Yardstick) -> Floats:

@@ -1,0 +1,45 @@
+"""Which rung is the least: within the tolerance to the end, and the simplest of those that survive a nudge."""
+
+from __future__ import annotations
+
+from ...mechanics.document import read_scene
+from ...model.linear_laws import is_linear
+from .distance import Yardstick
+from .findings import FULL, Deviation, Measured, Rung
+
+WHOLE = 0.99  # of the full motion, which a rung must last for
+ALIKE = 1e-2  # of the tolerance: errors below that are none
+
+
+def least(rungs: list[Rung], measured: list[Measured], tolerance: float) -> str:
+    """The simplest of the rungs that survive; the full model where there is none, or the motion cannot be had."""
+    good = [
+        (_complexity(rung, each.deviation, tolerance), place)
+        for place, (rung, each) in enumerate(zip(rungs, measured, strict=True))
+        if each.survives and each.deviation is not None
+    ]
+    return rungs[min(good)[1]].id if good and measured[0].cost is not None else FULL
+
+
+def _complexity(rung: Rung, deviation: Deviation, tolerance: float) -> tuple[int, bool, bool, float]:
+    """What a model asks for: degrees of freedom, nonlinear equations, nothing left out; then its error.
+
+    Operations do not count: an expression is longer or shorter by where coordinates begin. Errors far below the
+    tolerance are alike; among those the shorter chain comes first.
+    """
+    is_nonlinear = rung.scene is None or not is_linear(read_scene(rung.scene))
+    return rung.degrees, is_nonlinear, not rung.parts, max(deviation.relative or 0.0, ALIKE * tolerance)
+
+
+def lasts(deviation: Deviation, end: float) -> bool:
+    """Whether the rung goes on as long as the full motion, which an event may end."""
+    return deviation.until >= WHOLE * end
+
+
+def is_within(deviation: Deviation | None, tolerance: float, full: Yardstick) -> bool:
+    """Where the full motion stands still, only what stands still with it is."""
+    if deviation is None or not lasts(deviation, full.end):
+        return False
+    if deviation.relative is None:
+        return deviation.largest <= deviation.floor * full.size
+    return deviation.relative <= tolerance
