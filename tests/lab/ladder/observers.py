@@ -15,6 +15,7 @@ from typing import Any
 
 from tests.lab.ladder.climbing import Climbed
 
+from deltaq.lab.ladder.findings import FULL
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.writing import write_scene
@@ -164,7 +165,7 @@ UNITS = (
 ORIGINS = (Observer("origins", origins=(0.7, -1.3, 2.9)), Observer("far origins", origins=(-31.0, 57.0)))
 
 
-EXACT, NUDGED = 1e-5, 1e-3  # what the errors of rungs may differ by: integration, and what a nudge really changes
+EXACT = 1e-5  # what errors of rungs may differ by: that of the integration
 NUDGES = tuple(Observer(f"nudge of {size:g}", origins=(), nudge=size) for size in (1e-6, -1e-6))
 
 
@@ -210,6 +211,12 @@ class Verdict:
             if not _alike(self.errors.get(name), other.errors.get(name), apart):
                 found.append(f"{name} errs by {self.errors.get(name)} {other.errors.get(name)}")
         return found
+
+    def misleads(self, nudged: Verdict) -> list[str]:
+        """Rungs said to do here that do not from a start that is really nudged, and another least one."""
+        found = [f"least {self.least} {nudged.least}"] if self.least != nudged.least else []
+        good = {name for name, survives in self.survive.items() if survives and name != FULL}
+        return found + [f"{name} only seems to do" for name in sorted(good) if not nudged.survive.get(name)]
 
 
 def _alike(one: float | None, other: float | None, apart: float) -> bool:
