@@ -36,7 +36,8 @@ function outcome(status, t) {
 /** How far the comparison goes, where that is not all of it. @param {import("./page.js").View} view */
 function until({ bench, t, state }) {
   const { result } = bench;
-  const full = result?.measured.find((/** @type {any} */ each) => each.rung === "full");
+  if (!result) return nothing;
+  const full = result.measured.find((/** @type {any} */ each) => each.rung === "full");
   if (!full || full.until === undefined || full.until >= 0.99 * result.t_end) return nothing;
   return html`<p class="purpose">${t("labs.fidelity.until", { time: significant(full.until, 3, state.place.lang) })}</p>`;
 }
