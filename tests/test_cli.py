@@ -165,7 +165,7 @@ def test_lab_writes_what_it_found(tmp_path: Path) -> None:
     found = json.loads(outputs[0].read_text(encoding="utf-8"))
     *files, taken = ended.stdout.splitlines()
     assert files == [f"→ {output}" for output in outputs]
-    assert found["measured"]["date"][:10] in taken
+    assert found["taken"]["date"][:10] in taken
     assert found["orders"]["heun"]["theory"] == 2
     assert outputs[1].read_text(encoding="utf-8").startswith("chart,curve,x,y,z\nconvergence,Heun")
     assert "<figure>" in outputs[2].read_text(encoding="utf-8")

@@ -233,7 +233,7 @@ async def test_measured_anew_on_demand_and_kept_then(
     assert cache.misses == misses + 2  # the measurement and its charts
     kept = await client.post(address("work-precision"), json=question | {"fresh": False})
     assert kept.json() == anew.json()
-    dates = [datetime.fromisoformat(answer.json()["measured"]["date"]) for answer in (first, anew)]
+    dates = [datetime.fromisoformat(answer.json()["taken"]["date"]) for answer in (first, anew)]
     assert dates[0] <= dates[1] <= datetime.now(UTC)
 
 

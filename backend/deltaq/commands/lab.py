@@ -61,8 +61,8 @@ def run(options: argparse.Namespace) -> None:
     for output in outputs:
         output.write_text(_file(output.suffix, {**result, "charts": charts}, options.lang), encoding="utf-8")
         print(f"→ {output}")
-    if "measured" in result:
-        print(taken(result["measured"], words(text, options.lang)))
+    if "taken" in result:
+        print(taken(result["taken"], words(text, options.lang)))
 
 
 def _with_progress(reports: Iterator[Report]) -> Iterator[Report]:

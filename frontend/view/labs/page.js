@@ -101,7 +101,7 @@ const BUSY = 0.7;
 
 /** When the times were measured and how busy the machine was; and to measure them again. @param {View} view */
 function taken({ bench, benches, t, state }) {
-  const found = /** @type {{date: string, load: number | null, repetitions: number, processors: number} | undefined} */ (bench.result?.measured);
+  const found = /** @type {{date: string, load: number | null, repetitions: number, processors: number} | undefined} */ (bench.result?.taken);
   if (!found) return nothing;
   const { lang } = state.place;
   const date = new Intl.DateTimeFormat(lang, { dateStyle: "medium", timeStyle: "short" }).format(new Date(found.date));

@@ -53,4 +53,4 @@ class ExperimentAnswer(Answer):
     scene: str
     t_end: float
     charts: tuple[Chart, ...]
-    measured: Measured | None = Field(None, description="where the answer has times")
+    taken: Measured | None = Field(None, description="where the answer has times")

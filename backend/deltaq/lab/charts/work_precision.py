@@ -34,8 +34,8 @@ def charts(result: Result, say: Say) -> list[Chart]:
         "methods": joined(reference["methods"], say),
         "error": reference["error"],
         "repeats": result["repeats"],
-        "date": written_date(result["measured"]["date"]),
-        "load": result["measured"]["load"],
+        "date": written_date(result["taken"]["date"]),
+        "load": result["taken"]["load"],
         **machine,
     }
     return [

@@ -31,7 +31,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     trusted, settings = reference(problem), fixed_steps(problem)
     warm(problem, *methods)
     tracks = [Track(method.id, settings, partial(measure, problem, method, trusted, repeats=1)) for method in methods]
-    head = subject.described | {"reference": described(trusted, problem), "measured": measured(1)}
+    head = subject.described | {"reference": described(trusted, problem), "taken": measured(1)}
     for done, total in sweep(tracks, trusted):
         yield Report(done, total, head | _found(tracks, floor_of(trusted)))
 

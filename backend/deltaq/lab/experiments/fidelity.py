@@ -25,7 +25,7 @@ from ..ladder.distance import Yardstick
 from ..ladder.findings import Finding, Growth, Ladder, Least, Measured, Rung
 from ..ladder.measurement import full_ride, yardstick
 from ..measurement import Point, Setting, too_slow, warm
-from ..report import Document, Report, appended, machine, rounded, significant
+from ..report import Document, Report, appended, machine, measured, rounded, significant
 from ..subject import Subject, subject_of
 from ..sweep import settings_of
 
@@ -39,7 +39,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     subject = subject_of(document)
     tolerance = subject.request.number("tolerance", *TOLERANCES_OF_MODEL, closed=True) or TOLERANCE
     subject.finish("tolerance")
-    result = subject.described | {"tolerance": tolerance, "machine": machine(), "repeats": REPEATS}
+    result = subject.described | {"tolerance": tolerance, "machine": machine(), "repeats": REPEATS, "taken": measured(REPEATS)}
     result |= {"rungs": [], "measured": [], "growth": [], "points": [], "least": ""}
     total, done = 1, 0
     for finding in climb(subject.scene, subject.problem.t_end, tolerance=tolerance, repeats=REPEATS):

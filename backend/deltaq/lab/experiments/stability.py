@@ -49,7 +49,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     neighbours, is_rest = _place(problem, at)
     total = len(methods) + (len(FACTORS) * len(STIFFENED) if stiffness else 0)
     head = _spectrum(neighbours.eigenvalues) | {"at": at, "rest": is_rest, "varies": significant(neighbours.varies, 2)}
-    head |= {"measured": measured(1)}
+    head |= {"taken": measured(1)}
     result = subject.described | head | {"methods": [], "stiffness": stiffness, "series": []}
     for done, method in enumerate(methods, 1):
         result = appended(result, "methods", _row(neighbours, method))

@@ -41,7 +41,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     for index, found in enumerate(plane.refined(coarsest=COARSEST)):
         done = sum((1.0 / stride) ** 2 for stride in strides[: index + 1])
         result = subject.described | _told(found) | {"time": significant(perf_counter() - start)}
-        result |= {"measured": circumstances}
+        result |= {"taken": circumstances}
         yield Report(round(1000 * done / total), 1000, result)
 
 

@@ -38,7 +38,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     ]
     tracks += peer_tracks(problem, trusted) if with_peers else []
     head = subject.described | {"reference": described(trusted, problem), "machine": machine(), "repeats": REPEATS}
-    head |= {"measured": measured(REPEATS)}
+    head |= {"taken": measured(REPEATS)}
     for done, total in sweep(tracks, trusted):
         yield Report(done, total, head | found(tracks, floor_of(trusted)))
 
