@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from .audit import USUAL, Audit
-from .estimate import Estimate, estimate, rounding_matters, with_rounding
+from .estimate import Estimate, estimate, larger, rounding_matters, with_rounding
 from .event import Happening
 from .integration import Flag
 from .kernels.motion import CANCELLED, STEP_LIMIT, STIFF
@@ -102,9 +102,21 @@ class Work:
             found = estimate(self.problem, coarse, fine, self.refinement.factor_of_coarse)
             return Attempt(coarse, (coarse, fine), found)
 
-        found, _ = self._seen(self.audit.before(USUAL), compared)
+        found, pieces = self._seen(self.audit.before(USUAL), compared)
+        found = found if pieces.is_whole else self._confirmed(found, step, pieces)
         worst = USUAL if found.estimate is None else found.estimate.worst
         return replace(found, too_long=self.audit.before(worst).needed_by(step))
+
+    def _confirmed(self, found: Attempt, step: float, pieces: Pieces) -> Attempt:
+        """The attempt, its finer run held against a third: where pieces bound its steps, nothing says it is right."""
+        fine = found.runs[-1]
+        ratio = self.refinement.pair(step)[1].ratio
+        third = self._run(Steps(step, pieces=pieces.scaled(1.0 / ratio), ratio=ratio))
+        if found.estimate is None or not third.is_complete:
+            return found
+        of_given = estimate(self.problem, found.chosen, third, self.refinement.factor_of_coarse)
+        of_fine = estimate(self.problem, fine, third, self.refinement.factor_of_coarse)
+        return replace(found, estimate=larger(of_given, of_fine), discarded=(*found.discarded, third))
 
     def pair(self, resolution: float, pieces: Pieces) -> tuple[Attempt, Pieces]:
         """Two runs compared, of which the finer one is returned, and the pieces in which it saw everything."""

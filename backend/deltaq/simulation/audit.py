@@ -24,7 +24,7 @@ from .run import Run
 
 # Swings of an argument that a method follows: four radians, or less where its stages lie far apart.
 LARGEST_SWING, PER_GAP = 4.0, 1.25
-SHARE = 0.1  # of the tolerance; a force that moves the coordinates by less over the whole span does not matter
+SHARE = 0.03  # of the tolerance; a force that moves the coordinates by less over the whole span does not matter
 MOST_LEAVES = 4096  # intervals of time looked at in one go
 LEVELS = 80  # of halving the span; behind them neighbouring numbers are reached
 UNIFORM = 1.001  # swings that differ by less belong to a steady drive, which halving would not resolve any better

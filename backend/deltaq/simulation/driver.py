@@ -49,7 +49,8 @@ def simulate(
 def _refinement(problem: Problem, method: Method, tolerance: float | None) -> Refinement:
     if tolerance is not None and method.is_adaptive:
         return ByTolerance(problem.t_end)
-    return ByStep(problem.t_end, method.order, problem.step_limit)
+    sure = 1 if problem.model.tape.has_choices else method.order
+    return ByStep(problem.t_end, method.order, problem.step_limit, sure)
 
 
 def _grid(problem: Problem, blow: Blow | None) -> Floats:

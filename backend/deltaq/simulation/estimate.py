@@ -69,6 +69,16 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, _doubtful(problem, coarse, fine, times, doubts))
 
 
+def larger(one: Estimate, other: Estimate) -> Estimate:
+    """The larger of two estimates of the same motion at every sample."""
+    count = min(len(one.errors), len(other.errors))
+    errors = one.errors.copy()
+    errors[:count] = np.maximum(errors[:count], other.errors[:count])
+    horizons = [each for each in (one.horizon, other.horizon) if each is not None]
+    worst, stop = max(one.worst, other.worst), max(one.stop, other.stop)
+    return replace(one, errors=errors, worst=worst, stop=stop, horizon=min(horizons, default=None))
+
+
 def rounding_matters(problem: Problem, fine: Run, found: Estimate) -> bool:
     """Whether ε · (condition of M) · (radians of the motion) · |q| comes near the estimate.
 

@@ -81,20 +81,22 @@ class ByStep:
     """Fixed steps. The error is proportional to h^p (Richardson); runs are a little more than a factor of 2 apart.
 
     The factor is irrational, so that the two runs have no step in common: what is in step with one is not with the
-    other. The factors below are those of 2, which is on the safe side.
+    other. The factors below are those of 2, which is on the safe side. Where forces bend or jump along the way, `sure`
+    is 1: a step across such a place is of first order, whatever the method.
     """
 
     t_end: float
     order: int
     step_limit: int
+    sure: int
 
     @property
     def factor_of_coarse(self) -> float:
-        return float(1.8 * 2**self.order / (2**self.order - 1))
+        return float(1.8 * 2**self.sure / (2**self.sure - 1))
 
     @property
     def factor_of_fine(self) -> float:
-        return float(max(0.1, 3.0 / (2**self.order - 1)))
+        return float(max(0.1, 3.0 / (2**self.sure - 1)))
 
     def least_part(self, _before: float, _resolution: float) -> float:
         return 0.0
