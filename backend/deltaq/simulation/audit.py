@@ -28,6 +28,8 @@ SHARE = 0.03  # of the tolerance; a force that moves the coordinates by less ove
 MOST_LEAVES = 4096  # intervals of time looked at in one go
 LEVELS = 80  # of halving the span; behind them neighbouring numbers are reached
 UNIFORM = 1.001  # swings that differ by less belong to a steady drive, which halving would not resolve any better
+STEADY_FROM = 2  # levels, before which all intervals may look alike by chance
+KINK = 1e-3  # of the span: a longer rest of an interval with a kink is of no consequence
 MOST_STRETCHES = 512
 USUAL = 1e-6  # what a run is audited for before its error is known
 NOTICED = 1e-9  # a jump of a guide, relative to its size
@@ -39,6 +41,34 @@ class Blow:
 
     name: str
     time: float
+
+
+@dataclass(frozen=True)
+class Level:
+    """Intervals of time of much the same length, and whether a switch may lie in what each is a half of."""
+
+    starts: Floats
+    ends: Floats
+    had_switch: NDArray[np.bool_]
+
+    @property
+    def sizes(self) -> Floats:
+        return self.ends - self.starts
+
+    @property
+    def is_whole(self) -> NDArray[np.bool_]:
+        """Which have nothing between their ends: neighbouring numbers."""
+        middles = self._middles
+        return (middles <= self.starts) | (middles >= self.ends)
+
+    def halved(self, chosen: NDArray[np.bool_], switches: NDArray[np.bool_]) -> Level:
+        """Both halves of those chosen."""
+        starts, ends, middles = self.starts[chosen], self.ends[chosen], self._middles[chosen]
+        return Level(np.concatenate([starts, middles]), np.concatenate([middles, ends]), np.tile(switches[chosen], 2))
+
+    @property
+    def _middles(self) -> Floats:
+        return self.starts + 0.5 * self.sizes
 
 
 @dataclass(frozen=True)
@@ -129,28 +159,31 @@ class Audit:
         return np.asarray(np.nan_to_num(found, nan=np.finfo(float).max, posinf=np.finfo(float).max))
 
     def _leaves(self, threshold: float) -> list[tuple[float, float, float]]:
-        """Intervals of time with the largest step in each (0: neighbouring numbers with a jump between), in order."""
-        ranges, end = self._ranges, self.problem.t_end
-        start = self.problem.state[None, :]
-        ranges.seeds[:] = self._seeds(
-            np.zeros(1), start[:, : self.problem.degrees], start[:, self.problem.degrees : 2 * self.problem.degrees]
-        )[0]
-        starts, ends, leaves = np.zeros(1), np.array([end]), []
-        for level in range(LEVELS):
-            swings, switches = self._swings(starts, ends, threshold)
-            sizes = ends - starts
-            middles = starts + 0.5 * sizes
-            whole = (middles <= starts) | (middles >= ends)
-            is_steady = level > 2 and not switches.any() and swings.max() < UNIFORM * swings.min() < np.inf
-            seen = (swings <= self.limit) & ~switches | whole
+        """Intervals of time with the largest step in each (0: neighbouring numbers with a jump between), in order.
+
+        Level by level the intervals that are not seen through are halved. What is left of one with a kink is one of its
+        own, so that steps end there.
+        """
+        n, state = self.problem.degrees, self.problem.state[None, :]
+        self._ranges.seeds[:] = self._seeds(np.zeros(1), state[:, :n], state[:, n : 2 * n])[0]
+        leaves: list[tuple[float, float, float]] = []
+        level = Level(np.zeros(1), np.array([self.problem.t_end]), np.zeros(1, dtype=np.bool_))
+        for depth in range(LEVELS):
+            swings, switches = self._swings(level.starts, level.ends, threshold)
+            is_steady = depth > STEADY_FROM and not switches.any() and swings.max() < UNIFORM * swings.min() < np.inf
+            seen = (swings <= self.limit) & ~switches | level.is_whole
             seen |= is_steady or 2 * np.count_nonzero(~seen) > MOST_LEAVES
             with np.errstate(divide="ignore"):
-                steps = np.where(whole & switches, 0.0, sizes * self.limit / swings)
-            leaves += list(zip(starts[seen].tolist(), ends[seen].tolist(), steps[seen].tolist(), strict=True))
+                steps = np.where(level.is_whole & switches, 0.0, level.sizes * self.limit / swings)
+            kinks = level.had_switch & ~switches & (level.sizes < KINK * self.problem.t_end)
+            kinks[kinks] = self._swings(level.starts[kinks], level.ends[kinks], 0.0)[1]
+            steps = np.where(kinks, np.minimum(steps, level.sizes), steps)
+            leaves += list(
+                zip(level.starts[seen].tolist(), level.ends[seen].tolist(), steps[seen].tolist(), strict=True)
+            )
             if seen.all():
                 break
-            lefts, rights, halves = starts[~seen], ends[~seen], middles[~seen]
-            starts, ends = np.concatenate([lefts, halves]), np.concatenate([halves, rights])
+            level = level.halved(~seen, switches)
         return sorted(leaves)
 
     def _swings(self, starts: Floats, ends: Floats, threshold: float) -> tuple[Floats, NDArray[np.bool_]]:
