@@ -1,0 +1,68 @@
+"""The energies of an answer as a caller reads them: what is fed in comes out again, with its sign."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.simulation.scenes import OWN
+
+from deltaq.mechanics.library import scene_ids
+from deltaq.mechanics.writing import write_scene
+from deltaq.simulation.service import run
+
+
+def pushed(force: str, **parameters: float) -> dict[str, object]:
+    """A mass of 2 kg on a line that begins at 0.5 m with 1 m/s."""
+    values = {"m": 2.0, **parameters}
+    return {
+        "format": 1,
+        "id": "pushed",
+        "dimension": 2,
+        "coordinates": [{"name": "x", "value": 0.5, "rate": 1.0}],
+        "parameters": [{"name": name, "value": value, "positive": False} for name, value in values.items()],
+        "bodies": [{"name": "mass", "kind": "particle", "mass": "m", "position": ["x", "0"]}],
+        "loads": [{"kind": "force", "at": "mass", "force": [force, "0"]}],
+    }
+
+
+def energies(scene: object, t_end: float = 4.0) -> dict[str, np.ndarray]:
+    answer = run({"scene": scene, "t_end": t_end, "tolerance": 1e-10, "samples": 41})
+    assert answer["status"] == "ok"
+    told = answer["energy"]
+    assert isinstance(told, dict)
+    found = {name: np.array(told[name]) for name in ("kinetic", "potential", "power", "work", "balance")}
+    return {**found, "x": np.array(answer["coordinates"]["x"]), "t": np.array(answer["t"]), "drift": told["drift"]}
+
+
+def test_drag_takes_energy_away() -> None:
+    """m v̇ = −c v: v = e^(−ct/m), so the work done on the mass is m (e^(−2ct/m) − 1)/2 and the power −c v²."""
+    found = energies(pushed("-c*dot(x)", c=0.6))
+    decay = np.exp(-2.0 * 0.6 * found["t"] / 2.0)
+    np.testing.assert_allclose(found["work"], decay - 1.0, atol=1e-8)
+    np.testing.assert_allclose(found["power"], -0.6 * decay, atol=1e-8)
+    np.testing.assert_allclose(found["balance"], 1.0, atol=1e-8)
+
+
+def test_a_drive_feeds_energy_in() -> None:
+    """m v̇ = F t: the kinetic energy is m v²/2 with v = 1 + F t²/(2m), all of its gain is work."""
+    found = energies(pushed("F*t", F=3.0))
+    gain = (1.0 + 0.75 * found["t"] ** 2) ** 2 - 1.0
+    np.testing.assert_allclose(found["work"] + found["potential"][0] - found["potential"], gain, rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(found["balance"], found["balance"][0], rtol=1e-9)
+    assert found["drift"] < 1e-7 * gain.max()
+
+
+@pytest.mark.parametrize("name", [*scene_ids(), *OWN])
+def test_the_balance_of_every_scene_stays(name: str) -> None:
+    """E + V − ∫P dt as it stands in the answer, however much is fed in or taken out."""
+    scene = write_scene(OWN[name]()) if name in OWN else name
+    answer = run({"scene": scene, "t_end": 3.0, "tolerance": 1e-9, "samples": 3001, "include": ["energy"]})
+    energy = answer["energy"]
+    assert isinstance(energy, dict)
+    balance = np.array(energy["balance"])
+    scale = np.abs(energy["kinetic"]).max() + np.ptp(energy["potential"]) + np.abs(energy["work"]).max()
+    np.testing.assert_allclose(balance, balance[0], atol=1e-6 * scale)
+    assert float(energy["drift"]) <= 1e-6 * scale
+    fed = np.array(energy["kinetic"]) + np.array(energy["potential"]) - balance
+    power, rate = np.array(energy["power"])[1:-1], np.gradient(fed, answer["t"])[1:-1]
+    np.testing.assert_allclose(rate, power, atol=0.02 * np.abs(power).max() + 1e-3 * scale)
