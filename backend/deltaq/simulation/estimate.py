@@ -98,7 +98,7 @@ def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> E
     """The estimate, not below what rounding does: that is what the disturbance of the model did, scaled down."""
     count = min(len(found.errors), len(other.times), len(fine.times))
     moved = np.abs(other.states[:count, : problem.degrees] - fine.states[:count, : problem.degrees]).T
-    floor = 4.0 * EPSILON / DISTURBANCE * _spread(moved)
+    floor = 6.0 * EPSILON / DISTURBANCE * _spread(moved)
     errors = found.errors.copy()
     errors[:count] = np.maximum(errors[:count], floor.max(axis=0))
     ones = np.maximum(1.0, np.abs(fine.states[:count, : problem.degrees].T))
