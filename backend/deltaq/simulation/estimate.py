@@ -22,9 +22,10 @@ from .stiffness import NUDGE
 
 # Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
 NEAR, FAR, SHARE = 160, 20, 0.25
-TURNING = 8.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
+TURNING = 20.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
 ROUNDING, EPSILON = 4e-16, 2.0**-52
 STOPS = 1.5  # times the difference of two stops
+CLOSE, ROOM = 1e-13, 1.4  # below, a difference is one of rounding errors; what comes to it
 MATTERS = 0.02  # of the estimate: rounding that could be more is looked at
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 
@@ -53,7 +54,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     difference = np.abs(others - states)
     together = np.hypot(difference[:n], _time_scales(problem, times, states) * difference[n : 2 * n])
     together = np.minimum(together, TURNING * _largest_within(difference[:n], max(2, len(times) // FAR)))
-    spread = factor * _spread(np.vstack([together, difference[n : 2 * n]]))
+    spread = _near_rounding(factor * _spread(np.vstack([together, difference[n : 2 * n]])))
     grain, sizes = _grain(problem, times, fine), np.abs(states[:n])
     ones = np.maximum(1.0, sizes)
     errors = np.maximum(spread[:n], grain * ones)
@@ -120,6 +121,11 @@ def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats,
     rates[n : 2 * n] = accelerations(problem, at, fine.event.state[None, :])[0]
     moved = coarse.event.state + late * rates
     return np.append(times, at), np.column_stack([states, fine.event.state]), np.column_stack([others, moved])
+
+
+def _near_rounding(errors: Floats) -> Floats:
+    """Errors with room where they are about rounding: there the difference of two runs is one draw at random."""
+    return errors + ROOM * np.minimum(errors, CLOSE)
 
 
 def _of_stop(problem: Problem, coarse: Run, fine: Run, factor: float) -> float:
