@@ -123,7 +123,7 @@ async def test_same_question_at_the_same_time_is_computed_once(client: httpx.Asy
     ("question", "status", "pointer", "code"),
     [
         pytest.param({"scene": "nothing"}, 404, "/scene", "unknown-scene", id="unknown scene"),
-        pytest.param({"scene": "x" * 5000}, 404, "/scene", "unknown-scene", id="endless name"),
+        pytest.param({"scene": "x" * 5000}, 422, "/scene", "request-text-too-long", id="endless name"),
         pytest.param({"scene": "../settings"}, 404, "/scene", "unknown-scene", id="path for a name"),
         pytest.param(
             {"scene": "pendulum", "formulation": "newton"}, 422, "/formulation", "request-not-one-of", id="formulation"

@@ -39,7 +39,7 @@ def test_events_are_written_where_there_are_any() -> None:
     assert write_scene(scene)["events"] == [event]
     assert read_scene(write_scene(scene)) == scene
     assert scene.events[0].called("en").plain == "slack"
-    assert scene.events[0].called("de") == "slack"
+    assert scene.events[0].called("de").plain == "slack"
     assert "events" not in write_scene(read_scene(PENDULUM))
 
 

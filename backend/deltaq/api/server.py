@@ -23,6 +23,6 @@ class Server(uvicorn.Server):
 
     async def shutdown(self, sockets: list[Any] | None = None) -> None:
         """Requests under way get some time, and those that need more get a problem document."""
-        ending: Ending = self.config.loaded_app.app.state.service.ending
+        ending: Ending = self.config.loaded_app.state.service.ending
         asyncio.get_running_loop().call_later(PART * (self.config.timeout_graceful_shutdown or 0), ending.begin)
         await super().shutdown(sockets)

@@ -108,20 +108,10 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
 
 def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, *, is_long: bool) -> Run:
     plan = steps.plan(replace(problem, t_end=float(times[-1])), method)
-    control = Control(
-        float(steps.tolerance),
-        float(steps.size),
-        float(method.error_order or method.order),
-        float(method.memory),
-        int(problem.step_limit),
-        int(method.tableau.stages),
-        real_stability(method.tableau),
-        plan,
-    )
     setting = Setting(
         problem,
         motion_of(problem, is_long=is_long),
-        control,
+        _control(problem, method, steps, plan),
         watch_of(problem, cancelled),
         times,
         np.zeros((times.size, problem.state.size)),
@@ -131,22 +121,32 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
     wall_time = perf_counter() - start
     out, conditioning = setting.out, float(setting.motion.conditioning[0])
     good = int(np.isfinite(out[: result.samples]).all(axis=1).cumprod().sum())
-    held = _stop(setting) if result.outcome == HELD else None
-    count, stride = int(plan.progress[COUNT]), int(plan.progress[STRIDE])
-    mesh = (plan.times[:count], plan.states[:count]) if steps.is_recorded else (np.empty(0), np.empty((0, 0)))
     found = Run(
         times[:good],
         out[:good],
         result,
         conditioning,
         wall_time,
-        mesh_times=mesh[0],
-        held=held,
-        mesh_states=mesh[1],
-        stride=stride,
+        held=_stop(setting) if result.outcome == HELD else None,
+        mesh_times=plan.times[: plan.progress[COUNT]],
+        mesh_states=plan.states[: plan.progress[COUNT]],
+        stride=int(plan.progress[STRIDE]),
         steps=steps,
     )
     return found if setting.watch.functions == 0 else _ended(found, setting)
+
+
+def _control(problem: Problem, method: Method, steps: Steps, plan: Plan) -> Control:
+    return Control(
+        float(steps.tolerance),
+        float(steps.size),
+        float(method.error_order or method.order),
+        float(method.memory),
+        int(problem.step_limit),
+        int(method.tableau.stages),
+        real_stability(method.tableau),
+        plan,
+    )
 
 
 def _stop(setting: Setting) -> Stop:
