@@ -4,7 +4,7 @@ import { OWN } from "./own.js";
 import { samplesFor } from "./sampling.js";
 
 /** Samples per second to begin with, the step where one is asked for, and the parts of the answer that are shown. */
-const RATE = 25;
+const RATE = 24;
 const STEP = 0.01;
 /** The server sends no more. */
 const MOST = 20001;
