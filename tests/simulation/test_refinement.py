@@ -70,6 +70,6 @@ def test_rounding_that_chaos_magnifies_is_told() -> None:
 
 
 def test_only_next_to_the_finest_tolerance_is_the_difference_mistrusted() -> None:
-    how = ByTolerance(10.0)
+    how = ByTolerance(10.0, 8)
     assert how.least_part(1e-10, 1e-12) == 0.0
     assert how.least_part(1e-10, FINEST_TOLERANCE) == pytest.approx(1e-4)

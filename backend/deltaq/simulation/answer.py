@@ -39,7 +39,7 @@ def answer(
         "event": _event(request, trajectory),
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
-        "t": column(significant(trajectory.times, 15)),
+        "t": column(trajectory.times),
         **parts,
         "t_reached": trajectory.reached,
         "trusted_until": trajectory.trusted_until,

@@ -16,7 +16,7 @@ from .kernels.motion import CANCELLED, STEP_LIMIT, STIFF
 from .method import Method
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
-from .refinement import Refinement
+from .refinement import FINER, Refinement
 from .run import Run, Steps, run
 from .side_by_side import side_by_side
 
@@ -30,7 +30,7 @@ class Attempt:
     """Runs at one resolution: the one to return, and what comparing it with the other says.
 
     `blind` is where the finer run stayed blind, `too_long` where a step that was given is; `discarded` are the runs
-    that were made again because they had been blind.
+    that were made again because they had been blind. `is_shared`: the coarser run is that of the attempt before.
     """
 
     chosen: Run
@@ -39,6 +39,12 @@ class Attempt:
     blind: tuple[Stretch, ...] = ()
     too_long: Stretch | None = None
     discarded: tuple[Run, ...] = ()
+    is_shared: bool = False
+
+    @property
+    def own(self) -> tuple[Run, ...]:
+        """All runs made for it."""
+        return (*self.runs[1 if self.is_shared else 0 :], *self.discarded)
 
     @property
     def is_complete(self) -> bool:
@@ -80,13 +86,14 @@ class Work:
 
     def coarse(self, step: float) -> Attempt:
         """One run, without an estimate of its error."""
-        only = self._run(self.refinement.pair(step)[0])
+        only = self._run(Steps(step))
         return Attempt(only, (only,), None)
 
     def fine(self) -> Attempt:
         """One run that should meet the tolerance, without an estimate of its error."""
-        _, fine = self.refinement.pair(self.refinement.first(self.tolerance))
-        only = self._run(replace(fine, pieces=self.audit.before(self.tolerance)))
+        pieces = self.audit.before(self.tolerance)
+        _, fine = self.refinement.pair(self.refinement.first(self.tolerance), pieces)
+        only = self._run(replace(fine, pieces=pieces))
         return Attempt(only, (only,), None)
 
     @cached_property
@@ -98,9 +105,9 @@ class Work:
         whole = Pieces.whole(self.problem.t_end)
 
         def compared(pieces: Pieces) -> Attempt:
-            coarse, fine = self._compared(step, whole, pieces)
-            found = estimate(self.problem, coarse, fine, self.refinement.factor_of_coarse)
-            return Attempt(coarse, (coarse, fine), found)
+            fine = Steps(step, pieces=pieces, ratio=FINER, is_recorded=True)
+            runs = self._both(Steps(step, pieces=whole), fine)
+            return Attempt(runs[0], runs, estimate(self.problem, *runs, self.refinement.factor_of_coarse))
 
         found, pieces = self._seen(self.audit.before(USUAL), compared)
         found = found if pieces.is_whole else self._confirmed(found, step, pieces)
@@ -110,23 +117,35 @@ class Work:
     def _confirmed(self, found: Attempt, step: float, pieces: Pieces) -> Attempt:
         """The attempt, its finer run held against a third: where pieces bound its steps, nothing says it is right."""
         fine = found.runs[-1]
-        ratio = self.refinement.pair(step)[1].ratio
-        third = self._run(Steps(step, pieces=pieces.scaled(1.0 / ratio), ratio=ratio))
+        third = self._run(Steps(step, pieces=pieces.scaled(1.0 / FINER), ratio=FINER))
         if found.estimate is None or not third.is_complete:
             return found
         of_given = estimate(self.problem, found.chosen, third, self.refinement.factor_of_coarse)
         of_fine = estimate(self.problem, fine, third, self.refinement.factor_of_coarse)
         return replace(found, estimate=larger(of_given, of_fine), discarded=(*found.discarded, third))
 
-    def pair(self, resolution: float, pieces: Pieces) -> tuple[Attempt, Pieces]:
-        """Two runs compared, of which the finer one is returned, and the pieces in which it saw everything."""
+    def pair(self, resolution: float, pieces: Pieces, before: Attempt | None = None) -> tuple[Attempt, Pieces]:
+        """Two runs compared, of which the finer one is returned, and the pieces in which it saw everything.
+
+        The coarser one is the best of the attempt before where that will do.
+        """
+        coarse, fine = self.refinement.pair(resolution, pieces)
+        known = None if before is None else self._comparable(before, fine)
 
         def compared(pieces: Pieces) -> Attempt:
-            coarse, fine = self._compared(resolution, pieces, pieces)
-            found = estimate(self.problem, coarse, fine, self.refinement.factor_of_fine)
-            return Attempt(fine, (coarse, fine), found)
+            of_fine = replace(fine, pieces=pieces, is_recorded=True)
+            of_coarse = replace(coarse, pieces=pieces)
+            runs = self._both(of_coarse, of_fine) if known is None else (known, self._run(of_fine))
+            factor = self.refinement.factor_of_fine(coarse if known is None else known.steps or coarse, fine)
+            return Attempt(runs[-1], runs, estimate(self.problem, *runs, factor), is_shared=known is not None)
 
         return self._seen(pieces, compared)
+
+    def _comparable(self, before: Attempt, fine: Steps) -> Run | None:
+        """The finer run of an attempt if it can stand for the coarser one of the next."""
+        found = before.estimate
+        is_good = before.is_complete and found is not None and found.horizon is None
+        return before.chosen if is_good and self.refinement.can_compare(before.chosen, fine) else None
 
     def _seen(self, pieces: Pieces, compared: Callable[[Pieces], Attempt]) -> tuple[Attempt, Pieces]:
         """An attempt whose finer run was nowhere blind: made again with shorter steps wherever it was."""
@@ -137,7 +156,7 @@ class Work:
             blind = self.audit.after(found.runs[-1], tolerance)
             if last or not blind or not self.is_affordable(blind):
                 break
-            discarded += found.runs
+            discarded += found.own
             pieces = pieces.with_bounds([(each.start, each.end, each.step) for each in blind])
         return replace(found, blind=blind, discarded=discarded), pieces
 
@@ -154,10 +173,6 @@ class Work:
     def is_affordable(self, blind: tuple[Stretch, ...]) -> bool:
         """Whether the steps that would see fit into the limit."""
         return sum((each.end - each.start) / each.step for each in blind) < self.problem.step_limit
-
-    def _compared(self, resolution: float, of_coarse: Pieces, of_fine: Pieces) -> tuple[Run, Run]:
-        coarse, fine = self.refinement.pair(resolution)
-        return self._both(replace(coarse, pieces=of_coarse), replace(fine, pieces=of_fine, is_recorded=True))
 
     def _both(self, coarse: Steps, fine: Steps) -> tuple[Run, Run]:
         """Two runs; side by side if they may take a while, for kernels hold no lock."""
@@ -177,7 +192,7 @@ class Work:
                 break
             before, resolution = resolution, self.refinement.next(resolution, _excess(attempts[-1], self.tolerance))
             part = self.refinement.least_part(before, resolution)
-            found, pieces = self.pair(resolution, self.refinement.finer(pieces, before, resolution))
+            found, pieces = self.pair(resolution, self.refinement.finer(pieces, before, resolution), attempts[-1])
             attempts.append(self._at_least(part, attempts[-1], found))
         return attempts
 
@@ -189,7 +204,9 @@ class Work:
         if not 1.0 < short < np.inf:
             return found
         coarse, fine = found.runs
-        factor = short * self.refinement.factor_of_fine
+        if coarse.steps is None or fine.steps is None:
+            return found
+        factor = short * self.refinement.factor_of_fine(coarse.steps, fine.steps)
         return replace(found, estimate=estimate(self.problem, coarse, fine, factor))
 
 

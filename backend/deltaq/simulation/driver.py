@@ -16,6 +16,7 @@ from .integration import Flag
 from .method import Method
 from .problem import Floats, Problem
 from .refinement import ByStep, ByTolerance, Refinement
+from .rounding import significant
 from .run import Stop
 from .trajectory import Cost, Trajectory
 
@@ -48,14 +49,18 @@ def simulate(
 
 def _refinement(problem: Problem, method: Method, tolerance: float | None) -> Refinement:
     if tolerance is not None and method.is_adaptive:
-        return ByTolerance(problem.t_end)
+        return ByTolerance(problem.t_end, method.error_order or method.order)
     sure = 1 if problem.model.tape.has_choices else method.order
     return ByStep(problem.t_end, method.order, problem.step_limit, sure)
 
 
 def _grid(problem: Problem, blow: Blow | None) -> Floats:
-    """The sample times, and as many between them as it takes to see the error; up to a blow that ends the motion."""
-    times = np.linspace(0.0, problem.t_end, _refined(problem) * (problem.samples - 1) + 1)
+    """The sample times, and as many between them as it takes to see the error; up to a blow that ends the motion.
+
+    They are numbers of 15 digits, so that what is computed at them and what an answer writes down are the same times.
+    """
+    times = significant(np.linspace(0.0, problem.t_end, _refined(problem) * (problem.samples - 1) + 1), 15)
+    times[-1] = problem.t_end
     return times if blow is None or blow.time >= problem.t_end else np.append(times[times < blow.time], blow.time)
 
 
@@ -145,7 +150,7 @@ def _merit(attempt: Attempt) -> tuple[float, bool, float]:
 
 
 def _cost(attempts: list[Attempt], best: Attempt) -> Cost:
-    runs, chosen = [run for attempt in attempts for run in (*attempt.runs, *attempt.discarded)], best.chosen
+    runs, chosen = [run for attempt in attempts for run in attempt.own], best.chosen
     return Cost(
         int(chosen.result.steps),
         int(chosen.result.rejected),

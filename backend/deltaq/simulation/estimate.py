@@ -21,12 +21,14 @@ from .slopes import accelerations
 from .stiffness import NUDGE
 
 # Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
-NEAR, FAR, SHARE = 160, 20, 0.25
-TURNING = 20.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
+NEAR, FAR, SHARE = 160, 10, 0.5
+ANYWHERE = 0.1  # what counts of the largest before and behind, wherever it is
+TURNING = 4.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
 ROUNDING, EPSILON = 4e-16, 2.0**-52
 STOPS = 1.5  # times the difference of two stops
-CLOSE, ROOM = 1e-13, 1.4  # below, a difference is one of rounding errors; what comes to it
+CLOSE, ROOM = 2e-13, 1.4  # below, a difference is one of rounding errors; what comes to it
 MATTERS = 0.02  # of the estimate: rounding that could be more is looked at
+LINEAR = 0.1  # of the size of a coordinate: differences up to that are proportional to errors
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 
 
@@ -54,7 +56,8 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     difference = np.abs(others - states)
     together = np.hypot(difference[:n], _time_scales(problem, times, states) * difference[n : 2 * n])
     together = np.minimum(together, TURNING * _largest_within(difference[:n], max(2, len(times) // FAR)))
-    spread = _near_rounding(factor * _spread(np.vstack([together, difference[n : 2 * n]])))
+    factors = _factors(problem, factor, difference[:n], np.abs(states[:n]))
+    spread = _near_rounding(_spread(factors * np.vstack([together, difference[n : 2 * n]])))
     grain, sizes = _grain(problem, times, fine), np.abs(states[:n])
     ones = np.maximum(1.0, sizes)
     errors = np.maximum(spread[:n], grain * ones)
@@ -121,6 +124,12 @@ def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats,
     rates[n : 2 * n] = accelerations(problem, at, fine.event.state[None, :])[0]
     moved = coarse.event.state + late * rates
     return np.append(times, at), np.column_stack([states, fine.event.state]), np.column_stack([others, moved])
+
+
+def _factors(problem: Problem, factor: float, difference: Floats, sizes: Floats) -> Floats:
+    """The factor at each sample; 1 at least from where the coarser run is so far off that it tells nothing more."""
+    is_off = (difference > LINEAR * _sizes(problem, sizes)).any(axis=0)
+    return np.asarray(np.where(np.logical_or.accumulate(is_off), max(factor, 1.0), factor))
 
 
 def _near_rounding(errors: Floats) -> Floats:
@@ -205,17 +214,38 @@ def _spread(errors: Floats) -> Floats:
 
     The first keeps its own, which is exact.
     """
-    near, far = (_largest_within(errors, max(2, errors.shape[1] // part)) for part in (NEAR, FAR))
-    spread = np.maximum(near, SHARE * far)
+    near = _largest_within(errors, max(2, errors.shape[1] // NEAR))
+    before, behind = _largest_beside(errors, max(2, errors.shape[1] // FAR))
+    ever, later = np.maximum.accumulate(errors, axis=1), np.maximum.accumulate(errors[:, ::-1], axis=1)[:, ::-1]
+    spread = np.maximum(near, SHARE * np.minimum(before, behind))
+    spread = np.maximum(spread, ANYWHERE * np.minimum(ever, later))
     spread[:, 0] = errors[:, 0]
     return spread
 
 
-def _largest_within(errors: Floats, reach: int) -> Floats:
-    """The largest value up to `reach` samples away, by windows that double."""
-    count, size, width = errors.shape[1], 1, 2 * reach + 1
+def _largest_beside(errors: Floats, reach: int) -> tuple[Floats, Floats]:
+    """The largest value up to `reach` samples before each, and behind; next to an end, where few are left, of both."""
+    count = errors.shape[1]
     window = np.zeros((len(errors), count + 2 * reach))
     window[:, reach:-reach] = errors
+    sides = _windowed(window, reach + 1)
+    before, behind = sides[:, :count].copy(), sides[:, reach : reach + count].copy()
+    half = reach // 2
+    before[:, :half] = np.maximum(before[:, :half], behind[:, :half])
+    behind[:, -half:] = np.maximum(before[:, -half:], behind[:, -half:])
+    return before, behind
+
+
+def _largest_within(errors: Floats, reach: int) -> Floats:
+    """The largest value up to `reach` samples away, by windows that double."""
+    window = np.zeros((len(errors), errors.shape[1] + 2 * reach))
+    window[:, reach:-reach] = errors
+    return _windowed(window, 2 * reach + 1)
+
+
+def _windowed(window: Floats, width: int) -> Floats:
+    """The largest of each `width` values that follow one another."""
+    size = 1
     while 2 * size <= width:
         window = np.maximum(window[:, :-size], window[:, size:])
         size *= 2
@@ -225,8 +255,13 @@ def _largest_within(errors: Floats, reach: int) -> Floats:
 
 def _horizon(problem: Problem, times: Floats, errors: Floats, sizes: Floats) -> float | None:
     """The first time at which the error of a coordinate is as large as the coordinate, or a sizeable angle."""
-    largest = sizes.max(axis=1)
-    angular = np.array(problem.angular or (False,) * problem.degrees)
-    scale = np.where(angular, np.minimum(largest, 1.0), largest)[:, None]
+    scale = _sizes(problem, sizes)
     lost = ((errors >= LOST * scale) & (scale > 0)).any(axis=0)
     return float(times[np.argmax(lost)]) if lost.any() else None
+
+
+def _sizes(problem: Problem, sizes: Floats) -> Floats:
+    """How large each coordinate becomes; of an angle no more than a radian counts."""
+    largest = sizes.max(axis=1)
+    angular = np.array(problem.angular or (False,) * problem.degrees)
+    return np.asarray(np.where(angular, np.minimum(largest, 1.0), largest)[:, None])

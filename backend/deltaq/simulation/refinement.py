@@ -8,12 +8,21 @@ from typing import Protocol
 import numpy as np
 
 from .pieces import Pieces
-from .run import Steps
+from .run import Run, Steps
 
 FINEST_TOLERANCE = 1e-14  # of the coarser run of a pair; below, rounding rules
+COARSEST_TOLERANCE = 3e-4  # of the coarser run; with more, its error says little of that of the finer one
 FIRST_STEPS, USUAL_TOLERANCE = 200, 1e-3  # in the first try with a fixed step
 UNFINISHED = 0.25  # the step over that of a run that did not come to the end
-RATIO = 1.5 + 1.0 / 3.0**0.5  # of the steps of a pair
+RATIO: float = 2.5 + 0.5**0.5  # of the steps of a pair
+FINER: float = 1.5 + 1.0 / 3.0**0.5  # the ratio where the coarser steps are given, and the finer run tells their error
+NEAREST: float = 4.0 / 3.0**0.5 - 0.25
+FARTHEST = 6.0  # what the ratio may be where a run is compared with one before
+SHRINK = 2.25  # of adaptive steps from the coarser run of a pair to the finer
+OFTEN = 3.0  # times as many steps as the longest would be: then they are rarely the longest
+CLOSEST, FARTHEST_TOLERANCE = 10.0, 200.0  # between these the tolerances of a pair are apart
+MARGIN = 13.5  # how far errors may fall short of shrinking as the theory says
+GRAIN = 1e-13  # below, rounding has its part in what a tolerance does
 LARGEST_STEP = 0.01  # of the span, so that a motion that begins at rest does not jump over what comes later
 
 
@@ -25,8 +34,11 @@ class Refinement(Protocol):
 
     @property
     def factor_of_coarse(self) -> float: ...
-    @property
-    def factor_of_fine(self) -> float: ...
+    def factor_of_fine(self, coarse: Steps, fine: Steps) -> float: ...
+    def can_compare(self, coarse: Run, fine: Steps) -> bool:
+        """Whether a run and a finer one are far enough apart, but not too far, for an estimate."""
+        ...
+
     def least_part(self, before: float, resolution: float) -> float:
         """How much of the error with the resolution before is left with this one at least; 0 if the runs tell."""
         ...
@@ -36,24 +48,42 @@ class Refinement(Protocol):
         ...
 
     def first(self, tolerance: float) -> float: ...
-    def pair(self, resolution: float) -> tuple[Steps, Steps]: ...
+    def pair(self, resolution: float, pieces: Pieces, /) -> tuple[Steps, Steps]: ...
     def next(self, resolution: float, excess: float) -> float: ...
     def is_finest(self, resolution: float) -> bool: ...
 
 
 @dataclass(frozen=True)
 class ByTolerance:
-    """Adaptive methods. The error is about proportional to the local tolerance; runs are a factor of 10 apart.
+    """Adaptive methods. The error is about proportional to the local tolerance, and that to h^k, k = `error_order`.
 
-    The difference is the error of the coarse run; taken for the error of the fine one it is on the safe side. Next to
-    the finest tolerance it is not: there rounding has its part, as large in both runs and in some ways the same (that
-    of a constant of the model, say), and chaos magnifies it. An error that falls faster there than the tolerance does
-    so by chance.
+    The tolerances of two runs are as far apart as it takes for steps that differ by about SHRINK; their difference is
+    the error of the coarser one. Next to the finest tolerance it is not: there rounding has its part, as large in both
+    runs and in some ways the same (that of a constant of the model, say), and chaos magnifies it. An error that falls
+    faster there than the tolerance does so by chance. Tolerances stay close, too, where fast forces bound the steps.
     """
 
     t_end: float
-    factor_of_coarse: float = 1.15
-    factor_of_fine: float = 1.15
+    error_order: int
+    factor_of_coarse: float = 1.35
+
+    def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
+        return min(MARGIN * fine.tolerance / coarse.tolerance, self.factor_of_coarse)
+
+    def _apart(self, fine: float) -> float:
+        """How many times the tolerance of the finer run the coarser one gets."""
+        if fine < GRAIN:
+            return CLOSEST
+        return float(max(min(SHRINK**self.error_order, FARTHEST_TOLERANCE, COARSEST_TOLERANCE / fine), CLOSEST))
+
+    def can_compare(self, coarse: Run, fine: Steps) -> bool:
+        """Not where steps are often as long as they may be, for then they are as long in the finer run."""
+        steps = coarse.steps
+        if steps is None or not (steps.pieces is None or steps.pieces.is_whole):
+            return False
+        is_free = coarse.result.steps * steps.size > OFTEN * self.t_end
+        apart = self._apart(fine.tolerance)
+        return is_free and 0.3 * apart <= steps.tolerance / fine.tolerance <= 10.0 * apart
 
     def least_part(self, before: float, resolution: float) -> float:
         return resolution / before if resolution < 10.0 * FINEST_TOLERANCE else 0.0
@@ -64,10 +94,11 @@ class ByTolerance:
     def first(self, tolerance: float) -> float:
         return max(0.1 * tolerance, FINEST_TOLERANCE)
 
-    def pair(self, resolution: float) -> tuple[Steps, Steps]:
+    def pair(self, resolution: float, pieces: Pieces) -> tuple[Steps, Steps]:
         # Where the largest step rules, the tolerance does not tell the two runs apart; so it must differ, too.
-        largest = LARGEST_STEP * self.t_end
-        return Steps(largest, resolution), Steps(0.7 * largest, 0.1 * resolution)
+        largest, fine = LARGEST_STEP * self.t_end, 0.1 * resolution
+        apart = self._apart(fine) if pieces.is_whole else CLOSEST
+        return Steps(largest, apart * fine), Steps(float(largest / apart ** (1.0 / self.error_order)), fine)
 
     def next(self, resolution: float, excess: float) -> float:
         return max(resolution * min(max(0.3 / excess, 1e-4), 0.3), FINEST_TOLERANCE)
@@ -92,11 +123,13 @@ class ByStep:
 
     @property
     def factor_of_coarse(self) -> float:
-        return float(1.8 * 2**self.sure / (2**self.sure - 1))
+        return float(1.8 * FINER**self.sure / (FINER**self.sure - 1))
 
-    @property
-    def factor_of_fine(self) -> float:
-        return float(max(0.1, 3.0 / (2**self.sure - 1)))
+    def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
+        return float(max(0.03, 3.5 / (_ratio(coarse, fine) ** self.sure - 1)))
+
+    def can_compare(self, coarse: Run, fine: Steps) -> bool:
+        return coarse.steps is not None and NEAREST <= _ratio(coarse.steps, fine) <= FARTHEST
 
     def least_part(self, _before: float, _resolution: float) -> float:
         return 0.0
@@ -108,12 +141,12 @@ class ByStep:
         guess = float((tolerance / USUAL_TOLERANCE) ** (1.0 / self.order))
         return self.t_end / FIRST_STEPS * min(max(guess, 0.1), 1.0)
 
-    def pair(self, resolution: float) -> tuple[Steps, Steps]:
+    def pair(self, resolution: float, _pieces: Pieces) -> tuple[Steps, Steps]:
         return Steps(resolution), Steps(resolution, ratio=RATIO)
 
     def next(self, resolution: float, excess: float) -> float:
         shrink = float((0.5 / excess) ** (1.0 / self.order)) if excess < np.inf else UNFINISHED
-        return max(resolution * min(max(shrink, 0.02), 0.5), self._finest)
+        return max(resolution * min(max(shrink, 0.02), 1.0 / NEAREST), self._finest)
 
     def is_finest(self, resolution: float) -> bool:
         return resolution <= self._finest
@@ -122,3 +155,8 @@ class ByStep:
     def _finest(self) -> float:
         """The finer run of the pair must end within the step limit."""
         return 1.005 * RATIO * self.t_end / self.step_limit
+
+
+def _ratio(coarse: Steps, fine: Steps) -> float:
+    """Of fixed steps."""
+    return coarse.size / coarse.ratio * fine.ratio / fine.size

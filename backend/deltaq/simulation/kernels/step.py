@@ -71,12 +71,15 @@ def stages(motion: Motion, a: Floats, c: Floats, first: int, t: float, h: float,
 
 @inner
 def advance(b: Floats, h: float, room: Room) -> int:
-    """The new state from the slopes, with compensation; returns how it went."""
+    """The new state from the slopes, with compensation; returns how it went.
+
+    Σ bⱼ = 1, so what is summed is how the slopes differ from the first: large weights then round nothing large.
+    """
     for d in range(room.old.size):
-        change = 0.0
-        for j in range(b.size):
-            change += b[j] * room.slopes[j, d]
-        change = h * change + room.lost[d]
+        first, change = room.slopes[0, d], 0.0
+        for j in range(1, b.size):
+            change += b[j] * (room.slopes[j, d] - first)
+        change = h * (first + change) + room.lost[d]
         room.new[d] = room.old[d] + change
         room.new_lost[d] = change - (room.new[d] - room.old[d])
         if not abs(room.new[d]) <= LARGEST_VALUE:
