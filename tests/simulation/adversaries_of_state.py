@@ -29,12 +29,17 @@ def wall(random: Random) -> Motion:
     start = (0.0, speed)
 
     def rhs(_: float, y: Floats) -> tuple[float, float]:
-        z = (y[0] - place) / width
+        z = y[0] / width
         return y[1], 2.0 * height * z / width * math.exp(-(z**2)) if abs(z) < 25.0 else 0.0
 
     # fast in, slow at the top, out: no passage here takes longer than four times the free one
     short = ((place - reach) / speed, (place - reach) / speed + 8.0 * reach / speed)
-    truth = in_pieces(rhs, start, short, 0.2 * width / speed)
+    # from the hill, so that the truth does not lose the digits that x - x0 loses
+    beside = in_pieces(rhs, (-place, speed), short, 0.2 * width / speed)
+
+    def truth(times: Floats) -> Longs:
+        return np.asarray(beside(times) + np.longdouble(place))
+
     values = {"V0": height, "w": width, "x0": place}
     scene = on_line("2*V0*(x - x0)/w^2*exp(-((x - x0)/w)^2)", start, values)
     traps = tuple(width / speed * part for part in (0.3, 1.0, 3.0, 10.0))

@@ -110,14 +110,20 @@ class Work:
             return Attempt(runs[0], runs, estimate(self.problem, *runs, self.refinement.factor_of_coarse))
 
         found, pieces = self._seen(self.audit.before(USUAL), compared)
-        found = found if pieces.is_whole else self._confirmed(found, step, pieces)
+        if not pieces.is_whole or self.problem.model.tape.has_choices:
+            found = self._confirmed(found, step, pieces)
         worst = USUAL if found.estimate is None else found.estimate.worst
         return replace(found, too_long=self.audit.before(worst).needed_by(step))
 
     def _confirmed(self, found: Attempt, step: float, pieces: Pieces) -> Attempt:
-        """The attempt, its finer run held against a third: where pieces bound its steps, nothing says it is right."""
+        """The attempt, its finer run held against a third.
+
+        Where pieces bound its steps, nothing says that it is right; and where forces jump along the way, both runs may
+        cross a jump at the same part of a step and be wrong alike.
+        """
         fine = found.runs[-1]
-        third = self._run(Steps(step, pieces=pieces.scaled(1.0 / FINER), ratio=FINER))
+        ratio = FINER**2 if pieces.is_whole else FINER
+        third = self._run(Steps(step, pieces=pieces.scaled(1.0 / FINER), ratio=ratio))
         if found.estimate is None or not third.is_complete:
             return found
         of_given = estimate(self.problem, found.chosen, third, self.refinement.factor_of_coarse)
