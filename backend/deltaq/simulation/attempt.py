@@ -139,7 +139,7 @@ class Work:
         known = None if before is None else self._comparable(before, fine)
 
         def compared(pieces: Pieces) -> Attempt:
-            of_fine = replace(fine, pieces=pieces, is_recorded=True)
+            of_fine = replace(fine, pieces=self.refinement.of_fine(pieces), is_recorded=True)
             of_coarse = replace(coarse, pieces=pieces)
             runs = self._both(of_coarse, of_fine) if known is None else (known, self._run(of_fine))
             factor = self.refinement.factor_of_fine(coarse if known is None else known.steps or coarse, fine)

@@ -97,8 +97,14 @@ class Pieces:
         return np.asarray(np.where(bounds == 0.0, 0.0, lengths / np.maximum(counts, 1.0)))
 
     def scaled(self, factor: float) -> Pieces:
-        """The pieces with all bounds that much smaller, for fixed steps that are to become so everywhere."""
-        return Pieces(self.ends, tuple(bound * factor for bound in self.largest)) if not self.is_whole else self
+        """The pieces with all bounds that much smaller, for steps that are to become so everywhere.
+
+        What bounds a step may be the length of its piece.
+        """
+        if self.is_whole:
+            return self
+        lengths = np.diff(np.array((0.0, *self.ends)))
+        return Pieces(self.ends, tuple((np.minimum(np.array(self.largest), lengths) * factor).tolist()))
 
     def bounded(self, size: float) -> Floats:
         """The largest steps, none above the size."""

@@ -39,6 +39,10 @@ class Refinement(Protocol):
         """Whether a run and a finer one are far enough apart, but not too far, for an estimate."""
         ...
 
+    def of_fine(self, pieces: Pieces) -> Pieces:
+        """The pieces for the finer run of a pair, by those for the coarser one."""
+        ...
+
     def least_part(self, before: float, resolution: float) -> float:
         """How much of the error with the resolution before is left with this one at least; 0 if the runs tell."""
         ...
@@ -79,11 +83,14 @@ class ByTolerance:
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
         """Not where steps are often as long as they may be, for then they are as long in the finer run."""
         steps = coarse.steps
-        if steps is None or not (steps.pieces is None or steps.pieces.is_whole):
+        if steps is None or _is_bounded(steps):
             return False
         is_free = coarse.result.steps * steps.size > OFTEN * self.t_end
         apart = self._apart(fine.tolerance)
         return is_free and 0.3 * apart <= steps.tolerance / fine.tolerance <= 10.0 * apart
+
+    def of_fine(self, pieces: Pieces) -> Pieces:
+        return pieces.scaled(1.0 / SHRINK)
 
     def least_part(self, before: float, resolution: float) -> float:
         return resolution / before if resolution < 10.0 * FINEST_TOLERANCE else 0.0
@@ -123,13 +130,17 @@ class ByStep:
 
     @property
     def factor_of_coarse(self) -> float:
-        return float(1.8 * FINER**self.sure / (FINER**self.sure - 1))
+        return float(2.5 * FINER**self.sure / (FINER**self.sure - 1))
 
     def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
         return float(max(0.03, 3.5 / (_ratio(coarse, fine) ** self.sure - 1)))
 
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
-        return coarse.steps is not None and NEAREST <= _ratio(coarse.steps, fine) <= FARTHEST
+        steps = coarse.steps
+        return steps is not None and not _is_bounded(steps) and NEAREST <= _ratio(steps, fine) <= FARTHEST
+
+    def of_fine(self, pieces: Pieces) -> Pieces:
+        return pieces
 
     def least_part(self, _before: float, _resolution: float) -> float:
         return 0.0
@@ -155,6 +166,11 @@ class ByStep:
     def _finest(self) -> float:
         """The finer run of the pair must end within the step limit."""
         return 1.005 * RATIO * self.t_end / self.step_limit
+
+
+def _is_bounded(steps: Steps) -> bool:
+    """Whether pieces bound the steps of a run: a finer one may then take the same steps somewhere."""
+    return steps.pieces is not None and not steps.pieces.is_whole
 
 
 def _ratio(coarse: Steps, fine: Steps) -> float:
