@@ -130,7 +130,7 @@ class ByStep:
 
     @property
     def factor_of_coarse(self) -> float:
-        return float(2.5 * FINER**self.sure / (FINER**self.sure - 1))
+        return float(4.0 * FINER**self.sure / (FINER**self.sure - 1))
 
     def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
         return float(max(0.03, 3.5 / (_ratio(coarse, fine) ** self.sure - 1)))
