@@ -56,14 +56,14 @@ class System(Work):
     @kept
     def kinetic_energy_of(self, body: Body) -> sp.Expr:
         """The sum over what the body's kinetic energy comes down to."""
-        return self.display(sp.Add(*(self._kinetic_energy(part) for part in body.kinetics)))
+        return self.display(sp.Add(*(self._kinetic_energy(body, part) for part in body.kinetics)))
 
-    def _kinetic_energy(self, part: Kinetics) -> sp.Expr:
+    def _kinetic_energy(self, body: Body, part: Kinetics) -> sp.Expr:
         velocity = self.velocity(part.body) if not isinstance(part, Rotation) else sp.ImmutableMatrix([])
         square = self.dot(velocity, velocity).expand()
         match part:
-            case Translation(mass=mass):
-                return self.expression(mass) * square / 2
+            case Translation():
+                return self.mass(body) * square / 2
             case Rotation(inertia=inertia):
                 squares = (omega**2 for omega in self.angular_velocity(part))
                 return sp.Add(*(self.expression(j) * w / 2 for j, w in zip(inertia, squares, strict=True)))

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
+from inspect import getattr_static, unwrap
+from types import CodeType
 from typing import ClassVar, Self
 
 import sympy as sp
 
+from ..language.memory import kept
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import Contribution
 from ..packages import classes_of
 from .road import Road
 
 PACKAGE = "deltaq.homework.misconceptions"
-MOTION = ("position", "velocity")
-FORCES = ("position", "virtual_displacement", "force", "energy", "dissipation", "moment", "angle", "virtual_work")
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,29 +39,30 @@ class Detour(Road):
         """Every way to make the mistake on a scene."""
         yield cls(true.scene, true)
 
-    def _keeps(self, *laws: str) -> bool:
-        """Whether this road states these laws as everybody does."""
-        same = all(getattr(type(self), law) is getattr(Detour, law) for law in laws)
-        return same and self.scene is self.true.scene
+    @kept
+    def _comes_before(self, law: str) -> bool:
+        """Whether this road states everything that a law follows from as everybody does."""
+        return self.scene is self.true.scene and not mistaken(type(self)) & premises(law)
 
     def position(self, place: str) -> sp.ImmutableMatrix:
-        return self.true.position(place) if self._keeps() else super().position(place)
+        return self.true.position(place) if self._comes_before("position") else super().position(place)
 
     def velocity(self, place: str) -> sp.ImmutableMatrix:
-        return self.true.velocity(place) if self._keeps("position") else super().velocity(place)
+        return self.true.velocity(place) if self._comes_before("velocity") else super().velocity(place)
 
     def virtual_displacement(self, place: str) -> sp.ImmutableMatrix:
-        kept = self._keeps("position")
-        return self.true.virtual_displacement(place) if kept else super().virtual_displacement(place)
+        right = self._comes_before("virtual_displacement")
+        return self.true.virtual_displacement(place) if right else super().virtual_displacement(place)
 
     def kinetic_energy_of(self, body: Body) -> sp.Expr:
-        return self.true.kinetic_energy_of(body) if self._keeps(*MOTION) else super().kinetic_energy_of(body)
+        right = self._comes_before("kinetic_energy_of")
+        return self.true.kinetic_energy_of(body) if right else super().kinetic_energy_of(body)
 
     def virtual_work(self, load: Contribution) -> sp.Expr:
-        return self.true.virtual_work(load) if self._keeps(*FORCES) else super().virtual_work(load)
+        return self.true.virtual_work(load) if self._comes_before("virtual_work") else super().virtual_work(load)
 
     def load_potential(self, load: str) -> sp.Expr:
-        return self.true.load_potential(load) if self._keeps(*FORCES) else super().load_potential(load)
+        return self.true.load_potential(load) if self._comes_before("load_potential") else super().load_potential(load)
 
     def is_conservative(self, load: str) -> bool:
         """What has a potential is known from the true road: it is the given force, not the one got wrong."""
@@ -70,6 +72,37 @@ class Detour(Road):
     def rest(self) -> dict[sp.Symbol, sp.Expr] | None:
         """Small motions are asked for about the true equilibrium."""
         return self.true.rest
+
+
+def mistaken(kind: type[Detour]) -> frozenset[str]:
+    """The members of Road that a misconception states otherwise."""
+    classes = kind.__mro__[: kind.__mro__.index(Detour)]
+    return frozenset(name for one in classes for name in vars(one) if hasattr(Road, name))
+
+
+@cache
+def premises(law: str) -> frozenset[str]:
+    """The members of Road that a law asks for, and that those ask for, as their code names them; not the law itself.
+
+    A name that is only that of a field elsewhere counts, too: then something is computed twice, and nothing wrongly.
+    """
+    found, left = set[str](), {law}
+    while left:
+        found |= left
+        left = {name for member in left for name in _names(member) if hasattr(Road, name)} - found
+    return frozenset(found - {law})
+
+
+def _names(member: str) -> Iterator[str]:
+    """The names in the code of a member of Road, be it a method or a property."""
+    stated = getattr_static(Road, member)
+    function = stated.func if isinstance(stated, cached_property) else getattr(stated, "fget", stated)
+    left = [getattr(unwrap(function), "__code__", None)]
+    while left:
+        code = left.pop()
+        if isinstance(code, CodeType):
+            yield from code.co_names
+            left += code.co_consts
 
 
 @cache
