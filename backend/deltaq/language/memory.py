@@ -12,11 +12,15 @@ T = TypeVar("T")
 
 
 def kept(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenate[S, P], T]:
-    """The method, computing its answer for the same arguments only once for each object."""
+    """The method, computing its answer for the same arguments only once for each object.
+
+    A subclass's method of the same name keeps its answers apart, so that `super().f()` is what the class above says.
+    """
+    place = f"answers of {method.__module__}.{method.__qualname__}"
 
     @wraps(method)
     def recalling(self: S, *args: P.args, **kwargs: P.kwargs) -> T:
-        answers = cast("dict[object, T]", vars(self).setdefault(f"answers of {method.__name__}", {}))
+        answers = cast("dict[object, T]", vars(self).setdefault(place, {}))
         known = (args, *kwargs.items()) if kwargs else args
         if known not in answers:
             answers[known] = method(self, *args, **kwargs)
