@@ -16,6 +16,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 from tests.e2e.browser import NoBrowser, chromium, started
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import PATIENCE
 
 
 @pytest.fixture(scope="session")
@@ -54,9 +55,7 @@ def _answered(address: str, question: dict[str, object], patience: float = 240.0
             return
 
 
-# Waiting costs nothing where all is well, and a busy machine is not an error.
-PATIENCE = 60_000.0
-expect.set_options(timeout=20_000)
+expect.set_options(timeout=PATIENCE)
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:

@@ -16,6 +16,7 @@ from statistics import quantiles
 from playwright.sync_api import Browser, CDPSession, Page
 from tests.e2e.browser import started
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import PATIENCE
 
 SLOWER, FRAMES = 4, 240
 SCENES = ("pendulum", "elastic-pendulum", "double-pendulum", "heavy-top")
@@ -74,6 +75,7 @@ def measure(page: Page) -> Frames:
 def bare(browser: Browser) -> Frames:
     """The least that a frame takes."""
     page = browser.new_page(viewport={"width": 1366, "height": 768})
+    page.set_default_timeout(PATIENCE)
     page.set_content(BARE)
     found = measure(page)
     page.close()
@@ -83,6 +85,7 @@ def bare(browser: Browser) -> Frames:
 def moving(browser: Browser, address: str, scene: str) -> Frames:
     """The scene moves beside its plots."""
     page = browser.new_page(viewport={"width": 1366, "height": 768})
+    page.set_default_timeout(PATIENCE)
     Lecture(page, address).open(f"?scene={scene}&lang=en&duration=20")
     page.locator(".plots.ready").wait_for()
     found = measure(page)

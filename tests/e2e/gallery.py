@@ -12,7 +12,8 @@ from pathlib import Path
 
 from playwright.sync_api import Browser, Page
 from tests.e2e.browser import started
-from tests.e2e.places import PATIENCE, PLACES, Place
+from tests.e2e.places import PLACES, Place
+from tests.e2e.waiting import PATIENCE
 
 PHONE, TABLET, LAPTOP, DESKTOP, WALL = (360, 740), (768, 1024), (1366, 768), (1920, 1080), (3840, 2160)
 MOTION = 1700.0  # milliseconds until a pendulum stands well
@@ -67,7 +68,7 @@ def opened(page: Page, address: str, place: Place, view: View) -> Page:
     separator = "" if place.address.endswith("?") else "&"
     page.goto(f"{address}{place.address}{separator}lang={view.language}&theme={view.theme}")
     try:
-        page.locator(place.ready).first.wait_for(state="attached", timeout=PATIENCE)
+        page.locator(place.ready).first.wait_for(state="attached")
         return place.first(page) or page
     except Exception as error:  # noqa: BLE001 - a picture of the trouble says more
         print(f"{place.name}-{view.name}: {str(error).splitlines()[0]}")
@@ -79,6 +80,7 @@ def take(browser: Browser, address: str, folder: Path, place: Place, view: View)
     context = browser.new_context(
         viewport={"width": width, "height": height}, has_touch=view.touched, locale=LOCALES[view.language]
     )
+    context.set_default_timeout(PATIENCE)
     page = opened(context.new_page(), address, place, view)
     page.wait_for_timeout(MOTION)
     if place.full:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from playwright.sync_api import Browser, Page, Request
 from tests.e2e.browser import started
+from tests.e2e.waiting import PATIENCE
 
 SLOWER = 4
 WATCHED = 10_000  # milliseconds; what is fetched without being asked for has come by then
@@ -68,6 +69,7 @@ class Opening:
 def open_page(browser: Browser, address: str, network: dict[str, object] | None) -> Opening:
     """The page at `address`, opened for the first time."""
     context = browser.new_context(viewport={"width": 1366, "height": 768})
+    context.set_default_timeout(PATIENCE)
     page = context.new_page()
     page.add_init_script(f"({OBSERVE})()")
     sent: list[Request] = []
@@ -81,7 +83,7 @@ def open_page(browser: Browser, address: str, network: dict[str, object] | None)
     if network:
         session.send("Network.enable")
         session.send("Network.emulateNetworkConditions", network)
-    page.goto(address, timeout=60_000)
+    page.goto(address)
     page.wait_for_timeout(WATCHED)
     found = _found(page, sent)
     context.close()

@@ -11,7 +11,6 @@ from playwright.sync_api import Page
 
 import deltaq.scenes
 
-PATIENCE = 60_000.0
 LABS = ("work-precision", "convergence", "energy-drift", "stability", "chaos", "fidelity")
 CLASS = """student,scene,task,answer,syntax,line
 ada,pendulum,kinetic-energy,m*l^2*dot(phi)^2,plain,1
@@ -51,7 +50,7 @@ def key(*names: str) -> Act:
 def click(selector: str, shown: str) -> Act:
     def press(page: Page) -> None:
         page.locator(selector).first.dispatch_event("click")
-        page.locator(shown).first.wait_for(timeout=PATIENCE)
+        page.locator(shown).first.wait_for()
 
     return press
 
@@ -63,7 +62,7 @@ def answer(formula: str) -> Act:
         page.locator(".answer-head .segments button").nth(1).click()
         page.locator("textarea.entry").fill(formula)
         page.locator(".answering button.main").click()
-        page.locator(".verdict-card").wait_for(timeout=PATIENCE)
+        page.locator(".verdict-card").wait_for()
 
     return give
 
@@ -71,13 +70,13 @@ def answer(formula: str) -> Act:
 def answer_and_watch(page: Page) -> None:
     """A wrong answer with the motion it would mean."""
     answer("l*ddot(phi) = g*sin(phi)")(page)
-    page.locator(".verdict-card .acts button").first.click(timeout=PATIENCE)
-    page.locator(".motions").wait_for(timeout=PATIENCE)
+    page.locator(".verdict-card .acts button").first.click()
+    page.locator(".motions").wait_for()
 
 
 def write(page: Page) -> None:
     """The field for formulas with its keys: below it, or at the foot of the screen."""
-    page.locator("math-field").first.wait_for(timeout=PATIENCE)
+    page.locator("math-field").first.wait_for()
     page.locator("math-field").first.click()
 
 
@@ -85,14 +84,14 @@ def grade(page: Page) -> None:
     """The results of a class."""
     table = {"name": "class.csv", "mimeType": "text/csv", "buffer": CLASS.encode()}
     page.locator(".classroom input[type=file]").set_input_files([table])  # type: ignore[list-item]
-    page.locator(".classroom .chart").nth(1).wait_for(timeout=PATIENCE)
+    page.locator(".classroom .chart").nth(1).wait_for()
 
 
 def present(page: Page) -> Page:
     """The window of the presenter beside the lecture."""
     with page.expect_popup() as opened:
         page.keyboard.press("s")
-    opened.value.locator(".presenter .now .katex").first.wait_for(timeout=PATIENCE)
+    opened.value.locator(".presenter .now .katex").first.wait_for()
     opened.value.set_viewport_size(page.viewport_size or {"width": 1366, "height": 768})
     return opened.value
 

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from playwright.sync_api import Browser, Page
 from tests.e2e.browser import started
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import PATIENCE
 
 SLOWER, TURNS, STRIDES, SETTLED = 4, 20, 40, 2500
 QUERIES = ("?scene=elastic-pendulum", "?scene=triple-pendulum", "?scene=chain-pendulum&n=5")
@@ -57,6 +58,7 @@ def watch(page: Page, act: Callable[[Page], None]) -> str:
 
 def read(browser: Browser, address: str, query: str) -> str:
     context = browser.new_context(viewport={"width": 1366, "height": 768}, reduced_motion="reduce")
+    context.set_default_timeout(PATIENCE)
     page = context.new_page()
     page.add_init_script(f"({OBSERVE})()")
     page.context.new_cdp_session(page).send("Emulation.setCPUThrottlingRate", {"rate": SLOWER})

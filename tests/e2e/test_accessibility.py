@@ -12,7 +12,6 @@ from tests.e2e.lecture import Lecture
 
 pytestmark = pytest.mark.e2e
 
-PATIENCE = 60_000.0  # the first proof of a server takes its time
 TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
 # Formulas on keys are symbols, not labels that could be spoken: understanding WCAG 2.5.3, "mathematical formulas".
 SYMBOLS = {"label-content-name-mismatch": ".key-cap"}
@@ -35,7 +34,7 @@ def pressing(key: str) -> Callable[[Page], None]:
 
 def measure(page: Page) -> None:
     page.locator("form.question button.main").click()
-    page.locator("p.files").wait_for(timeout=3 * PATIENCE)
+    page.locator("p.files").wait_for()
 
 
 def share(page: Page) -> None:
@@ -50,7 +49,7 @@ def share_proof(page: Page) -> None:
 
 def send(page: Page) -> None:
     page.locator(".trial button.main").click()
-    expect(page.locator(".answer pre")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".answer pre")).to_be_visible()
 
 
 def answer(page: Page) -> None:
@@ -58,11 +57,11 @@ def answer(page: Page) -> None:
     page.locator(".answer-head .segments button").nth(1).click()
     page.locator("textarea.entry").fill("l*ddot(phi) = g*sin(phi)")
     page.locator(".answering button.main").click()
-    page.locator(".verdict-card .acts button").click(timeout=PATIENCE)
+    page.locator(".verdict-card .acts button").click()
     page.locator(".answering .acts .quiet").click()
-    page.locator(".solving button, .worked").first.click(timeout=PATIENCE)
-    expect(page.locator(".motions")).to_be_visible(timeout=PATIENCE)
-    expect(page.locator(".worked")).to_be_visible(timeout=PATIENCE)
+    page.locator(".solving button, .worked").first.click()
+    expect(page.locator(".motions")).to_be_visible()
+    expect(page.locator(".worked")).to_be_visible()
 
 
 SCENE = "scene?scene=elastic-pendulum&step=generalized-forces"
@@ -132,7 +131,7 @@ def test_page(
     page.emulate_media(reduced_motion="reduce")
     for language in ("de", "en"):
         page.goto(f"{lecture.address}{place}&lang={language}&theme={theme}")
-        page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
+        page.locator(ready).first.wait_for(state="attached")
         first(page)
         assert page.locator("html").get_attribute("lang") == language
         assert violations(page, axe) == []
@@ -146,7 +145,7 @@ def test_dialog(
     page = lecture.page
     page.emulate_media(reduced_motion="reduce")
     page.goto(f"{lecture.address}{place}&lang={language}&theme={theme}")
-    page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
+    page.locator(ready).first.wait_for(state="attached")
     first(page)
     expect(page.locator("dialog[open]")).to_be_visible()
     assert violations(page, axe) == []

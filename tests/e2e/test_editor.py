@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, Request, expect
 from tests.e2e.lecture import Lecture
+from tests.e2e.waiting import PATIENCE
 
 pytestmark = pytest.mark.e2e
 POSITION = "/bodies/0/position/0"
@@ -129,6 +130,7 @@ def test_a_link_opens_the_same_scene_elsewhere(editor: Lecture) -> None:
     browser = page.context.browser
     assert browser is not None
     context = browser.new_context(locale="en-GB")
+    context.set_default_timeout(PATIENCE)
     other = Lecture(context.new_page(), editor.address)
     other.page.goto(page.url)
     expect(field(other.page, "/title").locator("input")).to_have_value("Long pendulum")

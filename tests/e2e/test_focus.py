@@ -10,7 +10,6 @@ from tests.e2e.lecture import Lecture
 
 pytestmark = pytest.mark.e2e
 
-PATIENCE = 60_000.0
 MOST = 80
 LEAST = {"button.main": 12}  # stops; the labs have no more before anything is measured
 # The outline of what has the focus, or of what stands for it: the label of a hidden field, the frame of a choice.
@@ -77,7 +76,7 @@ def test_the_focus_is_seen_wherever_it_goes(
     page = lecture.page
     page.emulate_media(reduced_motion="reduce", forced_colors=forced)
     page.goto(f"{lecture.address}{place}")
-    page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
+    page.locator(ready).first.wait_for(state="attached")
     found = stops(page)
     assert len(found) >= LEAST.get(ready, 16)
     assert [stop["name"] for stop in found if not stop["ringed"]] == []
@@ -88,5 +87,5 @@ def test_in_forced_colours_no_plate_covers_the_letter_below_its_dot(lecture: Lec
     lecture.page.emulate_media(forced_colors="active")
     lecture.open("?scene=elastic-pendulum&lang=en&step=equation:phi")
     letters = lecture.page.locator(".step[aria-current] .katex .accent-body")
-    expect(letters.first).to_be_attached(timeout=PATIENCE)
+    expect(letters.first).to_be_attached()
     expect(letters.first).to_have_css("forced-color-adjust", "none")

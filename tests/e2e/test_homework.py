@@ -9,10 +9,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 from tests.e2e.lecture import Lecture
-from tests.e2e.waiting import until_equal
+from tests.e2e.waiting import PATIENCE, until_equal
 
 pytestmark = pytest.mark.e2e
-PATIENCE = 60_000.0
 FALLING = "m*l^2*ddot(phi) = m*g*l*sin(phi)"
 RIGHT = "l*ddot(phi) + g*sin(phi) = 0"
 
@@ -20,7 +19,7 @@ RIGHT = "l*ddot(phi) + g*sin(phi) = 0"
 def _open(lecture: Lecture, query: str = "scene=pendulum&task=equation:phi&lang=en") -> Page:
     """The page with its task, and the field for formulas if there is one."""
     lecture.page.goto(f"{lecture.address}homework?{query}")
-    lecture.page.locator(".question h2, .whole, .classroom").first.wait_for(timeout=PATIENCE)
+    lecture.page.locator(".question h2, .whole, .classroom").first.wait_for()
     return lecture.page
 
 
@@ -33,7 +32,7 @@ def _answer_as_text(page: Page, *parts: str) -> None:
 
 def _math_field(page: Page) -> Locator:
     field = page.locator("math-field").first
-    field.wait_for(timeout=PATIENCE)
+    field.wait_for()
     field.click()
     page.wait_for_function(TAKES_LETTERS, arg=field.element_handle())
     return field
@@ -52,14 +51,14 @@ PARTED = """() => {
 def _check(page: Page, outcome: str) -> Locator:
     page.locator(".answering button.main").click()
     card = page.locator(f".verdict-card[data-outcome={outcome}]:not(.stale)")
-    card.wait_for(timeout=PATIENCE)
+    card.wait_for()
     return card
 
 
 def test_wrong_diagnosed_corrected_correct(lecture: Lecture) -> None:
     page = _open(lecture)
     _answer_as_text(page, FALLING)
-    expect(page.locator(".understood-as .katex")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".understood-as .katex")).to_be_visible()
     expect(_check(page, "wrong")).to_contain_text("Sign of the weight")
     page.get_by_role("button", name="Hint 1 of 3").click()
     expect(page.locator(".hints li")).to_have_count(1)
@@ -76,9 +75,9 @@ def test_a_formula_is_typed_and_keyed(lecture: Lecture) -> None:
     page.keyboard.type("l phi'' = -g ", delay=30)
     page.get_by_role("button", name="sin(|)").click()
     page.keyboard.type("phi", delay=30)
-    expect(page.locator(".understood-as .katex")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".understood-as .katex")).to_be_visible()
     page.keyboard.press("Enter")
-    page.locator(".verdict-card[data-outcome=correct]").wait_for(timeout=PATIENCE)
+    page.locator(".verdict-card[data-outcome=correct]").wait_for()
     page.get_by_role("button", name="Text", exact=True).click()
     expect(page.locator("textarea.entry")).to_have_value("l*ddot(phi) = -g*sin(phi)")
     expect(page.locator(".verdict-card.stale")).to_have_count(0)
@@ -119,9 +118,9 @@ def test_back_leads_to_the_task_before(lecture: Lecture) -> None:
     expect(page).to_have_url(re.compile("task=equation:phi"))
     expect(page.locator("textarea.entry")).to_have_value(RIGHT)
     page.locator("h1 select").select_option("atwood")
-    expect(page.locator(".question h2")).to_contain_text("Position", timeout=PATIENCE)
+    expect(page.locator(".question h2")).to_contain_text("Position")
     page.go_back()
-    expect(page.locator("textarea.entry")).to_have_value(RIGHT, timeout=PATIENCE)
+    expect(page.locator("textarea.entry")).to_have_value(RIGHT)
 
 
 def test_reload_and_language_keep_everything(lecture: Lecture) -> None:
@@ -130,10 +129,10 @@ def test_reload_and_language_keep_everything(lecture: Lecture) -> None:
     _check(page, "wrong")
     page.get_by_role("button", name="Hint 1 of 3").click()
     page.reload()
-    expect(page.locator("textarea.entry")).to_have_value(FALLING, timeout=PATIENCE)
+    expect(page.locator("textarea.entry")).to_have_value(FALLING)
     expect(page.locator(".verdict-card[data-outcome=wrong]")).to_be_visible()
     page.locator(".segments [lang=de]").click()
-    expect(page.locator(".verdict-card")).to_contain_text("Vorzeichen der Gewichtskraft", timeout=PATIENCE)
+    expect(page.locator(".verdict-card")).to_contain_text("Vorzeichen der Gewichtskraft")
     expect(page.locator("textarea.entry")).to_have_value(FALLING)
     expect(page.locator(".hints li")).to_have_count(1)
     expect(page).to_have_url(re.compile("lang=de"))
@@ -144,10 +143,10 @@ def test_nothing_typed_is_lost_without_a_server(lecture: Lecture) -> None:
     page.context.set_offline(True)
     _answer_as_text(page, RIGHT)
     page.locator(".answering button.main").click()
-    expect(page.locator(".answering [role=alert]")).to_contain_text("safe in this browser", timeout=PATIENCE)
+    expect(page.locator(".answering [role=alert]")).to_contain_text("safe in this browser")
     page.context.set_offline(False)
     page.reload()
-    expect(page.locator("textarea.entry")).to_have_value(RIGHT, timeout=PATIENCE)
+    expect(page.locator("textarea.entry")).to_have_value(RIGHT)
     lecture.complaints.clear()  # the browser reports that it was offline
 
 
@@ -157,7 +156,7 @@ def test_each_component_has_its_own_verdict_and_a_mistake_its_place(lecture: Lec
     _check(page, "wrong")
     assert [part.get_attribute("data-outcome") for part in page.locator(".part").all()] == ["correct", "wrong"]
     page.locator("textarea.entry").nth(1).fill("l*cos(psi)")
-    expect(page.locator(".complaints mark")).to_have_text("psi", timeout=PATIENCE)
+    expect(page.locator(".complaints mark")).to_have_text("psi")
     expect(page.locator("textarea.entry").nth(1)).to_have_attribute("aria-invalid", "true")
     page.locator("textarea.entry").nth(1).fill("")
     page.locator(".answering button.main").click()
@@ -169,7 +168,7 @@ def test_both_motions_are_shown_and_the_solution_leads_to_its_step(lecture: Lect
     _answer_as_text(page, FALLING)
     _check(page, "wrong")
     page.get_by_role("button", name="Show both motions").click()
-    expect(page.locator(".motions .apart")).to_contain_text("They part at", timeout=PATIENCE)
+    expect(page.locator(".motions .apart")).to_contain_text("They part at")
     page.wait_for_function(PARTED)
     desk = page.viewport_size
     page.set_viewport_size({"width": 360, "height": 740})
@@ -178,8 +177,8 @@ def test_both_motions_are_shown_and_the_solution_leads_to_its_step(lecture: Lect
     )  # it lies above the right one
     page.set_viewport_size(desk or {"width": 1366, "height": 768})
     page.get_by_role("button", name="Show the solution").click()
-    page.get_by_role("link", name="See this step").click(timeout=PATIENCE)
-    expect(page.locator("[data-step='equation:phi'][aria-current]")).to_be_visible(timeout=PATIENCE)
+    page.get_by_role("link", name="See this step").click()
+    expect(page.locator("[data-step='equation:phi'][aria-current]")).to_be_visible()
 
 
 def test_a_working_is_marked_line_by_line(lecture: Lecture) -> None:
@@ -196,12 +195,12 @@ def test_a_working_is_marked_line_by_line(lecture: Lecture) -> None:
             line.get_by_role("button", name="as text").click()
         line.locator("textarea").fill(text)
     page.get_by_role("button", name="Check the working").click()
-    expect(page.locator(".line.first-wrong")).to_contain_text("The first mistake is here", timeout=PATIENCE)
+    expect(page.locator(".line.first-wrong")).to_contain_text("The first mistake is here")
     outcomes = [line.get_attribute("data-outcome") for line in page.locator(".line").all()]
     assert outcomes == ["wrong", "follow_through"]
     expect(page.locator(".acts .score")).to_have_text("1.5 of 5 points")
     page.reload()
-    expect(page.locator(".line textarea").first).to_have_value("m*l^2*dot(phi)^2", timeout=PATIENCE)
+    expect(page.locator(".line textarea").first).to_have_value("m*l^2*dot(phi)^2")
 
 
 def test_an_assignment_is_opened_from_a_file_and_by_its_link(lecture: Lecture, tmp_path: Path) -> None:
@@ -218,18 +217,18 @@ def test_an_assignment_is_opened_from_a_file_and_by_its_link(lecture: Lecture, t
     file = tmp_path / "sheet.json"
     file.write_text(json.dumps(sheet), encoding="utf-8")
     page.locator(".files-of-work input").set_input_files(file)
-    expect(page.locator("h1")).to_have_text("Sheet 3", timeout=PATIENCE)
+    expect(page.locator("h1")).to_have_text("Sheet 3")
     expect(page.locator(".task")).to_have_count(2)
     expect(page.locator(".total")).to_contain_text("0 of 6 points")
     expect(page.locator(".own .asks")).to_contain_text("enter your name")
     page.locator(".seed input").fill("ada")
     page.locator(".seed input").press("Enter")
-    expect(page.locator(".own .asks")).to_have_count(0, timeout=PATIENCE)
+    expect(page.locator(".own .asks")).to_have_count(0)
     page.locator(".task").nth(1).click()
     expect(page).to_have_url(re.compile("task=2&seed=ada#a="))
     page.goto("about:blank")
     page.go_back()
-    expect(page.locator(".task[aria-current]")).to_have_text(re.compile("Kinetic energy"), timeout=PATIENCE)
+    expect(page.locator(".task[aria-current]")).to_have_text(re.compile("Kinetic energy"))
 
 
 TABLE = """student,scene,task,answer,syntax,line
@@ -246,7 +245,7 @@ def test_the_answers_of_a_class_are_graded_and_their_mistakes_counted(lecture: L
     file = tmp_path / "class.csv"
     file.write_text(TABLE, encoding="utf-8")
     page.locator(".classroom input[type=file]").set_input_files(file)
-    expect(page.locator(".grading")).to_contain_text("5 of 5", timeout=PATIENCE)
+    expect(page.locator(".grading")).to_contain_text("5 of 5")
     equation = page.locator(".chart", has_text="Equation of motion")
     expect(equation).to_contain_text("1 of 3 right")
     expect(equation.locator(".mistakes tr")).to_have_text([re.compile("Sign of the weight")])
@@ -264,12 +263,12 @@ def test_the_answers_of_a_class_are_graded_and_their_mistakes_counted(lecture: L
 
 def test_a_teacher_gets_an_assignment_to_begin_with_and_questions_for_moodle(lecture: Lecture) -> None:
     page = _open(lecture, "scene=pendulum&side=class&lang=en")
-    page.locator(".task").first.wait_for(timeout=PATIENCE)
+    page.locator(".task").first.wait_for()
     with page.expect_download() as sheet:
         page.get_by_role("button", name="Assignment of these tasks").click()
     document = json.loads(sheet.value.path().read_text(encoding="utf-8"))
     assert document["tasks"][0] == {"scene": "pendulum", "task": "position:bob", "points": 1}
-    with page.expect_download(timeout=PATIENCE) as questions:
+    with page.expect_download() as questions:
         page.get_by_role("button", name="Questions for Moodle").click()
     assert questions.value.path().read_text(encoding="utf-8").count('type="stack"') == len(document["tasks"])
 
@@ -290,22 +289,22 @@ def test_a_scene_that_the_address_brings_along_has_tasks_too(lecture: Lecture) -
     fragment = page.evaluate("scene => import('/model/own.js').then(own => own.fragmentOf(scene))", OWN)
     page.goto("about:blank")
     page.goto(f"{lecture.address}homework?lang=en&task=equation:x{fragment}")
-    expect(page.locator("h1")).to_contain_text("Slider", timeout=PATIENCE)
+    expect(page.locator("h1")).to_contain_text("Slider")
     _answer_as_text(page, "m*ddot(x) + k*x = 0")
     _check(page, "correct")
     page.get_by_role("button", name="Show the solution").click()
-    page.get_by_role("link", name="See this step").click(timeout=PATIENCE)
-    expect(page.locator("[data-step='equation:x'][aria-current]")).to_be_visible(timeout=PATIENCE)
+    page.get_by_role("link", name="See this step").click()
+    expect(page.locator("[data-step='equation:x'][aria-current]")).to_be_visible()
 
 
 def test_one_comes_from_a_scene_to_its_tasks(lecture: Lecture) -> None:
     page = lecture.page
     page.goto(f"{lecture.address}scene?scene=atwood&lang=en")
-    lecture.steps.first.wait_for(timeout=PATIENCE)
+    lecture.steps.first.wait_for()
     if not page.locator(".places").is_visible():
         page.locator(".top .menu").click()
     page.locator(".places").get_by_role("link", name="Homework").click()
-    expect(page.locator("h1 option:checked")).to_have_text("Atwood’s machine", timeout=PATIENCE)
+    expect(page.locator("h1 option:checked")).to_have_text("Atwood’s machine")
     expect(page.locator(".task").first).to_be_visible()
 
 
@@ -313,7 +312,7 @@ def test_one_comes_from_a_scene_to_its_tasks(lecture: Lecture) -> None:
 def test_on_a_phone(lecture: Lecture, language: str) -> None:
     lecture.page.set_viewport_size({"width": 360, "height": 740})
     page = _open(lecture, f"scene=elastic-pendulum&task=equations&lang={language}")
-    page.locator(".drawing.right path.bob").wait_for(state="attached", timeout=PATIENCE)
+    page.locator(".drawing.right path.bob").wait_for(state="attached")
     _answer_as_text(page, "ddot(y) = 0", "ddot(phi) = 0")
     _check(page, "wrong")
     assert page.evaluate("document.documentElement.scrollWidth") == 360
@@ -323,16 +322,17 @@ def test_on_a_phone(lecture: Lecture, language: str) -> None:
 
 def test_with_a_finger_the_keys_of_the_task_come_up_below_the_field(browser: Browser, server: str) -> None:
     context = browser.new_context(viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True)
+    context.set_default_timeout(PATIENCE)
     lecture = Lecture(context.new_page(), server)
     page = _open(lecture)
     field = page.locator("math-field")
-    field.wait_for(timeout=PATIENCE)
+    field.wait_for()
     field.tap()
     caps = page.locator(".MLK__rows .MLK__keycap:visible")
-    caps.first.wait_for(timeout=PATIENCE)
+    caps.first.wait_for()
     page.wait_for_timeout(600)
     caps.nth(2).tap()
-    expect(page.locator(".understood-as .katex").first).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".understood-as .katex").first).to_be_visible()
     until_equal(page, lambda: field.evaluate("field => field.value"), r"\ddot{\varphi}")
     expect(field).to_be_in_viewport()
     caps.filter(has_text=re.compile(r"^\W*a\W*2\W*$")).tap()
@@ -366,7 +366,7 @@ REFUSING = """for (const kind of ["localStorage", "sessionStorage"])
 def test_a_page_opens_where_the_browser_refuses_to_keep_anything(lecture: Lecture, path: str, opened: str) -> None:
     lecture.page.add_init_script(REFUSING)
     lecture.page.goto(lecture.address + path)
-    lecture.page.locator(opened).first.wait_for(timeout=PATIENCE)
+    lecture.page.locator(opened).first.wait_for()
 
 
 def test_what_is_typed_and_not_kept_is_said_to_be_so(lecture: Lecture) -> None:

@@ -10,18 +10,17 @@ from tests.e2e.lecture import Lecture
 from tests.e2e.waiting import until_equal
 
 pytestmark = [pytest.mark.e2e, pytest.mark.usefixtures("bench")]
-PATIENCE = 90_000.0
 
 
 def opened(lecture: Lecture, query: str, lang: str = "en") -> Lecture:
     lecture.page.goto(f"{lecture.address}labs?{query}&lang={lang}")
-    lecture.page.locator("form.question button.main:enabled").wait_for(timeout=PATIENCE)
+    lecture.page.locator("form.question button.main:enabled").wait_for()
     return lecture
 
 
 def measured(lecture: Lecture) -> Lecture:
     lecture.page.locator("form.question button.main").click()
-    lecture.page.locator("p.files").wait_for(timeout=PATIENCE)
+    lecture.page.locator("p.files").wait_for()
     return lecture
 
 
@@ -60,7 +59,7 @@ def test_another_language_tells_the_same_figures(lecture: Lecture) -> None:
 def test_a_run_is_stopped_and_keeps_what_was_measured(lecture: Lecture) -> None:
     page = opened(lecture, "lab=work-precision&scene=triple-pendulum&t=60&peers=1").page
     page.locator("form.question button.main").click()
-    page.locator("figure .main-svg").first.wait_for(timeout=PATIENCE)
+    page.locator("figure .main-svg").first.wait_for()
     page.get_by_role("button", name="Stop").click()
     expect(page.locator(".progress")).to_contain_text("what was measured stays")
     expect(page.locator("figure").first).to_be_visible()
@@ -73,7 +72,7 @@ def test_the_step_of_failure_is_told_and_played(lecture: Lecture) -> None:
     expect(row.locator("td").nth(3)).to_have_text(re.compile(r"^−?[\d.]+ %$"))
     expect(page.locator(".failures tbody tr", has_text="Gauss, order 6").locator("td").nth(1)).to_have_text("never")
     row.get_by_role("button", name="play").click()
-    expect(page.locator(".motion .drawing path").first).to_be_attached(timeout=PATIENCE)
+    expect(page.locator(".motion .drawing path").first).to_be_attached()
     expect(page.locator(".motion h2")).to_contain_text("Classical Runge–Kutta with h = ")
 
 
@@ -81,7 +80,7 @@ def test_a_place_on_the_map_is_simulated(lecture: Lecture) -> None:
     page = measured(opened(lecture, "lab=stability-map&scene=kapitza&x=omega:20:100&y=y0:0.02:0.15")).page
     expect(page.locator("figcaption")).to_contain_text("200 × 200 points")
     page.locator("[data-chart='stability-map'] .nsewdrag").click(position={"x": 200, "y": 100})
-    expect(page.locator(".motion .drawing path").first).to_be_attached(timeout=PATIENCE)
+    expect(page.locator(".motion .drawing path").first).to_be_attached()
     expect(page.locator(".motion h2")).to_contain_text(re.compile(r"Motion at omega = \d+"))
 
 
@@ -94,21 +93,21 @@ def test_a_map_is_read_and_opened_by_keyboard(lecture: Lecture) -> None:
     expect(told).to_have_text(re.compile(r"^omega = 64\.\d, y0 = 0\.08\d+: lg \|μ\| = "))
     page.locator("[data-chart='stability-map'] .hoverlayer .hovertext").wait_for()
     page.keyboard.press("Enter")
-    expect(page.locator(".motion h2")).to_contain_text(re.compile(r"Motion at omega = 64"), timeout=PATIENCE)
+    expect(page.locator(".motion h2")).to_contain_text(re.compile(r"Motion at omega = 64"))
 
 
 def test_the_least_rung_is_named_and_opened_as_a_scene(lecture: Lecture) -> None:
     page = measured(opened(lecture, "lab=fidelity&scene=spherical-pendulum&t=4")).page
     expect(page.locator(".verdict")).to_contain_text("The least rung within an error of 1.0 %")
     page.locator("tr.least").get_by_role("button", name="open").click()
-    page.wait_for_url(re.compile(r"/scene\?.*#"), timeout=PATIENCE)
-    lecture.steps.first.wait_for(timeout=PATIENCE)
+    page.wait_for_url(re.compile(r"/scene\?.*#"))
+    lecture.steps.first.wait_for()
 
 
 def test_bad_values_are_told_and_nothing_is_lost(lecture: Lecture) -> None:
     page = opened(lecture, "lab=stability-map&scene=pendulum").page
     page.locator("form.question button.main").click()
-    expect(page.locator(".failure")).to_contain_text("Nothing here depends on the time", timeout=PATIENCE)
+    expect(page.locator(".failure")).to_contain_text("Nothing here depends on the time")
     expect(page.locator("form.question select").first).to_have_value("pendulum")
     lecture.complaints.clear()
 

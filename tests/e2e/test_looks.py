@@ -5,11 +5,10 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Browser, Page, expect
 from tests.e2e.lecture import Lecture
-from tests.e2e.waiting import frames, until, until_equal
+from tests.e2e.waiting import PATIENCE, frames, until, until_equal
 
 pytestmark = pytest.mark.e2e
 
-PATIENCE = 60_000.0
 SIZES = ((360, 740), (768, 1024), (1280, 720), (1920, 1080))
 # The scene with the longest title.
 LONG = "scene=elastic-pendulum"
@@ -73,7 +72,7 @@ def test_no_heading_and_no_label_is_cut(lecture: Lecture, place: str, ready: str
     page = lecture.page
     page.emulate_media(reduced_motion="reduce")
     page.goto(f"{lecture.address}{place}&lang={language}")
-    page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
+    page.locator(ready).first.wait_for(state="attached")
     for width, height in SIZES:
         page.set_viewport_size({"width": width, "height": height})
         frames(page, 2)
@@ -98,7 +97,7 @@ def rows_of(page: Page, keys: str) -> list[int]:
 def test_no_key_stands_alone(lecture: Lecture, task: str) -> None:
     page = lecture.page
     page.goto(f"{lecture.address}homework?scene=pendulum&task={task}&lang=en")
-    page.locator(".keyboard .katex").first.wait_for(timeout=PATIENCE)
+    page.locator(".keyboard .katex").first.wait_for()
     for width in (360, 412, 768, 1366):
         page.set_viewport_size({"width": width, "height": 800})
         frames(page, 2)
@@ -127,7 +126,7 @@ def test_a_page_without_its_texts_waits_for_them_and_shows_its_name(page: Page, 
     assert page.evaluate(f"{name}.content") == '"δq"'
     until_equal(page, lambda: page.evaluate(f"{name}.opacity"), "1")
     page.unroute(catalogs)
-    expect(page.locator(".question h2")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".question h2")).to_be_visible()
     assert page.evaluate(f"{name}.content") == "none"
 
 
@@ -148,9 +147,10 @@ REACH = """() => {
 @pytest.mark.parametrize(("place", "ready"), PAGES)
 def test_a_thumb_meets_what_it_presses(browser: Browser, server: str, place: str, ready: str) -> None:
     context = browser.new_context(viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True)
+    context.set_default_timeout(PATIENCE)
     page = context.new_page()
     page.goto(f"{server}{place}&lang=de")
-    page.locator(ready).first.wait_for(state="attached", timeout=PATIENCE)
+    page.locator(ready).first.wait_for(state="attached")
     until_equal(page, lambda: page.evaluate(REACH), [])
     context.close()
 

@@ -161,7 +161,7 @@ def test_bytes_of_the_first_view(lecture: Lecture, place: str, ready: str) -> No
 
     lecture.page.on("requestfinished", count)
     lecture.page.goto(lecture.address + place)
-    lecture.page.locator(ready).first.wait_for(state="attached", timeout=60_000)
+    lecture.page.locator(ready).first.wait_for(state="attached")
     lecture.page.wait_for_load_state("networkidle")
     print(f"{place}: {len(received)} requests, {sum(received)} bytes")
     assert 0 < sum(received) < FIRST_VIEW

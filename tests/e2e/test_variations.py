@@ -10,7 +10,6 @@ from tests.e2e.lecture import Lecture
 from tests.e2e.waiting import until_equal
 
 pytestmark = pytest.mark.e2e
-PATIENCE = 60_000.0
 
 
 # Whether the first route ends by one of its edges where the second begins by one of its own.
@@ -24,7 +23,7 @@ APART = """([end, begin]) => {
 def variations(lecture: Lecture) -> Lecture:
     """The page with the lecture's identity functional, answered and charted."""
     lecture.page.goto(f"{lecture.address}variations?lang=en")
-    lecture.page.locator(".errors circle.now").first.wait_for(timeout=PATIENCE)
+    lecture.page.locator(".errors circle.now").first.wait_for()
     return lecture
 
 
@@ -40,13 +39,13 @@ def test_both_routes_stand_beside_each_other(variations: Lecture) -> None:
 def test_a_mistake_is_marked_and_a_name_can_be_declared(variations: Lecture) -> None:
     page = variations.page
     page.locator(".examples select").select_option("action")
-    expect(page.locator(".outcome")).to_contain_text("Euler", timeout=PATIENCE)
+    expect(page.locator(".outcome")).to_contain_text("Euler")
     page.locator("[data-pointer='/expression'] input").fill("m*dot(x)^2/2 - c*x^2/2")
     wrong = page.locator("[data-pointer='/expression']")
-    expect(wrong.locator("mark")).to_have_text("c", timeout=PATIENCE)
+    expect(wrong.locator("mark")).to_have_text("c")
     wrong.get_by_role("button", name="c is a parameter").click()
     expect(page.locator("[data-pointer='/parameters'] input")).to_have_value("m, k, T, c")
-    expect(page.locator("mark")).to_have_count(0, timeout=PATIENCE)
+    expect(page.locator("mark")).to_have_count(0)
     variations.complaints.clear()  # the browser reports that the server refused the unknown name
 
 
@@ -54,9 +53,9 @@ def test_each_end_is_fixed_or_free_by_itself(variations: Lecture) -> None:
     page = variations.page
     page.locator(".examples select").select_option("length")
     conditions = page.locator(".outcome .so")
-    expect(conditions).to_have_text("as both ends are fixed", timeout=PATIENCE)
+    expect(conditions).to_have_text("as both ends are fixed")
     page.get_by_role("group", name="Upper end").get_by_role("button", name="free").click()
-    expect(conditions).to_have_text("natural condition at t = 1:", timeout=PATIENCE)
+    expect(conditions).to_have_text("natural condition at t = 1:")
     expect(page).to_have_url(re.compile("ends=fixed-free"))
 
 
@@ -73,13 +72,13 @@ def test_the_slider_asks_nothing_and_its_place_is_in_the_address(variations: Lec
     assert sent == []
     expect(page).to_have_url(re.compile("h=64"))
     page.reload()
-    expect(page.locator(".dial output")).to_have_text("1.0·10⁻¹⁶", timeout=PATIENCE)
+    expect(page.locator(".dial output")).to_have_text("1.0·10⁻¹⁶")
 
 
 def test_the_proof_is_read_step_by_step_in_both_languages(lecture: Lecture) -> None:
     page = lecture.page
     page.goto(f"{lecture.address}proof?lang=de")
-    lecture.steps.first.wait_for(timeout=PATIENCE)
+    lecture.steps.first.wait_for()
     page.keyboard.press("End")
     expect(lecture.steps).to_have_count(lecture.number_of_steps())
     expect(page.locator(".doubtful, .untypeset, .katex-error")).to_have_count(0)
@@ -88,9 +87,9 @@ def test_the_proof_is_read_step_by_step_in_both_languages(lecture: Lecture) -> N
     expect(page.locator(".step[aria-current] .title")).to_be_visible()
     step = lecture.current_step
     page.locator(".segments [lang=en]").click()
-    expect(page.locator(".pager .main")).to_contain_text("Next", timeout=PATIENCE)
+    expect(page.locator(".pager .main")).to_contain_text("Next")
     page.reload()
-    expect(page.locator(".step[aria-current]")).to_have_attribute("data-step", step, timeout=PATIENCE)
+    expect(page.locator(".step[aria-current]")).to_have_attribute("data-step", step)
 
 
 def test_the_language_goes_along_to_the_other_pages(lecture: Lecture) -> None:
@@ -99,5 +98,5 @@ def test_the_language_goes_along_to_the_other_pages(lecture: Lecture) -> None:
     lecture.page.get_by_role("link", name="Variationen").click()
     expect(lecture.page).to_have_url(re.compile(r"/variations\?lang=de&theme=dark"))
     lecture.page.get_by_role("link", name="Allgemeiner Beweis").click()
-    lecture.steps.first.wait_for(timeout=PATIENCE)
+    lecture.steps.first.wait_for()
     expect(lecture.page).to_have_url(re.compile(r"/proof\?step=.*lang=de&theme=dark"))
