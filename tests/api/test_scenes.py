@@ -58,7 +58,7 @@ async def test_unknown_scene(client: httpx.AsyncClient) -> None:
     response = await client.get(f"{SCENES}/pendulun", headers={"Accept-Language": "en"})
     assert response.status_code == 404
     assert response.headers["content-type"] == "application/problem+json"
-    message = f"There is no scene “pendulun”. There are: {', '.join(scene_ids())}. Did you mean “pendulum”?"
+    message = f"There is no scene “pendulun”. Did you mean “pendulum”? There are: {', '.join(scene_ids())}."
     assert response.json() == {
         "type": "/problems/unknown-name",
         "title": "There is nothing of this name",

@@ -64,10 +64,14 @@ def filled(template: str, parameters: Mapping[str, object]) -> CatalogText:
 
 
 def sentence(language: str, problem: Problem) -> CatalogText:
-    """What a problem says to the user, with the suggestion where there is one."""
-    told = text(language, f"errors.{problem.code}", **problem.parameters)
-    suggestion = problem.parameters.get("suggestion")
-    return joined(" ", [told, text(language, "errors.suggestion", suggestion=suggestion)]) if suggestion else told
+    """What a problem says to the user: what is wrong, what may have been meant, and what else there is."""
+    key, given = f"errors.{problem.code}", problem.parameters
+    parts = [text(language, key, **given)]
+    if given.get("suggestion"):
+        parts.append(text(language, "errors.suggestion", suggestion=given["suggestion"]))
+    if given.get("known") and "{known}" not in template(language, key):
+        parts.append(text(language, "errors.known", known=given["known"]))
+    return joined(" ", parts)
 
 
 def message(language: str, problem: Problem) -> str:
