@@ -40,7 +40,11 @@ def test_an_answer_is_computed_once_for_each_object_and_argument() -> None:
 def test_a_class_above_answers_for_itself_whoever_was_asked_first() -> None:
     """By its name alone an answer of the class below would be found for the class above, or the other way round."""
     below = Below()
-    assert [below.f(3), below.f(3), super(Below, below).f(3)] == ["below 3 and above 3", "below 3 and above 3", "above 3"]
+    assert [below.f(3), below.f(3), super(Below, below).f(3)] == [
+        "below 3 and above 3",
+        "below 3 and above 3",
+        "above 3",
+    ]
     assert below.computed == ["below 3", "above 3"]
     first_above = Lowest()
     assert super(Below, first_above).f(3) == "above 3"

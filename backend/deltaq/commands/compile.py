@@ -17,13 +17,14 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def run(_options: argparse.Namespace) -> None:
     """Each family of methods, then what only the lab needs."""
     from ..api.workers.kernels import are_compiled, mark_as_compiled
-    from ..lab import divergence, monodromy
-    from ..simulation.library import families
-    from ..simulation.service import warm
 
     if are_compiled():
         print("all kernels are there")
         return
+    from ..lab import divergence, monodromy
+    from ..simulation.library import families
+    from ..simulation.service import warm
+
     for family in families():
         start = perf_counter()
         warm(family)

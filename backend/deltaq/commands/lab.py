@@ -66,16 +66,19 @@ def run(options: argparse.Namespace) -> None:
 
 
 def _with_progress(reports: Iterator[Report]) -> Iterator[Report]:
-    """The reports, a bar on the screen growing with them if it is a terminal."""
-    shown = sys.stderr.isatty()
+    """The reports; on the error stream a bar grows with them, or a line comes at each tenth where it is no terminal."""
+    at_terminal, told = sys.stderr.isatty(), -1
     for report in reports:
-        if shown:
-            filled = WIDTH * report.done // max(report.total, 1)
-            sys.stderr.write(f"\r[{'#' * filled}{'.' * (WIDTH - filled)}] {report.done}/{report.total}")
-            sys.stderr.flush()
+        share = report.done / max(report.total, 1)
+        if at_terminal:
+            bar = "#" * int(WIDTH * share)
+            print(f"\r[{bar:.<{WIDTH}}] {report.done}/{report.total}", end="", file=sys.stderr, flush=True)
+        elif int(10 * share) > told:
+            told = int(10 * share)
+            print(f"{report.done}/{report.total}", file=sys.stderr, flush=True)
         yield report
-    if shown:
-        sys.stderr.write("\n")
+    if at_terminal:
+        print(file=sys.stderr)
 
 
 def _file(suffix: str, result: dict[str, Any], lang: str) -> str:

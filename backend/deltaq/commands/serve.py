@@ -41,14 +41,14 @@ def run(options: argparse.Namespace) -> None:
         listener = _listen(options.host, options.port)
     except OSError as error:
         raise CommandError(_cannot_listen(options.host, options.port, error)) from None
-    settings = _settings(listener)
-    address = _address(options.host, listener.getsockname()[1])
-    print(f"δq is at {address}  (Ctrl-C ends it)", flush=True)
-    if options.open:
-        import webbrowser
+    with listener, suppress(KeyboardInterrupt):
+        settings = _settings(listener)
+        address = _address(options.host, listener.getsockname()[1])
+        print(f"δq is at {address}  (Ctrl-C ends it)", flush=True)
+        if options.open:
+            import webbrowser
 
-        webbrowser.open(address)
-    with suppress(KeyboardInterrupt):
+            webbrowser.open(address)
         _run(listener, settings)
 
 
