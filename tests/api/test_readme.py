@@ -85,7 +85,7 @@ def test_an_answer_is_checked_by_a_line_for_a_shell(blocks: dict[str, list[str]]
 
 @pytest.mark.parametrize("language", ["sh", "console"])
 def test_every_command_that_is_named_is_there(blocks: dict[str, list[str]], language: str) -> None:
-    named = set(re.findall(r"^(?:\$ |.*&& \.venv/bin/)?deltaq (\w[\w-]*)", "\n".join(blocks[language]), re.MULTILINE))
+    named = set(re.findall(r"^(?:\$ |\w+=\S+ )?deltaq (\w[\w-]*)", "\n".join(blocks[language]), re.MULTILINE))
     assert named
     for command in named:
         ended = subprocess.run(
