@@ -1,10 +1,17 @@
-"""What all tests share."""
+"""What all tests share: the checkout, the kernels, and the order in which workers get the files."""
 
 from __future__ import annotations
 
+import fcntl
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+from tests.order import durations, in_order, needs_kernels
+
+from deltaq.api.workers.kernels import are_compiled, folder
 
 ROOT = Path(__file__).parents[1]
 
@@ -13,3 +20,28 @@ ROOT = Path(__file__).parents[1]
 def root() -> Path:
     """The folder of the checkout."""
     return ROOT
+
+
+@pytest.fixture(scope="session")
+def kernels() -> None:
+    """All kernels are compiled, by one process for all workers of the run and for the services that they start."""
+    folder().mkdir(parents=True, exist_ok=True)
+    with (folder() / "compiling.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not are_compiled():
+            subprocess.run([sys.executable, "-m", "deltaq.cli", "compile"], check=True, stdout=subprocess.DEVNULL)
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """One more than there are cores: somebody always waits, for a browser, a service or a deadline."""
+    return (os.cpu_count() or 1) + 1
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Files in the order of `tests/order.py`; those that need the kernels wait for them."""
+    of = {item: item.nodeid.partition("::")[0] for item in items}
+    place = {file: index for index, file in enumerate(in_order(set(of.values()), durations()))}
+    items.sort(key=lambda item: place[of[item]])
+    for item in items:
+        if needs_kernels(of[item]) and isinstance(item, pytest.Function):
+            item.fixturenames.insert(0, "kernels")

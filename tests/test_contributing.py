@@ -17,9 +17,10 @@ import pytest
 
 FILE = re.compile(r"^`(backend/[\w./-]+)`\n\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 SCENE = re.compile(r"^```toml\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+COMPILED = "backend/deltaq/simulation/kernels/__pycache__"
 COUPLE = {"kind": "couple", "name": "pair", "angle": "phi", "force": "F", "distance": "l"}
 
-# What a program asks of the service over the copy; kernels are not compiled for it.
+# What a program asks of the service over the copy.
 CLIENT = """
 import asyncio, json, sys
 import httpx
@@ -58,6 +59,8 @@ def copy(tmp_path_factory: pytest.TempPathFactory, root: Path) -> Path:
     left_out = shutil.ignore_patterns("__pycache__", "static", "node_modules")
     for folder in ("backend/deltaq", "tests"):
         shutil.copytree(root / folder, checkout / folder, ignore=left_out)
+    if (root / COMPILED).is_dir():  # kernels are valid for their code, wherever it stands
+        shutil.copytree(root / COMPILED, checkout / COMPILED, ignore=shutil.ignore_patterns("*.pyc", "*.lock"))
     shutil.copy(root / "pyproject.toml", checkout)
     for name, content in FILE.findall((root / ".github/CONTRIBUTING.md").read_text(encoding="utf-8")):
         place = checkout / name

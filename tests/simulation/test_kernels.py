@@ -13,6 +13,7 @@ import pytest
 from tests.simulation.scenes import oscillator
 
 import deltaq
+from deltaq.api.workers.kernels import are_compiled
 from deltaq.model.model import compile_model
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.kernels import explicit_runge_kutta
@@ -161,3 +162,9 @@ def test_a_kernel_that_cannot_be_kept_is_run_all_the_same(error: Exception, monk
     for name in ("save", "load"):
         monkeypatch.setattr(compiled._cache._cache_file, name, fails)
     assert compiled(2.5) == 5.0
+
+
+def test_all_kernels_are_there_before_anything_moves(request: pytest.FixtureRequest) -> None:
+    """One process has compiled them; else each worker and each service of a run would do so."""
+    assert "kernels" in request.fixturenames
+    assert are_compiled()

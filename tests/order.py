@@ -1,0 +1,61 @@
+"""The order in which the workers get the files of tests, so that none of them is left with a long one at the end.
+
+`python -m tests.order report.xml` writes `durations.json` anew from what `pytest --junit-xml=report.xml` has measured.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+DURATIONS = Path(__file__).with_name("durations.json")
+SHORT = 3.0  # seconds: a file below is not worth naming
+# Whatever stands here moves scenes by compiled kernels, or has a service do so.
+MOVING = (
+    "tests/api/",
+    "tests/deploy/",
+    "tests/e2e/",
+    "tests/frontend/test_drawn.py",
+    "tests/lab/",
+    "tests/simulation/",
+    "tests/test_cli.py",
+    "tests/test_contributing.py",
+)
+
+
+def needs_kernels(file: str) -> bool:
+    return file.startswith(MOVING)
+
+
+def in_order(files: Iterable[str], seconds: Mapping[str, float]) -> list[str]:
+    """One file that has the kernels compiled; what can do without them meanwhile; the rest: each the longest first."""
+
+    def place(file: str) -> tuple[bool, float, str]:
+        return needs_kernels(file), -seconds.get(file, 0.0), file
+
+    without, moving = [], []
+    for file in sorted(files, key=place):
+        (moving if needs_kernels(file) else without).append(file)
+    return [*moving[-1:], *without, *moving[:-1]]
+
+
+def durations() -> dict[str, float]:
+    """Seconds by file, as measured last; a file that is not named is a short one."""
+    found: dict[str, float] = json.loads(DURATIONS.read_text(encoding="utf-8"))
+    return found
+
+
+def measured(report: Path) -> dict[str, float]:
+    """Seconds by file in a report of pytest, the longest first."""
+    seconds: Counter[str] = Counter()
+    for case in ET.parse(report).iter("testcase"):
+        seconds[f"{case.attrib['classname'].replace('.', '/')}.py"] += float(case.attrib["time"])
+    return {file: round(total) for file, total in seconds.most_common() if total >= SHORT}
+
+
+if __name__ == "__main__":
+    DURATIONS.write_text(json.dumps(measured(Path(sys.argv[1])), indent=1) + "\n", encoding="utf-8")

@@ -1,0 +1,42 @@
+"""Workers get the files of tests in an order that leaves nobody with a long one at the end."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+from tests.order import SHORT, durations, in_order, measured, needs_kernels
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_kernels_are_begun_at_once_and_the_longest_come_first(seed: int) -> None:
+    draw = random.Random(seed)
+    folders = ("simulation", "language", "lab", "homework", "e2e")
+    files = [f"tests/{draw.choice(folders)}/test_{number}.py" for number in range(draw.randint(0, 30))]
+    seconds = {file: draw.uniform(0.0, 60.0) for file in draw.sample(files, len(files) // 2)}
+    first, *rest = in_order(files, seconds) or [""]
+    assert sorted([first, *rest]) == (sorted(files) or [""])
+    assert needs_kernels(first) == any(map(needs_kernels, files))
+    late = [needs_kernels(file) for file in rest]
+    assert late == sorted(late)
+    for kind in (False, True):
+        lengths = [seconds.get(file, 0.0) for file in rest if needs_kernels(file) is kind]
+        assert lengths == sorted(lengths, reverse=True)
+
+
+def test_a_report_is_summed_by_file(tmp_path: Path) -> None:
+    report = ET.Element("testsuite")
+    for file, time in (("tests.lab.test_a", SHORT), ("tests.test_b", 0.6 * SHORT), ("tests.lab.test_a", 20.0)):
+        ET.SubElement(report, "testcase", classname=file, time=str(time))
+    ET.ElementTree(report).write(tmp_path / "report.xml")
+    assert measured(tmp_path / "report.xml") == {"tests/lab/test_a.py": 23}
+
+
+def test_what_is_known_of_the_files_has_not_grown_old(root: Path) -> None:
+    """A few may have got another name; an order made from the names of others would be none."""
+    known = durations()
+    there = [file for file in known if (root / file).is_file()]
+    assert len(there) >= 0.8 * len(known) > 0
+    assert list(known.values()) == sorted(known.values(), reverse=True)
