@@ -28,13 +28,13 @@ from deltaq.api.app import create_app
 from deltaq.settings import Settings
 
 async def main():
-    app = create_app(Settings(workers=1, derivation_deadline=120.0))
+    app = create_app(Settings(workers=1, derivation_deadline=300.0, simulation_deadline=300.0, queue_patience=300.0))
     pools = (app.state.service.pool, app.state.service.laboratory)
     for pool in pools:
         pool.start()
     try:
         transport = httpx.ASGITransport(app=app)
-        async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test/api/v1", timeout=150) as client:
+        async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test/api/v1", timeout=300) as client:
             for method, path, body in json.load(sys.stdin):
                 answer = await client.request(method, path, json=body)
                 print(json.dumps(answer.json()))
