@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -13,10 +13,9 @@ from deltaq.cli import main
 from deltaq.errors import InputError
 from deltaq.homework.assignment import load_assignment, read_assignment
 from deltaq.homework.command import check_file
-from deltaq.homework.grading import grade, read_answers
-from deltaq.homework.results import Graded, results_csv, summary
+from deltaq.homework.grading import MOST_ROWS, Sheet, grade, read_answers
+from deltaq.homework.results import Graded, results_csv, summary, totals
 from deltaq.homework.slips import KINDS
-from deltaq.homework.table import Row
 from deltaq.narration.catalog import keys, text
 
 TABLE = """student;scene;task;answer;syntax
@@ -27,8 +26,11 @@ zoe;pendulum;lagrange;1;
 """
 
 
-def rows_of(content: str) -> Sequence[Row]:
-    return read_answers(content.encode()).rows
+def graded_rows(content: str, assignment: object = None, language: str = "en", scene: object = "") -> list[Graded]:
+    """The rows of a table as the shell marks them, in the order of the table."""
+    sheet = Sheet(None if assignment is None else read_assignment(assignment), scene)
+    found = dict(grade(read_answers(content.encode()), sheet, language))
+    return [found[index] for index in range(len(found))]
 
 
 class Terminal(io.StringIO):
@@ -37,7 +39,7 @@ class Terminal(io.StringIO):
 
 
 def test_rows_are_graded_and_one_spoils_no_other() -> None:
-    graded = list(grade(rows_of(TABLE), None, "en"))
+    graded = graded_rows(TABLE)
     assert [each.outcome for each in graded] == ["correct", "wrong", "correct", "invalid"]
     assert [each.misconception for each in graded] == ["", "half-in-kinetic-energy", "", ""]
     assert [(each.points, each.of) for each in graded[:2]] == [(2.0, 2.0), (0.0, 2.0)]
@@ -45,7 +47,7 @@ def test_rows_are_graded_and_one_spoils_no_other() -> None:
 
 
 def test_summary_counts_misconceptions_by_task() -> None:
-    told = summary(grade(rows_of(TABLE), None, "en"), "en")
+    told = summary(graded_rows(TABLE), "en")
     assert "pendulum  kinetic-energy: 2/3 right" in told
     title = text("en", "homework.misconceptions.half-in-kinetic-energy.title")
     assert any(line.strip().startswith(f"{title}  █") for line in told.splitlines())
@@ -61,7 +63,7 @@ def test_every_mistake_has_a_name_in_the_summary(language: str) -> None:
 
 def test_results_hold_no_formulas_of_spreadsheets() -> None:
     content = "student,scene,task,answer\n=HYPERLINK(1),pendulum,kinetic-energy,+m\n"
-    (_, row) = results_csv(grade(rows_of(content), None, "en")).decode().splitlines()
+    (_, row) = results_csv(graded_rows(content)).decode().splitlines()
     assert row.startswith("'=HYPERLINK(1),")
     assert row.endswith(",'+m")
 
@@ -81,7 +83,7 @@ def test_results_are_written_as_the_answers_were(tmp_path: Path) -> None:
 def test_a_cell_too_many_is_told() -> None:
     """A comma inside an answer without quotes: half of the answer must not be graded for the whole."""
     content = "scene,task,answer,syntax\npendulum,kinetic-energy,9{,}81 m,latex\n"
-    (graded,) = grade(rows_of(content), None, "en")
+    (graded,) = graded_rows(content)
     told = "This row has more cells than the header: “latex” belongs to no column."
     assert (graded.outcome, graded.answer) == ("invalid", "9{")
     assert graded.feedback == f"{told} An answer that contains a separator must stand in quotes."
@@ -94,6 +96,10 @@ def test_a_cell_too_many_is_told() -> None:
         pytest.param("a,b\n1,2\n", "answers-column", id="other columns"),
         pytest.param("task\nx\n", "answers-column", id="no answers"),
         pytest.param("task,answer\n,\n", "answers-none", id="no rows"),
+        pytest.param("task,answer,Answer\n1,2,3\n", "answers-column-twice", id="a column twice"),
+        pytest.param("task,answer\n" + "1,2\n" * (MOST_ROWS + 1), "answers-many", id="too many rows"),
+        pytest.param('task,answer\n1,"2\n3,4\n', "answers-quote", id="a quote that is never closed"),
+        pytest.param(f"task,answer\n1,{'x' * 200_000}\n", "answers-cell", id="a cell beyond all bounds"),
     ],
 )
 def test_table_without_its_columns(content: str, code: str) -> None:
@@ -144,8 +150,8 @@ def test_assignment_names_tasks_by_number_and_counts_their_points(tmp_path: Path
     path = tmp_path / "sheet.toml"
     path.write_text(SHEET, encoding="utf-8-sig")
     sheet = load_assignment(path)
-    rows = [{"student": "ada", "task": "1", "answer": "ddot(phi) = -g/l*sin(phi)"}, {"task": "3", "answer": "1"}]
-    graded = list(grade(rows, sheet, "en"))
+    table = read_answers(b"student,task,answer\nada,1,ddot(phi) = -g/l*sin(phi)\n,3,1\n")
+    graded = [each for _, each in grade(table, Sheet(sheet), "en")]
     assert [(each.outcome, each.points, each.of) for each in graded] == [("correct", 5.0, 5.0), ("invalid", 0.0, 0.0)]
     assert [task.points for task in sheet.tasks] == [5.0, None]
 
@@ -219,7 +225,7 @@ TWO_TASKS = {
 
 
 def test_rows_of_a_student_are_a_working_in_the_order_of_their_lines() -> None:
-    graded = list(grade(rows_of(WORKING), read_assignment(TWO_TASKS), "en"))
+    graded = graded_rows(WORKING, TWO_TASKS)
     assert [(each.student, each.outcome, each.points) for each in graded] == [
         ("ada", "follow_through", 1.0),
         ("emmy", "wrong", 0.0),
@@ -229,7 +235,126 @@ def test_rows_of_a_student_are_a_working_in_the_order_of_their_lines() -> None:
     ]
 
 
-def test_without_the_column_every_row_stands_alone() -> None:
-    rows = [{key: value for key, value in row.items() if key != "line"} for row in rows_of(WORKING)]
-    outcomes = [each.outcome for each in grade(rows, read_assignment(TWO_TASKS), "en")]
-    assert outcomes == ["wrong", "wrong", "wrong", "wrong", "invalid"]
+def test_without_the_column_nothing_follows() -> None:
+    content = "\n".join(line.rsplit(",", 1)[0] for line in WORKING.splitlines())
+    assert [each.outcome for each in graded_rows(content, TWO_TASKS)] == ["wrong", "wrong", "wrong", "wrong", "invalid"]
+
+
+# Answers to the pendulum's tasks (2 and 3 points): right, wrong in T, and what follows from that T.
+T, DOUBLE_T = "m*l^2*dot(phi)^2/2", "m*l^2*dot(phi)^2"
+RIGHT, FROM_T = "m*l^2*ddot(phi) + m*g*l*sin(phi) = 0", "2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"
+KINETIC, EQUATION = "kinetic-energy", "equation:phi"
+Lines = list[tuple[str, str, str]]  # student, task, answer; the line is the number in the list
+
+
+def earned(rows: Lines, *, lines: str = "", students: bool = True) -> list[float]:
+    """The points of the rows; `lines` is what stands in the column of this name, if there is one."""
+    header = ["scene,task,answer", *(["student"] if students else []), *(["line"] if lines else [])]
+    numbers = lines.split("|") if lines else [""] * len(rows)
+    written = [
+        ",".join(["pendulum", task, answer, *([student] if students else []), *([number] if lines else [])])
+        for (student, task, answer), number in zip(rows, numbers, strict=True)
+    ]
+    return [each.points for each in graded_rows("\n".join([",".join(header), *written]))]
+
+
+CORRECTED: Lines = [("ada", KINETIC, DOUBLE_T), ("ada", KINETIC, T), ("ada", EQUATION, FROM_T)]
+TWICE: Lines = [("ada", KINETIC, T), ("ada", KINETIC, DOUBLE_T), ("ada", KINETIC, f"{T} + 0")]
+NAMELESS: Lines = [("", KINETIC, T), ("", KINETIC, T)]
+FOLLOWS: Lines = [("ada", KINETIC, DOUBLE_T), ("ada", EQUATION, FROM_T), ("ada", EQUATION, RIGHT)]
+
+
+@pytest.mark.parametrize(
+    ("rows", "more", "points"),
+    [
+        pytest.param(CORRECTED, {"lines": "1|2|3"}, [0, 2, 0], id="what was corrected carries nothing"),
+        pytest.param(CORRECTED, {"lines": "1|3|2"}, [0, 2, 1.5], id="what follows before it is corrected"),
+        pytest.param(CORRECTED, {"lines": "1|1|1"}, [0, 2, 0], id="the same number: the order of the table"),
+        pytest.param(CORRECTED, {"lines": "1|2|"}, [0, 2, 0], id="a row without a number follows from nothing"),
+        pytest.param(FOLLOWS, {"lines": "|2|3"}, [0, 0, 3], id="from a row without a number nothing follows"),
+        pytest.param(FOLLOWS, {"lines": "1|2|3"}, [0, 1.5, 1.5], id="the better answer adds what is missing"),
+        pytest.param(TWICE, {}, [2, 0, 0], id="twice right counts once"),
+        pytest.param(TWICE, {"lines": "1|2|3"}, [2, 0, 0], id="twice right in a working counts once"),
+        pytest.param(TWICE, {"lines": "||"}, [2, 0, 0], id="twice right without numbers counts once"),
+        pytest.param(NAMELESS, {}, [2, 2], id="rows without a name are of different persons"),
+        pytest.param(NAMELESS, {"lines": "1|2"}, [2, 2], id="rows without a name are no working"),
+        pytest.param(NAMELESS, {"students": False}, [2, 2], id="no column student: of different persons"),
+        pytest.param(CORRECTED, {"lines": "1|3|2", "students": False}, [0, 2, 1.5], id="lines alone: one working"),
+        pytest.param(
+            [("Zoë ", KINETIC, T), (" Zoe\u0308", KINETIC, T)], {}, [2, 0], id="a name with spaces, and decomposed"
+        ),
+    ],
+)
+def test_how_points_are_earned(rows: Lines, more: dict[str, Any], points: list[float]) -> None:
+    assert earned(rows, **more) == points
+
+
+def test_a_task_in_other_values_is_the_same_task() -> None:
+    content = f"student,scene,task,answer,seed\nada,pendulum,{KINETIC},{T},a\nada,pendulum,{KINETIC},{T},b\n"
+    assert [each.points for each in graded_rows(content)] == [2.0, 0.0]
+
+
+TWO_PENDULUMS = {
+    "format": 1,
+    "tasks": [
+        {"scene": "pendulum", "task": KINETIC, "points": 2},
+        {"scene": "elastic-pendulum", "task": KINETIC, "points": 4},
+    ],
+}
+
+
+def test_a_task_of_several_scenes_is_named_by_its_number_or_with_its_scene() -> None:
+    content = f"student,scene,task,answer\nada,,{KINETIC},{T}\nada,pendulum,{KINETIC},{T}\nbob,,1,{T}\n"
+    found = graded_rows(content, TWO_PENDULUMS)
+    assert [(each.outcome, each.points, each.of, each.column) for each in found] == [
+        ("invalid", 0.0, 0.0, "task"),
+        ("correct", 2.0, 2.0, ""),
+        ("correct", 2.0, 2.0, ""),
+    ]
+    assert "1 (pendulum), 2 (elastic-pendulum)" in found[0].feedback
+
+
+@pytest.mark.parametrize(
+    ("row", "column", "of"),
+    [
+        pytest.param("pendulum,nonsense,1,,", "task", 0, id="task"),
+        pytest.param("swing,kinetic-energy,1,,", "scene", 0, id="scene"),
+        pytest.param("pendulum,kinetic-energy,1,word,", "syntax", 2, id="syntax"),
+        pytest.param("pendulum,kinetic-energy,1,,first", "line", 2, id="line"),
+        pytest.param("pendulum,kinetic-energy,1,,nan", "line", 2, id="no number at all"),
+        pytest.param("pendulum,kinetic-energy,1,,,x", "answer", 2, id="a cell too many"),
+    ],
+)
+def test_a_row_that_makes_no_sense_is_told_at_its_place(row: str, column: str, of: float) -> None:
+    content = f"scene,task,answer,syntax,line\n\npendulum,kinetic-energy,{T},,\n{row}\n"
+    good, bad = graded_rows(content)
+    assert (good.row, good.column, good.outcome) == (3, "", "correct")
+    assert (bad.row, bad.column, bad.outcome, bad.points, bad.of) == (4, column, "invalid", 0.0, of)
+
+
+def test_a_row_that_names_no_scene_is_of_the_scene_around() -> None:
+    (found,) = graded_rows(f"task,answer\n{KINETIC},{T}\n", scene="pendulum")
+    assert (found.scene, found.outcome) == ("pendulum", "correct")
+
+
+def test_totals_by_task_and_by_student() -> None:
+    content = f"student,task,answer\nada,1,{T}\nada,2,{FROM_T}\nbob,1,{DOUBLE_T}\nbob,1,{T}\nada,1,{T}\n"
+    told = totals(graded_rows(content, TWO_TASKS), 6.0, "en")
+    assert told["students"] == [
+        {"student": "ada", "points": 2.0, "of": 6.0},
+        {"student": "bob", "points": 2.0, "of": 6.0},
+    ]
+    assert (told["points"], told["of"]) == (4.0, 12.0)
+    first, second = told["tasks"]
+    assert (first["count"], first["outcomes"]) == (4, {"correct": 3, "wrong": 1})
+    assert first["mistakes"] == [
+        {"outcome": "wrong", "mistake": "Factor of the kinetic energy", "count": 1, "students": ["bob"]}
+    ]
+    assert second["outcomes"] == {"wrong": 1}
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_a_wrong_answer_that_says_nothing_has_a_name(language: str) -> None:
+    found = graded_rows(f"scene,task,answer\npendulum,{EQUATION},0 = 0\n", language=language)
+    assert found[0].misconception == "degenerate"
+    assert text(language, "homework.summary.remarks.degenerate") in summary(found, language)

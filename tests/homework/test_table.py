@@ -61,3 +61,10 @@ def test_a_table_of_nothing(data: bytes) -> None:
 )
 def test_writing(style: Style, written: str) -> None:
     assert style.written(("a", "b"), [("x", 1.5), ("=1", "p,q")]).decode() == written
+
+
+def test_rows_are_counted_as_a_spreadsheet_does() -> None:
+    """Empty rows count, a row of several lines is one, and the line that tells the separator is none."""
+    table = read_table(b'sep=;\n\ntask;answer\n1;"a\nb"\n;\n2;c\n')
+    assert [row["answer"] for row in table.rows] == ["a\nb", "c"]
+    assert table.numbers == (3, 5)

@@ -34,6 +34,7 @@ SHOWN = {
     "solve_task": 'answer["plain"]',
     "check": 'answer["outcome"], answer["feedback"]',
     "check_lines": '[line["outcome"] for line in answer["lines"]], answer["points"], answer["of"]',
+    "check_table": 'answer["students"], answer["points"], answer["of"]',
     "check_batch": '[verdict["outcome"] for verdict in answer["verdicts"]]',
     "read_answer": 'answer["plain"]',
     "answered_motion": 'answer["scene"]["loads"]',

@@ -5,11 +5,16 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from ._common import scene_of
+
 HELP = "check a table of answers"
 DESCRIPTION = """Checks the answers of a CSV table with the columns task and answer, and student, scene, syntax (plain
-or latex), seed and line where wanted; writes the verdicts, and tells which mistakes were made how often. With a column
-line the rows of a student on a scene are a working. The table may be written as spreadsheets do: with commas,
-semicolons or tabs, in UTF-8, UTF-16 or Windows-1252; the verdicts are then, too."""
+or latex), seed and line where wanted; writes the verdicts, and tells which mistakes were made how often. A task earns
+its points once: of several answers of a student the best counts. With a column line the rows of a student on a scene
+are a working in the order of these numbers: a line may follow from the last answer to each task before it, so a mistake
+that has been corrected carries nothing any more; a row without a number stands alone. The homework page marks by the
+same rules. The table may be written as spreadsheets do: with commas, semicolons or tabs, in UTF-8, UTF-16 or
+Windows-1252; the verdicts are then, too."""
 
 
 EXAMPLE = "deltaq check answers.csv --assignment sheet.toml --output verdicts.csv"
@@ -20,13 +25,18 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("answers", type=Path, help="CSV with a header")
     parser.add_argument("--output", type=Path, help="where the results go (default: beside, -results.csv)")
     parser.add_argument("--assignment", type=Path, help="TOML or JSON file with scenes, tasks and points")
+    parser.add_argument("--scene", default="", help="where the table names none: a built-in scene's id, or a TOML file")
     parser.add_argument("--lang", choices=("en", "de"), default="en", help="language (default: %(default)s)")
 
 
 def run(options: argparse.Namespace) -> None:
     """Check the answers, and print what went wrong how often."""
+    from ..homework.assignment import load_assignment
     from ..homework.command import check_file
+    from ..homework.grading import Sheet
 
+    assignment = load_assignment(options.assignment) if options.assignment else None
+    sheet = Sheet(assignment, scene_of(options.scene))
     output = options.output or options.answers.with_name(f"{options.answers.stem}-results.csv")
-    print(check_file(options.answers, output, options.assignment, options.lang))
+    print(check_file(options.answers, output, sheet, options.lang))
     print(f"→ {output}")

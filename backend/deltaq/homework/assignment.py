@@ -22,6 +22,7 @@ from typing import cast
 
 from ..errors import InputError, Problem, RequestError, escaped
 from ..mechanics.user_text import Translated, translated
+from .gradebook import FOLLOW_THROUGH
 from .task import Task
 from .workbook import Workbook, workbook_of
 
@@ -54,7 +55,7 @@ class Assignment:
     title: Translated
     tasks: tuple[AssignedTask, ...]
     individual: bool = False
-    follow_through: float = 0.5
+    follow_through: float = FOLLOW_THROUGH
 
 
 def load_assignment(path: Path) -> Assignment:
@@ -76,7 +77,7 @@ def read_assignment(document: object) -> Assignment:
     if problems:
         raise RequestError(*problems)
     tasks = tuple(_task(entry, f"/tasks/{n}") for n, entry in enumerate(document["tasks"]))
-    share = float(document.get("follow_through", 0.5))
+    share = float(document.get("follow_through", FOLLOW_THROUGH))
     title = translated(document.get("title") or {})
     return Assignment(title, tasks, bool(document.get("individual", False)), share)
 
@@ -88,7 +89,7 @@ def _problems(document: Mapping[str, object]) -> Iterator[Problem]:
         yield Problem("unknown-field", f"/{escaped(name)}", parameters={"field": name[:40]})
     if not isinstance(document.get("individual", False), bool):
         yield Problem("request-not-boolean", "/individual")
-    if not _is_number(document.get("follow_through", 0.5), 1.0):
+    if not _is_number(document.get("follow_through", FOLLOW_THROUGH), 1.0):
         yield Problem("assignment-share", "/follow_through")
     tasks = document.get("tasks")
     if not isinstance(tasks, list) or not tasks:

@@ -5,29 +5,30 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TextIO
+from typing import TextIO, TypeVar
 
-from .assignment import load_assignment
-from .grading import grade, read_answers
-from .results import Graded, results_csv, summary
+from .grading import Sheet, grade, read_answers
+from .results import results_csv, summary
 from .stack.question import quiz
 from .workbook import workbook_of
 
 WIDTH = 30
+ANY_SCENE = Sheet()
+T = TypeVar("T")
 
 
 def check_file(
-    answers: Path, output: Path, assignment: Path | None = None, language: str = "en", *, screen: TextIO = sys.stderr
+    answers: Path, output: Path, sheet: Sheet = ANY_SCENE, language: str = "en", *, screen: TextIO = sys.stderr
 ) -> str:
     """Grade the answers of a CSV into `output`; the text is the summary. Raises InputError for a wrong table."""
-    known = load_assignment(assignment) if assignment else None
     table = read_answers(answers.read_bytes())
-    graded = list(_with_progress(grade(table.rows, known, language), len(table.rows), screen))
+    marked = dict(_with_progress(grade(table, sheet, language), len(table.rows), screen))
+    graded = [marked[index] for index in range(len(table.rows))]
     output.write_bytes(results_csv(graded, table.style))
     return summary(graded, language)
 
 
-def _with_progress(graded: Iterable[Graded], total: int, screen: TextIO) -> Iterator[Graded]:
+def _with_progress(graded: Iterable[T], total: int, screen: TextIO) -> Iterator[T]:
     """The rows, a bar on the screen growing with them if it is a terminal."""
     shown = screen.isatty()
     for done, each in enumerate(graded, 1):

@@ -1,157 +1,258 @@
-"""A table of answers → a table of verdicts."""
+"""A table of answers → a table of verdicts: reading the table, judging one row, and both in one process.
+
+How the rows earn their points, and which follow from which, is told and decided in `gradebook`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+import re
+import unicodedata
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import cast
 
-from ..errors import InputError, Problem, RequestError
+from ..errors import InputError, Problem, RequestError, UnknownNameError
 from ..language.parser import Syntax
 from ..narration.catalog import message
 from .assignment import AssignedTask, Assignment
 from .feedback import verdict_document
-from .results import Graded
+from .gradebook import FOLLOW_THROUGH, Document, Plan, Row, Target, marked, refusal
+from .reading import read
+from .results import Graded, named
+from .statement import task_document
 from .table import BEYOND, Table, read_table
 from .verdict import Verdict
 from .workbook import Workbook, workbook_of
-from .working import Line, Marked, Scheme, mark
+from .working import Line, check_following
 
 NEEDED = ("task", "answer")
+COLUMNS = (*NEEDED, "student", "scene", "syntax", "seed", "line")
 SYNTAXES: Mapping[str, Syntax] = {"": "plain", "plain": "plain", "latex": "latex"}
+NUMBER = re.compile(r"-?[0-9]{1,9}([.,][0-9]{1,9})?")
+MOST_ROWS = 5000
 
 
 def read_answers(data: bytes) -> Table:
-    """The table of a file: `task`, `answer`; where wanted `student`, `scene`, `syntax`, `seed`, `line`."""
+    """The table of a file: `task`, `answer`; where wanted `student`, `scene`, `syntax`, `seed`, `line`.
+
+    Raises RequestError with the column or the row that is wrong.
+    """
     table = read_table(data)
     missing = [name for name in NEEDED if name not in table.header]
     if missing:
         raise RequestError(Problem("answers-column", parameters={"name": missing[0], "known": ", ".join(table.header)}))
+    twice = [name for name in COLUMNS if table.header.count(name) > 1]
+    if twice:
+        raise RequestError(Problem("answers-column-twice", parameters={"name": twice[0]}))
     if not table.rows:
         raise RequestError(Problem("answers-none"))
+    if len(table.rows) > MOST_ROWS:
+        raise RequestError(Problem("answers-many", parameters={"count": len(table.rows), "most": MOST_ROWS}))
     return table
 
 
-def grade(rows: Iterable[Mapping[str, str]], assignment: Assignment | None, language: str) -> Iterator[Graded]:
-    """Every row graded, in order; one that names no scene or task says so and spoils no other.
+def grade(table: Table, sheet: Sheet, language: str) -> Iterator[tuple[int, Graded]]:
+    """Every row with its place in the table, as it is marked: in this process, without bounds of time."""
+    return marked(plan_of(table, sheet, language), lambda question: row_verdict({**question, "lang": language}))
 
-    In a table with a column `line`, the rows of a student on a scene are a working: what follows from a wrong line is
-    told, and a task earns its points once.
-    """
-    table = list(rows)
-    posed = [_attempted(row, assignment, language) for row in table]
-    share = Scheme.follow_through if assignment is None else assignment.follow_through
-    done: dict[int, Graded] = {}
-    for index, what in enumerate(posed):
-        if isinstance(what, Graded):
-            yield what
-            continue
-        if index not in done:
-            members = _working(what, posed, table) if "line" in table[index] else [index]
-            graded = _marked([cast("Posed", posed[i]) for i in members], share, language)
-            done.update(zip(members, graded, strict=True))
-        yield done.pop(index)
+
+# --- a table as a plan -----------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class Posed:
-    """A row as a question: who answers which task of which scene, and what it counts (None: as usual)."""
+class Sheet:
+    """What the rows may answer: the tasks of an assignment; without one those of any scene, and of `scene` where a row
+    names none (an id, or a document).
+    """
 
-    student: str
-    scene: Mapping[str, object]
-    seed: str | None
-    line: Line
-    points: float | None = None
-
-    def same_working(self, other: Posed) -> bool:
-        return (self.student, self.scene, self.seed) == (other.student, other.scene, other.seed)
+    assignment: Assignment | None = None
+    scene: object = ""
 
 
-def _attempted(row: Mapping[str, str], assignment: Assignment | None, language: str) -> Posed | Graded:
+class WrongCell(Exception):
+    """A row that cannot be marked, and in which column that is."""
+
+    def __init__(self, column: str, error: InputError) -> None:
+        super().__init__(column, error)
+        self.column = column
+        self.error = error
+
+
+def plan_of(table: Table, sheet: Sheet, language: str) -> Plan:
+    """The rows with the tasks that they answer; what is wrong with a row is told in it, and spoils no other."""
+    tasks = _Tasks(sheet, language)
+    rows = tuple(
+        _row(number, cells, tasks, table.header) for number, cells in zip(table.numbers, table.rows, strict=True)
+    )
+    share = FOLLOW_THROUGH if sheet.assignment is None else sheet.assignment.follow_through
+    return Plan(tuple(tasks.targets), rows, share, tasks.points, table.style)
+
+
+def _row(number: int, cells: Mapping[str, str], tasks: _Tasks, header: Sequence[str]) -> Row:
+    """The row as a question, as far as it goes until something is wrong."""
+    student, scene, task = (cells.get(name, "") for name in ("student", "scene", "task"))
+    row = Row(number, student, scene, task, cells["answer"], person=_person(student, header))
     try:
-        return _posed(row, assignment)
-    except InputError as error:
-        of = (row.get("student", ""), row.get("scene", ""), row["task"])
-        return _refused(of, row["answer"], error, language)
+        row = replace(row, target=tasks.number(task.strip(), scene.strip()), seed=_seed(cells, tasks.sheet))
+        if BEYOND in cells:
+            raise _wrong("answer", "answers-cells", beyond=cells[BEYOND][:40])
+        return replace(row, syntax=_syntax(cells), line=_line_number(cells))
+    except WrongCell as wrong:
+        return replace(row, refused=_told(wrong.error, tasks.language), column=wrong.column)
 
 
-def _posed(row: Mapping[str, str], assignment: Assignment | None) -> Posed:
-    if BEYOND in row:
-        raise RequestError(Problem("answers-cells", parameters={"beyond": row[BEYOND][:40]}))
-    student, number, seed = row.get("student", ""), row["task"].strip(), row.get("seed") or None
-    if assignment is None:
-        return Posed(student, {"scene": row.get("scene", "").strip()}, seed, Line(number, row["answer"], _syntax(row)))
-    assigned = _assigned(assignment, number)
-    seed = (seed or student) if assignment.individual else seed
-    return Posed(student, assigned.scene, seed, Line(assigned.task, row["answer"], _syntax(row)), assigned.points)
+def _person(student: str, header: Sequence[str]) -> str | None:
+    """Who counts as the same: names without the spaces around them, however their accents are encoded."""
+    name = unicodedata.normalize("NFC", student.strip())
+    return name or ("" if "student" not in header and "line" in header else None)
 
 
-def _working(of: Posed, posed: Sequence[Posed | Graded], table: Sequence[Mapping[str, str]]) -> list[int]:
-    """The rows of one student on one scene, in the order of their lines."""
-    members = [index for index, other in enumerate(posed) if isinstance(other, Posed) and of.same_working(other)]
-    return sorted(members, key=lambda index: _number(table[index]))
+def _seed(cells: Mapping[str, str], sheet: Sheet) -> str | None:
+    """Whose values: those of the column `seed`, or of the name where everybody has their own."""
+    own = cells.get("student", "").strip() if sheet.assignment and sheet.assignment.individual else ""
+    return cells.get("seed", "").strip() or own or None
 
 
-def _number(row: Mapping[str, str]) -> float:
-    """Which line of the working a row is; what is no number comes first."""
-    try:
-        return float(row["line"])
-    except ValueError:
-        return 0.0
-
-
-def _refused(of: tuple[str, str, str], answer: str, error: InputError, language: str) -> Graded:
-    """What cannot be checked: `of` says by whom, of which scene, which task."""
-    told = " ".join(message(language, problem) for problem in error.problems)
-    return Graded(*of, "invalid", "", 0.0, 0.0, "", told, answer)
-
-
-def _marked(questions: Sequence[Posed], share: float, language: str) -> list[Graded]:
-    """One working of one student, or a single answer."""
-    errors: dict[Line, InputError] = {}
-    for each in questions:
-        try:
-            workbook = workbook_of({**each.scene, "seed": each.seed})
-            workbook.task(each.line.task)
-        except InputError as error:
-            errors[each.line] = error
-    known = [each for each in questions if each.line not in errors]
-    scheme = Scheme({each.line.task: each.points for each in known if each.points is not None}, share)
-    marks = iter(mark(workbook, [each.line for each in known], scheme) if known else ())
-    return [
-        _refused((each.student, str(each.scene["scene"]), each.line.task), each.line.text, errors[each.line], language)
-        if each.line in errors
-        else _graded(each, workbook, next(marks), language)
-        for each in questions
-    ]
-
-
-def _graded(posed: Posed, workbook: Workbook, marked: Marked, language: str) -> Graded:
-    verdict = marked.verdict
-    told = verdict_document(verdict, workbook.scene, language)
-    found = (verdict.outcome, _mistake(verdict), marked.points, marked.of, verdict.understood_as, str(told["feedback"]))
-    return Graded(posed.student, workbook.scene.id, posed.line.task, *found, posed.line.text)
-
-
-def _assigned(assignment: Assignment, number: str) -> AssignedTask:
-    """The task by its number in the assignment, or by its id."""
-    if number.isdecimal() and 1 <= int(number) <= len(assignment.tasks):
-        return assignment.tasks[int(number) - 1]
-    found = next((each for each in assignment.tasks if each.task == number), None)
-    if found is None:
-        known = ", ".join(each.task for each in assignment.tasks)
-        raise RequestError(Problem("unknown-task", parameters={"name": number[:64], "known": known}))
-    return found
-
-
-def _syntax(row: Mapping[str, str]) -> Syntax:
-    wanted = row.get("syntax", "").strip().lower()
+def _syntax(cells: Mapping[str, str]) -> Syntax:
+    wanted = cells.get("syntax", "").strip().lower()
     if wanted not in SYNTAXES:
-        raise RequestError(Problem("answers-syntax", parameters={"name": wanted[:20]}))
+        raise _wrong("syntax", "answers-syntax", name=wanted[:20])
     return SYNTAXES[wanted]
 
 
+def _line_number(cells: Mapping[str, str]) -> float | None:
+    """The place in the working; None for an empty cell, or where there is no such column."""
+    written = cells.get("line", "").strip()
+    if written and not NUMBER.fullmatch(written):
+        raise _wrong("line", "answers-line", name=written[:20])
+    return float(written.replace(",", ".")) if written else None
+
+
+def _wrong(column: str, code: str, **parameters: str) -> WrongCell:
+    return WrongCell(column, RequestError(Problem(code, parameters=parameters)))
+
+
+def _told(error: InputError, language: str) -> str:
+    return " ".join(message(language, problem) for problem in error.problems)
+
+
+class _Tasks:
+    """The tasks that the rows of a table answer, each resolved once; what there is not, is found missing once."""
+
+    def __init__(self, sheet: Sheet, language: str) -> None:
+        self.sheet = sheet
+        self.language = language
+        assigned = sheet.assignment.tasks if sheet.assignment else ()
+        self.targets = [self._assigned(task) for task in assigned]
+        self._found: dict[tuple[str, str], int | WrongCell] = {}
+
+    @property
+    def points(self) -> float | None:
+        """What a person can earn on the assignment; a task that stands on it twice is earned once."""
+        if self.sheet.assignment is None:
+            return None
+        worth: dict[tuple[str, str], float] = {}
+        for target in self.targets:
+            key = (target.working, target.task)
+            worth[key] = max(worth.get(key, 0.0), target.of)
+        return sum(worth.values())
+
+    def number(self, task: str, scene: str) -> int:
+        """The number of the task that a row names. Raises WrongCell."""
+        key = (task, scene)
+        if key not in self._found:
+            self._found[key] = self._numbered(task, scene)
+        found = self._found[key]
+        if isinstance(found, WrongCell):
+            raise found
+        return found
+
+    def _numbered(self, task: str, scene: str) -> int | WrongCell:
+        try:
+            return self._of_scene(task, scene) if self.sheet.assignment is None else self._of_assignment(task, scene)
+        except WrongCell as wrong:
+            return wrong
+
+    def _of_scene(self, task: str, scene: str) -> int:
+        reference = {"scene": scene or self.sheet.scene}
+        try:
+            workbook = workbook_of(reference)
+        except InputError as error:
+            raise WrongCell("scene", error) from None
+        try:
+            found = workbook.task(task)
+        except InputError as error:
+            raise WrongCell("task", error) from None
+        title = str(task_document(found, workbook, self.language)["title"])
+        target = Target(reference, workbook.scene.id, task, title, found.quantity.points)
+        self.targets.append(target)
+        return len(self.targets) - 1
+
+    def _of_assignment(self, task: str, scene: str) -> int:
+        """By its number on the assignment, else by its id, and its scene where several scenes have such a task."""
+        if re.fullmatch(r"[0-9]{1,4}", task) and 1 <= int(task) <= len(self.targets):
+            return int(task) - 1
+        called = [n for n, target in enumerate(self.targets) if target.task == task]
+        there = [n for n in called if self.targets[n].scene == scene] or called
+        if not there:
+            known = ", ".join(target.task for target in self.targets)
+            raise WrongCell(
+                "task", UnknownNameError(Problem("unknown-task", parameters={"name": task[:64], "known": known}))
+            )
+        if len({self.targets[n].working for n in there}) > 1:
+            known = ", ".join(f"{n + 1} ({self.targets[n].scene})" for n in there)
+            raise _wrong("task", "answers-which", name=task[:64], known=known)
+        return there[0]
+
+    def _assigned(self, assigned: AssignedTask) -> Target:
+        workbook, task = assigned.resolved(None)
+        title = str(task_document(task, workbook, self.language)["title"])
+        of = task.quantity.points if assigned.points is None else assigned.points
+        return Target(assigned.scene, workbook.scene.id, task.id, title, of)
+
+
+# --- one row ---------------------------------------------------------------------------------------------------------
+
+
+def row_verdict(question: Mapping[str, object]) -> Document:
+    """{scene, …, task, answer, standing: the wrong lines before it, lang} → what a `Gradebook` enters.
+
+    What cannot be asked of the scene in these values is told, too: it spoils no other row.
+    """
+    language = str(question["lang"])
+    try:
+        workbook = workbook_of(question)
+        line = line_of(question)
+        standing = [line_of(one) for one in cast("Sequence[Mapping[str, object]]", question["standing"])]
+        wrong = {one.task: read(workbook.task(one.task), workbook.road, one.text, one.syntax).parts for one in standing}
+        verdict = check_following(workbook, workbook.task(line.task), line, wrong)
+    except InputError as error:
+        return refusal(_told(error, language))
+    return _entry(verdict, workbook, language)
+
+
+def line_of(document: Mapping[str, object]) -> Line:
+    """{task, answer: {syntax?, value}} as a line of a working."""
+    answer = cast("Mapping[str, str]", document["answer"])
+    return Line(str(document["task"]), answer["value"], cast("Syntax", answer.get("syntax") or "plain"))
+
+
+def _entry(verdict: Verdict, workbook: Workbook, language: str) -> Document:
+    told = verdict_document(verdict, workbook.scene, language)
+    titles = [one["title"] for one in cast("Sequence[Mapping[str, str]]", told["misconceptions"])]
+    mistake = _mistake(verdict)
+    return {
+        "outcome": verdict.outcome,
+        "remark": verdict.remark,
+        "misconception": mistake,
+        "mistake": titles[0] if titles else named(mistake, language) if mistake else "",
+        "understood_as": verdict.understood_as,
+        "feedback": told["feedback"],
+    }
+
+
 def _mistake(verdict: Verdict) -> str:
+    """Its id: a misconception, a slip by its kind, or in which sense the answer is wrong."""
     if verdict.misconceptions:
         return verdict.misconceptions[0]
     return f"slip:{verdict.slip.kind}" if verdict.slip else verdict.remark if verdict.outcome == "wrong" else ""

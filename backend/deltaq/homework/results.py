@@ -1,22 +1,32 @@
-"""What came out of a table of answers: as CSV, and which misconceptions come up how often in which task."""
+"""What came out of a table of answers: as CSV, and by task and person, with the mistakes that come up most."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
+from typing import Any
 
-from ..narration.catalog import text
+from ..narration.catalog import keys, text
+from ..narration.prose import plain
 from .table import Style
 
 RESULT = ("student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback", "answer")
+FAILED = ("wrong", "invalid", "undecided")
 BAR = 30
 PLAIN = Style()
+Document = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Graded:
-    """One row of the results."""
+    """One row of the results.
+
+    Beside what stands in the CSV: the title of the task, the mistake in words ("" if it has no name), the row in the
+    table and the column in which it is wrong ("" if it is not), whose answers it counts with, and the number of its
+    task in the plan.
+    """
 
     student: str
     scene: str
@@ -28,41 +38,110 @@ class Graded:
     understood_as: str
     feedback: str
     answer: str
+    title: str = ""
+    mistake: str = ""
+    row: int = 0
+    column: str = ""
+    person: str | None = None
+    target: int | None = None
 
-    def row(self) -> list[object]:
+    def cells(self) -> list[object]:
+        """What the CSV says of it."""
         return [getattr(self, name) for name in RESULT]
 
 
 def results_csv(graded: Iterable[Graded], style: Style = PLAIN) -> bytes:
     """The results as a file of CSV."""
-    return style.written(RESULT, (each.row() for each in graded))
+    return style.written(RESULT, (each.cells() for each in graded))
+
+
+def totals(graded: Sequence[Graded], of: float | None, language: str) -> Document:
+    """{points, of, tasks: [{scene, task, title, count, outcomes, mistakes}], students: [{student, points, of}]}.
+
+    `of` is what a person can earn; where it is None, that is the sum over the tasks that the person answered.
+    """
+    people = [_student(name, rows, of) for name, rows in _grouped(graded, "person").items() if name is not None]
+    alone = sum(each.of for each in graded if each.person is None)
+    return {
+        "points": sum(each.points for each in graded),
+        "of": sum(each["of"] for each in people) + alone,
+        "tasks": [_task(rows, language) for rows in _grouped(graded, "target", "scene", "task").values()],
+        "students": [each for each in people if each["student"]],
+    }
+
+
+def _grouped(graded: Iterable[Graded], *names: str) -> dict[Any, list[Graded]]:
+    """The rows that agree in some fields, in their order."""
+    groups: dict[Any, list[Graded]] = {}
+    of = attrgetter(*names)
+    for each in graded:
+        groups.setdefault(of(each), []).append(each)
+    return groups
+
+
+def _student(name: str, rows: Sequence[Graded], of: float | None) -> Document:
+    answered = (max(each.of for each in some) for some in _grouped(rows, "target").values())
+    return {"student": name, "points": sum(each.points for each in rows), "of": sum(answered) if of is None else of}
+
+
+def _task(rows: Sequence[Graded], language: str) -> Document:
+    first = rows[0]
+    return {
+        "scene": first.scene,
+        "task": first.task,
+        "title": first.title or first.task,
+        "count": len(rows),
+        "outcomes": dict(Counter(each.outcome for each in rows)),
+        "mistakes": _mistakes(rows, language),
+    }
+
+
+def _mistakes(rows: Iterable[Graded], language: str) -> list[Document]:
+    """What went wrong in one task, the most frequent first, with those who made it."""
+    found: dict[tuple[str, str], list[Graded]] = {}
+    for each in rows:
+        if each.outcome in FAILED:
+            found.setdefault((each.outcome, mistake_of(each, language)), []).append(each)
+    return [
+        {
+            "outcome": outcome,
+            "mistake": mistake,
+            "count": len(some),
+            "students": list(dict.fromkeys(each.student for each in some if each.student)),
+        }
+        for (outcome, mistake), some in sorted(found.items(), key=lambda one: -len(one[1]))
+    ]
+
+
+def mistake_of(each: Graded, language: str) -> str:
+    """The mistake in words; misconceptions have titles, slips (`slip:sign`) kinds, the rest is told by its outcome."""
+    if each.outcome in ("invalid", "undecided"):
+        return text(language, f"homework.summary.{each.outcome}")
+    if each.mistake or not each.misconception:
+        return each.mistake or text(language, "homework.summary.other")
+    return named(each.misconception, language)
+
+
+def named(misconception: str, language: str) -> str:
+    """The title of a misconception, a slip or a remark by its id."""
+    _, is_slip, kind = misconception.partition("slip:")
+    if is_slip:
+        return text(language, f"homework.summary.slips.{kind}")
+    if misconception in keys(language, "homework.summary.remarks"):
+        return text(language, f"homework.summary.remarks.{misconception}")
+    return text(language, f"homework.misconceptions.{misconception}.title")
 
 
 def summary(graded: Iterable[Graded], language: str) -> str:
     """By task: how many answers were right, and a bar for every mistake."""
-    rows = list(graded)
     lines: list[str] = []
-    for scene, task in dict.fromkeys((each.scene, each.task) for each in rows):
-        own = [each for each in rows if (each.scene, each.task) == (scene, task)]
-        right = sum(each.outcome == "correct" for each in own)
-        lines.append(f"{scene}  {task}: {right}/{len(own)} {text(language, 'homework.summary.correct')}")
-        counts = Counter(_mistake(each, language) for each in own if _failed(each))
-        widest = max((len(name) for name in counts), default=0)
-        for name, count in counts.most_common():
-            lines.append(f"  {name:<{widest}}  {'█' * max(1, round(BAR * count / len(own)))} {count}")
+    for each in totals(list(graded), None, language)["tasks"]:
+        right = f"{each['outcomes'].get('correct', 0)}/{each['count']} {text(language, 'homework.summary.correct')}"
+        lines.append(f"{each['scene']}  {each['task']}: {right}")
+        lines += _bars([(plain(one["mistake"]), one["count"]) for one in each["mistakes"]], each["count"])
     return "\n".join(lines)
 
 
-def _failed(each: Graded) -> bool:
-    return each.outcome in ("wrong", "invalid", "undecided")
-
-
-def _mistake(each: Graded, language: str) -> str:
-    """The mistake in words; misconceptions have names, slips (`slip:sign`) have kinds."""
-    if each.outcome == "invalid":
-        return text(language, "homework.summary.invalid")
-    if not each.misconception:
-        return text(language, "homework.summary.other")
-    _, is_slip, kind = each.misconception.partition("slip:")
-    key = f"homework.summary.slips.{kind}" if is_slip else f"homework.misconceptions.{each.misconception}.title"
-    return text(language, key)
+def _bars(counts: Sequence[tuple[str, int]], of: int) -> list[str]:
+    widest = max((len(name) for name, _ in counts), default=0)
+    return [f"  {name:<{widest}}  {'█' * max(1, round(BAR * count / of))} {count}" for name, count in counts]

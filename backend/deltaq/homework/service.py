@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
+from base64 import b64decode
 from collections.abc import Mapping, Sequence
 from typing import cast
 
-from ..errors import ExpressionError
+from ..errors import ExpressionError, Problem, RequestError
 from ..language.latex_printer import Typography, latex
-from ..language.parser import Syntax
 from ..language.plain_printer import plain
 from ..mechanics.requests import inside
 from ..mechanics.user_text import plainly
 from ..mechanics.writing import write_scene
 from ..narration.catalog import language_in
-from .assignment import AssignedTask, read_assignment
+from .assignment import AssignedTask, Assignment, read_assignment
 from .feedback import Document, problem_documents, verdict_document
+from .grading import Sheet, line_of, plan_of, read_answers
 from .motion import moved_scene
 from .reading import read
 from .stack.question import quiz
 from .statement import model_answer, task_document
 from .workbook import Workbook, workbook_of
-from .working import Line, Scheme, check_following, mark, wrong_among
+from .working import Scheme, check_following, mark, wrong_among
 
 
 def tasks_request(document: Mapping[str, object]) -> Document:
@@ -48,22 +49,17 @@ def _symbols(workbook: Workbook) -> list[Document]:
 def check_request(document: Mapping[str, object]) -> Document:
     """{scene, task, answer: {syntax, value}, …} → the verdict. Raises InputError for what is not an answer."""
     workbook = workbook_of(document)
-    line = _line(document)
-    previous = [_line(one) for one in cast("Sequence[Mapping[str, object]]", document.get("previous") or ())]
+    line = line_of(document)
+    previous = [line_of(one) for one in cast("Sequence[Mapping[str, object]]", document.get("previous") or ())]
     wrong = wrong_among(workbook, previous)
     verdict = check_following(workbook, workbook.task(line.task), line, wrong)
     return verdict_document(verdict, workbook.scene, language_in(document))
 
 
-def _line(document: Mapping[str, object]) -> Line:
-    answer = cast("Mapping[str, str]", document["answer"])
-    return Line(str(document["task"]), answer["value"], cast("Syntax", answer.get("syntax") or "plain"))
-
-
 def reading_request(document: Mapping[str, object]) -> Document:
     """{scene, task, answer, …} → what the answer is understood as, LaTeX and plain; no verdict."""
     workbook = workbook_of(document)
-    line = _line(document)
+    line = line_of(document)
     try:
         shown = read(workbook.task(line.task), workbook.road, line.text, line.syntax).shown
     except ExpressionError as error:
@@ -81,14 +77,14 @@ def solution_request(document: Mapping[str, object]) -> Document:
 def motion_request(document: Mapping[str, object]) -> Document:
     """{scene, task, answer, …} → the scene that moves as the answer says. Raises InputError where there is none."""
     workbook = workbook_of(document)
-    line = _line(document)
+    line = line_of(document)
     return {"scene": moved_scene(workbook, workbook.task(line.task), line.text, line.syntax)}
 
 
 def lines_request(document: Mapping[str, object]) -> Document:
     """{scene, lines, scheme?, …} → the verdict and the points of every line, and where the first mistake is."""
     workbook = workbook_of(document)
-    lines = [_line(one) for one in cast("Sequence[Mapping[str, object]]", document["lines"])]
+    lines = [line_of(one) for one in cast("Sequence[Mapping[str, object]]", document["lines"])]
     marked = mark(workbook, lines, _scheme(cast("Mapping[str, object]", document.get("scheme") or {})))
     first = next((n for n, each in enumerate(marked) if each.verdict.outcome in ("wrong", "invalid")), None)
     worth = {line.task: each.of for line, each in zip(lines, marked, strict=True)}
@@ -114,8 +110,7 @@ def assignment_request(document: Mapping[str, object]) -> Document:
 
     Raises InputError that points below /assignment.
     """
-    with inside("/assignment"):
-        sheet = read_assignment(document["assignment"])
+    sheet = _assignment(document)
     seed = cast("str | None", document.get("seed")) if sheet.individual else None
     language = language_in(document)
     return {
@@ -130,6 +125,32 @@ def _assigned_document(assigned: AssignedTask, seed: str | None, language: str) 
     told = task_document(task, workbook, language)
     points = task.quantity.points if assigned.points is None else assigned.points
     return {"scene": write_scene(workbook.scene), "symbols": _symbols(workbook), "task": told | {"points": points}}
+
+
+def _assignment(document: Mapping[str, object]) -> Assignment:
+    with inside("/assignment"):
+        return read_assignment(document["assignment"])
+
+
+def table_request(document: Mapping[str, object]) -> Document:
+    """{table, encoding, assignment?, scene?, lang} → the plan by which its rows are marked.
+
+    Raises InputError that points below /table, /assignment or /scene.
+    """
+    assignment = None if document.get("assignment") is None else _assignment(document)
+    with inside("/table"):
+        table = read_answers(_bytes(str(document["table"]), str(document["encoding"])))
+    return plan_of(table, Sheet(assignment, document.get("scene") or ""), language_in(document)).document
+
+
+def _bytes(table: str, encoding: str) -> bytes:
+    """A table as it stood in its file. Raises RequestError for what is no base64."""
+    if encoding == "text":
+        return table.encode("utf-8", errors="replace")
+    try:
+        return b64decode(table, validate=True)
+    except ValueError:
+        raise RequestError(Problem("answers-encoding")) from None
 
 
 def stack_request(document: Mapping[str, object]) -> Document:

@@ -12,11 +12,13 @@ from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from ..errors import Problem, RequestError
 from ..mechanics.user_text import as_cell
 
 SEPARATORS = ",;\t"
 TOLD = "sep="  # the first line by which spreadsheets tell each other the separator
 BEYOND = "beyond the header"  # the key of cells for which the header has no name
+END = "\0end"  # a line after the last one: a quote that is never closed swallows it
 
 Row = dict[str, str]
 
@@ -38,21 +40,28 @@ class Style:
 
     def _cell(self, value: object) -> str:
         if isinstance(value, float):
-            return f"{value:g}".replace(".", "," if self.separator == ";" else ".")
+            return f"{value:.10g}".replace(".", "," if self.separator == ";" else ".")
         return as_cell(str(value))
 
 
 @dataclass(frozen=True)
 class Table:
-    """Names of the columns in lower case, the rows that are not empty, and how it was written."""
+    """Names of the columns in lower case, the rows that are not empty, and how it was written.
+
+    `numbers` are those of the rows as a spreadsheet counts them: empty ones count, and the header is one.
+    """
 
     header: tuple[str, ...]
     rows: tuple[Row, ...]
     style: Style
+    numbers: tuple[int, ...] = ()
 
 
 def read_table(data: bytes) -> Table:
-    """The table of a file. Cells for which the header has no name stand under BEYOND."""
+    """The table of a file. Cells for which the header has no name stand under BEYOND.
+
+    Raises RequestError with the row for a quote that is never closed, or a cell beyond all bounds.
+    """
     content = _decoded(data)
     first, _, rest = content.partition("\n")
     told = first.strip().strip('"')
@@ -61,9 +70,22 @@ def read_table(data: bytes) -> Table:
         content = rest
     else:
         separator = max(SEPARATORS, key=first.count)
-    names, *lines = [line for line in csv.reader(io.StringIO(content), delimiter=separator) if _is_filled(line)] or [[]]
+    filled = [(number, line) for number, line in enumerate(_lines(content, separator), 1) if _is_filled(line)]
+    (_, names), *lines = filled or [(1, [])]
     header = tuple(name.strip().lower() for name in names)
-    return Table(header, tuple(_row(header, line) for line in lines), Style(separator, not _is_plain(data)))
+    rows = tuple(_row(header, line) for _, line in lines)
+    return Table(header, rows, Style(separator, not _is_plain(data)), tuple(number for number, _ in lines))
+
+
+def _lines(content: str, separator: str) -> list[list[str]]:
+    lines: list[list[str]] = []
+    try:
+        lines.extend(csv.reader(io.StringIO(f"{content}\n{END}\n"), delimiter=separator))
+    except csv.Error:
+        raise RequestError(Problem("answers-cell", parameters={"row": len(lines) + 1})) from None
+    if lines[-1] != [END]:
+        raise RequestError(Problem("answers-quote", parameters={"row": len(lines)}))
+    return lines[:-1]
 
 
 def _decoded(data: bytes) -> str:

@@ -15,6 +15,7 @@ from ..language.canonical import display
 from ..language.parser import Syntax
 from .checking import check
 from .equality import Parts
+from .gradebook import FOLLOW_THROUGH, earned_share, standing_after
 from .own import OwnRoad
 from .reading import read
 from .road import Road
@@ -40,7 +41,7 @@ class Scheme:
     """How points are given: by task, and the share that a line earns which follows correctly from a wrong one."""
 
     points: Mapping[str, float] = field(default_factory=dict)
-    follow_through: float = 0.5
+    follow_through: float = FOLLOW_THROUGH
 
     def of(self, task: Task) -> float:
         return self.points.get(task.id, task.quantity.points)
@@ -56,39 +57,38 @@ class Marked:
 
 
 def mark(workbook: Workbook, lines: Sequence[Line], scheme: Scheme) -> list[Marked]:
-    """The lines in order. A task earns its points once, however often it is answered."""
-    earned: dict[str, float] = {}
-    wrong: dict[str, Parts] = {}
+    """The lines in order, each in the light of those before it. How they earn points is told in `gradebook`."""
+    best: dict[str, float] = {}
+    wrong: Mapping[str, Parts] = {}
     marked = []
     for line in lines:
         task = workbook.task(line.task)
-        verdict = check_following(workbook, task, line, wrong)
-        worth = scheme.of(task) * _share(verdict, scheme)
-        gained = max(0.0, worth - earned.get(task.id, 0.0))
-        earned[task.id] = earned.get(task.id, 0.0) + gained
-        marked.append(Marked(verdict, gained, scheme.of(task)))
-        if verdict.outcome in ("wrong", "follow_through"):
-            wrong[task.id] = read(task, workbook.road, line.text, line.syntax).parts
-        elif verdict.outcome == "correct":
-            wrong.pop(task.id, None)
+        verdict, wrong = _judged(workbook, task, line, wrong)
+        worth = scheme.of(task) * earned_share(verdict.outcome, verdict.remark, scheme.follow_through)
+        before = best.get(task.id, 0.0)
+        best[task.id] = max(before, worth)
+        marked.append(Marked(verdict, max(0.0, worth - before), scheme.of(task)))
     return marked
 
 
-def _share(verdict: Verdict, scheme: Scheme) -> float:
-    if verdict.outcome == "follow_through":
-        return 0.0 if verdict.remark == "repeated" else scheme.follow_through
-    return 1.0 if verdict.outcome == "correct" else 0.0
-
-
-def wrong_among(workbook: Workbook, lines: Sequence[Line]) -> dict[str, Parts]:
-    """The wrong answers of earlier lines, by task."""
-    found: dict[str, Parts] = {}
+def wrong_among(workbook: Workbook, lines: Sequence[Line]) -> Mapping[str, Parts]:
+    """The wrong answers that stand after these lines, by task: what was corrected stands no more."""
+    wrong: Mapping[str, Parts] = {}
     for line in lines:
-        task = workbook.task(line.task)
-        verdict = check_following(workbook, task, line, found)
-        if verdict.outcome in ("wrong", "follow_through"):
-            found[task.id] = read(task, workbook.road, line.text, line.syntax).parts
-    return found
+        _, wrong = _judged(workbook, workbook.task(line.task), line, wrong)
+    return wrong
+
+
+def _judged(
+    workbook: Workbook, task: Task, line: Line, wrong: Mapping[str, Parts]
+) -> tuple[Verdict, Mapping[str, Parts]]:
+    """The verdict on a line, and the wrong answers that stand after it."""
+    verdict = check_following(workbook, task, line, wrong)
+
+    def parts() -> Parts:
+        return read(task, workbook.road, line.text, line.syntax).parts
+
+    return verdict, standing_after(wrong, task.id, verdict.outcome, parts)
 
 
 def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[str, Parts]) -> Verdict:

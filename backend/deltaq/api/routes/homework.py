@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import asyncio
 import hashlib
-from json import loads
+from json import dumps, loads
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request, Response
+from starlette.responses import StreamingResponse
 
+from ...homework.gradebook import Plan
+from ..batches import LONGEST as BATCH_LONGEST
 from ..batches import checked
 from ..body import StrictRoute
 from ..costs import expected
 from ..languages import language_of
+from ..marking import LONGEST as STREAM_LONGEST
+from ..marking import Marking, streamed
+from ..problems import report_of
 from ..responses import packed
 from ..service import pack, service_of, unpack
-from ..wire.check import BatchRequest, CheckRequest, LinesRequest, ReadingRequest, SingleCheck
+from ..streams import MEDIA_TYPE as EVENTS
+from ..wire.check import BatchRequest, CheckRequest, LinesRequest, ReadingRequest, SingleCheck, TableRequest
 from ..wire.task import (
     AssignmentAnswer,
     AssignmentRequest,
@@ -25,12 +32,16 @@ from ..wire.task import (
     TaskList,
     TasksRequest,
 )
-from ..wire.verdict import BatchAnswer, LinesAnswer, MotionAnswer, ReadingAnswer, VerdictAnswer
+from ..wire.verdict import BatchAnswer, LinesAnswer, MotionAnswer, ReadingAnswer, TableAnswer, VerdictAnswer
 from ..workers.job import Job
 from .common import COMPUTING, LANGUAGE, SceneId, failures, question_of
 
 router = APIRouter(tags=["homework"], route_class=StrictRoute)
 XML: dict[int | str, dict[str, Any]] = {200: {"content": {"application/xml": {"schema": {"type": "string"}}}}}
+TABLE: dict[int | str, dict[str, Any]] = {
+    200: {"content": {kind: {"schema": {"type": "string"}} for kind in (EVENTS, "text/csv")}}
+}
+UNKEPT = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
 FAST = 3  # degrees of freedom
 TASKS = Job("deltaq.homework.service:tasks_request", deadline=8.0)
 CHECK = Job("deltaq.homework.service:check_request", deadline=15.0)
@@ -40,6 +51,8 @@ SOLUTION = Job("deltaq.homework.service:solution_request", deadline=8.0)
 MOTION = Job("deltaq.homework.service:motion_request", deadline=8.0)
 ASSIGNMENT = Job("deltaq.homework.service:assignment_request", deadline=30.0, pace="slow", processor=15.0)
 STACK = Job("deltaq.homework.service:stack_request", deadline=60.0, pace="slow", processor=30.0)
+PLAN = Job("deltaq.homework.service:table_request", deadline=30.0, pace="slow", processor=15.0)
+ROW = Job("deltaq.homework.grading:row_verdict", deadline=15.0).within(5.0)
 LINES = Job("deltaq.homework.service:lines_request", deadline=30.0, pace="slow", processor=15.0)
 
 
@@ -120,6 +133,49 @@ async def check_batch(request: Request, body: BatchRequest) -> Response:
 
     answer = await asyncio.to_thread(pack, await checked(body.checks, verdict, language))
     return packed(request, hashlib.sha256(answer).hexdigest()[:32], answer)
+
+
+@router.post("/checks/table", response_model=TableAnswer, responses=COMPUTING | TABLE)
+async def check_table(request: Request, body: TableRequest) -> Response:
+    """Mark the answers of a class. Rows come as they are marked where `Accept` asks for text/event-stream.
+
+    The events: `begun` with the number of `rows`; `row`, as in `rows`, with its `index`; `waiting` with the `seconds`
+    until it goes on, where the service is busy; `totals` of what is marked so far; then `result`, which is all but
+    `rows`, or `problem`. text/csv gives the table of results. One answer that takes too long is left undecided, and
+    without a stream what is not marked within 40 s.
+
+    A task earns its points once: of several answers of a student the best counts. With a column `line` the rows of a
+    student on a scene are a working in the order of these numbers, and what follows correctly from the last answer to
+    each task before earns its share. A row that makes no sense says so, with its `row` and `column`.
+    """
+    service, language = service_of(request), language_of(request)
+    question = body.model_dump() | {"lang": language}
+    plan = Plan.read(loads(await service.run(PLAN, question)))
+
+    async def verdict_on(asked: dict[str, Any]) -> dict[str, Any]:
+        row = asked | {"lang": language}
+        answering = service.answer(service.key(ROW.target, row), expected(ROW, row, FAST), row)
+        verdict: dict[str, Any] = loads(unpack(await service.ending.unless(answering)))
+        return verdict
+
+    accepted = request.headers.get("accept", "")
+    if EVENTS in accepted:
+        events = streamed(
+            Marking(plan, verdict_on, language, STREAM_LONGEST), lambda e: report_of(e).document(language)
+        )
+        return StreamingResponse(events, media_type=EVENTS, headers=UNKEPT)
+    marking = Marking(plan, verdict_on, language, BATCH_LONGEST)
+    async for _ in marking.events():
+        pass  # nobody watches
+    if "text/csv" in accepted:
+        file = {"Content-Disposition": 'attachment; filename="results.csv"'}
+        return Response(await asyncio.to_thread(marking.csv), media_type="text/csv", headers=file)
+    answer = await asyncio.to_thread(_packed_table, marking)
+    return packed(request, hashlib.sha256(answer).hexdigest()[:32], answer)
+
+
+def _packed_table(marking: Marking) -> bytes:
+    return pack(dumps({"rows": marking.rows(), **marking.result()}, ensure_ascii=False).encode(errors="replace"))
 
 
 async def _answered(request: Request, job: Job, question: dict[str, Any]) -> Response:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from .base import AskedLanguage, Request, Syntax, examples, items
+from .base import AskedLanguage, Request, SceneReference, Syntax, examples, items
 from .task import TASK, SceneAskedAbout, TaskId
 
 ANSWER = Field(description="what was written")
@@ -111,4 +111,32 @@ class BatchRequest(Request):
                 {"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": "m*l^2*dot(phi)^2"}},
             ]
         }
+    )
+
+
+class TableRequest(Request):
+    """The answers of a class."""
+
+    table: Annotated[str, Field(max_length=1_000_000)] = Field(
+        description="CSV with the columns task and answer, and student, scene, syntax, seed and line where wanted; "
+        "between the cells commas, semicolons or tabs",
+        examples=["student,scene,task,answer\nada,pendulum,kinetic-energy,m*l^2*dot(phi)^2/2\n"],
+    )
+    encoding: Literal["text", "base64"] = Field(
+        "text", description="base64: the bytes of a file as a spreadsheet wrote it, in UTF-8, UTF-16 or Windows-1252"
+    )
+    assignment: dict[str, Any] | None = Field(None, description="whose tasks are answered, by number or by id")
+    scene: SceneReference | None = Field(None, description="of the rows that name none, where there is no assignment")
+    lang: AskedLanguage = None
+
+    model_config = examples(
+        {
+            "table": "student,scene,task,answer,line\n"
+            "ada,pendulum,kinetic-energy,m*l^2*dot(phi)^2,1\n"
+            "ada,pendulum,equation:phi,2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0,2\n"
+        },
+        {
+            "table": "student;task;answer\nada;1;ddot(phi) = -g/l*sin(phi)\n",
+            "assignment": {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 4}]},
+        },
     )

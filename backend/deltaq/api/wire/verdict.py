@@ -8,6 +8,8 @@ from pydantic import Field
 
 from .base import Answer
 
+Outcome = Literal["correct", "wrong", "undecided", "invalid", "follow_through"]
+
 
 class VerdictProblem(Answer):
     """Why an answer could not be read."""
@@ -38,7 +40,7 @@ class CounterexampleAnswer(Answer):
 class VerdictAnswer(Answer):
     """What the checker says of an answer."""
 
-    outcome: Literal["correct", "wrong", "undecided", "invalid", "follow_through"]
+    outcome: Outcome
     understood_as: str = Field(description="LaTeX of what was read")
     feedback: str
     remark: str | None = Field(description="in which sense a correct answer is equal, or why a wrong one is")
@@ -81,6 +83,65 @@ class LinesAnswer(Answer):
     first_wrong: int | None = Field(description="index of the first line that is wrong or cannot be read")
     points: float
     of: float
+
+
+class GradedRow(Answer):
+    """A row of a table, marked."""
+
+    index: int = Field(description="among the rows, from 0")
+    row: int = Field(description="as a spreadsheet counts, the header being row 1")
+    column: str = Field(description="which cell keeps the row from being marked; else empty")
+    student: str
+    scene: str
+    task: str
+    title: str
+    outcome: Outcome
+    misconception: str = Field(description="its id, `slip:` and its kind, or empty")
+    mistake: str = Field(description="what went wrong, in words; empty where nothing did")
+    points: float = Field(description="what it adds to the answers of the same student to the same task before")
+    of: float
+    understood_as: str
+    feedback: str
+    answer: str
+
+
+class FrequentMistake(Answer):
+    """How often something went wrong in one task."""
+
+    outcome: Outcome
+    mistake: str = Field(description="in words")
+    count: int
+    students: tuple[str, ...]
+
+
+class TaskTotals(Answer):
+    """What came of one task."""
+
+    scene: str
+    task: str
+    title: str
+    count: int
+    outcomes: dict[Outcome, int]
+    mistakes: tuple[FrequentMistake, ...] = Field(description="the most frequent first")
+
+
+class StudentTotals(Answer):
+    """What one student earned."""
+
+    student: str
+    points: float
+    of: float = Field(description="on the assignment; without one, by the tasks that were answered")
+
+
+class TableAnswer(Answer):
+    """A table, marked. A task earns its points once: of several answers of a student the best counts."""
+
+    rows: tuple[GradedRow, ...] = Field(description="in the order of the table")
+    points: float
+    of: float
+    tasks: tuple[TaskTotals, ...]
+    students: tuple[StudentTotals, ...]
+    csv: str = Field(description="the rows as a table, written as the one that was sent")
 
 
 class BatchAnswer(Answer):

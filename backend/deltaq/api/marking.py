@@ -1,0 +1,137 @@
+"""A table of answers marked row by row: none holds a worker for longer than one may, and between two others get theirs.
+
+One row is under way at a time, so a table waits its turn in the queue as a single check does. Each verdict is kept by
+itself, without the name of who gave the answer: what many students wrote is judged once, and whoever asks again where
+the service was busy, or time was over, gets further.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from collections.abc import AsyncIterator, Awaitable, Callable
+from dataclasses import fields
+from typing import Any
+
+from ..errors import InputError, Problem
+from ..homework.gradebook import Document, Gradebook, Plan, refusal
+from ..homework.results import Graded, results_csv, totals
+from ..narration.catalog import message, text
+from .batches import OUT_OF_TIME, TOO_LARGE
+from .languages import Language
+from .streams import event
+from .workers.account import QuotaExceeded
+from .workers.job import DeadlineExceeded, MemoryExceeded, Overloaded
+
+LONGEST = 1800.0  # seconds after which no other row of a stream is begun
+TOTALS_PAUSE = 2.0  # seconds between two totals of a stream
+BUSY_PAUSE = 3.0  # seconds after which a busy service is asked again
+HIDDEN = ("person", "target")  # what a row of the answer leaves out
+
+Told = tuple[str, Document]  # the kind of an event and its data
+
+
+class Marking:
+    """One table on its way: `events` marks it, `result` says what came of it."""
+
+    def __init__(
+        self,
+        plan: Plan,
+        verdict_on: Callable[[Document], Awaitable[Document]],
+        language: Language,
+        longest: float,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
+    ) -> None:
+        self._plan = plan
+        self._verdict_on = verdict_on
+        self._language = language
+        self._clock = clock
+        self._sleep = sleep
+        self._end = clock() + longest
+        self._graded: dict[int, Graded] = {}
+
+    async def events(self) -> AsyncIterator[Told]:
+        """`begun` with the number of `rows`; `row` for each when it is marked; `waiting` with `seconds` where the
+        service is busy or the client has used its share; `totals` of what is done, now and again.
+
+        What is too large, or comes after the time is over, is left undecided; what makes no sense is told in its row.
+        """
+        yield "begun", {"rows": len(self._plan.rows)}
+        book, told = Gradebook(self._plan), self._clock()
+        for index in self._plan.order:
+            row = self._plan.rows[index]
+            question = book.question(row)
+            verdict, wait = (refusal(row.refused), 0.0) if question is None else await self._try(question)
+            while verdict is None and question is not None:
+                yield "waiting", {"seconds": round(wait, 1)}
+                await self._sleep(wait)
+                verdict, wait = await self._try(question)
+            self._graded[index] = book.enter(row, verdict or {})
+            yield "row", row_document(index, self._graded[index])
+            if self._clock() - told > TOTALS_PAUSE:
+                yield "totals", self._totals()
+                told = self._clock()
+
+    def result(self) -> Document:
+        """Totals and the table of results, once all is marked."""
+        return {**self._totals(), "csv": self.csv().decode()}
+
+    def csv(self) -> bytes:
+        """The results as a file, written as the table was."""
+        return results_csv(self._in_order(), self._plan.style)
+
+    def rows(self) -> list[Document]:
+        """The rows in the order of the table."""
+        return [row_document(index, graded) for index, graded in sorted(self._graded.items())]
+
+    def _in_order(self) -> list[Graded]:
+        return [graded for _, graded in sorted(self._graded.items())]
+
+    def _totals(self) -> Document:
+        return totals(self._in_order(), self._plan.of, self._language)
+
+    async def _try(self, question: Document) -> tuple[Document | None, float]:
+        """The verdict; or none, and after how many seconds to try again."""
+        left = self._end - self._clock()
+        try:
+            return (await self._verdict_on(question) if left > 0.0 else self._undecided(OUT_OF_TIME)), 0.0
+        except (DeadlineExceeded, MemoryExceeded):
+            return self._undecided(TOO_LARGE), 0.0
+        except InputError as error:
+            return refusal(" ".join(message(self._language, problem) for problem in error.problems)), 0.0
+        except QuotaExceeded as error:
+            return self._later(error.seconds, left)
+        except Overloaded:
+            return self._later(BUSY_PAUSE, left)
+
+    def _later(self, seconds: float, left: float) -> tuple[Document | None, float]:
+        return (None, seconds) if seconds < left else (self._undecided(OUT_OF_TIME), 0.0)
+
+    def _undecided(self, why: Problem) -> Document:
+        """The verdict on an answer that has not been looked at to the end."""
+        outcome = text(self._language, "homework.outcomes.undecided")
+        return refusal(f"{outcome} {message(self._language, why)}", "undecided")
+
+
+def row_document(index: int, graded: Graded) -> Document:
+    """A marked row as the API tells it."""
+    told: dict[str, Any] = {one.name: getattr(graded, one.name) for one in fields(graded) if one.name not in HIDDEN}
+    return {"index": index, **told}
+
+
+async def streamed(marking: Marking, failure: Callable[[Exception], Document]) -> AsyncIterator[bytes]:
+    """The events of a marking, then `result`, or `problem` with a problem document. When the client goes away, what is
+    under way is cancelled, and the rest is not begun.
+    """
+    try:
+        async for kind, data in marking.events():
+            yield _event(kind, data)
+        yield _event("result", await asyncio.to_thread(marking.result))
+    except Exception as error:  # noqa: BLE001  the head has been sent, so a failure is an event
+        yield _event("problem", failure(error))
+
+
+def _event(kind: str, data: Document) -> bytes:
+    return event(kind, json.dumps(data, ensure_ascii=False).encode(errors="replace"))

@@ -1,0 +1,223 @@
+"""How the answers of a class earn their points: decided here alone, for the shell, the API and the page.
+
+- A task earns its points once. Of several answers of one person to one task the best counts, in whatever values, and
+  the same right answer a second time adds nothing.
+- Where the table has a column `line`, the rows of one person on one scene with a number there are a working, read in
+  the order of these numbers; rows of the same number in the order of the table. What follows correctly from a wrong
+  line earns the share that the assignment sets for it, half if none does.
+- A line follows from the last readable answer to each task before it. So a mistake that has been corrected carries
+  nothing any more, and a wrong answer that is written again earns nothing.
+- A row without a number in `line` follows from nothing, and nothing follows from it.
+- Persons are told apart by the column `student`, without spaces around the name. A row that leaves it empty is nobody
+  else's; a table that has `line` and no `student` is the working of one person.
+- What cannot be marked (no such task, a wrong cell) earns nothing and spoils no other row.
+
+No SymPy here, so that the process that serves the page may keep the book while workers judge the rows.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from typing import Any, TypeVar
+
+from ..language.parser import Syntax
+from .results import Graded
+from .table import Style
+
+FOLLOW_THROUGH = 0.5  # share of the points for what follows from a wrong line
+MOST_STANDING = 24  # wrong lines that a later one is looked at beside: the latest of them
+MISTAKEN = ("wrong", "follow_through")  # outcomes of lines that others may follow from
+
+T = TypeVar("T")
+Document = dict[str, Any]
+
+
+def standing_after(standing: Mapping[str, T], task: str, outcome: str, answer: Callable[[], T]) -> dict[str, T]:
+    """The wrong answers that stand after one more line, by task, the latest last.
+
+    Each task has its last readable answer: one that is wrong replaces that before it, a right one removes it.
+    """
+    if outcome in MISTAKEN:
+        return {name: one for name, one in standing.items() if name != task} | {task: answer()}
+    if outcome == "correct":
+        return {name: one for name, one in standing.items() if name != task}
+    return dict(standing)
+
+
+def earned_share(outcome: str, remark: str, follow_through: float) -> float:
+    """The share of its points that an answer earns, taken by itself: 1 if right, 0 if wrong or written again."""
+    if outcome == "follow_through":
+        return 0.0 if remark == "repeated" else follow_through
+    return 1.0 if outcome == "correct" else 0.0
+
+
+@dataclass(frozen=True)
+class Target:
+    """A task that rows answer: what requests say of its scene, its id and title, and what it counts."""
+
+    reference: Mapping[str, object]
+    scene: str
+    task: str
+    title: str
+    of: float
+
+    @cached_property
+    def working(self) -> str:
+        """Tasks of the same scene with the same changes may stand in one working."""
+        return json.dumps(self.reference, sort_keys=True)
+
+
+@dataclass(frozen=True)
+class Row:
+    """An answer in the table. `number` counts as a spreadsheet does, the header being row 1.
+
+    `person` is whose answers it counts with, None if nobody's. `target` is the number of its task in the plan, None if
+    it has none; `refused` says why it cannot be marked, and `column` where that is.
+    """
+
+    number: int
+    student: str
+    scene: str
+    task: str
+    answer: str
+    syntax: Syntax = "plain"
+    person: str | None = None
+    target: int | None = None
+    seed: str | None = None
+    line: float | None = None
+    refused: str = ""
+    column: str = ""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A table that has been read: its tasks, its rows, the share for what follows from a wrong line, and how it was
+    written. `of` is what all tasks of the assignment count together, None where there is no assignment.
+    """
+
+    targets: tuple[Target, ...]
+    rows: tuple[Row, ...]
+    share: float = FOLLOW_THROUGH
+    of: float | None = None
+    style: Style = Style()
+
+    @classmethod
+    def read(cls, document: Mapping[str, Any]) -> Plan:
+        """The plan of a `document`, which has crossed a border as JSON."""
+        targets = tuple(Target(**one) for one in document["targets"])
+        rows = tuple(Row(**one) for one in document["rows"])
+        return cls(targets, rows, document["share"], document["of"], Style(**document["style"]))
+
+    @property
+    def document(self) -> Document:
+        """All of it as plain data."""
+        return asdict(self)
+
+    @property
+    def order(self) -> list[int]:
+        """The rows as they are marked: working by working, each in the order of its lines."""
+        first: dict[object, int] = {}
+        for index in range(len(self.rows)):
+            first.setdefault(self._together(index), index)
+        return sorted(range(len(self.rows)), key=lambda n: (first[self._together(n)], self.rows[n].line or 0.0, n))
+
+    def _together(self, index: int) -> object:
+        return self.working_of(self.rows[index]) or index
+
+    def working_of(self, row: Row) -> tuple[str, str, str | None] | None:
+        """What names the working that a row is a line of; None if it stands alone."""
+        if row.line is None or row.person is None or row.target is None or row.refused:
+            return None
+        return row.person, self.targets[row.target].working, row.seed
+
+
+class Gradebook:
+    """The points and the standing wrong answers of everybody, row by row in the order of the plan."""
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+        self._earned: dict[tuple[str, str, str], float] = {}
+        self._standing: dict[tuple[str, str, str | None], dict[str, Document]] = {}
+
+    def question(self, row: Row) -> Document | None:
+        """What is to be asked about a row (`service.row_request`); None if it is refused."""
+        if row.refused or row.target is None:
+            return None
+        target, working = self._plan.targets[row.target], self._plan.working_of(row)
+        standing = self._standing.get(working, {}) if working else {}
+        return {
+            **target.reference,
+            **({"seed": row.seed} if row.seed else {}),
+            **_line(target, row),
+            "standing": list(standing.values())[-MOST_STANDING:],
+        }
+
+    def enter(self, row: Row, verdict: Mapping[str, Any]) -> Graded:
+        """The row with its verdict: {outcome, remark, misconception, mistake, understood_as, feedback}."""
+        target = None if row.target is None else self._plan.targets[row.target]
+        of = target.of if target else 0.0
+        worth = of * earned_share(verdict["outcome"], verdict["remark"], self._plan.share)
+        points = self._gained(row, target, worth) if target else 0.0
+        self._note(row, target, verdict["outcome"])
+        told = {name: verdict[name] for name in ("outcome", "misconception", "mistake", "understood_as", "feedback")}
+        return Graded(
+            student=row.student,
+            scene=target.scene if target else row.scene,
+            task=target.task if target else row.task,
+            points=points,
+            of=of,
+            answer=row.answer,
+            title=target.title if target else row.task,
+            row=row.number,
+            column=row.column,
+            person=row.person,
+            target=row.target,
+            **told,
+        )
+
+    def refuse(self, row: Row) -> Graded:
+        """A row that cannot be marked, with what is told of it."""
+        return self.enter(row, refusal(row.refused))
+
+    def _gained(self, row: Row, target: Target, worth: float) -> float:
+        """What an answer adds to the best one before it."""
+        if row.person is None:
+            return worth
+        key = (row.person, target.working, target.task)
+        before = self._earned.get(key, 0.0)
+        self._earned[key] = max(before, worth)
+        return max(0.0, worth - before)
+
+    def _note(self, row: Row, target: Target | None, outcome: str) -> None:
+        working = self._plan.working_of(row)
+        if working and target:
+            standing = self._standing.get(working, {})
+            self._standing[working] = standing_after(standing, target.task, outcome, lambda: _line(target, row))
+
+
+def refusal(told: str, outcome: str = "invalid") -> Document:
+    """The verdict on a row that has none but a sentence."""
+    return {
+        "outcome": outcome, "remark": "", "misconception": "", "mistake": "", "understood_as": "", "feedback": told
+    }  # fmt: skip
+
+
+def in_order(plan: Plan, graded: Mapping[int, Graded]) -> list[Graded]:
+    """The rows as they stand in the table."""
+    return [graded[index] for index in range(len(plan.rows))]
+
+
+def _line(target: Target, row: Row) -> Document:
+    return {"task": target.task, "answer": {"syntax": row.syntax, "value": row.answer}}
+
+
+def marked(plan: Plan, verdict_on: Callable[[Document], Mapping[str, Any]]) -> Iterator[tuple[int, Graded]]:
+    """Every row with its place in the table, in the order in which they are marked."""
+    book = Gradebook(plan)
+    for index in plan.order:
+        row = plan.rows[index]
+        question = book.question(row)
+        yield index, book.enter(row, verdict_on(question)) if question else book.refuse(row)
