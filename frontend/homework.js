@@ -135,7 +135,7 @@ async function questions(reference) {
 async function openClassroom() {
   if (classroom) return;
   const { open } = await import("./view/homework/open-classroom.js");
-  classroom = open({ api, state: get, changed: update, say: (key) => view().t(key), questions });
+  classroom = open({ send: fetch.bind(globalThis), state: get, changed: update, questions });
   update();
 }
 

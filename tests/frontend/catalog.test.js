@@ -7,7 +7,6 @@ import { GUIDE } from "../../frontend/model/guide.js";
 import { COURSE } from "../../frontend/model/start/course.js";
 import { FORMS, SHOWN } from "../../frontend/model/share.js";
 import { PAGES } from "../../frontend/model/url.js";
-import { SLIPS } from "../../frontend/model/homework/grading.js";
 import { OPTIONS } from "../../frontend/model/labs/experiments.js";
 import { SIDES } from "../../frontend/model/homework/place.js";
 import { EXAMPLES } from "../../frontend/model/variations/examples.js";
@@ -83,8 +82,7 @@ const EXERCISES = [
   ...["keys-motion", "keys-parameters", "keys-operations", "status-solved", "status-begun"].map((key) => `homework.${key}`),
   ...["latex", "plain"].flatMap((syntax) => ["syntax", "to", "kept"].map((key) => `homework.${key}-${syntax}`)),
   ...SIDES.map((side) => `homework.side-${side}`),
-  ...SLIPS.map((slip) => `homework.slip-${slip}`),
-  ...["student", "task", "answer", "outcome", "points", "wrong", "invalid", "undecided"].map((key) => `homework.class-${key}`),
+  ...["row", "student", "task", "answer", "outcome", "points"].map((key) => `homework.class-${key}`),
   ...["checking", "check", "solution", "points", "points-one", "hint", "next-hint", "compare", "moving", "mark"].map((key) => `homework.${key}`),
 ];
 

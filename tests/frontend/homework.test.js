@@ -6,8 +6,7 @@ import { assignmentIn, fragmentOfAssignment } from "../../frontend/model/homewor
 import { createConversion } from "../../frontend/model/homework/conversion.js";
 import { columnsFor, inRows, keyboardOf, shortcutsOf, written } from "../../frontend/model/homework/keys.js";
 import { paired } from "../../frontend/model/homework/fences.js";
-import { createClassroom } from "../../frontend/model/homework/classroom.js";
-import { checksOf, earned, onceEach, summaryOf, targetOf } from "../../frontend/model/homework/grading.js";
+import { base64, createClassroom } from "../../frontend/model/homework/classroom.js";
 import { patient } from "../../frontend/model/homework/patience.js";
 import { createExercise } from "../../frontend/model/homework/exercise.js";
 import { stepOf } from "../../frontend/model/homework/solution.js";
@@ -17,7 +16,6 @@ import { BLANK, createProgress, draftOf } from "../../frontend/model/homework/pr
 import { assignmentOf, groupOf, pointsOf, referenceIn, sheetOfScene } from "../../frontend/model/homework/sheet.js";
 import { begin } from "../../frontend/model/homework/state.js";
 import { createTrail } from "../../frontend/model/homework/trail.js";
-import { BEYOND, readTable, writeTable } from "../../frontend/model/homework/table.js";
 import { ApiError } from "../../frontend/model/api.js";
 import { createStore } from "../../frontend/model/store.js";
 import { scene, trajectory } from "./fixtures.js";
@@ -148,31 +146,6 @@ test("an assignment travels in an address, and comes from files", async () => {
   assert.equal(await assignmentIn("#a=broken", "", api, "de"), null);
 });
 
-const encoder = new TextEncoder();
-const WINDOWS = Uint8Array.from("task;answer\r\nequation:phi;\xfc\r\n", (letter) => letter.charCodeAt(0));
-const UTF16 = new Uint8Array(Uint16Array.from("\ufefftask\tanswer\nequation:phi\tü\n", (letter) => letter.charCodeAt(0)).buffer);
-
-for (const [name, data, separator, marked] of /** @type {const} */ ([
-  ["commas", 'Task,Answer\nequation:phi,"ü"\n', ",", false], ["semicolons", "task;answer\r\nequation:phi;ü\r\n", ";", false], ["tabs", "\ufefftask\tanswer\nequation:phi\tü\n\n", "\t", true],
-  ["a separator told", "sep=;\r\ntask;answer\r\nequation:phi;ü\r\n", ";", false], ["empty rows", "task;answer\r;;;\requation:phi;ü;;\r", ";", false],
-  ["Windows-1252", WINDOWS, ";", true], ["UTF-16", UTF16, "\t", true],
-]))
-  test(`a table with ${name}`, () => {
-    const table = readTable(typeof data === "string" ? encoder.encode(data) : data);
-    assert.deepEqual(table, { header: ["task", "answer"], rows: [{ task: "equation:phi", answer: "ü" }], style: { separator, marked } });
-  });
-
-test("cells in quotes, cells too few and too many", () => {
-  const { rows } = readTable(encoder.encode('task,answer\n1,"a, ""b""\nc"\n2\n3,m,x,y\n'));
-  assert.deepEqual(rows, [{ task: "1", answer: 'a, "b"\nc' }, { task: "2", answer: "" }, { task: "3", answer: "m", [BEYOND]: "x y" }]);
-});
-
-test("a table is written so that no cell is a formula of a spreadsheet, and as the other was", () => {
-  const rows = [{ a: "=1", b: 2.5 }, { a: 'x, "y"', b: null }, { a: "p;q", b: -1 }];
-  assert.equal(writeTable(["a", "b"], rows), 'a,b\n\'=1,2.5\n"x, ""y""",\np;q,-1\n');
-  assert.equal(writeTable(["a", "b"], rows, { separator: ";", marked: true }), '\ufeffa;b\n\'=1;2,5\n"x, ""y""";\n"p;q";-1\n');
-});
-
 test("both motions stand in one frame, and part at a time", () => {
   const wide = { ...trajectory, positions: { ...trajectory.positions, bob: trajectory.t.map(() => [9, 0]) } };
   const [x0, x1] = framed(/** @type {any} */ (scene), [trajectory, wide]).drawing?.view ?? [];
@@ -253,61 +226,69 @@ test("what cannot be read stays on its side", async () => {
 
 const SHEET = { format: 1, individual: true, tasks: [{ scene: "pendulum", task: "lagrangian", points: 4 }, { scene: "atwood", task: "momentum:y" }] };
 
-for (const [name, row, assignment, target] of /** @type {const} */ ([
-  ["scene and task by name", { task: " lagrangian ", scene: "pendulum" }, null, { reference: { scene: "pendulum" }, task: "lagrangian", points: null }],
-  ["the scene of the page where the table names none", { task: "lagrangian" }, null, { reference: { scene: "swing" }, task: "lagrangian", points: null }],
-  ["by its number, with the student's own values", { task: "1", student: "ada" }, SHEET, { reference: { scene: "pendulum", seed: "ada" }, task: "lagrangian", points: 4 }],
-  ["by its id", { task: "momentum:y", student: "ada", seed: "7" }, SHEET, { reference: { scene: "atwood", seed: "7" }, task: "momentum:y", points: null }],
-  ["none", { task: "3" }, SHEET, null],
-])) test(`the task of a row: ${name}`, () => assert.deepEqual(targetOf(/** @type {any} */ (row), /** @type {any} */ (assignment), "swing"), target));
-
-test("the rows of one student on one scene are a working, if the table counts lines", () => {
-  const rows = [{ student: "ada", task: "b", answer: "2", line: "2" }, { student: "ada", task: "a", answer: "1", line: "1" }, { student: "max", task: "b", answer: "3", line: "2" }];
-  const targets = rows.map((row) => targetOf(row, null, "swing"));
-  const previous = (/** @type {any[]} */ some) => checksOf(some, targets).map((check) => /** @type {any} */ (check).previous?.map((/** @type {any} */ line) => line.task));
-  assert.deepEqual(previous(rows), [["a"], undefined, undefined]);
-  assert.deepEqual(previous(rows.map(({ line: _, ...row }) => row)), [undefined, undefined, undefined]);
-});
-
-test("points: in full, in part, and once for each task", () => {
-  const outcome = (/** @type {any} */ one, remark = "") => earned({ outcome: one, remark }, 4, 0.5);
-  assert.deepEqual([outcome("correct"), outcome("follow_through"), outcome("follow_through", "repeated"), outcome("wrong")], [4, 2, 0, 0]);
-  const result = (/** @type {string} */ student, /** @type {number} */ points) => /** @type {any} */ ({ student, scene: "s", task: "t", points });
-  assert.deepEqual(onceEach([result("ada", 2), result("ada", 4), result("max", 4), result("ada", 4), result("", 1), result("", 1)]).map(({ points }) => points), [2, 2, 4, 0, 1, 1]);
-});
-
-test("a summary by task, the most frequent mistake first", () => {
-  const result = (/** @type {string} */ student, /** @type {string} */ outcome, /** @type {string} */ mistake) => /** @type {any} */ ({ student, scene: "s", task: "t", title: "T", outcome, mistake });
-  const [{ count, mistakes, outcomes }] = summaryOf([result("a", "wrong", "x"), result("b", "wrong", "y"), result("c", "wrong", "y"), result("d", "correct", "")]);
-  assert.equal(count, 4);
-  assert.deepEqual(mistakes.map(({ mistake, students }) => [mistake, ...students]), [["y", "b", "c"], ["x", "a"]]);
-  assert.deepEqual(outcomes, [{ outcome: "wrong", count: 3 }, { outcome: "correct", count: 1 }]);
-});
-
-/** A server that knows one task and refuses an answer `bad`. @param {any[]} sent */
-const serverOf = (sent) => async (/** @type {string} */ path, /** @type {any} */ body) => {
-  sent.push(path);
-  const refusal = new ApiError({ title: "", detail: "", problems: [{ message: "refused" }], status: 422 });
-  if (path === "/tasks" && body.scene !== "pendulum") throw refusal;
-  if (path === "/tasks") return { scene: { id: "pendulum" }, tasks: [{ id: "lagrangian", title: "L", points: 2 }] };
-  if (body.checks.some((/** @type {any} */ check) => check.answer.value === "bad")) throw refusal;
-  return { verdicts: body.checks.map(() => ({ ...WRONG, outcome: "correct", misconceptions: [] })) };
-};
-
-test("a class: one bad answer, an unknown task or scene spoils no other", async () => {
-  const sent = /** @type {any[]} */ ([]);
-  const state = /** @type {any} */ ({ asked: { place: { lang: "en" } }, assignment: null, sheet: null, entry: null });
-  const session = createClassroom({ api: /** @type {any} */ ({ post: serverOf(sent) }), state: () => state, say: (key) => key, questions: async () => null });
-  await session.grade("class.csv", encoder.encode("student,scene,task,answer\na,pendulum,lagrangian,1\nb,pendulum,lagrangian,bad\nc,pendulum,other,1\nd,nowhere,lagrangian,1\ne,pendulum,lagrangian,9{,}81\n"));
-  const { results, done, running } = session.get();
-  assert.deepEqual(results.map(({ outcome, points, of, feedback }) => [outcome, points, of, feedback]), [
-    ["correct", 2, 2, "Not right yet."], ["invalid", 0, 2, "refused"], ["invalid", 0, 0, "homework.class-unknown"], ["invalid", 0, 0, "refused"], ["invalid", 0, 0, "homework.class-cells"],
-  ]);
-  assert.deepEqual([done, running], [5, false]);
-  for (const [text, notice, column] of [["a,b\n1,2\n", "homework.class-column", "task"], ["task,answer\n", "homework.class-empty", ""]]) {
-    await session.grade("other.csv", encoder.encode(text));
-    assert.deepEqual([session.get().notice, session.get().column, session.get().results.length], [notice, column, 0]);
+test("a file in base64, whatever its bytes are and however many", () => {
+  for (const length of [0, 1, 2, 3, 100_000]) {
+    const bytes = Uint8Array.from({ length }, (_, n) => (n * 7) % 256);
+    assert.equal(base64(bytes).join(""), Buffer.from(bytes).toString("base64"));
+    assert.ok(base64(bytes).every((piece) => piece.length <= 10_000));
   }
+});
+
+/** A server that says this of a table, in pieces of this many bytes. @param {string} said @param {any[]} asked @param {number} [size] @returns {typeof fetch} */
+const saying = (said, asked, size = 7) => async (path, options) => {
+  asked.push([path, JSON.parse(String(options?.body)), options?.signal]);
+  const bytes = new TextEncoder().encode(said);
+  const pieces = Array.from({ length: Math.ceil(bytes.length / size) }, (_, n) => bytes.slice(n * size, (n + 1) * size));
+  return new Response(new ReadableStream({ pull: (stream) => (pieces.length ? stream.enqueue(pieces.shift()) : stream.close()) }));
+};
+const event = (/** @type {string} */ kind, /** @type {object} */ data) => `event: ${kind}\ndata: ${JSON.stringify(data)}\n\n`;
+const TOTALS = { points: 2, of: 2, tasks: [], students: [{ student: "Zoë", points: 2, of: 2, answers: [] }] };
+const ROWS = [event("begun", { rows: 2 }), event("row", { index: 1, student: "Zoë" }), event("waiting", { seconds: 3 }), event("row", { index: 0 })].join("");
+
+/** @param {typeof fetch} send @param {object} [more] */
+const classOf = (send, more) => createClassroom({ send, state: () => /** @type {any} */ ({ asked: { place: { lang: "en" } }, assignment: null, entry: null, ...more }), questions: async () => null });
+const sentOf = (/** @type {any[]} */ [[path, body]]) => [path, body];
+
+test("a class: the file goes to the server as it is, and its rows, totals and table of results are kept", async () => {
+  const asked = /** @type {any[]} */ ([]);
+  const session = classOf(saying(ROWS + event("result", { ...TOTALS, csv: "\ufeffstudent\n" }), asked), { entry: { reference: { scene: "swing", seed: "ada" } } });
+  await session.grade("class.csv", Uint8Array.from([0xff, 0xfe, 0x00]));
+  assert.deepEqual(sentOf(asked), ["/api/v1/checks/table", { table: ["//4A"], encoding: "base64", scene: "swing", lang: "en" }]);
+  const { rows, totals, csv, running, waiting, failure, total } = session.get();
+  assert.deepEqual([rows.map(({ index }) => index), totals, csv, running, waiting, failure, total], [[1, 0], TOTALS, "\ufeffstudent\n", false, 0, null, 2]);
+});
+
+test("a class is marked by the assignment that is open", async () => {
+  const asked = /** @type {any[]} */ ([]);
+  await classOf(saying(ROWS, asked), { assignment: SHEET, entry: { reference: { scene: "swing" } } }).grade("class.csv", new Uint8Array());
+  assert.deepEqual(sentOf(asked)[1], { table: [""], encoding: "base64", assignment: SHEET, lang: "en" });
+});
+
+for (const [name, said, status, count] of /** @type {const} */ ([
+  ["that breaks off", ROWS, 0, 2], ["with a problem", ROWS + event("problem", { status: 504, title: "too large" }), 504, 2], ["with a problem at once", event("problem", { status: 500 }), 500, 0],
+])) test(`a class: of a stream ${name} the rows stay, and the failure is told`, async () => {
+  const session = classOf(saying(said, []));
+  await session.grade("class.csv", new Uint8Array());
+  const { rows, failure, running, csv } = session.get();
+  assert.deepEqual([rows.length, failure?.status, running, csv], [count, status, false, null]);
+});
+
+test("a class: whoever stops, or opens another file, gives up the first", async () => {
+  const signals = /** @type {AbortSignal[]} */ ([]);
+  /** @type {typeof fetch} */
+  const hanging = (_, options) => {
+    const signal = /** @type {AbortSignal} */ (options?.signal);
+    signals.push(signal);
+    return new Promise((_, fail) => signal.addEventListener("abort", () => fail(signal.reason)));
+  };
+  const session = classOf(hanging);
+  const first = session.grade("first.csv", new Uint8Array());
+  const second = session.grade("second.csv", new Uint8Array());
+  await first;
+  assert.deepEqual([signals.map(({ aborted }) => aborted), session.get().name, session.get().running], [[true, false], "second.csv", true]);
+  session.stop();
+  await second;
+  assert.deepEqual([signals[1].aborted, session.get().running, session.get().failure], [true, false, null]);
 });
 
 test("a busy server is asked again, any other failure is not", async () => {

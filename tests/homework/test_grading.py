@@ -337,12 +337,15 @@ def test_a_row_that_names_no_scene_is_of_the_scene_around() -> None:
     assert (found.scene, found.outcome) == ("pendulum", "correct")
 
 
+RIGHT_T = {"outcome": "correct", "points": 2.0}
+
+
 def test_totals_by_task_and_by_student() -> None:
     content = f"student,task,answer\nada,1,{T}\nada,2,{FROM_T}\nbob,1,{DOUBLE_T}\nbob,1,{T}\nada,1,{T}\n"
     told = totals(graded_rows(content, TWO_TASKS), 6.0, "en")
     assert told["students"] == [
-        {"student": "ada", "points": 2.0, "of": 6.0},
-        {"student": "bob", "points": 2.0, "of": 6.0},
+        {"student": "ada", "points": 2.0, "of": 6.0, "answers": [RIGHT_T, {"outcome": "wrong", "points": 0.0}]},
+        {"student": "bob", "points": 2.0, "of": 6.0, "answers": [RIGHT_T, None]},
     ]
     assert (told["points"], told["of"]) == (4.0, 12.0)
     first, second = told["tasks"]

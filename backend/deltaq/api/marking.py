@@ -25,7 +25,7 @@ from .workers.account import QuotaExceeded
 from .workers.job import DeadlineExceeded, MemoryExceeded, Overloaded
 
 LONGEST = 1800.0  # seconds after which no other row of a stream is begun
-TOTALS_PAUSE = 2.0  # seconds between two totals of a stream
+TOTALS_PAUSE = 0.5  # seconds between two totals of a stream, and as many more as there are thousands of rows
 BUSY_PAUSE = 3.0  # seconds after which a busy service is asked again
 HIDDEN = ("person", "target")  # what a row of the answer leaves out
 
@@ -59,7 +59,7 @@ class Marking:
         What is too large, or comes after the time is over, is left undecided; what makes no sense is told in its row.
         """
         yield "begun", {"rows": len(self._plan.rows)}
-        book, told = Gradebook(self._plan), self._clock()
+        book, next_totals = Gradebook(self._plan), self._clock()
         for index in self._plan.order:
             row = self._plan.rows[index]
             question = book.question(row)
@@ -70,9 +70,9 @@ class Marking:
                 verdict, wait = await self._try(question)
             self._graded[index] = book.enter(row, verdict or {})
             yield "row", row_document(index, self._graded[index])
-            if self._clock() - told > TOTALS_PAUSE:
+            if self._clock() >= next_totals:
                 yield "totals", self._totals()
-                told = self._clock()
+                next_totals = self._clock() + TOTALS_PAUSE + len(self._plan.rows) / 1000
 
     def result(self) -> Document:
         """Totals and the table of results, once all is marked."""

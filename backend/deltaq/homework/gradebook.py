@@ -24,6 +24,7 @@ from functools import cached_property
 from typing import Any, TypeVar
 
 from ..language.parser import Syntax
+from ..narration.prose import words
 from .results import Graded
 from .table import Style
 
@@ -170,7 +171,7 @@ class Gradebook:
             points=points,
             of=of,
             answer=row.answer,
-            title=target.title if target else row.task,
+            title=target.title if target else words(row.task),  # what a student wrote is no markup
             row=row.number,
             column=row.column,
             person=row.person,

@@ -13,6 +13,8 @@ from ..narration.prose import plain
 from .table import Style
 
 RESULT = ("student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback", "answer")
+TASK = ("target", "scene", "task")  # what rows that answer the same task have in common
+OUTCOMES = ("correct", "follow_through", "undecided", "wrong", "invalid")  # the best first
 FAILED = ("wrong", "invalid", "undecided")
 BAR = 30
 PLAIN = Style()
@@ -56,16 +58,20 @@ def results_csv(graded: Iterable[Graded], style: Style = PLAIN) -> bytes:
 
 
 def totals(graded: Sequence[Graded], of: float | None, language: str) -> Document:
-    """{points, of, tasks: [{scene, task, title, count, outcomes, mistakes}], students: [{student, points, of}]}.
+    """{points, of, tasks, students}: `tasks` are {scene, task, title, count, outcomes, mistakes}, `students` are {student,
+    points, of, answers}.
 
-    `of` is what a person can earn; where it is None, that is the sum over the tasks that the person answered.
+    `of` is what a person can earn; where it is None, that is the sum over the tasks that the person answered. `answers`
+    has a student's best answer to each of the tasks, {outcome, points}, or None.
     """
-    people = [_student(name, rows, of) for name, rows in _grouped(graded, "person").items() if name is not None]
+    by_task = _grouped(graded, *TASK)
+    by_person = {name: rows for name, rows in _grouped(graded, "person").items() if name is not None}
+    people = [_student(name, rows, of, by_task) for name, rows in by_person.items()]
     alone = sum(each.of for each in graded if each.person is None)
     return {
         "points": sum(each.points for each in graded),
         "of": sum(each["of"] for each in people) + alone,
-        "tasks": [_task(rows, language) for rows in _grouped(graded, "target", "scene", "task").values()],
+        "tasks": [_task(rows, language) for rows in by_task.values()],
         "students": [each for each in people if each["student"]],
     }
 
@@ -79,9 +85,17 @@ def _grouped(graded: Iterable[Graded], *names: str) -> dict[Any, list[Graded]]:
     return groups
 
 
-def _student(name: str, rows: Sequence[Graded], of: float | None) -> Document:
-    answered = (max(each.of for each in some) for some in _grouped(rows, "target").values())
-    return {"student": name, "points": sum(each.points for each in rows), "of": sum(answered) if of is None else of}
+def _student(name: str, rows: Sequence[Graded], of: float | None, tasks: Iterable[object]) -> Document:
+    answered = _grouped(rows, *TASK)
+    worth = sum(max(each.of for each in some) for some in answered.values()) if of is None else of
+    answers = [_best(answered[task]) if task in answered else None for task in tasks]
+    return {"student": name, "points": sum(each.points for each in rows), "of": worth, "answers": answers}
+
+
+def _best(rows: Sequence[Graded]) -> Document:
+    """What a student earned with several answers to one task, and the outcome of the best of them."""
+    outcome = min((each.outcome for each in rows), key=OUTCOMES.index)
+    return {"outcome": outcome, "points": sum(each.points for each in rows)}
 
 
 def _task(rows: Sequence[Graded], language: str) -> Document:
@@ -89,7 +103,7 @@ def _task(rows: Sequence[Graded], language: str) -> Document:
     return {
         "scene": first.scene,
         "task": first.task,
-        "title": first.title or first.task,
+        "title": first.title,
         "count": len(rows),
         "outcomes": dict(Counter(each.outcome for each in rows)),
         "mistakes": _mistakes(rows, language),

@@ -133,14 +133,17 @@ def _assignment(document: Mapping[str, object]) -> Assignment:
 
 
 def table_request(document: Mapping[str, object]) -> Document:
-    """{table, encoding, assignment?, scene?, lang} → the plan by which its rows are marked.
+    """{table: pieces, encoding, assignment?, scene?, lang} → the plan by which its rows are marked.
 
     Raises InputError that points below /table, /assignment or /scene.
     """
     assignment = None if document.get("assignment") is None else _assignment(document)
+    scene = document.get("scene") or ""
+    if scene:
+        workbook_of({"scene": scene})  # what is wrong with it is told once, not in each row
     with inside("/table"):
-        table = read_answers(_bytes(str(document["table"]), str(document["encoding"])))
-    return plan_of(table, Sheet(assignment, document.get("scene") or ""), language_in(document)).document
+        table = read_answers(_bytes("".join(cast("Sequence[str]", document["table"])), str(document["encoding"])))
+    return plan_of(table, Sheet(assignment, scene), language_in(document)).document
 
 
 def _bytes(table: str, encoding: str) -> bytes:

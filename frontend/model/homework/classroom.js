@@ -1,118 +1,131 @@
-/** The answers of a class: checked a few at a time, however many there are; what cannot be checked says so and spoils no other. */
+/**
+ * The answers of a class: the file goes to the server, which marks it; its rows and totals are shown as they come. What
+ * counts and what follows from what is decided there alone.
+ */
 
 import { ApiError } from "../api.js";
+import { EVENTS, ask, eventsOf } from "../labs/stream.js";
 import { createStore } from "../store.js";
-import { checksOf, earned, lackOf, mistakeOf, onceEach, targetOf } from "./grading.js";
-import { BEYOND, PLAIN, readTable } from "./table.js";
+import { patient } from "./patience.js";
 
-/** @typedef {import("./grading.js").Result} Result */
-/** @typedef {import("./grading.js").Target} Target */
-/** @typedef {import("./progress.js").Verdict} Verdict */
-/** @typedef {{name: string, total: number, done: number, running: boolean, notice: string, column: string, style: import("./table.js").Style, results: Result[]}} Class */
-
-const AT_ONCE = 12;
+/** @typedef {import("../labs/stream.js").StreamEvent} StreamEvent */
+/** @typedef {import("../prose.js").CatalogText} CatalogText */
+/** @typedef {"correct" | "follow_through" | "undecided" | "wrong" | "invalid"} Outcome */
+/**
+ * @typedef {object} Row  an answer, marked
+ * @property {number} index  among the answers
+ * @property {number} row  as a spreadsheet counts
+ * @property {string} column  which cell keeps the row from being marked
+ * @property {string} student
+ * @property {CatalogText} title  of the task
+ * @property {Outcome} outcome
+ * @property {CatalogText} mistake  in words
+ * @property {number} points
+ * @property {number} of
+ * @property {CatalogText} feedback
+ * @property {string} answer
+ */
+/** @typedef {{outcome: Outcome, mistake: CatalogText, count: number, students: string[]}} Mistake */
+/** @typedef {{scene: string, task: string, title: CatalogText, count: number, outcomes: Partial<Record<Outcome, number>>, mistakes: Mistake[]}} TaskTotals */
+/** @typedef {{student: string, points: number, of: number, answers: ({outcome: Outcome, points: number} | null)[]}} StudentTotals  `answers` to each of the tasks */
+/** @typedef {{points: number, of: number, tasks: TaskTotals[], students: StudentTotals[]}} Totals */
+/**
+ * @typedef {object} Class
+ * @property {string} name  of the file
+ * @property {boolean} running
+ * @property {number} waiting  seconds until the server goes on
+ * @property {number} total  how many answers there are
+ * @property {Row[]} rows  those that are marked, in the order in which they were
+ * @property {Totals} totals
+ * @property {string | null} csv  the table of results, once all is marked
+ * @property {import("../types.js").Failure | null} failure
+ * @property {string} notice  the key of a sentence
+ * @property {boolean} looked  whether the list of all answers is open
+ */
 
 /** @type {Class} */
-const EMPTY = { name: "", total: 0, done: 0, running: false, notice: "", column: "", style: PLAIN, results: [] };
+const EMPTY = { name: "", running: false, waiting: 0, total: 0, rows: [], totals: { points: 0, of: 0, tasks: [], students: [] }, csv: null, failure: null, notice: "", looked: false };
+/** Bytes of a piece; a multiple of three, so that only the last one is filled up. */
+const PIECE = 6000;
 
-/** @param {{api: Pick<import("./state.js").Api, "post">, state: () => Pick<import("./state.js").State, "asked" | "assignment" | "sheet" | "entry">, say: (key: string) => string, questions: (reference: object) => Promise<string | null>}} around  `say` finds a sentence, `questions` makes a file for STACK */
-export function createClassroom({ api, state, say, questions }) {
+/** The bytes of a file in base64 (RFC 4648 §4), in pieces that the server takes: a single text may not be long. @param {Uint8Array} bytes */
+export const base64 = (bytes) => Array.from({ length: Math.max(1, Math.ceil(bytes.length / PIECE)) }, (_, n) => btoa(String.fromCharCode(...bytes.subarray(n * PIECE, (n + 1) * PIECE))));
+
+/** What is known of a class after some more events. @param {Class} known @param {readonly StreamEvent[]} events @returns {Class} */
+export function heard(known, events) {
+  const of = (/** @type {string} */ kind) => events.filter((one) => one.kind === kind).map(({ data }) => data);
+  const [result] = of("result");
+  const { csv = known.csv, ...totals } = result ?? of("totals").at(-1) ?? known.totals;
+  const last = events.at(-1);
+  return {
+    ...known, totals, csv,
+    total: of("begun")[0]?.rows ?? known.total,
+    rows: [...known.rows, ...of("row")],
+    waiting: last ? (last.kind === "waiting" ? last.data.seconds : 0) : known.waiting,
+  };
+}
+
+/** @param {{send: typeof fetch, state: () => Pick<import("./state.js").State, "asked" | "assignment" | "entry">, questions: (reference: object) => Promise<string | null>}} around  `questions` makes a file for STACK */
+export function createClassroom({ send, state, questions }) {
   const store = createStore(EMPTY);
   const { get, set } = store;
-  let turn = 0;
-  const lang = () => state().asked.place.lang;
+  const begin = patient((/** @type {object} */ body, /** @type {AbortSignal} */ signal) => ask(send, "/checks/table", body, { accept: EVENTS }, signal));
+  let marking = new AbortController();
+  let again = () => {};
 
-  /** The tasks of each scene in the table, by the name of the scene. @param {readonly (Target | null)[]} targets */
-  async function tasksOf(targets) {
-    const references = new Map(targets.flatMap((target) => (target ? [[keyOf(target), target]] : [])));
-    const asked = [...references].map(async ([key, { reference: { seed: _, ...reference } }]) => /** @type {const} */ ([key, await api.post("/tasks", { ...reference, lang: lang() }).catch((error) => said(error))]));
-    return new Map(await Promise.all(asked));
-  }
-
-  /** Verdicts in order; a refusal belongs to the one check that caused it. @param {object[]} checks @returns {Promise<(Verdict | string)[]>} */
-  async function verdicts(checks) {
-    try {
-      return (await api.post("/checks/batch", { checks, lang: lang() })).verdicts;
-    } catch (error) {
-      if (!(error instanceof ApiError)) throw error;
-      if (checks.length === 1 || error.failure.status === 0) return checks.map(() => said(error));
-      const halves = [checks.slice(0, checks.length >> 1), checks.slice(checks.length >> 1)];
-      return [...(await verdicts(halves[0])), ...(await verdicts(halves[1]))];
-    }
+  /** @param {Uint8Array} bytes */
+  function question(bytes) {
+    const { asked, assignment, entry } = state();
+    const around = assignment ? { assignment } : entry ? { scene: entry.reference.scene } : {};
+    return { table: base64(bytes), encoding: "base64", ...around, lang: asked.place.lang };
   }
 
   /** @param {string} name @param {Uint8Array} bytes */
   async function grade(name, bytes) {
-    const mine = (turn += 1);
-    const table = readTable(bytes);
-    const { rows, style } = table;
-    const { column, notice } = lackOf(table);
-    set({ ...EMPTY, name, total: rows.length, column, notice, style, running: !notice });
-    if (notice) return;
-    const { assignment, sheet, entry } = state();
-    const targets = rows.map((row) => (BEYOND in row ? null : targetOf(row, assignment, String(entry?.reference.scene ?? ""))));
-    const known = await tasksOf(targets);
-    const checks = checksOf(rows, targets.map((target) => (target && taskOf(target, known) ? target : null)));
-    const share = sheet?.followThrough ?? 0.5;
-    /** @type {Result[]} */
-    const all = [];
-    for (let start = 0; start < rows.length && mine === turn; start += AT_ONCE) {
-      const indices = rows.map((_, i) => i).slice(start, start + AT_ONCE);
-      const some = indices.filter((i) => checks[i]);
-      const found = await verdicts(some.map((i) => /** @type {object} */ (checks[i])));
-      if (mine !== turn) return;
-      all.push(...indices.map((i) => resultOf(rows[i], targets[i], some.includes(i) ? found[some.indexOf(i)] : say(BEYOND in rows[i] ? "homework.class-cells" : "homework.class-unknown"), known, share)));
-      set({ results: onceEach(all), done: all.length });
+    marking.abort();
+    const { signal } = (marking = new AbortController());
+    again = () => void grade(name, bytes);
+    set({ ...EMPTY, name, running: true, looked: get().looked });
+    const failure = await marked(question(bytes), signal).catch((error) => failureIn(error, signal));
+    if (!signal.aborted) set({ running: false, waiting: 0, failure });
+  }
+
+  /** @param {object} body @param {AbortSignal} signal */
+  async function marked(body, signal) {
+    for await (const events of eventsOf(await begin(body, signal))) {
+      if (signal.aborted) return null;
+      set(heard(get(), events));
     }
-    if (mine === turn) set({ running: false });
+    return get().csv === null ? { title: "", detail: "", problems: [], status: 0 } : null;
   }
 
   return {
     get,
     subscribe: store.subscribe,
     grade,
+    again: () => again(),
+    /** @param {boolean} looked */
+    look: (looked) => set({ looked }),
     /** The tasks of the scene on the page as questions for Moodle; null if the server made none. */
     async stack() {
       const { seed: _, ...reference } = state().entry?.reference ?? {};
       const file = await questions(reference);
-      set({ notice: file ? "" : "homework.class-no-questions", column: "" });
+      set({ notice: file ? "" : "homework.class-no-questions" });
       return file;
     },
+    /** The server gives up what is not marked yet. */
     stop() {
-      turn += 1;
-      set({ running: false });
+      marking.abort();
+      set({ running: false, waiting: 0 });
     },
   };
 }
 
-/** @param {Target} target */
-const keyOf = ({ reference: { seed: _, ...reference } }) => JSON.stringify(reference);
-
-/** @param {Target} target @param {Map<string, any>} known */
-const taskOf = (target, known) => known.get(keyOf(target))?.tasks?.find((/** @type {any} */ one) => one.id === target.task);
-
-/** @param {unknown} error */
-function said(error) {
-  if (!(error instanceof ApiError)) throw error;
-  const { problems, detail, title } = error.failure;
-  return problems[0]?.message || detail || title || "–";
-}
-
-/**
- * @param {import("./grading.js").Row} row @param {Target | null} target @param {Verdict | string} found  a sentence where there is no verdict
- * @param {Map<string, any>} known @param {number} share @returns {Result}
- */
-function resultOf(row, target, found, known, share) {
-  const scene = target && known.get(keyOf(target));
-  const task = target && taskOf(target, known);
-  const of = target?.points ?? task?.points ?? 0;
-  const about = { student: row.student ?? "", scene: scene?.scene?.id ?? row.scene ?? "", task: target?.task ?? row.task, title: task?.title ?? target?.task ?? row.task, of, answer: row.answer };
-  if (typeof found === "string") return { ...about, outcome: "invalid", misconception: "", mistake: "invalid", points: 0, understood_as: "", feedback: typeof scene === "string" ? scene : found };
-  const misconception = mistakeOf(found);
-  return {
-    ...about, outcome: found.outcome, misconception: misconception === found.outcome ? "" : misconception, mistake: found.misconceptions[0]?.title ?? misconception,
-    points: earned(found, of, share), understood_as: found.understood_as, feedback: found.feedback,
-  };
+/** What can be shown of an error; one that comes of stopping is none. @param {unknown} error @param {AbortSignal} signal */
+function failureIn(error, signal) {
+  if (error instanceof ApiError) return error.failure;
+  if (signal.aborted) return null;
+  throw error;
 }
 
 /** @typedef {ReturnType<typeof createClassroom>} Classroom */

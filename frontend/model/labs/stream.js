@@ -1,4 +1,4 @@
-/** Server-sent events in the body of a response: where an experiment stands in the queue, its parts as they are measured, then its result. */
+/** Server-sent events in the body of a response; of an experiment: where it stands in the queue, its parts as they are measured, then its result. */
 
 import { ApiError, failureOf } from "../api.js";
 
@@ -7,6 +7,8 @@ import { ApiError, failureOf } from "../api.js";
 /** @typedef {{id: string, title: string, subject: string, caption: string, data: any[], layout: Record<string, any>}} Chart */
 /** @typedef {{experiment: string, charts: Chart[], [key: string]: any}} Result */
 /** @typedef {{kind: string, data: any}} StreamEvent */
+
+export const EVENTS = "text/event-stream";
 
 /**
  * Cuts text into events; what is not complete yet waits for the next piece.
@@ -36,34 +38,49 @@ function eventOf(block) {
  * @returns {Promise<Result>}
  */
 export async function experiment(send, name, body, hear, signal, anew = false, wait = () => {}) {
-  const response = await ask(send, name, body, { accept: "text/event-stream", ...(anew ? { "cache-control": "no-cache" } : {}) }, signal);
-  const reader = response.body?.pipeThrough(new TextDecoderStream()).getReader();
-  const read = eventReader();
-  for (;;) {
-    const { done, value } = (await reader?.read()) ?? { done: true, value: "" };
-    if (done) throw new ApiError(failureOf(0, null));
-    for (const { kind, data } of read(value)) {
+  const response = await ask(send, `/experiments/${name}`, body, { accept: EVENTS, ...(anew ? { "cache-control": "no-cache" } : {}) }, signal);
+  for await (const events of eventsOf(response)) {
+    for (const { kind, data } of events) {
       if (kind === "waiting") wait(data);
       if (kind === "part") hear(data);
-      if (kind === "problem") throw new ApiError(failureOf(data.status, data));
       if (kind === "result") return data;
     }
   }
+  throw new ApiError(failureOf(0, null));
+}
+
+/**
+ * The events of a stream, as many at a time as have come together, until it ends. An ApiError for a `problem`.
+ * @param {Response} response @returns {AsyncGenerator<StreamEvent[], void>}
+ */
+export async function* eventsOf(response) {
+  const reader = response.body?.pipeThrough(new TextDecoderStream()).getReader();
+  const read = eventReader();
+  for (;;) {
+    const { done, value } = (await reader?.read().catch(brokenOff)) ?? { done: true, value: "" };
+    if (done) return;
+    const events = read(value);
+    const problem = events.findIndex(({ kind }) => kind === "problem");
+    yield problem < 0 ? events : events.slice(0, problem);
+    if (problem >= 0) throw new ApiError(failureOf(events[problem].data.status, events[problem].data));
+  }
+}
+
+/** A connection that is lost is a server that cannot be reached; who has gone himself knows that. @param {unknown} error @returns {never} */
+function brokenOff(error) {
+  throw /** @type {any} */ (error)?.name === "AbortError" ? error : new ApiError(failureOf(0, null));
 }
 
 /**
  * The result as a file: text/html or text/csv.
  * @param {typeof fetch} send @param {string} name @param {object} body @param {string} accept
  */
-export const file = async (send, name, body, accept) => (await ask(send, name, body, { accept })).blob();
+export const file = async (send, name, body, accept) => (await ask(send, `/experiments/${name}`, body, { accept })).blob();
 
-/** @param {typeof fetch} send @param {string} name @param {object} body @param {Record<string, string>} wanted  headers @param {AbortSignal} [signal] */
-async function ask(send, name, body, wanted, signal) {
+/** The head of an answer, if it is none of a failure. @param {typeof fetch} send @param {string} path @param {object} body @param {Record<string, string>} wanted  headers @param {AbortSignal} [signal] */
+export async function ask(send, path, body, wanted, signal) {
   const headers = { "content-type": "application/json", ...wanted };
-  const response = await send(`/api/v1/experiments/${name}`, { method: "POST", headers, body: JSON.stringify(body), signal }).catch((error) => {
-    if (error?.name === "AbortError") throw error;
-    throw new ApiError(failureOf(0, null));
-  });
+  const response = await send(`/api/v1${path}`, { method: "POST", headers, body: JSON.stringify(body), signal }).catch(brokenOff);
   if (!response.ok) throw new ApiError(failureOf(response.status, await response.json().catch(() => null)));
   return response;
 }

@@ -3,9 +3,9 @@
 import { createClassroom } from "../../model/homework/classroom.js";
 import { classroom } from "./classroom.js";
 
-/** @param {{api: import("../../model/homework/state.js").Api, state: () => import("../../model/homework/state.js").State, changed: () => void, say: (key: string) => string, questions: (reference: object) => Promise<string | null>}} around */
-export function open({ api, state, changed, say, questions }) {
-  const session = createClassroom({ api, state, say, questions });
+/** @param {{send: typeof fetch, state: () => import("../../model/homework/state.js").State, changed: () => void, questions: (reference: object) => Promise<string | null>}} around */
+export function open({ send, state, changed, questions }) {
+  const session = createClassroom({ send, state, questions });
   session.subscribe(changed);
   return (/** @type {import("./page.js").HomeworkView} */ view) => classroom(view, session);
 }

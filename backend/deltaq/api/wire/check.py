@@ -114,13 +114,16 @@ class BatchRequest(Request):
     )
 
 
+TablePiece = Annotated[str, Field(max_length=10_000)]
+
+
 class TableRequest(Request):
     """The answers of a class."""
 
-    table: Annotated[str, Field(max_length=1_000_000)] = Field(
+    table: Annotated[tuple[TablePiece, ...], items(min_length=1, max_length=1000)] = Field(
         description="CSV with the columns task and answer, and student, scene, syntax, seed and line where wanted; "
-        "between the cells commas, semicolons or tabs",
-        examples=["student,scene,task,answer\nada,pendulum,kinetic-energy,m*l^2*dot(phi)^2/2\n"],
+        "between the cells commas, semicolons or tabs. Pieces of any kind, such as its lines, that are put together",
+        examples=[["student,scene,task,answer\n", "ada,pendulum,kinetic-energy,m*l^2*dot(phi)^2/2\n"]],
     )
     encoding: Literal["text", "base64"] = Field(
         "text", description="base64: the bytes of a file as a spreadsheet wrote it, in UTF-8, UTF-16 or Windows-1252"
@@ -131,12 +134,14 @@ class TableRequest(Request):
 
     model_config = examples(
         {
-            "table": "student,scene,task,answer,line\n"
-            "ada,pendulum,kinetic-energy,m*l^2*dot(phi)^2,1\n"
-            "ada,pendulum,equation:phi,2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0,2\n"
+            "table": [
+                "student,scene,task,answer,line\n",
+                "ada,pendulum,kinetic-energy,m*l^2*dot(phi)^2,1\n",
+                "ada,pendulum,equation:phi,2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0,2\n",
+            ]
         },
         {
-            "table": "student;task;answer\nada;1;ddot(phi) = -g/l*sin(phi)\n",
+            "table": ["student;task;answer\n", "ada;1;ddot(phi) = -g/l*sin(phi)\n"],
             "assignment": {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 4}]},
         },
     )

@@ -125,12 +125,20 @@ class TaskTotals(Answer):
     mistakes: tuple[FrequentMistake, ...] = Field(description="the most frequent first")
 
 
+class BestAnswer(Answer):
+    """The best of a student's answers to one task."""
+
+    outcome: Outcome
+    points: float
+
+
 class StudentTotals(Answer):
     """What one student earned."""
 
     student: str
     points: float
     of: float = Field(description="on the assignment; without one, by the tasks that were answered")
+    answers: tuple[BestAnswer | None, ...] = Field(description="to each of `tasks`, in their order")
 
 
 class TableAnswer(Answer):
