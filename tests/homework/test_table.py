@@ -21,6 +21,7 @@ COMMA, SEMICOLON = "Task,Answer\ngröße,m\n", "Task; Answer \r\ngröße;m\r\n"
         pytest.param(COMMA.replace(",", "\t").encode("utf-16"), Style("\t", marked=True), id="UTF-16"),
         pytest.param(COMMA.replace("\n", "\r").encode(), Style(), id="carriage returns"),
         pytest.param(b"sep=;\r\n" + SEMICOLON.encode(), Style(";"), id="separator told"),
+        pytest.param(b"sep=\t\n" + COMMA.replace(",", "\t").encode(), Style("\t"), id="tab told"),
         pytest.param(b'"Task","Answer"\n"gr\xc3\xb6\xc3\x9fe","m"\n', Style(), id="quotes"),
         pytest.param(COMMA.encode() + b",\n \n\n,,,\n", Style(), id="empty rows"),
         pytest.param("Task,Answer,,\ngröße,m,,\n".encode(), Style(), id="columns without a name"),

@@ -5,6 +5,7 @@ How the rows earn their points, and which follow from which, is told and decided
 
 from __future__ import annotations
 
+import json
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
@@ -52,8 +53,19 @@ def read_answers(data: bytes) -> Table:
 
 
 def grade(table: Table, sheet: Sheet, language: str) -> Iterator[tuple[int, Graded]]:
-    """Every row with its place in the table, as it is marked: in this process, without bounds of time."""
-    return marked(plan_of(table, sheet, language), lambda question: row_verdict({**question, "lang": language}))
+    """Every row with its place in the table, as it is marked: in this process, without bounds of time.
+
+    What many students wrote is judged once.
+    """
+    known: dict[str, Document] = {}
+
+    def verdict_on(question: Document) -> Document:
+        key = json.dumps(question, sort_keys=True)
+        if key not in known:
+            known[key] = row_verdict({**question, "lang": language})
+        return known[key]
+
+    return marked(plan_of(table, sheet, language), verdict_on)
 
 
 # --- a table as a plan -----------------------------------------------------------------------------------------------

@@ -58,8 +58,8 @@ def results_csv(graded: Iterable[Graded], style: Style = PLAIN) -> bytes:
 
 
 def totals(graded: Sequence[Graded], of: float | None, language: str) -> Document:
-    """{points, of, tasks, students}: `tasks` are {scene, task, title, count, outcomes, mistakes}, `students` are {student,
-    points, of, answers}.
+    """{points, of, tasks: [{scene, task, title, count, outcomes, mistakes}], students: [{student, points, of,
+    answers}]}.
 
     `of` is what a person can earn; where it is None, that is the sum over the tasks that the person answered. `answers`
     has a student's best answer to each of the tasks, {outcome, points}, or None.

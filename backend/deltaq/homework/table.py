@@ -64,7 +64,7 @@ def read_table(data: bytes) -> Table:
     """
     content = _decoded(data)
     first, _, rest = content.partition("\n")
-    told = first.strip().strip('"')
+    told = first.strip(' "')  # not of tabs: one of them may be what is told
     separator = told[len(TOLD) :] if told.lower().startswith(TOLD) else ""
     if separator in tuple(SEPARATORS):
         content = rest
