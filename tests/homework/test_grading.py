@@ -260,6 +260,7 @@ def earned(rows: Lines, *, lines: str = "", students: bool = True) -> list[float
 
 CORRECTED: Lines = [("ada", KINETIC, DOUBLE_T), ("ada", KINETIC, T), ("ada", EQUATION, FROM_T)]
 TWICE: Lines = [("ada", KINETIC, T), ("ada", KINETIC, DOUBLE_T), ("ada", KINETIC, f"{T} + 0")]
+AGAIN: Lines = [("ada", KINETIC, DOUBLE_T), ("ada", KINETIC, f"{DOUBLE_T} + 0")]
 NAMELESS: Lines = [("", KINETIC, T), ("", KINETIC, T)]
 FOLLOWS: Lines = [("ada", KINETIC, DOUBLE_T), ("ada", EQUATION, FROM_T), ("ada", EQUATION, RIGHT)]
 
@@ -273,6 +274,7 @@ FOLLOWS: Lines = [("ada", KINETIC, DOUBLE_T), ("ada", EQUATION, FROM_T), ("ada",
         pytest.param(CORRECTED, {"lines": "1|2|"}, [0, 2, 0], id="a row without a number follows from nothing"),
         pytest.param(FOLLOWS, {"lines": "|2|3"}, [0, 0, 3], id="from a row without a number nothing follows"),
         pytest.param(FOLLOWS, {"lines": "1|2|3"}, [0, 1.5, 1.5], id="the better answer adds what is missing"),
+        pytest.param(AGAIN, {"lines": "1|2"}, [0, 0], id="a wrong answer written again earns nothing"),
         pytest.param(TWICE, {}, [2, 0, 0], id="twice right counts once"),
         pytest.param(TWICE, {"lines": "1|2|3"}, [2, 0, 0], id="twice right in a working counts once"),
         pytest.param(TWICE, {"lines": "||"}, [2, 0, 0], id="twice right without numbers counts once"),
