@@ -51,7 +51,7 @@ SOLUTION = Job("deltaq.homework.service:solution_request", deadline=8.0)
 MOTION = Job("deltaq.homework.service:motion_request", deadline=8.0)
 ASSIGNMENT = Job("deltaq.homework.service:assignment_request", deadline=30.0, pace="slow", processor=15.0)
 STACK = Job("deltaq.homework.service:stack_request", deadline=60.0, pace="slow", processor=30.0)
-PLAN = Job("deltaq.homework.service:table_request", deadline=30.0, pace="slow", processor=15.0)
+PLAN = Job("deltaq.homework.service:table_request", deadline=30.0, processor=15.0)
 ROW = Job("deltaq.homework.grading:row_verdict", deadline=15.0).within(5.0)
 LINES = Job("deltaq.homework.service:lines_request", deadline=30.0, pace="slow", processor=15.0)
 
