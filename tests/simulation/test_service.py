@@ -18,10 +18,11 @@ from deltaq.mechanics.writing import write_scene
 from deltaq.narration.catalog import LANGUAGES, message, text
 from deltaq.simulation.choice import AUTO
 from deltaq.simulation.columns import WRITERS
-from deltaq.simulation.library import method_ids
+from deltaq.simulation.driver import simulate
+from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.outcome import codes
 from deltaq.simulation.request import COLUMNS
-from deltaq.simulation.service import run, warm
+from deltaq.simulation.service import problem_of, run, warm
 
 FIELDS = {
     *("status", "reason", "remedy", "event", "method", "choice", "t"),
@@ -50,6 +51,18 @@ def test_every_scene_answers_in_full(scene: str, accuracy: dict[str, float]) -> 
     assert all(len(answer["energy"][key]) == 21 for key in ("kinetic", "potential", "power", "work", "balance"))
     assert len(answer["error"]["estimate"]) == 21
     assert set(answer["cost"]) >= {"steps", "rejected", "rhs_evaluations", "wall_time", "compile_time"}
+
+
+@pytest.mark.parametrize("t_end", [2.0, 51.40243757, 1e-3 / 3.0, 1000.0 / 7.0])
+@pytest.mark.parametrize("samples", [4, 21, 301])
+def test_the_times_told_are_those_computed_at(t_end: float, samples: int) -> None:
+    """Times rounded after the fact would put every state beside its time: at speed, an error of its own."""
+    answer = ask(t_end=t_end, samples=samples)
+    problem = problem_of(load_scene("pendulum"), t_end, samples)
+    found = simulate(problem, get_method("rk4"), step=t_end / 200)
+    assert answer["t"] == found.times.tolist()
+    assert answer["t"][-1] == t_end
+    assert all(time == float(f"{time:.15g}") for time in answer["t"][:-1])
 
 
 def unpacked(column: object) -> np.ndarray:
