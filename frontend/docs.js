@@ -1,12 +1,13 @@
 /** The driver of the reference of the API. */
 
 import { render } from "lit-html";
-import { ApiError, createApi } from "./model/api.js";
+import { ApiError } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { groupsOf } from "./model/reference.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { api } from "./server.js";
 import { dressed } from "./view/header.js";
 import { page } from "./view/reference/page.js";
 
@@ -20,7 +21,6 @@ const store = createStore({
   failure: /** @type {import("./model/types.js").Failure | null} */ (null),
 });
 const { get, set } = store;
-const api = createApi(fetch.bind(globalThis));
 const speech = createSpeech(store, api, (task) => task().catch(() => {}), ["reference"]);
 
 async function load() {

@@ -1,12 +1,12 @@
 /** The driver of the handout: a derivation as a sheet of paper. */
 
 import { render } from "lit-html";
-import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createHandout } from "./model/handout.js";
 import { documentIn } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { api } from "./server.js";
 import { expectLong, typesetAll } from "./view/formula.js";
 import { dressed } from "./view/header.js";
 import { createDrawing } from "./view/drawing.js";
@@ -27,7 +27,7 @@ const START = {
   proof, substeps: query.get(SUBSTEPS) !== "no",
 };
 const store = createStore(START);
-const session = createHandout(store, createApi(fetch.bind(globalThis)), await documentIn(location.hash));
+const session = createHandout(store, api, await documentIn(location.hash));
 
 /** @type {ReturnType<typeof createDrawing> | null} */
 let drawing = null;

@@ -1,11 +1,11 @@
 /** The driver of the help. */
 
 import { render } from "lit-html";
-import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { api } from "./server.js";
 import { dressed } from "./view/header.js";
 import { page } from "./view/guide/page.js";
 
@@ -17,7 +17,7 @@ const store = createStore({
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
 });
 const { get } = store;
-const speech = createSpeech(store, createApi(fetch.bind(globalThis)), (task) => task().catch(() => {}), ["guide", "lecture"]);
+const speech = createSpeech(store, api, (task) => task().catch(() => {}), ["guide", "lecture"]);
 
 let arrived = false;
 function update() {

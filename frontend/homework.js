@@ -1,7 +1,6 @@
 /** The driver of the page "Homework": it connects sheet, answers, motions, views and address. */
 
 import { render } from "lit-html";
-import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createClock } from "./model/clock.js";
 import { createAnswering } from "./model/homework/answering.js";
@@ -18,6 +17,7 @@ import { createWorking } from "./model/homework/working.js";
 import { documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { startLanguage } from "./model/url.js";
+import { api as server } from "./server.js";
 import { follow } from "./view/links.js";
 import { everyFrame, whenIdle } from "./view/frames.js";
 import { dressed } from "./view/header.js";
@@ -37,7 +37,7 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readAsked(location.search);
 const store = createStore(begin({ ...asked, place: { ...asked.place, lang: startLanguage(asked.place.lang, navigator.languages) } }));
 const { get, set } = store;
-const { post, simulate, ...rest } = createApi(fetch.bind(globalThis));
+const { post, simulate, ...rest } = server;
 const api = { ...rest, post: patient(post), simulate: patient(simulate) };
 const clock = createClock();
 const progress = createProgress(keeper());

@@ -1,11 +1,11 @@
 /** The driver of the start page. */
 
 import { render } from "lit-html";
-import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createSamples } from "./model/start/sample.js";
 import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { api } from "./server.js";
 import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { createMotions } from "./view/start/motions.js";
@@ -15,7 +15,6 @@ const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readPlace(location.search);
-const api = createApi(fetch.bind(globalThis));
 const store = createStore({
   place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),

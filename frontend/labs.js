@@ -1,7 +1,6 @@
 /** The driver of the labs: it connects question, experiment, charts and address. */
 
 import { render } from "lit-html";
-import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createBench } from "./model/labs/bench.js";
 import { withMarks } from "./model/labs/figure.js";
@@ -12,6 +11,7 @@ import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.j
 import { createStore, mover } from "./model/store.js";
 import { caveatsOf } from "./model/trajectory.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { api, send } from "./server.js";
 import { offer } from "./view/files.js";
 import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
@@ -25,8 +25,6 @@ import { createCharts } from "./view/labs/plotly.js";
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const still = matchMedia("(prefers-reduced-motion: reduce)");
-const send = fetch.bind(globalThis);
-const api = createApi(send);
 const asked = readPlace(location.search);
 const store = createStore({
   place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },

@@ -1,7 +1,6 @@
 /** The driver of the presenter's window: what is shown, what comes next, notes and time. It follows a lecture and may lead it. */
 
 import { render } from "lit-html";
-import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createReceiver, isId, nameOf } from "./model/lecture/link.js";
 import { keepNotes, readNotes, withNote } from "./model/lecture/notes.js";
@@ -10,6 +9,7 @@ import { linesOf } from "./model/reveal.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { api } from "./server.js";
 import { dressed } from "./view/header.js";
 import { keeper } from "./view/keeper.js";
 import { listen } from "./view/keys.js";
@@ -29,7 +29,7 @@ const store = createStore({
   notes: readNotes(keeper()), timer: STOPPED, now: Date.now(),
 });
 const { get, set } = store;
-const speech = createSpeech(store, createApi(fetch.bind(globalThis)), (task) => task().catch(() => {}), ["lecture"]);
+const speech = createSpeech(store, api, (task) => task().catch(() => {}), ["lecture"]);
 
 /** @type {ReturnType<typeof createReceiver> | null} */
 const line = isId(id) ? createReceiver(new BroadcastChannel(nameOf(/** @type {string} */ (id))), hear) : null;

@@ -1,12 +1,12 @@
 /** The driver of the page of the general proof. */
 
 import { render } from "lit-html";
-import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createLater } from "./model/later.js";
 import { createProof, PROOF } from "./model/proof.js";
 import { createStore } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { api } from "./server.js";
 import { sheet } from "./view/bring.js";
 import { follow } from "./view/links.js";
 import { enterFullscreen, toggleFullscreen } from "./view/fullscreen.js";
@@ -26,7 +26,7 @@ const START = {
   catalog: {}, derivation: null, lines: [], overlay: "", failure: null,
 };
 const store = createStore(START);
-const session = createProof(store, createApi(fetch.bind(globalThis)));
+const session = createProof(store, api);
 const reach = createReach(root);
 
 /** @returns {import("./model/catalog.js").Translate} */

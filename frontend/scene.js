@@ -1,7 +1,6 @@
 /** The driver: it alone knows the parts, and connects session, clock, views and address. */
 
 import { render } from "lit-html";
-import { createApi } from "./model/api.js";
 import { createClock } from "./model/clock.js";
 import { createSession } from "./model/session.js";
 import { START } from "./model/state.js";
@@ -9,6 +8,7 @@ import { documentIn, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { translator } from "./model/catalog.js";
 import { readPlace, startLanguage, writePlace } from "./model/url.js";
+import { api, send } from "./server.js";
 import { expectLong } from "./view/formula.js";
 import { follow } from "./view/links.js";
 import { everyFrame } from "./view/frames.js";
@@ -31,12 +31,11 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const store = createStore(START);
 const clock = createClock();
 const reach = createReach(root);
-const api = createApi(fetch.bind(globalThis));
 const session = createSession(store, api, clock);
 
 const motion = createMotion({ root, state: store.get, clock, session, still, update });
 
-const aside = createAside({ root, store, api, session, send: fetch.bind(globalThis), changed: update, play: motion.play });
+const aside = createAside({ root, store, api, session, send, changed: update, play: motion.play });
 
 /** Into lecture mode, over the whole screen. */
 function enterLecture() {

@@ -1,7 +1,7 @@
 /** The driver of the page where the API is tried. */
 
 import { render } from "lit-html";
-import { ApiError, createApi } from "./model/api.js";
+import { ApiError } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { newest } from "./model/latest.js";
 import { groupsOf } from "./model/reference.js";
@@ -9,6 +9,7 @@ import { createSpeech } from "./model/speech.js";
 import { createStore, mover } from "./model/store.js";
 import { ask, draftIn, draftOf, fragmentOf, sendingOf } from "./model/trial.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { api, send as fromServer } from "./server.js";
 import { dressed } from "./view/header.js";
 import { page } from "./view/reference/trial.js";
 
@@ -24,7 +25,6 @@ const START = {
 };
 const store = createStore(START);
 const { get, set } = store;
-const api = createApi(fetch.bind(globalThis));
 const speech = createSpeech(store, api, (task) => task().catch(() => {}), ["reference"]);
 const renew = newest();
 
@@ -49,7 +49,7 @@ async function send() {
   if (!call) return;
   const signal = renew();
   set({ coming: { state: "waiting" } });
-  const answer = await ask(fetch.bind(globalThis), sendingOf(call, draft), signal, () => performance.now()).catch(() => null);
+  const answer = await ask(fromServer, sendingOf(call, draft), signal, () => performance.now()).catch(() => null);
   if (!signal.aborted) set({ coming: answer ? { state: "answered", answer } : { state: "unreachable" } });
 }
 

@@ -1,13 +1,13 @@
 /** The driver of the page "Variations": it connects question, answers, view and address. */
 
 import { render } from "lit-html";
-import { createApi } from "./model/api.js";
 import { translator } from "./model/catalog.js";
 import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { example } from "./model/variations/examples.js";
 import { createLab } from "./model/variations/lab.js";
 import { readQuestion, writeQuestion } from "./model/variations/question.js";
+import { api } from "./server.js";
 import { follow } from "./view/links.js";
 import { dressed } from "./view/header.js";
 import { page } from "./view/variations/page.js";
@@ -18,7 +18,6 @@ const ADDRESS_REST = 150;
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const dark = matchMedia("(prefers-color-scheme: dark)");
-const api = createApi(fetch.bind(globalThis));
 const asked = readPlace(location.search);
 const size = Number(new URLSearchParams(location.search).get("h"));
 const store = createStore({

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.bundling import bundle_of
 from tests.order import durations, in_order, needs_kernels
 
 from deltaq.api.workers.kernels import are_compiled, folder
@@ -45,3 +46,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if needs_kernels(of[item]) and isinstance(item, pytest.Function):
             item.fixturenames.insert(0, "kernels")
+
+
+@pytest.fixture(scope="session")
+def bundle(root: Path) -> Path:
+    """The folder of the page as packages have it."""
+    return bundle_of(root)

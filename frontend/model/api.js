@@ -32,6 +32,16 @@ export function failureOf(status, body) {
 const PAUSE = 1000;
 const LONGEST = 8000;
 
+/**
+ * Asks for what is read of the API as it is in one version of δq, which the server says may then be kept for good. A
+ * newer server answers all the same.
+ * @param {string} source  the digest of the version, "" if it is not known @param {typeof fetch} send @returns {typeof fetch}
+ */
+export function ofSource(source, send) {
+  if (!source) return send;
+  return (address, options) => send(options?.method ? address : `${address}${String(address).includes("?") ? "&" : "?"}source=${source}`, options);
+}
+
 /** @param {number} ms */
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import gzip
 import hashlib
+import json
 import re
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -14,20 +15,22 @@ import httpx
 import pytest
 
 from deltaq.api.app import create_app
-from deltaq.api.service import PACKAGE, static_root
+from deltaq.api.service import PACKAGE, make_assets, static_root
 from deltaq.settings import Settings
 
 pytestmark = pytest.mark.anyio
 
-IMPORT_MAP = '{"imports": {"lit-html": "/vendor/lit-html/lit-html.js"}}'
-FRAME = f"""<!doctype html>
-<html>
-  <head>
-    <link rel="stylesheet" href="/vendor/katex/katex.css">
-    <script type="importmap">{IMPORT_MAP}</script>
-  </head>
-</html>
-"""
+FRAME = "<!doctype html>\n<html>\n  <head>\n  </head>\n</html>\n"
+SITE = {
+    "icon": "/icon.svg",
+    "font": "/vendor/katex/fonts/a.woff2",
+    "styles": ["/styles/page.css"],
+    "imports": {"lit-html": "/vendor/lit-html/lit-html.js", "styles/embed.css": "/styles/embed.css"},
+    "pages": {
+        page: {"description": page, "styles": [], "scripts": [], "modules": [f"/{page}.js"]}
+        for page in ("index", "scene", "proof", "trial")
+    },
+}
 
 
 @pytest.fixture
@@ -35,31 +38,33 @@ def site(tmp_path: Path) -> Path:
     """A small front end, with files beside it that nobody may get."""
     files = {
         "view/frame.html": FRAME,
+        "pages.json": json.dumps(SITE),
         "view/drawing.js": "// drawing",
         "view/page.js": 'import { html } from "lit-html";\nimport { draw } from "./drawing.js";',
         "app.js": "export const δq = 1;\n" * 100,
         "icon.svg": "<svg/>",
-        "styles/homework.css": '@import "homework/tasks.css";\n@import "homework/answer.css";\n',
-        "styles/torn.css": '@import "homework/tasks.css";\n@import "homework/lost.css";\n',
-        "styles/open.css": '@import "../../secret.css";\n',
+        "styles/homework.css": '@import "homework/tasks.css";\n',
         "styles/homework/tasks.css": ".tasks {}\n",
-        "styles/homework/answer.css": ".answer {}\n",
+        "assets/scene-1.js": "export const δq = 1;\n" * 100,
+        "assets/scene-1.js.map": "{}",
+        "assets/a-1.woff2": "font",
+        "bundle/x.js": "secret",
+        "tools/x.js": "secret",
         "package.json": "{}",
         ".npmrc": "secret",
         "node_modules/x/index.js": "secret",
         "tests/x.js": "secret",
-        "vendor/version.txt": "0123abcd",
         "vendor/lit-html/lit-html.js": "// lit",
         "vendor/katex/fonts/a.woff2": "font",
         "vendor/katex/LICENSE": "MIT",
     }
-    for page in ("index", "scene", "proof", "trial"):
-        files[f"{page}.html"] = f'<meta name="description" content="{page}">\n'
-        files[f"{page}.js"] = 'import { page } from "./view/page.js";\nconst later = () => import("./view/later.js");\n'
     root = tmp_path / "site"
     for name, content in files.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(content, encoding="utf-8")
+    content = files["assets/scene-1.js"].encode()
+    (root / "assets/scene-1.js.br").write_bytes(brotli.compress(content))
+    (root / "assets/scene-1.js.gz").write_bytes(gzip.compress(content))
     (tmp_path / "secret.js").write_text("secret", encoding="utf-8")
     (root / "link.js").symlink_to(tmp_path / "secret.js")
     return root
@@ -73,21 +78,18 @@ async def browser(site: Path) -> AsyncIterator[httpx.AsyncClient]:
         yield client
 
 
-async def test_page_names_the_libraries_by_version(browser: httpx.AsyncClient) -> None:
+async def test_page_names_its_module_and_the_version_of_the_api(browser: httpx.AsyncClient) -> None:
     page = await browser.get("/")
     assert page.headers["content-type"] == "text/html; charset=utf-8"
-    assert re.findall(r"/vendor/[^\"]*", page.text) == [
-        "/vendor/0123abcd/katex/katex.css",
-        "/vendor/0123abcd/lit-html/lit-html.js",  # in the import map
-        "/vendor/0123abcd/lit-html/lit-html.js",  # asked for at once
-    ]
+    assert '<script type="module" src="/index.js"></script>' in page.text
+    version = (await browser.get("/api/v1/version")).json()["source"]
+    assert f'<meta name="source" content="{version}">' in page.text
 
 
 async def test_a_page_has_its_name_as_address(browser: httpx.AsyncClient) -> None:
     page = await browser.get("/proof")
     assert page.headers["content-type"] == "text/html; charset=utf-8"
     assert 'src="/proof.js"' in page.text
-    assert "/vendor/0123abcd/" in page.text
     assert page.headers["content-security-policy"] == (await browser.get("/")).headers["content-security-policy"]
     assert (await browser.get("/proof", headers={"If-None-Match": page.headers["etag"]})).status_code == 304
     assert (await browser.get("/Proof")).status_code == 404
@@ -129,7 +131,7 @@ async def test_a_frame_shows_a_page_where_its_policy_allows(site: Path, path: st
         page = await client.get(path)
         assert (await client.get("/embed/variations")).status_code == 404
     assert f'src="{script}"' in page.text
-    assert '<link rel="stylesheet" href="/styles/embed.css"></head>' in page.text
+    assert '<link rel="stylesheet" href="/styles/embed.css">' in page.text
     assert page.headers["content-security-policy"].endswith("frame-ancestors 'self' https://course.test")
 
 
@@ -154,10 +156,12 @@ async def test_documents_have_a_policy(browser: httpx.AsyncClient, path: str) ->
         pytest.param("/app.js", "text/javascript; charset=utf-8", False, id="module"),
         pytest.param("/view/drawing.js", "text/javascript; charset=utf-8", False, id="in a folder"),
         pytest.param("/icon.svg", "image/svg+xml", False, id="picture"),
-        pytest.param("/vendor/0123abcd/lit-html/lit-html.js", "text/javascript; charset=utf-8", True, id="library"),
-        pytest.param("/vendor/0123abcd/katex/fonts/a.woff2", "font/woff2", True, id="font"),
-        pytest.param("/vendor/0123abcd/katex/LICENSE", "text/plain; charset=utf-8", True, id="licence"),
-        pytest.param("/vendor/lit-html/lit-html.js", "text/javascript; charset=utf-8", False, id="without version"),
+        pytest.param("/vendor/lit-html/lit-html.js", "text/javascript; charset=utf-8", False, id="library"),
+        pytest.param("/vendor/katex/fonts/a.woff2", "font/woff2", False, id="font"),
+        pytest.param("/vendor/katex/LICENSE", "text/plain; charset=utf-8", False, id="licence"),
+        pytest.param("/assets/scene-1.js", "text/javascript; charset=utf-8", True, id="bundle"),
+        pytest.param("/assets/scene-1.js.map", "application/json", True, id="source map"),
+        pytest.param("/assets/a-1.woff2", "font/woff2", True, id="font of the bundle"),
     ],
 )
 async def test_file(browser: httpx.AsyncClient, path: str, media_type: str, lasting: bool) -> None:
@@ -189,8 +193,11 @@ async def test_file(browser: httpx.AsyncClient, path: str, media_type: str, last
         "/%00",
         "/app.js%00.js",
         "/" + "x" * 5000 + ".js",
-        "/vendor/ffffffff/lit-html/lit-html.js",
-        "/vendor/0123abcd/../../../secret.js",
+        "/assets/scene-2.js",
+        "/assets/scene-1.js.br",
+        "/bundle/x.js",
+        "/tools/x.js",
+        "/vendor/../../../secret.js",
     ],
 )
 async def test_file_that_nobody_may_get(browser: httpx.AsyncClient, path: str) -> None:
@@ -210,14 +217,14 @@ CODINGS = [
 
 
 @pytest.mark.parametrize(("accepted", "coding"), CODINGS)
-async def test_file_is_compressed_as_the_client_takes_it(
+async def test_bundle_is_compressed_as_the_client_takes_it(
     browser: httpx.AsyncClient, site: Path, accepted: str, coding: str | None
 ) -> None:
-    async with browser.stream("GET", "/app.js", headers={"Accept-Encoding": accepted}) as response:
+    async with browser.stream("GET", "/assets/scene-1.js", headers={"Accept-Encoding": accepted}) as response:
         raw = b"".join([part async for part in response.aiter_raw()])
     assert response.headers.get("content-encoding") == coding
     unpack = {"br": brotli.decompress, "gzip": gzip.decompress, None: bytes}[coding]
-    assert unpack(raw) == (site / "app.js").read_bytes()
+    assert unpack(raw) == (site / "assets/scene-1.js").read_bytes()
     assert set(response.headers["vary"].split(", ")) == {"Accept-Encoding"}
 
 
@@ -227,26 +234,16 @@ async def test_file_is_read_again_when_it_changes(browser: httpx.AsyncClient, si
     assert (await browser.get("/app.js")).text == "changed"
 
 
-async def test_a_module_is_sent_without_its_documentation(browser: httpx.AsyncClient, site: Path) -> None:
-    text = "/** One.\n * @param {number} x */\nexport const one = (x) => /** @type {any} */ (x); // two\n"
+async def test_sources_are_sent_as_they_stand(browser: httpx.AsyncClient, site: Path) -> None:
+    text = "/** One.\n * @param {number} x */\nexport const one = (x) => x;\n"
     (site / "app.js").write_text(text, encoding="utf-8")
-    assert (await browser.get("/app.js")).text == "\n\nexport const one = (x) =>  (x); // two\n"
-    (site / "vendor/lit-html/lit-html.js").write_text("/** @license */ 1;", encoding="utf-8")
-    assert (await browser.get("/vendor/0123abcd/lit-html/lit-html.js")).text == "/** @license */ 1;"
-
-
-async def test_a_style_sheet_is_sent_with_what_it_imports(browser: httpx.AsyncClient, site: Path) -> None:
-    sheet = await browser.get("/styles/homework.css")
-    assert (sheet.headers["content-type"], sheet.text) == ("text/css; charset=utf-8", ".tasks {}\n\n.answer {}\n\n")
-    assert (await browser.get("/styles/homework/tasks.css")).text == ".tasks {}\n"
-    (site / "styles/homework/tasks.css").write_text(".tasks { margin: 0 }\n", encoding="utf-8")
-    assert "margin" in (await browser.get("/styles/homework.css")).text
+    assert (await browser.get("/app.js")).text == text
+    assert (await browser.get("/styles/homework.css")).text == '@import "homework/tasks.css";\n'
 
 
 @pytest.mark.parametrize(
     "path",
     [
-        pytest.param("/styles/torn.css", id="imports what is not there"),
         pytest.param("/styles/homework", id="folder"),
         pytest.param("/styles.css", id="folder with a suffix"),
         pytest.param("/styles/.css", id="no name"),
@@ -257,9 +254,19 @@ async def test_no_such_sheet(browser: httpx.AsyncClient, path: str) -> None:
     assert (await browser.get(path)).status_code == 404
 
 
-async def test_a_style_sheet_does_not_lead_out_of_the_site(browser: httpx.AsyncClient, tmp_path: Path) -> None:
-    (tmp_path / "secret.css").write_text(".secret {}", encoding="utf-8")
-    assert "secret {}" not in (await browser.get("/styles/open.css")).text
+READ = ["scenes?summaries=false", "methods", "catalogs/de?sections=page", "scenes/pendulum?lang=en", "proofs?lang=en"]
+
+
+@pytest.mark.parametrize("path", READ)
+async def test_what_is_asked_of_this_version_may_be_kept(browser: httpx.AsyncClient, path: str) -> None:
+    version = (await browser.get("/api/v1/version")).json()["source"]
+    address = f"/api/v1/{path}{'&' if '?' in path else '?'}source="
+    kept, other, plain = [await browser.get(one) for one in (address + version, f"{address}0123", f"/api/v1/{path}")]
+    assert kept.status_code == 200
+    assert kept.headers["cache-control"] == "public, max-age=31536000, immutable"
+    assert {other.headers["cache-control"], plain.headers["cache-control"]} == {"no-cache"}
+    assert kept.content == other.content == plain.content
+    assert kept.headers["etag"] == plain.headers["etag"]
 
 
 async def test_head(browser: httpx.AsyncClient) -> None:
@@ -275,15 +282,33 @@ async def test_no_page_at_all(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", ["/", "/docs", "/docs/try", "/embed", "/embed/proof"])
-async def test_real_page_and_all_that_it_names(client: httpx.AsyncClient, path: str) -> None:
-    page = await client.get(path)
-    assert page.status_code == 200
-    for source in re.findall(r'(?:src|href)="(/[^"]+)"', page.text):
-        assert (await client.get(source)).status_code == 200, source
-    for source in re.findall(r'": "(/[^"]+[^/"])"', page.text):
-        assert (await client.get(source)).status_code == 200, source
+@pytest.mark.parametrize("bundled", [False, True], ids=["sources", "bundle"])
+async def test_real_page_and_all_that_it_names(request: pytest.FixtureRequest, path: str, bundled: bool) -> None:
+    app = create_app(Settings(workers=1, static=str(request.getfixturevalue("bundle")) if bundled else ""))
+    transport = httpx.ASGITransport(app=app)
+    async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test") as client:
+        page = await client.get(path)
+        assert page.status_code == 200
+        named = re.findall(r'(?:src|href)="(/[^"]+)"|":"(/[^"]+[^/"])"', page.text)
+        answers = {source: await client.get(source) for pair in named for source in pair if source}
+    assert len(answers) > 8
+    assert [source for source, answer in answers.items() if answer.status_code != 200] == []
+    lasting = {answer.headers["cache-control"].endswith("immutable") for answer in answers.values()}
+    assert lasting == {bundled}
 
 
 async def test_static_root(root: Path, tmp_path: Path) -> None:
     assert static_root(str(tmp_path)) == tmp_path
     assert static_root("") in {root / "frontend", PACKAGE / "static"}
+
+
+@pytest.mark.parametrize("bundled", [False, True], ids=["sources", "bundle"])
+async def test_a_package_without_a_bundle_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, bundled: bool
+) -> None:
+    (tmp_path / ("static/assets" if bundled else "static")).mkdir(parents=True)
+    make_assets(Settings(static=str(tmp_path / "static")))  # while the package is elsewhere: a folder of one's own
+    monkeypatch.setattr("deltaq.api.service.PACKAGE", tmp_path)
+    make_assets(Settings())
+    told = [] if bundled else ["the page is not bundled: this package was built without esbuild, and pages open slowly"]
+    assert caplog.messages == told

@@ -6,8 +6,6 @@ import asyncio
 import shutil
 import subprocess
 import sys
-import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import httpx
@@ -17,7 +15,6 @@ from fastapi import FastAPI
 from deltaq import __version__
 from deltaq.api import service as service_module
 from deltaq.api.app import create_app
-from deltaq.api.assets import Assets
 from deltaq.api.routes.derivations import derivation_id
 from deltaq.api.service import Service, source_digest
 from deltaq.lab.library import experiment_ids
@@ -205,20 +202,3 @@ def test_the_digest_is_of_all_code(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 def _digest_now() -> str:
     source_digest.cache_clear()
     return source_digest()
-
-
-def test_a_file_is_compressed_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """However many ask for it at the same time."""
-    (tmp_path / "a.js").write_text("let a = 1;\n" * 2000)
-    compressed: list[int] = []
-
-    def slowly(content: bytes, **options: int) -> bytes:
-        compressed.append(len(content))
-        time.sleep(0.05)
-        return content[:10]
-
-    monkeypatch.setattr("deltaq.api.assets.brotli.compress", slowly)
-    with ThreadPoolExecutor(30) as pool:
-        found = list(pool.map(lambda _: Assets(tmp_path).find("a.js"), range(30)))
-    assert len(compressed) == 1
-    assert len({id(asset.content) for asset in found if asset}) == 1

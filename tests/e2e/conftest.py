@@ -17,6 +17,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.e2e.browser import NoBrowser, chromium, started
 from tests.e2e.lecture import Lecture
 from tests.e2e.waiting import PATIENCE
+from tests.serving import PATIENT, served
 
 
 @pytest.fixture(scope="session")
@@ -32,6 +33,30 @@ def server(root: Path) -> Iterator[str]:
             yield address[0]
         finally:
             process.terminate()
+
+
+@pytest.fixture(scope="session")
+def bundled_server(server: str, bundle: Path) -> Iterator[str]:
+    """The address of a service that has the page as packages have it; `server` serves the sources."""
+    with served(static=bundle, **PATIENT) as service:
+        yield service.address
+
+
+@pytest.fixture(params=["sources", "bundle"])
+def either(request: pytest.FixtureRequest, page: Page) -> Iterator[Lecture]:
+    """The page from its sources, and from the bundle."""
+    address = request.getfixturevalue("server" if request.param == "sources" else "bundled_server")
+    lecture = Lecture(page, address)
+    yield lecture
+    assert lecture.complaints == []
+
+
+@pytest.fixture
+def bundled(page: Page, bundled_server: str) -> Iterator[Lecture]:
+    """The page as packages have it."""
+    lecture = Lecture(page, bundled_server)
+    yield lecture
+    assert lecture.complaints == []
 
 
 @pytest.fixture(scope="session")

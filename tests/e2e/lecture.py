@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
 from playwright.sync_api import Locator, Page, Request
 
+ROWS = re.compile(r"/(view/rows|assets/rows-\w+)\.js$")  # how long formulas are set, in the sources and in the bundle
 VIOLATIONS = "document.addEventListener('securitypolicyviolation', e => console.error('CSP ' + e.violatedDirective))"
 
 
@@ -33,6 +36,26 @@ class Lecture:
         self.page.goto(f"{self.address}scene{query}")
         self.steps.first.wait_for(state="attached")
         self.bob.wait_for(state="attached")
+
+    @contextmanager
+    def asked(self) -> Iterator[list[str]]:
+        """The addresses that the page asks the server for meanwhile, but for those from its cache."""
+        network = self.page.context.new_cdp_session(self.page)
+        addresses: dict[str, str] = {}
+        kept: set[str] = set()  # in memory
+
+        def note(event: dict[str, Any]) -> None:
+            answer = event["response"]
+            if answer["url"].startswith(self.address) and not answer.get("fromDiskCache"):
+                addresses[event["requestId"]] = answer["url"]
+
+        network.on("Network.responseReceived", note)
+        network.on("Network.requestServedFromCache", lambda event: kept.add(event["requestId"]))
+        network.send("Network.enable")
+        found: list[str] = []
+        yield found
+        network.detach()
+        found.extend(address for one, address in addresses.items() if one not in kept)
 
     def bytes_before_the_first_plot(self) -> dict[str, int]:
         """By address, what the page has fetched when its plots stand, but for the library that draws them."""

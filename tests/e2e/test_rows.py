@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import expect
-from tests.e2e.lecture import Lecture
+from playwright.sync_api import Route, expect
+from tests.e2e.lecture import ROWS, Lecture
 
 pytestmark = pytest.mark.e2e
 
@@ -90,10 +90,17 @@ def test_what_is_scrolled_back_to_is_drawn_again(long: Lecture) -> None:
     expect(formula.locator(".katex-html").first).to_be_visible()
 
 
-def test_a_formula_is_there_also_where_rows_cannot_be_fetched(lecture: Lecture) -> None:
-    page = lecture.page
-    page.route("**/view/rows.js", lambda route: route.abort())
-    lecture.open(f"?scene=triple-pendulum&lang=en&step={STEP}")
+def test_a_formula_is_there_also_where_rows_cannot_be_fetched(either: Lecture) -> None:
+    page = either.page
+    refused: list[str] = []
+
+    def refuse(route: Route) -> None:
+        refused.append(route.request.url)
+        route.abort()
+
+    page.route(ROWS, refuse)
+    either.open(f"?scene=triple-pendulum&lang=en&step={STEP}")
     expect(page.locator(f"{FORMULA} .katex-html")).to_be_visible()
     page.wait_for_function("() => [...document.querySelectorAll('.step .formula')].every(e => e.firstChild)")
-    lecture.complaints.clear()  # the browser reports what it could not fetch
+    assert refused
+    either.complaints.clear()  # the browser reports what it could not fetch

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, Route, expect
-from tests.e2e.lecture import Lecture
+from tests.e2e.lecture import ROWS, Lecture
 from tests.e2e.waiting import frames, until, until_equal
 
 pytestmark = pytest.mark.e2e
@@ -193,16 +193,16 @@ def test_a_sheet_that_is_printed_at_once_is_not_made_small(lecture: Lecture, tmp
     page.wait_for_function("() => window.small === 0")
 
 
-def test_a_sheet_is_shown_when_it_can_be_printed(lecture: Lecture, tmp_path: Path) -> None:
+def test_a_sheet_is_shown_when_it_can_be_printed(either: Lecture, tmp_path: Path) -> None:
     """Not before it has come how long formulas are set, whose rows would be missing on paper."""
-    page, held = lecture.page, list[Route]()
+    page, held = either.page, list[Route]()
 
     def hold(route: Route) -> None:
         held.append(route)
 
-    page.route("**/view/rows.js", hold)
+    page.route(ROWS, hold)
     with page.expect_response("**/api/v1/derivations") as derived:
-        page.goto(f"{lecture.address}handout?scene=triple-pendulum&lang=en")
+        page.goto(f"{either.address}handout?scene=triple-pendulum&lang=en")
     derived.value.finished()
     frames(page, 10)
     expect(page.locator(".paper")).to_have_count(0)

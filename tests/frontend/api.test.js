@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { ApiError, createApi, failureOf } from "../../frontend/model/api.js";
+import { ApiError, createApi, failureOf, ofSource } from "../../frontend/model/api.js";
 
 const answer = (/** @type {number} */ status, /** @type {string} */ body) => async () => new Response(body, { status });
 const failureFrom = async (/** @type {any} */ send) => {
@@ -46,6 +46,18 @@ test("names in addresses are escaped", async () => {
   const send = async (/** @type {any} */ url) => (asked.push(url), new Response("{}"));
   await createApi(send).scene("a/b?c", "de");
   assert.deepEqual(asked, ["/api/v1/scenes/a%2Fb%3Fc?lang=de"]);
+});
+
+test("what is read is asked for as of the page's version, what is computed as ever", async () => {
+  /** @type {string[]} */
+  const asked = [];
+  const send = async (/** @type {any} */ url) => (asked.push(url), new Response("{}"));
+  const api = createApi(ofSource("0123", send));
+  await api.methods();
+  await api.scene("pendulum", "de");
+  await api.derive({ scene: "pendulum" });
+  await createApi(ofSource("", send)).methods();
+  assert.deepEqual(asked, ["/api/v1/methods?source=0123", "/api/v1/scenes/pendulum?lang=de&source=0123", "/api/v1/derivations", "/api/v1/methods"]);
 });
 
 test("texts are asked for until they come, other things once", async () => {

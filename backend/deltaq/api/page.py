@@ -1,7 +1,7 @@
-"""A page as it is sent: what all pages have, the lines of its own, and the modules that it needs.
+"""A page as it is sent: the frame of all pages, with the addresses of what it needs in its head.
 
-A browser learns what a module imports when it has read the module. Here it is told at once of all that the page's own
-module leads to, so that nothing waits for anything.
+`pages.json` tells these addresses. That of the sources names them as they stand; the one that the bundler writes has
+the same form, and names bundles and all modules that a page begins with, so that none waits for another.
 """
 
 from __future__ import annotations
@@ -9,81 +9,83 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
-import logging
-import os
-import re
-from functools import lru_cache
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from html import escape
 from pathlib import Path
-from posixpath import dirname, join, normpath
 
-LOGGER = logging.getLogger("deltaq.api")
 FRAME = "view/frame.html"
-
-Names = tuple[tuple[str, str], ...]
-
-_IMPORT_MAP = re.compile(r'<script type="importmap"[^>]*>(.*?)</script>', re.DOTALL)
-_IMPORT = re.compile(r'(?:^|;)(?:import|export)\b[^;]*?\bfrom ?"([^"]+)"', re.MULTILINE)
+SITE = "pages.json"
 
 
-def assembled(root: Path, name: str) -> str:
-    """The page of <name>.html, which holds what its head has beyond that of others, and of <name>.js."""
-    frame = (root / FRAME).read_text(encoding="utf-8")
-    module = f"/{name}.js"
-    head = [
-        *(root / f"{name}.html").read_text(encoding="utf-8").splitlines(),
-        *(f'<link rel="modulepreload" href="{address}">' for address in sorted(imported(root, module, names(frame)))),
-        f'<script type="module" src="{module}"></script>',
-    ]
-    return frame.replace("  </head>", "".join(f"    {line}\n" for line in head) + "  </head>")
+@dataclass(frozen=True)
+class Page:
+    """What one page has beyond the others, by address; the last of its modules leads to all others."""
+
+    description: str
+    styles: tuple[str, ...]
+    scripts: tuple[str, ...]
+    modules: tuple[str, ...]
 
 
-def import_map_hash(page: str) -> str | None:
-    """What script-src must allow for the page's import map, the one inline script there is."""
-    found = _IMPORT_MAP.search(page)
-    if found is None:
+@dataclass(frozen=True)
+class Site:
+    """All pages, what they have in common, and the addresses by the names that modules use for them."""
+
+    icon: str
+    font: str
+    styles: tuple[str, ...]
+    imports: Mapping[str, str]
+    pages: Mapping[str, Page]
+
+    @property
+    def import_map(self) -> str:
+        """The one inline script of every page."""
+        return json.dumps({"imports": dict(self.imports)}, separators=(",", ":"))
+
+    @property
+    def import_map_hash(self) -> str:
+        """What script-src must allow for the import map."""
+        return "sha256-" + base64.b64encode(hashlib.sha256(self.import_map.encode()).digest()).decode()
+
+    def assembled(self, frame: str, name: str, sheets: Iterable[str] = (), source: str = "") -> str:
+        """The page of a name, told the version of what it asks for; `sheets` of the import map come last."""
+        page = self.pages[name]
+        styles = (*self.styles, *page.styles, *(self.imports[sheet] for sheet in sheets))
+        head = "".join(f"    {line}\n" for line in (*self._common(), *_version(source), *_own(page, styles)))
+        return frame.replace("  </head>", f"{head}  </head>")
+
+    def _common(self) -> Iterator[str]:
+        yield f'<link rel="icon" href="{self.icon}" type="image/svg+xml">'
+        yield f'<link rel="preload" href="{self.font}" as="font" type="font/woff2" crossorigin>'
+        yield f'<script type="importmap">{self.import_map}</script>'
+
+
+def read_site(root: Path) -> Site | None:
+    """The site below a folder; None if there is none."""
+    file = root / SITE
+    if not file.is_file():
         return None
-    return "sha256-" + base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode()
+    document = json.loads(file.read_text(encoding="utf-8"))
+    pages = {name: _page(page) for name, page in document["pages"].items()}
+    return Site(document["icon"], document["font"], tuple(document["styles"]), document["imports"], pages)
 
 
-def names(page: str) -> Names:
-    """The import map of a page: addresses by the names that modules use for them."""
-    found = _IMPORT_MAP.search(page)
-    return tuple(json.loads(found[1])["imports"].items()) if found else ()
+def _page(document: Mapping[str, object]) -> Page:
+    lists = (document[name] for name in ("styles", "scripts", "modules"))
+    styles, scripts, modules = (tuple(map(str, one)) for one in lists if isinstance(one, list))
+    return Page(str(document["description"]), styles, scripts, modules)
 
 
-def imported(root: Path, module: str, named: Names) -> set[str]:
-    """The addresses of all modules that one leads to; those that are fetched later, by import(), do not count.
-
-    What is imported and not there is told in the log, and the page comes without it.
-    """
-    found: set[str] = set()
-    waiting = [module]
-    while waiting:
-        module = waiting.pop()
-        file = f"{root}{module}"
-        try:
-            modified = os.stat(file).st_mtime_ns  # noqa: PTH116  a Path takes longer, and a page has dozens of modules
-        except FileNotFoundError:
-            LOGGER.error("the page imports %s, which is not there", module)  # noqa: TRY400  its trace tells no more
-            found.discard(module)
-            continue
-        fresh = _imports(file, module, named, modified) - found
-        found |= fresh
-        waiting += fresh
-    return found
+def _version(source: str) -> Iterator[str]:
+    if source:
+        yield f'<meta name="source" content="{escape(source)}">'
 
 
-@lru_cache(maxsize=1024)
-def _imports(file: str, module: str, named: Names, _modified: int) -> frozenset[str]:
-    """What a module itself imports; read again when it has been modified."""
-    return frozenset(_address(name, module, dict(named)) for name in _IMPORT.findall(Path(file).read_text("utf-8")))
-
-
-def _address(name: str, module: str, named: dict[str, str]) -> str:
-    """Where a module finds what it calls by a name: beside itself, or by the import map."""
-    if name.startswith("."):
-        return normpath(join(dirname(module), name))
-    if name in named:
-        return named[name]
-    folder, _, rest = name.partition("/")
-    return named.get(f"{folder}/", f"{folder}/") + rest
+def _own(page: Page, styles: Iterable[str]) -> Iterator[str]:
+    *begun, last = page.modules
+    yield f'<meta name="description" content="{escape(page.description)}">'
+    yield from (f'<link rel="stylesheet" href="{address}">' for address in styles)
+    yield from (f'<script src="{address}" defer fetchpriority="high"></script>' for address in page.scripts)
+    yield from (f'<link rel="modulepreload" href="{address}">' for address in begun)
+    yield f'<script type="module" src="{last}"></script>'

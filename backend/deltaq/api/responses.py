@@ -11,6 +11,7 @@ from fastapi import Request, Response
 
 from .assets import ASK_AGAIN, FOR_EVER
 from .cache import content_hash
+from .service import source_digest
 
 JSON = "application/json"
 
@@ -33,10 +34,14 @@ def not_modified(request: Request, etag: str) -> bool:
     return request.method in {"GET", "HEAD"} and etag in {tag.strip().removeprefix("W/") for tag in known.split(",")}
 
 
-def tagged(request: Request, document: Any, cache_control: str = ASK_AGAIN) -> Response:
-    """A JSON document whose entity tag is the hash of its content."""
+def tagged(request: Request, document: Any) -> Response:
+    """A JSON document of this version of δq, whose entity tag is the hash of its content.
+
+    Who asks with `source`, the digest of the version, may keep it: under this address it never changes.
+    """
     etag = f'"{content_hash(document)}"'
-    headers = {"ETag": etag, "Cache-Control": cache_control, "Vary": "Accept-Language"}
+    lasting = FOR_EVER if request.query_params.get("source") == source_digest() else ASK_AGAIN
+    headers = {"ETag": etag, "Cache-Control": lasting, "Vary": "Accept-Language"}
     if not_modified(request, etag):
         return Response(status_code=304, headers=headers)
     return Response(json.dumps(document, ensure_ascii=False).encode(), headers=headers, media_type=JSON)

@@ -7,6 +7,7 @@ import functools
 import gzip
 import hashlib
 import json
+import logging
 from collections.abc import Awaitable, Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -26,6 +27,7 @@ from .extremes import unless_extreme
 from .flights import Hear, Said, ignore
 from .kernels import Kernels
 from .metrics import Metrics, make_metrics
+from .page import SITE
 from .stores.disk import Disk
 from .stores.memory import Memory
 from .stores.store import Store
@@ -35,6 +37,7 @@ from .workers.lane import Limits
 from .workers.pool import Pool
 from .workers.queue import Place
 
+LOGGER = logging.getLogger("deltaq.api")
 PACKAGE = Path(__file__).parents[1]
 RESERVE = 1  # workers that slow jobs never get
 NICENESS = 5  # of the workers; of those that experiment twice as much
@@ -117,7 +120,15 @@ def make_service(settings: Settings) -> Service:
     laboratory = Pool(settings.experiment_workers, settings.experiment_queue, waiting_longer)
     cache = Cache(Memory(settings.cache_size), *stores_of(settings))
     metrics = make_metrics({"requests": pool, "experiments": laboratory}, cache)
-    return Service(settings, pool, laboratory, cache, Assets(static_root(settings.static)), metrics, Kernels())
+    return Service(settings, pool, laboratory, cache, make_assets(settings), metrics, Kernels())
+
+
+def make_assets(settings: Settings) -> Assets:
+    """The files of the pages. A package without a bundle says so: only a checkout is meant to serve its sources."""
+    assets = Assets(static_root(settings.static), source_digest())
+    if assets.root == PACKAGE / "static" and not assets.bundled:
+        LOGGER.warning("the page is not bundled: this package was built without esbuild, and pages open slowly")
+    return assets
 
 
 def stores_of(settings: Settings) -> Iterator[Store]:
@@ -155,7 +166,7 @@ def static_root(configured: str) -> Path:
     checkout = PACKAGE.parents[1] / "frontend"
     if configured:
         return Path(configured)
-    return checkout if (checkout / "index.html").is_file() else PACKAGE / "static"
+    return checkout if (checkout / SITE).is_file() else PACKAGE / "static"
 
 
 @functools.cache

@@ -13,12 +13,11 @@ from starlette.types import Scope
 
 from ..assets import ASK_AGAIN, Asset
 from ..headers import content_security_policy
-from ..page import import_map_hash
 from ..responses import coding_for, not_modified
 from ..service import service_of
 from .common import PREFIX
 
-FRAMED = '<link rel="stylesheet" href="/styles/embed.css">'  # what a page looks like in a frame of another one
+FRAMED = ("styles/embed.css",)  # what a page looks like in a frame of another one
 
 
 class PageRoute(APIRoute):
@@ -66,20 +65,18 @@ def file(request: Request, path: str) -> Response:
     return _page(request, path) if asset is None else _file(request, asset)
 
 
-def _page(request: Request, name: str, style: str = "") -> Response:
+def _page(request: Request, name: str, sheets: tuple[str, ...] = ()) -> Response:
     """A page; its policy names the hash of its import map."""
     service = service_of(request)
-    html = service.assets.page(name)
-    if html is None:
+    page = service.assets.page(name, sheets)
+    if page is None:
         raise HTTPException(404)
-    html = html.replace("</head>", f"{style}</head>")
-    inline = import_map_hash(html)
-    policy = content_security_policy(*([inline] if inline else []), frame_ancestors=service.settings.frame_ancestors)
-    etag = f'"{hashlib.sha256(html.encode()).hexdigest()[:16]}"'
+    policy = content_security_policy(page.import_map_hash, frame_ancestors=service.settings.frame_ancestors)
+    etag = f'"{hashlib.sha256(page.html.encode()).hexdigest()[:16]}"'
     headers = {"ETag": etag, "Cache-Control": ASK_AGAIN, "Content-Security-Policy": policy}
     if not_modified(request, etag):
         return Response(status_code=304, headers=headers)
-    return Response(html, headers=headers, media_type="text/html")
+    return Response(page.html, headers=headers, media_type="text/html")
 
 
 def _file(request: Request, asset: Asset) -> Response:
