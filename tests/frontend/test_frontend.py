@@ -29,6 +29,16 @@ def test_types(frontend: Path) -> None:
     assert done.returncode == 0, done.stdout
 
 
+def test_linter_finds_nothing(frontend: Path) -> None:
+    done = run("node", "node_modules/eslint/bin/eslint.js", ".", "--max-warnings", "0", cwd=frontend)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_formatter_changes_nothing(frontend: Path) -> None:
+    done = run("node", "node_modules/prettier/bin/prettier.cjs", "--check", "**/*.{js,mjs}", cwd=frontend)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_units(root: Path) -> None:
     files = sorted(str(path) for path in (root / "tests" / "frontend").glob("*.test.js"))
     assert len(files) >= 10

@@ -10,7 +10,7 @@ const keyText = (key) => (BARE.test(key) ? key : string(key));
 
 /** @param {string} text */
 function string(text) {
-  const escaped = text.replace(/["\\]/g, "\\$&").replace(/[\u0000-\u001f\u007f]/g, (c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, "0")}`);
+  const escaped = text.replace(/["\\]/g, "\\$&").replace(/\p{Cc}/gu, (c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, "0")}`);
   return `"${escaped.replaceAll("\\u000a", "\\n").replaceAll("\\u0009", "\\t")}"`;
 }
 
