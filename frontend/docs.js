@@ -17,7 +17,9 @@ const asked = readPlace(location.search);
 const store = createStore({
   place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
-  groups: /** @type {import("./model/reference.js").Group[]} */ ([]), version: "", sample: "Shell",
+  groups: /** @type {import("./model/reference.js").Group[]} */ ([]),
+  version: "",
+  sample: "Shell",
   failure: /** @type {import("./model/types.js").Failure | null} */ (null),
 });
 const { get, set } = store;

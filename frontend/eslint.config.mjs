@@ -8,6 +8,9 @@ export default [
   js.configs.recommended,
   { rules: { "no-unused-vars": ["error", { argsIgnorePattern: "^_", varsIgnorePattern: "^_" }] } },
   { linterOptions: { reportUnusedDisableDirectives: "error" } },
-  { files: ["*.js", "model/**/*.js", "view/**/*.js"], languageOptions: { globals: { ...globals.browser, katex: "readonly", Plotly: "readonly" } } },
+  {
+    files: ["*.js", "model/**/*.js", "view/**/*.js"],
+    languageOptions: { globals: { ...globals.browser, katex: "readonly", Plotly: "readonly" } },
+  },
   { files: ["tools/**/*.mjs", "*.mjs"], languageOptions: { globals: globals.node } },
 ];

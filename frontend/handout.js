@@ -22,9 +22,22 @@ const query = new URLSearchParams(location.search);
 const proof = query.get(PROVING) ?? "";
 /** @type {import("./model/handout.js").Sheet} */
 const START = {
-  place: { ...HOME, scene: asked.scene || (proof ? "" : "elastic-pendulum"), n: asked.n, set: asked.set, formulation: asked.formulation, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
-  catalog: {}, scene: null, lines: [], trajectory: null, failure: null,
-  proof, substeps: query.get(SUBSTEPS) !== "no",
+  place: {
+    ...HOME,
+    scene: asked.scene || (proof ? "" : "elastic-pendulum"),
+    n: asked.n,
+    set: asked.set,
+    formulation: asked.formulation,
+    theme: asked.theme,
+    lang: startLanguage(asked.lang, navigator.languages),
+  },
+  catalog: {},
+  scene: null,
+  lines: [],
+  trajectory: null,
+  failure: null,
+  proof,
+  substeps: query.get(SUBSTEPS) !== "no",
 };
 const store = createStore(START);
 const session = createHandout(store, api, await documentIn(location.hash));
@@ -56,7 +69,8 @@ const PATIENCE = 240;
 async function onPaper() {
   typesetAll();
   const isTooWide = (/** @type {Element} */ formula) => formula.scrollWidth > formula.clientWidth + 1;
-  for (let frames = 0; frames < PATIENCE && [...root.querySelectorAll(".formula")].some(isTooWide); frames += 1) await new Promise(requestAnimationFrame);
+  for (let frames = 0; frames < PATIENCE && [...root.querySelectorAll(".formula")].some(isTooWide); frames += 1)
+    await new Promise(requestAnimationFrame);
   window.print();
 }
 

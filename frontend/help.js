@@ -24,7 +24,11 @@ function update() {
   const { place, catalog } = get();
   dressed(place, dark.matches);
   if (!catalog.page) return;
-  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture), .../** @type {object} */ (catalog.guide) });
+  const t = translator({
+    .../** @type {object} */ (catalog.page),
+    .../** @type {object} */ (catalog.lecture),
+    .../** @type {object} */ (catalog.guide),
+  });
   document.title = `δq · ${t("place.help")}`;
   const session = { language: speech.speak, move: mover(store) };
   render(page({ state: { place }, session, t }), root);

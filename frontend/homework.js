@@ -35,7 +35,9 @@ const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readAsked(location.search);
-const store = createStore(begin({ ...asked, place: { ...asked.place, lang: startLanguage(asked.place.lang, navigator.languages) } }));
+const store = createStore(
+  begin({ ...asked, place: { ...asked.place, lang: startLanguage(asked.place.lang, navigator.languages) } }),
+);
 const { get, set } = store;
 const { post, simulate, ...rest } = server;
 const api = { ...rest, post: patient(post), simulate: patient(simulate) };
@@ -113,8 +115,21 @@ function view() {
     offerKeys(offered.keys, "δq");
   }
   return {
-    state, answering, exercise, working, session, switchTo, clock, togglePlay, scrub, download, upload, formulas, classroom,
-    keys: offered.keys, shortcuts: offered.shortcuts,
+    state,
+    answering,
+    exercise,
+    working,
+    session,
+    switchTo,
+    clock,
+    togglePlay,
+    scrub,
+    download,
+    upload,
+    formulas,
+    classroom,
+    keys: offered.keys,
+    shortcuts: offered.shortcuts,
     t: translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.exercises) }),
     draftOf: (key) => (key === entry?.key ? state.draft : progress.draft(key)),
     ownStep: (step) => (state.own ? stepAddress(OWN, step, state.asked.place) + fragment : ""),
@@ -128,7 +143,11 @@ const trail = createTrail(history, location);
 /** The tasks on the page as questions of STACK. @param {object} reference */
 async function questions(reference) {
   const body = JSON.stringify({ ...reference, lang: get().asked.place.lang });
-  const response = await fetch("/api/v1/tasks/stack", { method: "POST", headers: { "content-type": "application/json" }, body }).catch(() => null);
+  const response = await fetch("/api/v1/tasks/stack", {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body,
+  }).catch(() => null);
   return response?.ok ? response.text() : null;
 }
 
@@ -147,7 +166,11 @@ async function fetchFormulas() {
 
 let wanted = false;
 function update() {
-  const { asked: { place, side }, catalog, entry } = get();
+  const {
+    asked: { place, side },
+    catalog,
+    entry,
+  } = get();
   dressed(place, dark.matches);
   if (!catalog.page) return;
   const current = view();
@@ -166,17 +189,26 @@ store.subscribe(update);
 clock.subscribe(staging.move);
 dark.addEventListener("change", update);
 low.addEventListener("change", () => offerKeys(offered.keys, "δq"));
-addEventListener("popstate", () => (location.hash === (own() ? fragment : "") && retrace(get(), exercise, location.search)) || location.reload());
+addEventListener(
+  "popstate",
+  () => (location.hash === (own() ? fragment : "") && retrace(get(), exercise, location.search)) || location.reload(),
+);
 linkHighlights(root);
 
 everyFrame(clock.advance);
 
 async function start() {
   const { asked } = get();
-  const [assignment, sent] = await Promise.all([assignmentIn(location.hash, "", api, asked.place.lang), documentIn(location.hash)]);
+  const [assignment, sent] = await Promise.all([
+    assignmentIn(location.hash, "", api, asked.place.lang),
+    documentIn(location.hash),
+  ]);
   const own = sent ?? (asked.place.scene === OWN && !assignment ? (readDraft(keeper())?.document ?? null) : null);
   fragment = own ? await fragmentOf(own) : location.hash;
   const scene = own ? OWN : asked.place.scene === OWN ? "" : asked.place.scene;
-  await Promise.all([speak(asked.place.lang), exercise.start({ ...asked, place: { ...asked.place, scene } }, assignment, own)]);
+  await Promise.all([
+    speak(asked.place.lang),
+    exercise.start({ ...asked, place: { ...asked.place, scene } }, assignment, own),
+  ]);
 }
 void start();

@@ -53,5 +53,8 @@ else {
   root.addEventListener("focusin", ({ target }) => motions.point(target));
   everyFrame(motions.advance);
   void language(get().place.lang);
-  void api.scenes({ summaries: true }).then(({ scenes }) => set({ scenes }), () => {});
+  void api.scenes({ summaries: true }).then(
+    ({ scenes }) => set({ scenes }),
+    () => {},
+  );
 }

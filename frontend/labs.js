@@ -4,7 +4,15 @@ import { render } from "lit-html";
 import { translator } from "./model/catalog.js";
 import { createBench } from "./model/labs/bench.js";
 import { withMarks } from "./model/labs/figure.js";
-import { answered, exampleOf, NOTHING, pointOf, readQuestion, requestOf, writeQuestion } from "./model/labs/question.js";
+import {
+  answered,
+  exampleOf,
+  NOTHING,
+  pointOf,
+  readQuestion,
+  requestOf,
+  writeQuestion,
+} from "./model/labs/question.js";
 import { experiment, file } from "./model/labs/stream.js";
 import { createWatch, motionOf, written } from "./model/labs/watch.js";
 import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
@@ -43,12 +51,15 @@ const lang = () => get().place.lang;
 /** A scene for a request: its id, or the viewer's own as a document. @param {string} id */
 const documentOf = (id) => (id === OWN && own ? own : id);
 
-const bench = createBench({
-  lang,
-  document: documentOf,
-  run: (name, body, hear, signal, anew, wait) => experiment(send, name, body, hear, signal, anew, wait),
-  scene: async (id) => (id === OWN && own ? completed(own) : api.scene(id, lang())),
-}, usual(readQuestion(location.search)));
+const bench = createBench(
+  {
+    lang,
+    document: documentOf,
+    run: (name, body, hear, signal, anew, wait) => experiment(send, name, body, hear, signal, anew, wait),
+    scene: async (id) => (id === OWN && own ? completed(own) : api.scene(id, lang())),
+  },
+  usual(readQuestion(location.search)),
+);
 
 /** @param {import("./model/labs/question.js").Question} question */
 function usual(question) {
@@ -70,12 +81,18 @@ function watch(wish) {
   const { question, scene } = bench.get();
   if (!scene) return;
   const { method, step = 0 } = wish;
-  const title = method ? speech()("labs.played-method", { method: methodTitle(method), step: step.toPrecision(3) }) : speech()("labs.played-point", { values: written(wish) });
+  const title = method
+    ? speech()("labs.played-method", { method: methodTitle(method), step: step.toPrecision(3) })
+    : speech()("labs.played-point", { values: written(wish) });
   const told = (/** @type {string} */ status) => set({ play: { title, status, address: "" } });
-  void watching.ask(motionOf(question, wish, documentOf(question.scene), lang()), (trajectory) => {
-    told(caveatsOf(trajectory, speech()).join(" "));
-    queueMicrotask(() => motion.begin(scene, trajectory));
-  }, (error) => told(/** @type {Error} */ (error).message || speech()("failure.unreachable")));
+  void watching.ask(
+    motionOf(question, wish, documentOf(question.scene), lang()),
+    (trajectory) => {
+      told(caveatsOf(trajectory, speech()).join(" "));
+      queueMicrotask(() => motion.begin(scene, trajectory));
+    },
+    (error) => told(/** @type {Error} */ (error).message || speech()("failure.unreachable")),
+  );
 }
 
 /** @param {string} name */
@@ -111,13 +128,18 @@ async function fetchFile(accept) {
   const { question } = bench.get();
   const name = question.lab;
   const request = requestOf(answered(question, bench.get().scene), documentOf(question.scene), lang());
-  await file(send, name, request, accept).then((blob) => offer(`${name}-${question.scene}.${accept === "text/csv" ? "csv" : "html"}`, blob, accept), bench.fail);
+  await file(send, name, request, accept).then(
+    (blob) => offer(`${name}-${question.scene}.${accept === "text/csv" ? "csv" : "html"}`, blob, accept),
+    bench.fail,
+  );
 }
 
 /** A rung as a scene of its own. @param {object} scene */
 async function open(scene) {
   const { lang, theme } = get().place;
-  location.assign(`/scene${writePlace({ ...HOME, lang, theme })}${await fragmentOf(/** @type {import("./model/own.js").SceneDocument} */ (scene))}`);
+  location.assign(
+    `/scene${writePlace({ ...HOME, lang, theme })}${await fragmentOf(/** @type {import("./model/own.js").SceneDocument} */ (scene))}`,
+  );
 }
 
 /** @param {string} wanted */
@@ -144,12 +166,31 @@ function update() {
   const t = speech();
   document.title = `δq · ${t("place.labs")}`;
   const now = chartsNow();
-  render(page({
-    state: { place: { ...place, scene: bench.get().question.scene } }, session, t, bench: bench.get(), benches: starting, labs: labs(), scenes, charts: now, dial, play, methodTitle, fetchFile: (accept) => void fetchFile(accept), link, open: (scene) => void open(scene), watch,
-    turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
-    cursor: get().cursor, point: (cursor) => set({ cursor }), press: pressed,
-    save: (chart, format) => void charts.save(chart, format),
-  }), root);
+  render(
+    page({
+      state: { place: { ...place, scene: bench.get().question.scene } },
+      session,
+      t,
+      bench: bench.get(),
+      benches: starting,
+      labs: labs(),
+      scenes,
+      charts: now,
+      dial,
+      play,
+      methodTitle,
+      fetchFile: (accept) => void fetchFile(accept),
+      link,
+      open: (scene) => void open(scene),
+      watch,
+      turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
+      cursor: get().cursor,
+      point: (cursor) => set({ cursor }),
+      press: pressed,
+      save: (chart, format) => void charts.save(chart, format),
+    }),
+    root,
+  );
   motion.arrange();
   if (opened !== bench.get().question.lab) showOpen(root);
   opened = bench.get().question.lab;
@@ -190,7 +231,10 @@ async function start() {
   dark.addEventListener("change", update);
   new ResizeObserver(update).observe(root);
   everyFrame(motion.advance);
-  void api.scenes().then(({ scenes }) => set({ scenes }), () => {});
+  void api.scenes().then(
+    ({ scenes }) => set({ scenes }),
+    () => {},
+  );
   const offered = speak(lang()).then(() => labs().includes(bench.get().question.lab) || bench.open(NOTHING.lab));
   await Promise.all([offered, bench.load()]);
 }

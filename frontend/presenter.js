@@ -26,7 +26,9 @@ const store = createStore({
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
   here: /** @type {import("./model/lecture/link.js").Here | null} */ (null),
   lines: /** @type {import("./model/reveal.js").Line[]} */ ([]),
-  notes: readNotes(keeper()), timer: STOPPED, now: Date.now(),
+  notes: readNotes(keeper()),
+  timer: STOPPED,
+  now: Date.now(),
 });
 const { get, set } = store;
 const speech = createSpeech(store, api, (task) => task().catch(() => {}), ["lecture"]);
@@ -43,7 +45,9 @@ const move = mover(store);
 const wish = (/** @type {import("./model/lecture/link.js").Wish} */ wanted) => line?.wish(wanted);
 
 const actions = {
-  wish, move, language: speech.speak,
+  wish,
+  move,
+  language: speech.speak,
   /** @param {string} text */
   write(text) {
     const place = get().here?.place;
@@ -63,16 +67,24 @@ function update() {
   const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture) });
   document.title = `δq · ${t("presenter")}`;
   render(page({ ...get(), state: { place }, session: actions, t }), root);
-  history.replaceState(null, "", `${location.pathname}?with=${isId(id) ? id : ""}${writePlace(place).replace("?", "&")}`);
+  history.replaceState(
+    null,
+    "",
+    `${location.pathname}?with=${isId(id) ? id : ""}${writePlace(place).replace("?", "&")}`,
+  );
 }
 
 store.subscribe(update);
 dark.addEventListener("change", update);
 const nothing = () => {};
 listen(document, {
-  go: (by) => wish({ kind: "go", by }), play: () => wish({ kind: "play" }), fullscreen: nothing, substeps: nothing,
+  go: (by) => wish({ kind: "go", by }),
+  play: () => wish({ kind: "play" }),
+  fullscreen: nothing,
+  substeps: nothing,
   overlay: (name) => (name === "black" ? wish({ kind: "overlay", name }) : undefined),
-  covered: () => false, uncover: nothing,
+  covered: () => false,
+  uncover: nothing,
   more: () => ({ ArrowDown: () => wish({ kind: "within", by: 1 }), ArrowUp: () => wish({ kind: "within", by: -1 }) }),
 });
 setInterval(() => set({ now: Date.now() }), TICK);

@@ -23,7 +23,11 @@ const { step, theme, lang, view, part, pace } = readPlace(location.search);
 /** @type {import("./model/proof.js").Reading} */
 const START = {
   place: { ...HOME, step, theme, view, part, pace, lang: startLanguage(lang, navigator.languages) },
-  catalog: {}, derivation: null, lines: [], overlay: "", failure: null,
+  catalog: {},
+  derivation: null,
+  lines: [],
+  overlay: "",
+  failure: null,
 };
 const store = createStore(START);
 const session = createProof(store, api);
@@ -40,11 +44,14 @@ const lecture = createLater(async () => {
   const about = () => ({ scene: PROOF, title: { [store.get().place.lang]: texts()("place.proof") } });
   return open({ root, session, state: store.get, about, changed: update, play() {} });
 }, update);
-const framed = location.pathname.startsWith("/embed/") ? import("./view/embed.js").then(({ embed }) => embed(root, () => store.get().place, whole)) : null;
+const framed = location.pathname.startsWith("/embed/")
+  ? import("./view/embed.js").then(({ embed }) => embed(root, () => store.get().place, whole))
+  : null;
 const sharing = createLater(() => import("./view/share.js"), update);
 
 const lecturing = () => (store.get().place.view ? lecture.part : null);
-const link = (/** @type {Partial<import("./model/types.js").Place>} */ patch) => location.pathname + writePlace({ ...store.get().place, ...patch });
+const link = (/** @type {Partial<import("./model/types.js").Place>} */ patch) =>
+  location.pathname + writePlace({ ...store.get().place, ...patch });
 
 /** The address of the same step as a page. */
 const whole = () => location.href.replace("/embed/", "/");
@@ -77,7 +84,10 @@ function update() {
   if (!catalog.page && !state.failure) return;
   const t = texts();
   document.title = `δq · ${t("place.proof")}`;
-  render(page({ state, session, link, follow, t, fullscreen: toggleFullscreen, enterLecture, lecture: lecturing(), above }), root);
+  render(
+    page({ state, session, link, follow, t, fullscreen: toggleFullscreen, enterLecture, lecture: lecturing(), above }),
+    root,
+  );
   if (overlay === "share") void sharing.want();
   if (place.view) void lecture.want();
   lecture.part?.update();
@@ -90,13 +100,19 @@ function update() {
 store.subscribe(update);
 dark.addEventListener("change", update);
 listen(document, {
-  go: (by) => (lecturing() ?? session).go(by), more, lecture: enterLecture, presenter: () => void present(),
-  fullscreen: toggleFullscreen, overlay: session.overlay, play() {},
+  go: (by) => (lecturing() ?? session).go(by),
+  more,
+  lecture: enterLecture,
+  presenter: () => void present(),
+  fullscreen: toggleFullscreen,
+  overlay: session.overlay,
+  play() {},
   covered: () => store.get().overlay !== "",
   uncover: () => session.overlay(""),
   substeps: () => toggleSubsteps(root, store.get().place.step),
 });
-if (new URLSearchParams(location.search).get("view") === "print") location.replace(`/handout?proof=${PROOF}&lang=${store.get().place.lang}`);
+if (new URLSearchParams(location.search).get("view") === "print")
+  location.replace(`/handout?proof=${PROOF}&lang=${store.get().place.lang}`);
 else {
   update();
   void session.load();

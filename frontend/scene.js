@@ -55,11 +55,27 @@ function view() {
   const section = (/** @type {string} */ name) => /** @type {Record<string, unknown>} */ (state.catalog[name] ?? {});
   const methods = translator(section("methods"));
   return {
-    state, session, clock, togglePlay: motion.play, scrub: motion.scrub, setSpeed: (speed) => session.move({ speed }), instruments: motion.instruments, why: motion.instruments?.why, fullscreen: toggleFullscreen, enterLecture,
-    editor: aside.editor.part, lecture: aside.lecturing(), overlays: aside.overlays(),
+    state,
+    session,
+    clock,
+    togglePlay: motion.play,
+    scrub: motion.scrub,
+    setSpeed: (speed) => session.move({ speed }),
+    instruments: motion.instruments,
+    why: motion.instruments?.why,
+    fullscreen: toggleFullscreen,
+    enterLecture,
+    editor: aside.editor.part,
+    lecture: aside.lecturing(),
+    overlays: aside.overlays(),
     t: translator({ ...section("page"), ...section("editor"), ...section("lecture"), ...section("figure") }),
-    methodTitle: (id) => [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ?? id,
-    link: (patch) => location.pathname + writePlace({ ...state.place, ...patch }) + ((patch.scene ?? state.place.scene) === OWN ? state.fragment : ""),
+    methodTitle: (id) =>
+      [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ??
+      id,
+    link: (patch) =>
+      location.pathname +
+      writePlace({ ...state.place, ...patch }) +
+      ((patch.scene ?? state.place.scene) === OWN ? state.fragment : ""),
     follow,
     reload: () => void session.start(state.place),
   };
@@ -71,7 +87,8 @@ function update() {
   const { place } = state;
   const theme = dressed(place, dark.matches);
   // A page that opens as a lecture shows nothing before that would move.
-  if (place.view && !current.lecture && !state.failures.page && !root.querySelector("main")) return void aside.lecture.want();
+  if (place.view && !current.lecture && !state.failures.page && !root.querySelector("main"))
+    return void aside.lecture.want();
   if (!state.catalog.page && !state.failures.page) return;
   clock.setSpeed(place.speed);
   document.title = current.t("title");
@@ -87,8 +104,13 @@ store.subscribe(update);
 dark.addEventListener("change", update);
 linkHighlights(root);
 listen(document, {
-  go: (by) => (aside.lecturing() ?? session).go(by), more: () => aside.lecturing()?.keys ?? {},
-  fullscreen: toggleFullscreen, overlay: session.overlay, play: motion.play, lecture: enterLecture, presenter: () => void present(),
+  go: (by) => (aside.lecturing() ?? session).go(by),
+  more: () => aside.lecturing()?.keys ?? {},
+  fullscreen: toggleFullscreen,
+  overlay: session.overlay,
+  play: motion.play,
+  lecture: enterLecture,
+  presenter: () => void present(),
   covered: () => store.get().overlay !== "",
   uncover: () => session.overlay(""),
   substeps: () => toggleSubsteps(root, store.get().place.step),
@@ -105,7 +127,8 @@ window.addEventListener("beforeprint", () => {
 });
 
 async function start() {
-  if (new URLSearchParams(location.search).get("view") === "print") return location.replace(location.href.replace("/scene", "/handout"));
+  if (new URLSearchParams(location.search).get("view") === "print")
+    return location.replace(location.href.replace("/scene", "/handout"));
   const asked = readPlace(location.search);
   if (asked.step) void expectLong();
   const sent = await documentIn(location.hash);

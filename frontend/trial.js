@@ -20,8 +20,13 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readPlace(location.search);
 /** @type {Pick<TrialView, "groups" | "call" | "draft" | "coming" | "failure"> & {place: import("./model/types.js").Place, catalog: import("./model/types.js").Catalog}} */
 const START = {
-  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) }, catalog: {},
-  groups: [], call: null, draft: { values: {}, body: "" }, coming: { state: "empty" }, failure: null,
+  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  catalog: {},
+  groups: [],
+  call: null,
+  draft: { values: {}, body: "" },
+  coming: { state: "empty" },
+  failure: null,
 };
 const store = createStore(START);
 const { get, set } = store;
@@ -59,10 +64,16 @@ function stop() {
 }
 
 const actions = {
-  send, stop, reload: load, origin: location.origin,
+  send,
+  stop,
+  reload: load,
+  origin: location.origin,
   /** @param {string} id */
   choose(id) {
-    const call = get().groups.flatMap((group) => group.calls).find((one) => one.id === id) ?? null;
+    const call =
+      get()
+        .groups.flatMap((group) => group.calls)
+        .find((one) => one.id === id) ?? null;
     renew();
     if (call) set({ call, draft: draftOf(call), coming: { state: "empty" } });
   },
@@ -83,7 +94,11 @@ function update() {
   document.title = `δq · ${t("trial")}`;
   const session = { language: speech.speak, move: mover(store) };
   render(page({ ...get(), ...actions, state: { place }, session, t }), root);
-  history.replaceState(null, "", location.pathname + writePlace(place) + (call ? fragmentOf(call, draft) : location.hash));
+  history.replaceState(
+    null,
+    "",
+    location.pathname + writePlace(place) + (call ? fragmentOf(call, draft) : location.hash),
+  );
 }
 
 store.subscribe(update);

@@ -22,10 +22,15 @@ const asked = readPlace(location.search);
 const size = Number(new URLSearchParams(location.search).get("h"));
 const store = createStore({
   place: { ...HOME, step: asked.step, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
-  catalog: /** @type {import("./model/types.js").Catalog} */ ({}), width: 0,
+  catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
+  width: 0,
 });
 const { get, set } = store;
-const lab = createLab({ vary: api.vary, lang: () => get().place.lang }, readQuestion(location.search) ?? example("identity"), size > 0 ? size : FIRST_SIZE);
+const lab = createLab(
+  { vary: api.vary, lang: () => get().place.lang },
+  readQuestion(location.search) ?? example("identity"),
+  size > 0 ? size : FIRST_SIZE,
+);
 
 const move = mover(store);
 
@@ -39,11 +44,15 @@ async function speak(lang) {
 /** @param {string} step */
 function goTo(step) {
   move({ step });
-  requestAnimationFrame(() => root.querySelector(`[data-step="${CSS.escape(step)}"]`)?.scrollIntoView({ block: "start" }));
+  requestAnimationFrame(() =>
+    root.querySelector(`[data-step="${CSS.escape(step)}"]`)?.scrollIntoView({ block: "start" }),
+  );
 }
 
 const session = {
-  move, goTo, go() {},
+  move,
+  goTo,
+  go() {},
   /** @param {string} lang */
   async language(lang) {
     await speak(lang);

@@ -39,7 +39,8 @@ const LONGEST = 8000;
  */
 export function ofSource(source, send) {
   if (!source) return send;
-  return (address, options) => send(options?.method ? address : `${address}${String(address).includes("?") ? "&" : "?"}source=${source}`, options);
+  return (address, options) =>
+    send(options?.method ? address : `${address}${String(address).includes("?") ? "&" : "?"}source=${source}`, options);
 }
 
 /** @param {number} ms */
@@ -106,7 +107,12 @@ export function createApi(send, wait = pause, base = "/api/v1") {
     /** @param {object} scene @param {string} lang @param {AbortSignal} [signal] @returns {Promise<{valid: boolean, problems: import("./types.js").Problem[]}>} */
     validate: (scene, lang, signal) => post(`/scenes/validate?lang=${lang}`, scene, signal),
     /** @param {string} text @param {string} lang @returns {Promise<{scene: import("./own.js").SceneDocument}>} */
-    readToml: (text, lang) => call(`/scenes/toml?lang=${lang}`, { method: "POST", headers: { "content-type": "application/toml" }, body: text }),
+    readToml: (text, lang) =>
+      call(`/scenes/toml?lang=${lang}`, {
+        method: "POST",
+        headers: { "content-type": "application/toml" },
+        body: text,
+      }),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<{expressions: {latex: string}[]}>} */
     typeset: (body, signal) => post("/expressions/batch", body, signal),
     /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<any>} */

@@ -17,10 +17,13 @@ export function translator(section) {
 
 /** @param {Record<string, unknown>} section @param {string} key */
 function nested(section, key) {
-  return key.split(".").reduce(
-    /** @param {any} node @param {string} part */ (node, part) => (node && typeof node === "object" ? node[part] : null),
-    /** @type {any} */ (section),
-  );
+  return key
+    .split(".")
+    .reduce(
+      /** @param {any} node @param {string} part */ (node, part) =>
+        node && typeof node === "object" ? node[part] : null,
+      /** @type {any} */ (section),
+    );
 }
 
 /** @param {string} text @param {Record<string, string | number>} parameters */

@@ -39,7 +39,10 @@ function bend(trace, place, a, from, b, to, depth) {
   const middle = (a + b) / 2;
   const half = place(middle);
   // A cubic may cross its chord in the middle, but not in the quarters, too.
-  const straight = beside(half, from, to) < SAG && beside(place((a + middle) / 2), from, to) < SAG && beside(place((middle + b) / 2), from, to) < SAG;
+  const straight =
+    beside(half, from, to) < SAG &&
+    beside(place((a + middle) / 2), from, to) < SAG &&
+    beside(place((middle + b) / 2), from, to) < SAG;
   if (depth === 0 || straight || !half.every(Number.isFinite)) return add(trace, b, to);
   bend(trace, place, a, from, middle, half, depth - 1);
   bend(trace, place, middle, half, b, to, depth - 1);
@@ -80,7 +83,8 @@ export function nearestOn({ t, points }, point) {
   for (let n = 1; n < t.length; n += 1) {
     const far = beside(point, points[n - 1], points[n]);
     const again = n > found.n + 1;
-    if (far < found.far - (again ? SAG : 0)) found = { t: t[n - 1] + partOf(point, points[n - 1], points[n]) * (t[n] - t[n - 1]), far, n };
+    if (far < found.far - (again ? SAG : 0))
+      found = { t: t[n - 1] + partOf(point, points[n - 1], points[n]) * (t[n] - t[n - 1]), far, n };
   }
   return found;
 }

@@ -5,14 +5,43 @@
 
 /** @type {Part[]} */
 export const GUIDE = [
-  { id: "lecturers", entries: [
-    { id: "prepare", to: "scene" }, { id: "give", to: "scene" }, { id: "presenter" }, { id: "think" }, { id: "figure", to: "scene" }, { id: "laboratory", to: "labs" }, { id: "road", to: "proof" },
-    { id: "handout" }, { id: "homework", to: "homework" }, { id: "embed" },
-  ] },
-  { id: "students", entries: [
-    { id: "read", to: "scene" }, { id: "move" }, { id: "vary", to: "variations" }, { id: "write", to: "homework" }, { id: "wrong" }, { id: "lines" }, { id: "own" },
-  ] },
-  { id: "programs", entries: [
-    { id: "first" }, { id: "reference", to: "docs" }, { id: "plain" }, { id: "accuracy" }, { id: "errors" }, { id: "shell" }, { id: "client" },
-  ] },
+  {
+    id: "lecturers",
+    entries: [
+      { id: "prepare", to: "scene" },
+      { id: "give", to: "scene" },
+      { id: "presenter" },
+      { id: "think" },
+      { id: "figure", to: "scene" },
+      { id: "laboratory", to: "labs" },
+      { id: "road", to: "proof" },
+      { id: "handout" },
+      { id: "homework", to: "homework" },
+      { id: "embed" },
+    ],
+  },
+  {
+    id: "students",
+    entries: [
+      { id: "read", to: "scene" },
+      { id: "move" },
+      { id: "vary", to: "variations" },
+      { id: "write", to: "homework" },
+      { id: "wrong" },
+      { id: "lines" },
+      { id: "own" },
+    ],
+  },
+  {
+    id: "programs",
+    entries: [
+      { id: "first" },
+      { id: "reference", to: "docs" },
+      { id: "plain" },
+      { id: "accuracy" },
+      { id: "errors" },
+      { id: "shell" },
+      { id: "client" },
+    ],
+  },
 ];

@@ -48,7 +48,15 @@ export function createHandout(store, api, own) {
     const [{ chapters }, document, trajectory] = await Promise.all([
       api.derive({ scene: asked, lang, formulation, parameters }),
       own && scene === OWN ? completed(own) : api.scene(scene, lang, n),
-      sampled(api.simulate)({ scene: asked, parameters: { ...values, ...parameters }, initial, t_end: SECONDS, samples: SAMPLES, include: PARTS, lang }).catch(() => null),
+      sampled(api.simulate)({
+        scene: asked,
+        parameters: { ...values, ...parameters },
+        initial,
+        t_end: SECONDS,
+        samples: SAMPLES,
+        include: PARTS,
+        lang,
+      }).catch(() => null),
     ]);
     return { lines: linesOf(chapters), scene: document, trajectory, failure: null };
   }
@@ -68,7 +76,8 @@ export function createHandout(store, api, own) {
   }
 
   return {
-    load, move,
+    load,
+    move,
     /** @param {string} lang */
     async language(lang) {
       move({ lang });

@@ -22,7 +22,12 @@ export function picturesOf(scene, trajectory) {
   const time = scaleOf([0, endOf(trajectory)], ROOM.left, SIZE.width - ROOM.right, { share: 0 });
   return rowsOf(scene, trajectory).map(({ key, unit, least, curves }) => {
     const solid = curves.filter(({ dash }) => dash === "solid");
-    const up = scaleOf(solid.flatMap(({ values }) => values).filter(Number.isFinite), SIZE.height - ROOM.bottom, ROOM.top, { apart: 24, least });
+    const up = scaleOf(
+      solid.flatMap(({ values }) => values).filter(Number.isFinite),
+      SIZE.height - ROOM.bottom,
+      ROOM.top,
+      { apart: 24, least },
+    );
     const lines = solid.map(({ latex, className, dash, times, at }) => {
       const { points } = traced((t) => [time.pixel(t), up.pixel(at(t))], times);
       return { latex, className, dash, path: polyline(points) };

@@ -98,7 +98,10 @@ export function blendAt(times, t) {
   const [before, after, out, into] = cubics(s);
   const index = [i, j];
   const weight = [before, after];
-  for (const [k, part] of [[i, out], [j, into]]) {
+  for (const [k, part] of [
+    [i, out],
+    [j, into],
+  ]) {
     const at = neighbours(times, k);
     slopeWeights(times, at, k).forEach((w, n) => {
       index.push(at[n]);
@@ -145,6 +148,11 @@ export function smooth(times, values) {
 
 /** A place or a force as a function of time. @param {readonly number[]} times @param {readonly number[][]} vectors @returns {(t: number) => number[]} */
 export function smoothPath(times, vectors) {
-  const parts = (vectors[0] ?? []).map((_, c) => smooth(times, vectors.map((vector) => vector[c])));
+  const parts = (vectors[0] ?? []).map((_, c) =>
+    smooth(
+      times,
+      vectors.map((vector) => vector[c]),
+    ),
+  );
   return (t) => parts.map((part) => part(t));
 }

@@ -21,9 +21,19 @@ export const KEYS = [
   [["?"], "help.help"],
 ];
 
-const ARROWS = /** @type {Record<string, string>} */ ({ ArrowRight: "→", ArrowLeft: "←", ArrowDown: "↓", ArrowUp: "↑" });
+const ARROWS = /** @type {Record<string, string>} */ ({
+  ArrowRight: "→",
+  ArrowLeft: "←",
+  ArrowDown: "↓",
+  ArrowUp: "↑",
+});
 const CALLED = /** @type {Record<string, string>} */ ({
-  " ": "key.space", Escape: "key.escape", Home: "key.home", End: "key.end", PageUp: "key.page-up", PageDown: "key.page-down",
+  " ": "key.space",
+  Escape: "key.escape",
+  Home: "key.home",
+  End: "key.end",
+  PageUp: "key.page-up",
+  PageDown: "key.page-down",
 });
 
 /** What stands on a key. @param {string} key @param {import("./catalog.js").Translate} t */

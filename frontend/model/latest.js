@@ -7,7 +7,11 @@
  * @param {number} pause milliseconds between two starts
  * @param {{now: () => number, wait: (ms: number) => Promise<void>}} [time]
  */
-export function latestOnly(work, pause, time = { now: () => Date.now(), wait: (ms) => new Promise((done) => setTimeout(done, ms)) }) {
+export function latestOnly(
+  work,
+  pause,
+  time = { now: () => Date.now(), wait: (ms) => new Promise((done) => setTimeout(done, ms)) },
+) {
   /** @type {{wish: W} | null} */
   let next = null;
   let running = false;

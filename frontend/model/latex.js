@@ -3,7 +3,8 @@
 const OPENING = /^(\{|\(|\[|\\left|\\begin)/;
 const CLOSING = /^(\}|\)|\]|\\right|\\end)/;
 const BRACKET = /^[()[\]]$/;
-const TOKEN = /\\begin\{[a-z*]+\}|\\end\{[a-z*]+\}|\\left(?:\\[a-zA-Z{}|]+|.)|\\right(?:\\[a-zA-Z{}|]+|.)|\\\\(?:\[[^\]]*\])?|\\[a-zA-Z]+|\\.|[\s\S]/g;
+const TOKEN =
+  /\\begin\{[a-z*]+\}|\\end\{[a-z*]+\}|\\left(?:\\[a-zA-Z{}|]+|.)|\\right(?:\\[a-zA-Z{}|]+|.)|\\\\(?:\[[^\]]*\])?|\\[a-zA-Z]+|\\.|[\s\S]/g;
 const MATRIX = /\\begin\{(bmatrix\*?)\}(?:\[l\])?([\s\S]*?)\\end\{\1\}/g;
 
 /** @param {string} latex */
@@ -47,7 +48,11 @@ export const endsRow = (token) => token.startsWith("\\\\");
 
 /** The entries of a matrix by rows. @param {string} body  between its beginning and its end */
 export function entriesOf(body) {
-  return parted(body, endsRow).map((row) => parted(row.replace(/\\\\(\[[^\]]*\])?$/, ""), (token) => token === "&").map((entry) => entry.replace(/&$/, "").trim()));
+  return parted(body, endsRow).map((row) =>
+    parted(row.replace(/\\\\(\[[^\]]*\])?$/, ""), (token) => token === "&").map((entry) =>
+      entry.replace(/&$/, "").trim(),
+    ),
+  );
 }
 
 /** Every matrix of a formula made into something else. @param {string} latex @param {(matrix: string, entries: string[][]) => string} make */
@@ -56,7 +61,10 @@ export const withMatrices = (latex, make) => latex.replace(MATRIX, (matrix, _, b
 /** A matrix is as wide as its columns, each as wide as its widest entry. @param {string[][]} entries */
 function width(entries) {
   const columns = Math.max(...entries.map((row) => row.length));
-  return Array.from({ length: columns }, (_, c) => Math.max(...entries.map((row) => weight(row[c] ?? "")))).reduce((sum, column) => sum + column + 1, 1);
+  return Array.from({ length: columns }, (_, c) => Math.max(...entries.map((row) => weight(row[c] ?? "")))).reduce(
+    (sum, column) => sum + column + 1,
+    1,
+  );
 }
 
 /** How wide a formula is, roughly, in letters. @param {string} latex @returns {number} */

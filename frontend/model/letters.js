@@ -7,18 +7,37 @@
 
 /** @type {Sizes} */
 const WIDTHS = [
-  [/^[jlt|.!:';,]$/, 0.33], [/^[mw]$/, 0.84], [/^[MW]$/, 1.03], [/^[A-Z]$/, 0.77], [/^[0-9/]$/, 0.5], [/^[()[\]]$/, 0.39], [/^[a-z]$/, 0.5],
-  [/^([=+\-<>]|\\(approx|neq|le|ge|equiv|pm|Omega|Phi|Psi|Delta))$/, 0.78], [/^\\(ell|iota)$/, 0.42], [/^\\cdot$/, 0.28],
-  [/^\\(sin|tan)$/, 1.24], [/^\\(cos|det|exp|log)$/, 1.34], [/^\\arc(sin|cos|tan)$/, 2.7], [/^\\(Rightarrow|to)$/, 1], [/^\\Longleftrightarrow$/, 1.86],
+  [/^[jlt|.!:';,]$/, 0.33],
+  [/^[mw]$/, 0.84],
+  [/^[MW]$/, 1.03],
+  [/^[A-Z]$/, 0.77],
+  [/^[0-9/]$/, 0.5],
+  [/^[()[\]]$/, 0.39],
+  [/^[a-z]$/, 0.5],
+  [/^([=+\-<>]|\\(approx|neq|le|ge|equiv|pm|Omega|Phi|Psi|Delta))$/, 0.78],
+  [/^\\(ell|iota)$/, 0.42],
+  [/^\\cdot$/, 0.28],
+  [/^\\(sin|tan)$/, 1.24],
+  [/^\\(cos|det|exp|log)$/, 1.34],
+  [/^\\arc(sin|cos|tan)$/, 2.7],
+  [/^\\(Rightarrow|to)$/, 1],
+  [/^\\Longleftrightarrow$/, 1.86],
 ];
 /** @type {Sizes} */
 const HEIGHTS = [[/^([acegm-su-z]|\\(alpha|gamma|kappa|mu|nu|omega|pi|rho|sigma|tau|var(epsilon|phi)))$/, 0.43]];
 /** @type {Sizes} */
-const DEPTHS = [[/^([fgjpqy]|\\(beta|chi|gamma|mu|phi|psi|rho|varphi|xi|zeta))$/, 0.2], [/^[()[\]|]$/, 0.25]];
+const DEPTHS = [
+  [/^([fgjpqy]|\\(beta|chi|gamma|mu|phi|psi|rho|varphi|xi|zeta))$/, 0.2],
+  [/^[()[\]|]$/, 0.25],
+];
 /** @type {[RegExp, string][]} */
 const KINDS = [
-  [/^([=<>]|\\(approx|neq|le|ge|equiv|to|Rightarrow|Longleftrightarrow))$/, "rel"], [/^([+-]|\\(cdot|pm|times))$/, "bin"],
-  [/^[([]$/, "open"], [/^[)\]]$/, "close"], [/^[,;]$/, "punct"], [/^\\(sin|cos|tan|det|exp|log|arc(sin|cos|tan))$/, "op"],
+  [/^([=<>]|\\(approx|neq|le|ge|equiv|to|Rightarrow|Longleftrightarrow))$/, "rel"],
+  [/^([+-]|\\(cdot|pm|times))$/, "bin"],
+  [/^[([]$/, "open"],
+  [/^[)\]]$/, "close"],
+  [/^[,;]$/, "punct"],
+  [/^\\(sin|cos|tan|det|exp|log|arc(sin|cos|tan))$/, "op"],
 ];
 export const NOTHING = { width: 0, height: 0, depth: 0 };
 
@@ -28,7 +47,10 @@ const lookedUp = (table, token, other) => table.find(([pattern]) => pattern.test
 /** @param {Atom} before @param {Atom} after @param {Style} style */
 function gapBetween(before, after, { scale }) {
   const kinds = [before.kind, after.kind];
-  const thin = (kinds.includes("op") && after.kind !== "open") || before.kind === "punct" || (kinds.includes("inner") && after.kind !== "punct");
+  const thin =
+    (kinds.includes("op") && after.kind !== "open") ||
+    before.kind === "punct" ||
+    (kinds.includes("inner") && after.kind !== "punct");
   if (kinds.includes("gap") || before.kind === "open" || after.kind === "close") return 0;
   if (scale < 1) return kinds.includes("op") && thin ? scale / 6 : 0;
   if (kinds.includes("rel")) return before.kind === after.kind ? 0 : 5 / 18;
@@ -44,7 +66,8 @@ export function beside(atoms, style) {
     const here = alone ? { ...atom, kind: "ord" } : atom;
     box = {
       width: box.width + atom.width + (before ? gapBetween(before, here, style) : 0),
-      height: Math.max(box.height, atom.height), depth: Math.max(box.depth, atom.depth),
+      height: Math.max(box.height, atom.height),
+      depth: Math.max(box.depth, atom.depth),
     };
     before = here;
   }
@@ -53,6 +76,15 @@ export function beside(atoms, style) {
 
 /** @param {string} token @param {Style} style @returns {Atom} */
 export function letter(token, { scale }) {
-  const box = { width: lookedUp(WIDTHS, token, 0.6), height: lookedUp(HEIGHTS, token, 0.69), depth: lookedUp(DEPTHS, token, 0) };
-  return { width: scale * box.width, height: scale * box.height, depth: scale * box.depth, kind: lookedUp(KINDS, token, "ord") };
+  const box = {
+    width: lookedUp(WIDTHS, token, 0.6),
+    height: lookedUp(HEIGHTS, token, 0.69),
+    depth: lookedUp(DEPTHS, token, 0),
+  };
+  return {
+    width: scale * box.width,
+    height: scale * box.height,
+    depth: scale * box.depth,
+    kind: lookedUp(KINDS, token, "ord"),
+  };
 }

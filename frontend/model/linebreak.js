@@ -55,7 +55,9 @@ function coloured(term, most) {
   if (!found || closesEarly(found[3])) return null;
   const [, sign, names, content] = found;
   const inner = termsOf(content, most);
-  return inner.length < 2 ? null : inner.map((part, i) => (i ? `\\htmlClass{${names}}{{}${part}}` : `${sign}\\htmlClass{${names}}{${part}}`));
+  return inner.length < 2
+    ? null
+    : inner.map((part, i) => (i ? `\\htmlClass{${names}}{{}${part}}` : `${sign}\\htmlClass{${names}}{${part}}`));
 }
 
 /** Whether what looks like the inside of one group is the end of one and the beginning of another. @param {string} content */
@@ -96,7 +98,8 @@ function broken(row, most) {
 }
 
 /** Brackets that a piece opens, less those that it closes. @param {string} piece */
-const balance = (piece) => tokensOf(piece).reduce((sum, token) => sum + (/^[([]$/.test(token) ? 1 : /^[)\]]$/.test(token) ? -1 : 0), 0);
+const balance = (piece) =>
+  tokensOf(piece).reduce((sum, token) => sum + (/^[([]$/.test(token) ? 1 : /^[)\]]$/.test(token) ? -1 : 0), 0);
 
 /** Terms in lines of at most `most` letters; what ends a bracket of a line above ends its line. @param {string[]} terms @param {number} most @param {string} [lead]  what the first of them follows */
 function lined(terms, most, lead = "") {

@@ -12,7 +12,8 @@ const NAME = /\\mathbf\{([A-Z])\}(?:_\{?(\w)\}?)?/;
 const ALONE = /^\s*=\s*\\begin\{bmatrix\}((?:(?!\\begin\{bmatrix\})[\s\S])*)\\end\{bmatrix\}\s*$/;
 
 /** @param {string[][]} entries */
-const bracketed = (entries) => `\\begin{bmatrix} ${entries.map((row) => row.join(" & ")).join(" \\\\ ")} \\end{bmatrix}`;
+const bracketed = (entries) =>
+  `\\begin{bmatrix} ${entries.map((row) => row.join(" & ")).join(" \\\\ ")} \\end{bmatrix}`;
 
 /**
  * The names of a matrix's long entries; those that are equal share one.
@@ -22,9 +23,12 @@ function namesOf(left, entries) {
   const [, letter, index] = /** @type {RegExpMatchArray} */ (left.match(NAME));
   /** @type {Map<string, string>} */
   const names = new Map();
-  entries.forEach((row, i) => row.forEach((entry, j) => {
-    if (weight(entry) > SHORT && !names.has(entry)) names.set(entry, `${letter}_{${index ? `${index},` : ""}${i + 1}${j + 1}}`);
-  }));
+  entries.forEach((row, i) =>
+    row.forEach((entry, j) => {
+      if (weight(entry) > SHORT && !names.has(entry))
+        names.set(entry, `${letter}_{${index ? `${index},` : ""}${i + 1}${j + 1}}`);
+    }),
+  );
   return names;
 }
 
@@ -43,7 +47,8 @@ export function named(rows, most, sidesOf) {
     if (weight(row.text) <= most) return [row];
     const [, body] = right.match(ALONE) ?? [];
     const entries = body ? entriesOf(body) : [];
-    if (!body || entries[0].length < 2 || !NAME.test(name)) return [{ ...row, text: withMatrices(row.text, (matrix) => known.get(matrix) ?? matrix) }];
+    if (!body || entries[0].length < 2 || !NAME.test(name))
+      return [{ ...row, text: withMatrices(row.text, (matrix) => known.get(matrix) ?? matrix) }];
     const names = namesOf(name, entries);
     const compact = bracketed(entries.map((line) => line.map((entry) => names.get(entry) ?? entry)));
     known.set(right.trim().slice(1).trim(), compact);

@@ -11,11 +11,29 @@ import { beside, letter, NOTHING } from "./letters.js";
 /** @typedef {import("./letters.js").Style} Style */
 /** @typedef {{tokens: string[], at: number}} Reader */
 
-const GAPS = /** @type {Record<string, number>} */ ({ "\\,": 1 / 6, "\\:": 2 / 9, "\\;": 5 / 18, "\\!": -1 / 6, "\\quad": 1, "\\qquad": 2 });
-const ALPHABETS = /** @type {Record<string, number>} */ ({ "\\text": 1, "\\mathrm": 1.05, "\\mathbf": 1.17, "\\mathcal": 1 });
+const GAPS = /** @type {Record<string, number>} */ ({
+  "\\,": 1 / 6,
+  "\\:": 2 / 9,
+  "\\;": 5 / 18,
+  "\\!": -1 / 6,
+  "\\quad": 1,
+  "\\qquad": 2,
+});
+const ALPHABETS = /** @type {Record<string, number>} */ ({
+  "\\text": 1,
+  "\\mathrm": 1.05,
+  "\\mathbf": 1.17,
+  "\\mathcal": 1,
+});
 const FIXED = /** @type {Record<string, number>} */ ({ "\\big": 1.2, "\\Big": 1.8, "\\bigg": 2.4, "\\Bigg": 3 });
 /** Brackets grow with what they enclose: their heights, and how wide they are then. */
-const BRACKETS = [[1, 0.39], [1.2, 0.46], [1.8, 0.6], [2.4, 0.74], [Infinity, 0.79]];
+const BRACKETS = [
+  [1, 0.39],
+  [1.2, 0.46],
+  [1.8, 0.6],
+  [2.4, 0.74],
+  [Infinity, 0.79],
+];
 /** Where fractions have their bar, room beside it, and room after scripts. */
 const [AXIS, BESIDE, AFTER] = [0.25, 0.12, 0.05];
 
@@ -56,10 +74,15 @@ function scripted(reader, style) {
   if (!width) return [...atoms, base];
   const up = Math.max(0.41 * style.scale, base.height - 0.3 * style.scale) + above.height;
   const down = Math.max((above.width ? 0.25 : 0.15) * style.scale, base.depth + 0.03) + below.depth;
-  return [...atoms, {
-    width: base.width + width + AFTER * style.scale, kind: base.kind,
-    height: above.width ? Math.max(base.height, up) : base.height, depth: below.width ? Math.max(base.depth, down) : base.depth,
-  }];
+  return [
+    ...atoms,
+    {
+      width: base.width + width + AFTER * style.scale,
+      kind: base.kind,
+      height: above.width ? Math.max(base.height, up) : base.height,
+      depth: below.width ? Math.max(base.depth, down) : base.depth,
+    },
+  ];
 }
 
 /** @param {Reader} reader @param {Style} style */
@@ -69,7 +92,12 @@ function fraction(reader, style) {
   const [above, below] = [boxed(reader, inner), boxed(reader, inner)];
   const up = Math.max((display ? 0.68 : 0.39) * scale, above.depth + AXIS + (display ? 0.14 : 0.06));
   const down = Math.max((display ? 0.69 : 0.35) * scale, below.height - (display ? 0.11 : 0.19));
-  return { width: Math.max(above.width, below.width) + 2 * BESIDE, height: up + above.height, depth: down + below.depth, kind: "ord" };
+  return {
+    width: Math.max(above.width, below.width) + 2 * BESIDE,
+    height: up + above.height,
+    depth: down + below.depth,
+    kind: "ord",
+  };
 }
 
 /** A bracket at least as high as asked for, around the axis. @param {string} bracket @param {number} size */
@@ -77,7 +105,11 @@ function bracketed(bracket, size) {
   const [high, wide] = BRACKETS.find(([most]) => size <= most) ?? [];
   if (bracket === ".") return { width: BESIDE, height: 0, depth: 0 };
   const total = Math.max(size, Number.isFinite(high) ? Number(high) : 0);
-  return { width: bracket === "|" ? 0.33 : bracket === "[" ? 0.75 * Number(wide) : Number(wide), height: total / 2 + AXIS, depth: total / 2 - AXIS };
+  return {
+    width: bracket === "|" ? 0.33 : bracket === "[" ? 0.75 * Number(wide) : Number(wide),
+    height: total / 2 + AXIS,
+    depth: total / 2 - AXIS,
+  };
 }
 
 /** What stands between brackets that grow. @param {Box} inner @param {string} left @param {string} right */
@@ -85,15 +117,20 @@ function enclosed(inner, left, right) {
   const needed = 2 * Math.max(inner.height - AXIS, inner.depth + AXIS);
   const [begin, end] = [left, right].map((bracket) => bracketed(bracket, Math.max(0.9 * needed, needed - 0.5)));
   return {
-    width: begin.width + inner.width + end.width, kind: "inner",
-    height: Math.max(begin.height, inner.height, end.height), depth: Math.max(begin.depth, inner.depth, end.depth),
+    width: begin.width + inner.width + end.width,
+    kind: "inner",
+    height: Math.max(begin.height, inner.height, end.height),
+    depth: Math.max(begin.depth, inner.depth, end.depth),
   };
 }
 
 /** @param {Reader} reader @param {Style} style */
 function grown(reader, style) {
   const left = reader.tokens[reader.at++].slice(5);
-  const inner = beside(list(reader, style, (token) => token.startsWith("\\right")), style);
+  const inner = beside(
+    list(reader, style, (token) => token.startsWith("\\right")),
+    style,
+  );
   return enclosed(inner, left, (reader.tokens[reader.at++] ?? "").slice(6));
 }
 
@@ -104,7 +141,10 @@ function matrix(reader, style) {
   const columns = [];
   let [column, total, row] = [0, 0, { height: 0.84, depth: 0.36 }];
   for (let token = reader.tokens[reader.at]; token && !token.startsWith("\\end"); token = reader.tokens[reader.at]) {
-    const entry = beside(list(reader, { ...style, display: false }, (next) => next === "&" || endsRow(next) || next.startsWith("\\end")), style);
+    const entry = beside(
+      list(reader, { ...style, display: false }, (next) => next === "&" || endsRow(next) || next.startsWith("\\end")),
+      style,
+    );
     columns[column] = Math.max(columns[column] ?? 0, entry.width);
     row = { height: Math.max(row.height, entry.height), depth: Math.max(row.depth, entry.depth) };
     const end = reader.tokens[reader.at] ?? "";
@@ -148,12 +188,21 @@ function nucleus(reader, style) {
     return [{ width: box.width + 0.85 * style.scale, height: box.height + 0.4, depth: box.depth + 0.1, kind: "ord" }];
   }
   const fixed = token?.match(/^(\\[bB]igg?)([lr]?)$/);
-  if (fixed) return [{ ...bracketed(reader.tokens[reader.at++], FIXED[fixed[1]]), kind: fixed[2] === "l" ? "open" : fixed[2] === "r" ? "close" : "ord" }];
+  if (fixed)
+    return [
+      {
+        ...bracketed(reader.tokens[reader.at++], FIXED[fixed[1]]),
+        kind: fixed[2] === "l" ? "open" : fixed[2] === "r" ? "close" : "ord",
+      },
+    ];
   return [letter(token, style)];
 }
 
 /** @param {string} latex @returns {Box} */
 export function sizeOf(latex) {
   const reader = { tokens: tokensOf(latex).filter((token) => token.trim()), at: 0 };
-  return beside(list(reader, { scale: 1, display: true }, () => false), { scale: 1, display: true });
+  return beside(
+    list(reader, { scale: 1, display: true }, () => false),
+    { scale: 1, display: true },
+  );
 }

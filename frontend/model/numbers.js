@@ -27,14 +27,18 @@ export function fixed(value, decimals, lang) {
 export function significant(value, digits, lang) {
   if (!Number.isFinite(value)) return "–";
   if (value === 0) return "0";
-  const [mantissa, exponent] = value.toExponential(digits - 1).split("e").map(Number);
+  const [mantissa, exponent] = value
+    .toExponential(digits - 1)
+    .split("e")
+    .map(Number);
   if (exponent >= -3 && exponent < 5) return fixed(value, Math.max(0, digits - 1 - exponent), lang);
   const factor = fixed(mantissa, digits - 1, lang);
   return `${factor}·10${raised(exponent)}`;
 }
 
 /** A time to wait, told so coarsely that it does not change at every look: tens of seconds, or minutes. @param {number} seconds */
-export const roughly = (seconds) => (seconds <= 60 ? `${Math.max(10, 10 * Math.ceil(seconds / 10))} s` : `${Math.ceil(seconds / 60)} min`);
+export const roughly = (seconds) =>
+  seconds <= 60 ? `${Math.max(10, 10 * Math.ceil(seconds / 10))} s` : `${Math.ceil(seconds / 60)} min`;
 
 /**
  * A duration of computing: µs, ms or s.

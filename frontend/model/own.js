@@ -23,7 +23,8 @@ async function* piped(bytes, stream) {
   void writer.write(/** @type {BufferSource} */ (bytes)).catch(() => {});
   void writer.close().catch(() => {});
   const reader = stream.readable.getReader();
-  for (let part = await reader.read(); !part.done; part = await reader.read()) yield /** @type {Uint8Array} */ (part.value);
+  for (let part = await reader.read(); !part.done; part = await reader.read())
+    yield /** @type {Uint8Array} */ (part.value);
 }
 
 /** @param {AsyncIterable<Uint8Array>} parts @param {number} limit */
@@ -96,10 +97,18 @@ const texts = (value) => (typeof value === "string" ? { en: value, de: value } :
 /** @param {unknown} value @returns {any[]} */
 const rows = (value) => (Array.isArray(value) ? value.filter((row) => tableOf(row)) : []);
 
-const GREEK = /^(alpha|beta|gamma|[dD]elta|epsilon|zeta|eta|(var)?theta|iota|kappa|[lL]ambda|mu|nu|[xX]i|omicron|(var)?pi|(var)?rho|(var)?sigma|tau|upsilon|(var)?phi|chi|[pP]si|[oO]mega|Gamma|Theta|Pi|Sigma|Phi|ell|varepsilon|varkappa)$/;
+const GREEK =
+  /^(alpha|beta|gamma|[dD]elta|epsilon|zeta|eta|(var)?theta|iota|kappa|[lL]ambda|mu|nu|[xX]i|omicron|(var)?pi|(var)?rho|(var)?sigma|tau|upsilon|(var)?phi|chi|[pP]si|[oO]mega|Gamma|Theta|Pi|Sigma|Phi|ell|varepsilon|varkappa)$/;
 
 /** A word of a name in LaTeX. @param {string} word */
-const letter = (word) => (word === "phi" || word === "epsilon" ? `\\var${word}` : GREEK.test(word) ? `\\${word}` : /^(.|\d+)$/.test(word) ? word : `\\mathrm{${word}}`);
+const letter = (word) =>
+  word === "phi" || word === "epsilon"
+    ? `\\var${word}`
+    : GREEK.test(word)
+      ? `\\${word}`
+      : /^(.|\d+)$/.test(word)
+        ? word
+        : `\\mathrm{${word}}`;
 
 /** LaTeX of a name, as the server writes it: phi → \\varphi, y0 → y_{0}, omega_max → \\omega_{\\mathrm{max}}. @param {string} name */
 export function latexOfName(name) {

@@ -30,9 +30,14 @@ export function rowsOf(scene, trajectory, beside = []) {
   const others = beside.map((run) => rowsOfOne(scene, run));
   return rowsOfOne(scene, trajectory).map((row) => ({
     ...row,
-    curves: [...row.curves, ...others.flatMap((rows, i) => (rows.find(({ key }) => key === row.key)?.curves ?? [])
-      .filter(({ dash }) => dash === "solid")
-      .map((curve) => ({ ...curve, dash: DASHES[i % 2], band: false, beside: true })))],
+    curves: [
+      ...row.curves,
+      ...others.flatMap((rows, i) =>
+        (rows.find(({ key }) => key === row.key)?.curves ?? [])
+          .filter(({ dash }) => dash === "solid")
+          .map((curve) => ({ ...curve, dash: DASHES[i % 2], band: false, beside: true })),
+      ),
+    ],
   }));
 }
 
@@ -47,10 +52,25 @@ function rowsOfOne(scene, trajectory) {
   scene.coordinates.forEach((coordinate, index) => {
     const values = trajectory.coordinates[coordinate.name];
     if (!values) return;
-    const row = rows.get(coordinate.unit) ?? { key: `q${index}`, unit: unitText(coordinate.unit), least: leastRange(trajectory), curves: [] };
+    const row = rows.get(coordinate.unit) ?? {
+      key: `q${index}`,
+      unit: unitText(coordinate.unit),
+      least: leastRange(trajectory),
+      curves: [],
+    };
     const latex = coordinate.latex || coordinate.name;
     const at = (/** @type {number} */ t) => coordinateAt(trajectory, coordinate.name, t);
-    row.curves.push({ key: coordinate.name, latex, className: `q-${index}`, values, times: trajectory.t, at, dash: "solid", band: true, beside: false });
+    row.curves.push({
+      key: coordinate.name,
+      latex,
+      className: `q-${index}`,
+      values,
+      times: trajectory.t,
+      at,
+      dash: "solid",
+      band: true,
+      beside: false,
+    });
     rows.set(coordinate.unit, row);
   });
   return [...rows.values(), ...energyRow(trajectory)];
@@ -59,8 +79,21 @@ function rowsOfOne(scene, trajectory) {
 /** @param {Trajectory} trajectory @returns {Row[]} */
 function energyRow({ t: times, energy }) {
   if (!energy) return [];
-  const curve = (/** @type {keyof typeof energy} */ key, /** @type {string} */ latex, /** @type {string} */ className, dash = "solid") => ({
-    key, latex, className, values: energy[key], times, at: smooth(times, energy[key]), dash, band: false, beside: false,
+  const curve = (
+    /** @type {keyof typeof energy} */ key,
+    /** @type {string} */ latex,
+    /** @type {string} */ className,
+    dash = "solid",
+  ) => ({
+    key,
+    latex,
+    className,
+    values: energy[key],
+    times,
+    at: smooth(times, energy[key]),
+    dash,
+    band: false,
+    beside: false,
   });
   const curves = [
     curve("kinetic", "E", "energy-kinetic"),
@@ -115,8 +148,15 @@ export function tracesOf(rows, trajectory, palette, frame) {
       const axis = { xaxis: "x", yaxis: r === 0 ? "y" : `y${r + 1}` };
       const color = palette.of(curve.className);
       const trace = {
-        type: "scatter", mode: "lines", x, y, name: curve.key, className: curve.className, hoverinfo: "skip",
-        line: { color, width: curve.dash === "solid" ? 2 : 1.6, dash: curve.dash, simplify: false }, ...axis,
+        type: "scatter",
+        mode: "lines",
+        x,
+        y,
+        name: curve.key,
+        className: curve.className,
+        hoverinfo: "skip",
+        line: { color, width: curve.dash === "solid" ? 2 : 1.6, dash: curve.dash, simplify: false },
+        ...axis,
       };
       return curve.band ? [...bandOf(curve, trajectory, { x, y }, color, axis), trace] : [trace];
     }),
@@ -132,14 +172,29 @@ function bandOf(curve, trajectory, drawn, color, axis) {
   // Below one a tolerance is absolute: a coordinate at rest has no range, and a small error there is none to show.
   const range = Math.max(Math.max(...curve.values) - Math.min(...curve.values), LEAST_RANGE);
   if (!((largestError(trajectory) ?? 0) > VISIBLE * range)) return [];
-  const wide = (/** @type {number} */ sign) => drawn.y.map((v, n) => {
-    const { i, j, s } = spanAt(curve.times, drawn.x[n]);
-    return v + sign * Math.min((1 - s) * (error[i] ?? range) + s * (error[j] ?? range), range);
-  });
+  const wide = (/** @type {number} */ sign) =>
+    drawn.y.map((v, n) => {
+      const { i, j, s } = spanAt(curve.times, drawn.x[n]);
+      return v + sign * Math.min((1 - s) * (error[i] ?? range) + s * (error[j] ?? range), range);
+    });
   const x = [...drawn.x, ...[...drawn.x].reverse()];
   const y = [...wide(1), ...wide(-1).reverse()];
   const line = { width: 0 };
-  return [{ type: "scatter", mode: "lines", x, y, fill: "toself", fillcolor: color, opacity: 0.18, line, className: curve.className, hoverinfo: "skip", ...axis }];
+  return [
+    {
+      type: "scatter",
+      mode: "lines",
+      x,
+      y,
+      fill: "toself",
+      fillcolor: color,
+      opacity: 0.18,
+      line,
+      className: curve.className,
+      hoverinfo: "skip",
+      ...axis,
+    },
+  ];
 }
 
 /** Margins of the plots in pixels; the style sheet places cursor and names by the same. @param {number} em */
@@ -155,7 +210,15 @@ export function layoutOf(rows, end, palette, lang, height, em) {
   const line = { gridcolor: palette.grid, zeroline: false, ticks: "", fixedrange: true, exponentformat: "power" };
   const axes = domainsOf(rows.length, height, em).map((domain, r) => [
     r === 0 ? "yaxis" : `yaxis${r + 1}`,
-    { ...line, domain, nticks: 4, zeroline: true, zerolinecolor: palette.grid, zerolinewidth: 1.5, range: rangeOf(rows[r]) },
+    {
+      ...line,
+      domain,
+      nticks: 4,
+      zeroline: true,
+      zerolinecolor: palette.grid,
+      zerolinewidth: 1.5,
+      range: rangeOf(rows[r]),
+    },
   ]);
   return {
     ...Object.fromEntries(axes),

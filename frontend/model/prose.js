@@ -10,11 +10,16 @@
 export function pieces(sentence) {
   const parts = sentence.split("$");
   if (parts.length % 2 === 0) return [{ text: sentence, formula: false }];
-  return parts.map((text, i) => (i % 2 ? { text, formula: true } : { text: text.replaceAll("＄", "$"), formula: false })).filter(({ text }) => text);
+  return parts
+    .map((text, i) => (i % 2 ? { text, formula: true } : { text: text.replaceAll("＄", "$"), formula: false }))
+    .filter(({ text }) => text);
 }
 
 /** A sentence without markup, for titles and screen readers. @param {CatalogText} sentence */
-export const plainly = (sentence) => pieces(sentence).map(({ text, formula }) => (formula ? text.replace(/\\(htmlClass\{[^}]*\}|[a-z]+)|[{}\\]/g, "$1") : text)).join("");
+export const plainly = (sentence) =>
+  pieces(sentence)
+    .map(({ text, formula }) => (formula ? text.replace(/\\(htmlClass\{[^}]*\}|[a-z]+)|[{}\\]/g, "$1") : text))
+    .join("");
 
 // What the server marks in formulas, and the page itself where a term comes from; names of users stand behind the hyphen.
 const OWN = /^(?:(?:q|body|load|energy|term)-[\w-]+|differential|variation|time-term)$/;

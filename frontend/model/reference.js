@@ -20,7 +20,11 @@ export function groupsOf(description, origin) {
       groups.get(operation.tags[0])?.push(callOf(description, method, path, operation, origin));
     }
   }
-  return description.tags.map((/** @type {Json} */ { name, description: text }) => ({ subject: name, text, calls: groups.get(name) }));
+  return description.tags.map((/** @type {Json} */ { name, description: text }) => ({
+    subject: name,
+    text,
+    calls: groups.get(name),
+  }));
 }
 
 /** @param {Json} description @param {string} method @param {string} path @param {Json} operation @param {string} origin @returns {Call} */
@@ -28,13 +32,26 @@ function callOf(description, method, path, operation, origin) {
   const [type, body] = Object.entries(operation.requestBody?.content ?? {})[0] ?? ["", null];
   const schema = body ? resolved(description, body.schema) : null;
   const parameters = operation.parameters ?? [];
-  const given = parameters.map((/** @type {Json} */ one) => field(description, one.name, one.schema, one.required === true, one.description));
+  const given = parameters.map((/** @type {Json} */ one) =>
+    field(description, one.name, one.schema, one.required === true, one.description),
+  );
   return {
-    id: operation.operationId, method: method.toUpperCase(), path, text: operation.description || operation.summary || "",
-    fields: [...given, ...fieldsOf(description, schema)], inputs: parameters.map(inputOf),
-    type, examples: (schema?.examples ?? []).map(written),
-    samples: operation["x-codeSamples"].map((/** @type {Sample} */ { lang, source }) => ({ lang, source: source.replaceAll(ANYWHERE, origin) })),
-    answers: Object.entries(operation.responses ?? {}).map(([status, answer]) => ({ status, text: answer.description ?? "" })),
+    id: operation.operationId,
+    method: method.toUpperCase(),
+    path,
+    text: operation.description || operation.summary || "",
+    fields: [...given, ...fieldsOf(description, schema)],
+    inputs: parameters.map(inputOf),
+    type,
+    examples: (schema?.examples ?? []).map(written),
+    samples: operation["x-codeSamples"].map((/** @type {Sample} */ { lang, source }) => ({
+      lang,
+      source: source.replaceAll(ANYWHERE, origin),
+    })),
+    answers: Object.entries(operation.responses ?? {}).map(([status, answer]) => ({
+      status,
+      text: answer.description ?? "",
+    })),
   };
 }
 
@@ -58,17 +75,27 @@ function resolved(description, schema) {
 /** @param {Json} description @param {Json | null} schema @returns {Field[]} */
 function fieldsOf(description, schema) {
   const needed = new Set(schema?.required ?? []);
-  return Object.entries(schema?.properties ?? {}).map(([name, one]) => field(description, name, one, needed.has(name), one.description));
+  return Object.entries(schema?.properties ?? {}).map(([name, one]) =>
+    field(description, name, one, needed.has(name), one.description),
+  );
 }
 
 /** @param {Json} description @param {string} name @param {Json} schema @param {boolean} required @param {string} [text] @returns {Field} */
-const field = (description, name, schema, required, text = "") => ({ name, kind: kindOf(description, schema), text, required });
+const field = (description, name, schema, required, text = "") => ({
+  name,
+  kind: kindOf(description, schema),
+  text,
+  required,
+});
 
 /** @param {Json} description @param {Json} schema @returns {string} */
 function kindOf(description, schema) {
   const { type, anyOf, enum: values, items, $ref } = schema ?? {};
   if ($ref) return kindOf(description, resolved(description, schema));
-  if (anyOf) return [...new Set(anyOf.map((/** @type {Json} */ one) => kindOf(description, one)))].filter((kind) => kind !== "null").join(" | ");
+  if (anyOf)
+    return [...new Set(anyOf.map((/** @type {Json} */ one) => kindOf(description, one)))]
+      .filter((kind) => kind !== "null")
+      .join(" | ");
   if (values) return values.join(" | ");
-  return type === "array" ? `[${items ? kindOf(description, items) : ""}]` : type ?? "any";
+  return type === "array" ? `[${items ? kindOf(description, items) : ""}]` : (type ?? "any");
 }

@@ -21,8 +21,13 @@ export function requestOf(state, changes, chosen) {
   const method = state.methods.find((candidate) => candidate.id === chosen);
   const fixed = method?.adaptive === false;
   return {
-    scene: sceneOf(state), ...changes, parameters: { ...changes.parameters, ...(n ? { n } : {}) }, t_end: duration,
-    samples: fixed ? Math.min(MOST, Math.round(duration / STEP) + 1) : samplesFor(duration * RATE + 1), include: PARTS, lang,
+    scene: sceneOf(state),
+    ...changes,
+    parameters: { ...changes.parameters, ...(n ? { n } : {}) },
+    t_end: duration,
+    samples: fixed ? Math.min(MOST, Math.round(duration / STEP) + 1) : samplesFor(duration * RATE + 1),
+    include: PARTS,
+    lang,
     ...(method ? { method: method.id } : {}),
     ...(fixed ? { step: STEP } : {}),
   };

@@ -22,7 +22,10 @@ export function linesOf(chapters) {
  * @param {readonly Line[]} lines @param {string} id
  */
 export function indexOf(lines, id) {
-  return Math.max(0, lines.findIndex((line) => line.step.id === id));
+  return Math.max(
+    0,
+    lines.findIndex((line) => line.step.id === id),
+  );
 }
 
 /**

@@ -21,7 +21,9 @@ function rowOf({ text, gap }) {
   const [before, after] = [sizeOf(left), sizeOf(right)];
   const [, below] = gap.match(/\[([\d.]+)em\]/) ?? [];
   return {
-    left, right, widths: [before.width, after.width],
+    left,
+    right,
+    widths: [before.width, after.width],
     above: Math.max(STRUT.height, before.height, after.height),
     below: Math.max(STRUT.depth + Number(below ?? 0), before.depth, after.depth),
   };

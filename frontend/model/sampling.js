@@ -65,7 +65,13 @@ function quantity(values, rates) {
   const stride = Math.ceil(values.length / SOME);
   const few = values.filter((_, i) => i % stride === 0 || i === values.length - 1);
   const [low, high] = usual(few.sort((a, b) => a - b));
-  return { values, rates, low, high, range: Math.max(high - low, STILL * Math.max(Math.abs(low), Math.abs(high)), SMALLEST) };
+  return {
+    values,
+    rates,
+    low,
+    high,
+    range: Math.max(high - low, STILL * Math.max(Math.abs(low), Math.abs(high)), SMALLEST),
+  };
 }
 
 /** The components of vectors. @param {readonly number[][]} vectors */
@@ -84,7 +90,11 @@ function quantitiesOf(trajectory) {
   return [
     ...Object.entries(coordinates).flatMap(([name, values]) => together([quantity(values, rates[name])], least)),
     ...Object.values(rates).flatMap((values) => together([quantity(values)], least)),
-    ...together(Object.values(positions ?? {}).flatMap(componentsOf).map((values) => quantity(values))),
+    ...together(
+      Object.values(positions ?? {})
+        .flatMap(componentsOf)
+        .map((values) => quantity(values)),
+    ),
     ...(energy ? together([energy.kinetic, energy.potential, energy.balance].map((values) => quantity(values))) : []),
   ];
 }
@@ -126,7 +136,9 @@ function astray({ t, coordinates, rates, error }) {
       const [h, k] = [t[i + 1] - t[i], end - t[i + 1]];
       if (Math.abs(h - k) > 1e-6 * h) return 0;
       const rounding = ROUNDING * ((error?.estimate?.[i] ?? 0) + (error?.estimate?.[i + 2] ?? 0));
-      return Math.max(0, Math.abs(q[i + 2] - q[i] - (h / 3) * (v[i] + 4 * v[i + 1] + v[i + 2])) - rounding) / (2 * h * range);
+      return (
+        Math.max(0, Math.abs(q[i + 2] - q[i] - (h / 3) * (v[i] + 4 * v[i + 1] + v[i + 2])) - rounding) / (2 * h * range)
+      );
     });
   });
 }
@@ -146,10 +158,12 @@ const largest = (values) => values.reduce((most, value) => Math.max(most, value)
 
 /** The part of the time in which an arrow is not where its samples are. @param {Trajectory} trajectory @param {(quantity: Quantity) => number[]} missed */
 function turning({ loads }, missed) {
-  const parts = Object.values(loads ?? {}).flatMap((vectors) => together(componentsOf(vectors).map((values) => quantity(values)))).map((one) => {
-    const off = missed(one);
-    return off.filter((part) => part > MISSED).length / Math.max(1, off.length);
-  });
+  const parts = Object.values(loads ?? {})
+    .flatMap((vectors) => together(componentsOf(vectors).map((values) => quantity(values))))
+    .map((one) => {
+      const off = missed(one);
+      return off.filter((part) => part > MISSED).length / Math.max(1, off.length);
+    });
   return Math.max(0, ...parts);
 }
 

@@ -56,7 +56,11 @@ function createStart({ get, set }, api, attempt, { speak, needFor }, choose) {
     const spoken = speak(place.lang);
     if (!place.scene || place.method) await listed;
     const scene = place.scene || preferred(get().scenes);
-    await Promise.all([listed, spoken, ...(scene && (scene !== OWN || own) ? [choose(scene, place.step, place.n, place.set)] : [])]);
+    await Promise.all([
+      listed,
+      spoken,
+      ...(scene && (scene !== OWN || own) ? [choose(scene, place.step, place.n, place.set)] : []),
+    ]);
   };
 }
 
@@ -73,7 +77,9 @@ export function createSession(store, api, clock) {
   const subject = createSubject(store, api, attempt, { derive, simulations, rewind: () => clock.seek(0) });
   const speech = createSpeech(store, api, (task) => attempt("page", task), ["methods"]);
   return {
-    ...subject, ...createAdjustments(store, simulations.ask), ...createReading(store, speech.need),
+    ...subject,
+    ...createAdjustments(store, simulations.ask),
+    ...createReading(store, speech.need),
     start: createStart(store, api, attempt, speech, subject.choose),
     /** Texts that are wanted from now on. */
     need: speech.need,

@@ -14,7 +14,8 @@ export const SHOWN = ["", "figure", "derivation"];
 const HEIGHTS = { "": 760, figure: 420, derivation: 420 };
 
 /** @param {string} text */
-const escaped = (text) => text.replace(/[&"<>]/g, (sign) => ({ "&": "&amp;", '"': "&quot;", "<": "&lt;", ">": "&gt;" })[sign] ?? "");
+const escaped = (text) =>
+  text.replace(/[&"<>]/g, (sign) => ({ "&": "&amp;", '"': "&quot;", "<": "&lt;", ">": "&gt;" })[sign] ?? "");
 
 /** The address of a place within frames of other pages. @param {string} origin @param {Place} place @param {Shown} shown @param {string} fragment */
 export function frameAddress(origin, place, shown, fragment) {
@@ -22,7 +23,8 @@ export function frameAddress(origin, place, shown, fragment) {
 }
 
 /** The address of the general proof within frames of other pages. @param {string} origin @param {Pick<Place, "step" | "lang" | "theme">} place */
-export const proofFrameAddress = (origin, { step, lang, theme }) => `${origin}/embed/proof${writePlace({ ...HOME, step, lang, theme })}`;
+export const proofFrameAddress = (origin, { step, lang, theme }) =>
+  `${origin}/embed/proof${writePlace({ ...HOME, step, lang, theme })}`;
 
 /** One line of HTML that shows a place in another page. @param {string} address @param {Shown} shown @param {string} title */
 export function snippet(address, shown, title) {
@@ -47,7 +49,8 @@ export function createExports(send, { get, set }) {
   return async (/** @type {typeof FORMS[number]} */ form) => {
     const { scene, initial, parameters, t_end, lang } = requestOf(get(), get().changes, "");
     const { formulation } = get().place;
-    const fail = (/** @type {import("./types.js").Failure | null} */ failure) => set({ failures: { ...get().failures, export: failure } });
+    const fail = (/** @type {import("./types.js").Failure | null} */ failure) =>
+      set({ failures: { ...get().failures, export: failure } });
     try {
       const file = await exported(send, form, { scene, initial, parameters, t_end, lang, formulation });
       fail(null);
@@ -68,5 +71,9 @@ async function exported(send, form, body) {
   });
   if (!response.ok) throw new ApiError(failureOf(response.status, await response.json().catch(() => null)));
   const [, name] = response.headers.get("content-disposition")?.match(/filename="([^"]+)"/) ?? [];
-  return { text: await response.text(), name: name ?? `deltaq.${form}`, type: response.headers.get("content-type") ?? "text/plain" };
+  return {
+    text: await response.text(),
+    name: name ?? `deltaq.${form}`,
+    type: response.headers.get("content-type") ?? "text/plain",
+  };
 }

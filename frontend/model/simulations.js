@@ -46,7 +46,10 @@ export function createSimulations({ get, set }, api, clock, attempt) {
   }
 
   /** @param {Request} request @returns {Request} */
-  const asDense = (request) => (dense.of === keyOf(request) && dense.rate * request.t_end > request.samples ? { ...request, samples: samplesFor(dense.rate * request.t_end) } : request);
+  const asDense = (request) =>
+    dense.of === keyOf(request) && dense.rate * request.t_end > request.samples
+      ? { ...request, samples: samplesFor(dense.rate * request.t_end) }
+      : request;
 
   /** The viewer's own scene changes on the page together with its motion. @param {any} request */
   function shownWith({ scene }) {
@@ -61,7 +64,8 @@ export function createSimulations({ get, set }, api, clock, attempt) {
       set({ simulating: false });
     },
     ask() {
-      if (sceneOf(get())) void latest.ask({ request: asDense(requestOf(get(), get().changes, get().place.method)), round: 1 });
+      if (sceneOf(get()))
+        void latest.ask({ request: asDense(requestOf(get(), get().changes, get().place.method)), round: 1 });
     },
   };
 }

@@ -33,7 +33,8 @@ export function createSpeech({ get, set }, api, attempt, always = []) {
   }
 
   return {
-    speak, need,
+    speak,
+    need,
     /** The texts of what a place shows. @param {Partial<import("./types.js").Place>} place */
     needFor({ edit, view }) {
       if (edit) need("editor");

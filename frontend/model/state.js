@@ -32,8 +32,22 @@ export const NO_FAILURES = { page: null, scene: null, derivation: null, simulati
 
 /** @type {State} */
 export const START = {
-  place: HOME, catalog: {}, scenes: [], methods: [], scene: null, own: null, fragment: "", derivation: null, lines: [],
-  trajectory: null, changes: UNCHANGED, held: null, runs: [], failures: NO_FAILURES, simulating: false, overlay: "",
+  place: HOME,
+  catalog: {},
+  scenes: [],
+  methods: [],
+  scene: null,
+  own: null,
+  fragment: "",
+  derivation: null,
+  lines: [],
+  trajectory: null,
+  changes: UNCHANGED,
+  held: null,
+  runs: [],
+  failures: NO_FAILURES,
+  simulating: false,
+  overlay: "",
 };
 
 /** The scene shown first: the lecture's main example, else any. @param {import("./types.js").SceneEntry[]} scenes */

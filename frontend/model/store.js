@@ -20,7 +20,9 @@ export function createStore(initial, later = queueMicrotask) {
     get: () => state,
     /** @param {Partial<S>} patch */
     set(patch) {
-      const changed = Object.keys(patch).some((key) => !Object.is(state[/** @type {keyof S} */ (key)], patch[/** @type {keyof S} */ (key)]));
+      const changed = Object.keys(patch).some(
+        (key) => !Object.is(state[/** @type {keyof S} */ (key)], patch[/** @type {keyof S} */ (key)]),
+      );
       if (!changed) return;
       state = { ...state, ...patch };
       if (!waiting) {
@@ -41,4 +43,7 @@ export function createStore(initial, later = queueMicrotask) {
  * @template {{place: import("./types.js").Place}} S
  * @param {{get: () => S, set: (patch: Partial<S>) => void}} store
  */
-export const mover = ({ get, set }) => (/** @type {Partial<import("./types.js").Place>} */ patch) => set(/** @type {Partial<S>} */ ({ place: { ...get().place, ...patch } }));
+export const mover =
+  ({ get, set }) =>
+  (/** @type {Partial<import("./types.js").Place>} */ patch) =>
+    set(/** @type {Partial<S>} */ ({ place: { ...get().place, ...patch } }));

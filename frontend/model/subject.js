@@ -18,8 +18,23 @@ export function createSubject(store, api, attempt, { derive, rewind, simulations
   async function choose(id, step = "", n = 0, changes = "") {
     simulations.cancel();
     rewind();
-    set({ scene: null, derivation: null, lines: [], trajectory: null, runs: [], changes: readChanges(changes), held: null, failures: NO_FAILURES });
-    move({ scene: id, step, n, set: changes, ...(id === get().place.scene ? {} : { part: 0, vary: "", runs: "", at: 0 }) });
+    set({
+      scene: null,
+      derivation: null,
+      lines: [],
+      trajectory: null,
+      runs: [],
+      changes: readChanges(changes),
+      held: null,
+      failures: NO_FAILURES,
+    });
+    move({
+      scene: id,
+      step,
+      n,
+      set: changes,
+      ...(id === get().place.scene ? {} : { part: 0, vary: "", runs: "", at: 0 }),
+    });
     simulations.ask();
     await attempt("scene", async () => {
       const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang, n);

@@ -19,18 +19,21 @@ const FINER = 8;
  * @returns {Course}
  */
 export function courseOf(samples, at) {
-  const between = (/** @type {number} */ t, /** @type {number} */ i) => Array.from({ length: FINER }, (_, k) => t + (k / FINER) * (samples[i + 1] - t));
+  const between = (/** @type {number} */ t, /** @type {number} */ i) =>
+    Array.from({ length: FINER }, (_, k) => t + (k / FINER) * (samples[i + 1] - t));
   const times = samples.flatMap((t, i) => (i + 1 < samples.length ? between(t, i) : [t]));
   const values = times.map(at);
   const [low, high] = extremesOf(values);
   if (high - low <= STILL * Math.max(1, Math.abs(high))) return { kind: "rests", from: values[0] };
   const rises = risesThrough(times, values, (low + high) / 2);
-  if (rises.length > 1) return { kind: "swings", low, high, period: (rises[rises.length - 1] - rises[0]) / (rises.length - 1) };
+  if (rises.length > 1)
+    return { kind: "swings", low, high, period: (rises[rises.length - 1] - rises[0]) / (rises.length - 1) };
   return { kind: "goes", from: values[0], to: values[values.length - 1] };
 }
 
 /** @param {readonly number[]} values @returns {[number, number]} */
-const extremesOf = (values) => values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
+const extremesOf = (values) =>
+  values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
 
 /** The times at which the values pass a level upwards. @param {readonly number[]} times @param {readonly number[]} values @param {number} level */
 function risesThrough(times, values, level) {

@@ -5,7 +5,8 @@ import { blendAt, hermiteAt, scalarAt, spanAt, vectorAt } from "./interpolation.
 /** @typedef {import("./types.js").Trajectory} Trajectory */
 
 /** The coordinate of a trajectory at a time. @param {Trajectory} trajectory @param {string} name @param {number} t */
-export const coordinateAt = ({ t: times, coordinates, rates }, name, t) => hermiteAt(coordinates[name], rates[name], spanAt(times, t));
+export const coordinateAt = ({ t: times, coordinates, rates }, name, t) =>
+  hermiteAt(coordinates[name], rates[name], spanAt(times, t));
 
 /**
  * @template V, W
@@ -68,7 +69,9 @@ export function trustedUntil(trajectory) {
 /** The largest error estimate, or null if there is none. @param {Trajectory} trajectory */
 export function largestError(trajectory) {
   const known = (trajectory.error?.estimate ?? []).filter((e) => e !== null && Number.isFinite(e));
-  return known.length ? known.reduce((most, e) => Math.max(/** @type {number} */ (most), /** @type {number} */ (e)), 0) : null;
+  return known.length
+    ? known.reduce((most, e) => Math.max(/** @type {number} */ (most), /** @type {number} */ (e)), 0)
+    : null;
 }
 
 /** So many times its error a coordinate moves before it is seen to move; more than this it does in any case. */
@@ -85,6 +88,7 @@ const RUNAWAY = 4;
 export function usual(sorted) {
   const at = (/** @type {number} */ part) => sorted[Math.round((sorted.length - 1) * part)];
   const span = Math.max(at(0.97) - at(0.03), 1e-9);
-  const held = (/** @type {number} */ extreme, /** @type {number} */ usual) => (Math.abs(extreme - usual) > RUNAWAY * span ? usual : extreme);
+  const held = (/** @type {number} */ extreme, /** @type {number} */ usual) =>
+    Math.abs(extreme - usual) > RUNAWAY * span ? usual : extreme;
   return [held(at(0), at(0.03)), held(at(1), at(0.97))];
 }

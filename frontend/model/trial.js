@@ -19,7 +19,9 @@ export const draftOf = ({ inputs, examples }, example = 0) => ({
 /** @param {Call} call @param {Draft} draft @returns {string} */
 function addressOf({ path, inputs }, { values }) {
   const filled = path.replaceAll(/\{(\w+)\}/g, (_, name) => encodeURIComponent(values[name] ?? ""));
-  const query = inputs.filter(({ name, place }) => place === "query" && values[name] !== "").map(({ name }) => `${name}=${encodeURIComponent(values[name])}`);
+  const query = inputs
+    .filter(({ name, place }) => place === "query" && values[name] !== "")
+    .map(({ name }) => `${name}=${encodeURIComponent(values[name])}`);
   return query.length ? `${filled}?${query.join("&")}` : filled;
 }
 
@@ -50,7 +52,9 @@ function compact(text) {
 /** A draft as the end of an address: which call, and what differs from its example. @param {Call} call @param {Draft} draft */
 export function fragmentOf(call, draft) {
   const example = draftOf(call);
-  const changed = new URLSearchParams(Object.entries(draft.values).filter(([name, value]) => value !== example.values[name]));
+  const changed = new URLSearchParams(
+    Object.entries(draft.values).filter(([name, value]) => value !== example.values[name]),
+  );
   if (draft.body !== example.body) changed.set("body", draft.body);
   return `#${call.id}${changed.size ? `?${changed}` : ""}`;
 }
@@ -70,7 +74,9 @@ export function readable(text) {
   let whole = text;
   try {
     whole = JSON.stringify(JSON.parse(text), null, 2).replaceAll(NUMBERS, (row) => row.replaceAll(/\s+/g, " "));
-  } catch { /* XML, Markdown, Python: lines are there */ }
+  } catch {
+    /* XML, Markdown, Python: lines are there */
+  }
   return { text: whole.slice(0, LONGEST), cut: Math.max(0, whole.length - LONGEST) };
 }
 
@@ -84,7 +90,12 @@ export async function ask(send, { address, options }, signal, now) {
   try {
     const response = await send(address, { ...options, signal });
     const text = await response.text();
-    return { status: response.status, milliseconds: now() - begun, bytes: new TextEncoder().encode(text).length, ...readable(text) };
+    return {
+      status: response.status,
+      milliseconds: now() - begun,
+      bytes: new TextEncoder().encode(text).length,
+      ...readable(text),
+    };
   } catch (error) {
     if (/** @type {Error} */ (error).name === "AbortError") throw error;
     return null;

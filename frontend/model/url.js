@@ -3,7 +3,30 @@
 /** @typedef {import("./types.js").Place} Place */
 
 /** @type {Place} */
-export const HOME = { scene: "", step: "", lang: "", theme: "auto", method: "", n: 0, formulation: "dalembert-lagrange", duration: 10, speed: 1, panel: "derivation", edit: "", view: "", part: 0, pace: "", beside: "", vary: "", set: "", at: 0, with: "", runs: "", show: "", why: "" };
+export const HOME = {
+  scene: "",
+  step: "",
+  lang: "",
+  theme: "auto",
+  method: "",
+  n: 0,
+  formulation: "dalembert-lagrange",
+  duration: 10,
+  speed: 1,
+  panel: "derivation",
+  edit: "",
+  view: "",
+  part: 0,
+  pace: "",
+  beside: "",
+  vary: "",
+  set: "",
+  at: 0,
+  with: "",
+  runs: "",
+  show: "",
+  why: "",
+};
 
 const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
@@ -37,7 +60,9 @@ export function readPlace(query) {
     duration: seconds > 0 && seconds <= LONGEST ? seconds : HOME.duration,
     speed: SPEEDS.find((speed) => speed === Number(given.get("speed"))) ?? HOME.speed,
     panel: /** @type {import("./types.js").Panel} */ (oneOf(PANELS, given.get("panel"), HOME.panel)),
-    edit: /** @type {import("./types.js").Editing} */ (given.get("edit") === "" ? "form" : oneOf(EDITING, given.get("edit"), HOME.edit)),
+    edit: /** @type {import("./types.js").Editing} */ (
+      given.get("edit") === "" ? "form" : oneOf(EDITING, given.get("edit"), HOME.edit)
+    ),
     view: /** @type {import("./types.js").Showing} */ (oneOf(VIEWS, given.get("view"), HOME.view)),
     part: whole(given.get("part")),
     pace: /** @type {import("./types.js").Pace} */ (oneOf(PACES, given.get("pace"), HOME.pace)),

@@ -27,8 +27,16 @@ export function slidersOf(scene, changes) {
     const [low, high] = coordinateRange(coordinate);
     const fastest = niceFloor(Math.max(high - low, 1)) * 2.5;
     return [
-      slider({ ...shared, field: "value", latex: `${latex}(0)`, unit }, now.value, [low, high], [coordinate.min, coordinate.max]),
-      slider({ ...shared, field: "rate", latex: `${dotted(latex)}(0)`, unit: perSecond(unit) }, now.rate, [-fastest, fastest]),
+      slider(
+        { ...shared, field: "value", latex: `${latex}(0)`, unit },
+        now.value,
+        [low, high],
+        [coordinate.min, coordinate.max],
+      ),
+      slider({ ...shared, field: "rate", latex: `${dotted(latex)}(0)`, unit: perSecond(unit) }, now.rate, [
+        -fastest,
+        fastest,
+      ]),
     ];
   });
   return [...initial, ...scene.parameters.map((parameter) => parameterSlider(parameter, changes))];
@@ -49,10 +57,20 @@ export function coordinateRange({ unit, value, min, max }) {
 /** @param {import("./types.js").Parameter} parameter @param {Changes} changes */
 function parameterSlider(parameter, changes) {
   const { name, unit, value } = parameter;
-  const shared = { group: /** @type {const} */ ("parameter"), field: /** @type {const} */ ("value"), name, className: "" };
+  const shared = {
+    group: /** @type {const} */ ("parameter"),
+    field: /** @type {const} */ ("value"),
+    name,
+    className: "",
+  };
   const low = parameter.min ?? Math.min(0, 4 * value);
   const high = parameter.max ?? Math.max(1, 4 * value);
-  return slider({ ...shared, latex: parameter.latex || name, unit }, changes.parameters[name] ?? value, [low, high], [parameter.min ?? low, parameter.max]);
+  return slider(
+    { ...shared, latex: parameter.latex || name, unit },
+    changes.parameters[name] ?? value,
+    [low, high],
+    [parameter.min ?? low, parameter.max],
+  );
 }
 
 /**
@@ -62,7 +80,17 @@ function parameterSlider(parameter, changes) {
  */
 function slider(about, value, [min, max], [least, most] = []) {
   const step = niceFloor((max - min) / 100 || 1);
-  return { ...about, key: `${about.group}-${about.name}-${about.field}`, value, min, max, step, decimals: decimalsOf(step), least: least ?? -Infinity, most: most ?? Infinity };
+  return {
+    ...about,
+    key: `${about.group}-${about.name}-${about.field}`,
+    value,
+    min,
+    max,
+    step,
+    decimals: decimalsOf(step),
+    least: least ?? -Infinity,
+    most: most ?? Infinity,
+  };
 }
 
 /** @param {Slider} slider @param {number} value */
@@ -101,11 +129,18 @@ export function writeChanges({ initial, parameters }) {
 
 /** @param {string} text @returns {Changes} */
 export function readChanges(text) {
-  const parts = text.split(",").map((part) => part.split(":")).filter(([name, ...values]) => name && values.length && values.every((value) => value && Number.isFinite(Number(value))));
+  const parts = text
+    .split(",")
+    .map((part) => part.split(":"))
+    .filter(
+      ([name, ...values]) => name && values.length && values.every((value) => value && Number.isFinite(Number(value))),
+    );
   const of = (/** @type {number} */ length) => parts.filter((part) => part.length === length + 1);
   return {
     parameters: Object.fromEntries(of(1).map(([name, value]) => [name, Number(value)])),
-    initial: Object.fromEntries(of(2).map(([name, value, rate]) => [name, { value: Number(value), rate: Number(rate) }])),
+    initial: Object.fromEntries(
+      of(2).map(([name, value, rate]) => [name, { value: Number(value), rate: Number(rate) }]),
+    ),
   };
 }
 

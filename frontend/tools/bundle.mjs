@@ -30,7 +30,11 @@ const source = (address) => join(ROOT, ...address.split("/"));
 /** The address of a file in the bundle. @param {string} output */
 const served = (output) => `/${relative(FOLDER, resolve(output)).split(sep).join("/")}`;
 /** @param {Buffer[]} parts */
-const digest = (parts) => parts.reduce((hash, part) => hash.update(part), createHash("sha256")).digest("hex").slice(0, 8);
+const digest = (parts) =>
+  parts
+    .reduce((hash, part) => hash.update(part), createHash("sha256"))
+    .digest("hex")
+    .slice(0, 8);
 /** Built by its authors. @param {string} address */
 const finished = (address) => /\.min\.m?js$/.test(address);
 
@@ -90,7 +94,11 @@ const asInTheBrowser = {
     onLoad({ filter: /.*/, namespace: "sheets" }, ({ path }) => {
       const name = path.slice("sheets:".length);
       const styles = name === SHARED ? site.styles : site.pages[name].styles;
-      return { contents: styles.map((/** @type {string} */ one) => `@import "${one}";`).join("\n"), loader: "css", resolveDir: ROOT };
+      return {
+        contents: styles.map((/** @type {string} */ one) => `@import "${one}";`).join("\n"),
+        loader: "css",
+        resolveDir: ROOT,
+      };
     });
   },
 };
@@ -101,7 +109,8 @@ const asInTheBrowser = {
 function begunWith(outputs, entry) {
   const found = new Set([entry]);
   for (const output of found) {
-    for (const { path, kind } of outputs[output].imports) if (kind === "import-statement" && path in outputs) found.add(path);
+    for (const { path, kind } of outputs[output].imports)
+      if (kind === "import-statement" && path in outputs) found.add(path);
   }
   return [...found].reverse();
 }
@@ -131,7 +140,9 @@ const outputsOf = async (entryPoints, ...further) =>
 async function importedBy(file) {
   const { metafile } = await build({ ...OPTIONS, entryPoints: [file], write: false });
   const { imports } = metafile.inputs[relative(ROOT, file).split(sep).join("/")];
-  return imports.filter(({ kind, external }) => kind === "import-statement" && !external).map(({ path }) => resolve(path));
+  return imports
+    .filter(({ kind, external }) => kind === "import-statement" && !external)
+    .map(({ path }) => resolve(path));
 }
 
 /**
@@ -208,18 +219,23 @@ async function forms(content) {
 /** Each file that compresses, beside itself; what is there from the last time has the same name, for it has the same content. */
 async function compressed() {
   const files = (await readdir(join(FOLDER, ASSETS))).filter((name) => COMPRESSIBLE.has(extname(name)));
-  await Promise.all(files.map(async (name) => {
-    const known = [".br", ".gz"].map((suffix) => readFile(join(PLACE, ASSETS, name + suffix)));
-    const [brotli, gzipped] = await Promise.all(known).catch(async () => forms(await readFile(join(FOLDER, ASSETS, name))));
-    await writeFile(join(FOLDER, ASSETS, `${name}.br`), brotli);
-    await writeFile(join(FOLDER, ASSETS, `${name}.gz`), gzipped);
-  }));
+  await Promise.all(
+    files.map(async (name) => {
+      const known = [".br", ".gz"].map((suffix) => readFile(join(PLACE, ASSETS, name + suffix)));
+      const [brotli, gzipped] = await Promise.all(known).catch(async () =>
+        forms(await readFile(join(FOLDER, ASSETS, name))),
+      );
+      await writeFile(join(FOLDER, ASSETS, `${name}.br`), brotli);
+      await writeFile(join(FOLDER, ASSETS, `${name}.gz`), gzipped);
+    }),
+  );
 }
 
 /** The licences of the libraries, where they stand beside the sources. */
 async function licences() {
   for (const file of await readdir("vendor", { recursive: true })) {
-    if (/^LICENSE(\.txt)?$/.test(basename(file))) await cp(join("vendor", file), join(FOLDER, "vendor", file), { recursive: true });
+    if (/^LICENSE(\.txt)?$/.test(basename(file)))
+      await cp(join("vendor", file), join(FOLDER, "vendor", file), { recursive: true });
   }
 }
 
@@ -227,6 +243,11 @@ await rm(FOLDER, { recursive: true, force: true });
 await mkdir(join(FOLDER, ASSETS), { recursive: true });
 const outputs = await bundled();
 await writeFile(join(FOLDER, "pages.json"), `${JSON.stringify(await addressed(outputs), null, 2)}\n`);
-await Promise.all([compressed(), licences(), cp("view/frame.html", join(FOLDER, "view/frame.html")), cp("icon.svg", join(FOLDER, "icon.svg"))]);
+await Promise.all([
+  compressed(),
+  licences(),
+  cp("view/frame.html", join(FOLDER, "view/frame.html")),
+  cp("icon.svg", join(FOLDER, "icon.svg")),
+]);
 await rm(PLACE, { recursive: true, force: true });
 await rename(FOLDER, PLACE);

@@ -33,7 +33,11 @@ export function createAside({ root, store, api, session, send, changed, play }) 
     return open({ root, session, state: get, about, changed, play });
   }, changed);
   const sharing = createLater(async () => {
-    const [{ share }, { createExports }] = await Promise.all([import("./share.js"), import("../model/share.js"), above.want()]);
+    const [{ share }, { createExports }] = await Promise.all([
+      import("./share.js"),
+      import("../model/share.js"),
+      above.want(),
+    ]);
     const take = createExports(send, store);
     return (/** @type {View} */ view) => share(view, take);
   }, changed);
@@ -57,11 +61,15 @@ export function createAside({ root, store, api, session, send, changed, play }) 
     }, REST);
   }
 
-  const framed = location.pathname === "/embed" ? import("./embed.js").then(({ embed }) => embed(root, () => get().place, whole)) : null;
+  const framed =
+    location.pathname === "/embed"
+      ? import("./embed.js").then(({ embed }) => embed(root, () => get().place, whole))
+      : null;
   const whole = () => location.href.replace("/embed", "/scene");
 
   return {
-    editor, lecture,
+    editor,
+    lecture,
     /** Lecture mode while it is on. */
     lecturing: () => (get().place.view && get().catalog.lecture ? lecture.part : null),
     /** What lies above the page, once its texts are there. @returns {View["overlays"]} */

@@ -10,7 +10,13 @@ function brought(element) {
 }
 
 /** A sheet that the import map names; what is shown before would move when it comes. @param {string} name */
-export const sheet = (name) => brought(Object.assign(document.createElement("link"), { rel: "stylesheet", href: import.meta.resolve(`styles/${name}.css`) }));
+export const sheet = (name) =>
+  brought(
+    Object.assign(document.createElement("link"), {
+      rel: "stylesheet",
+      href: import.meta.resolve(`styles/${name}.css`),
+    }),
+  );
 
 /** @param {string} address */
 export const script = (address) => brought(Object.assign(document.createElement("script"), { src: address }));

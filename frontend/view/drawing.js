@@ -68,7 +68,8 @@ function updateShape(path, { d, at, opacity }, last) {
 /** @param {HTMLElement} element @param {Label} label @param {Partial<Label>} last */
 function updateLabel(element, { latex, at, start, opacity }, last) {
   if (latex !== last.latex) typeset(element, latex, false, "html");
-  if (!same(at, last.at)) element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) translate(${start ? "0" : "-50%"}, -50%)`;
+  if (!same(at, last.at))
+    element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) translate(${start ? "0" : "-50%"}, -50%)`;
   if (opacity !== last.opacity) element.style.opacity = String(opacity ?? 1);
 }
 

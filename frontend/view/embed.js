@@ -20,7 +20,10 @@ export function embed(root, place, whole) {
     link.href = whole();
     if (window.parent === window) return;
     const { scene, step } = place();
-    window.parent.postMessage({ type: "deltaq.height", height: Math.ceil(document.body.getBoundingClientRect().height), scene, step }, "*");
+    window.parent.postMessage(
+      { type: "deltaq.height", height: Math.ceil(document.body.getBoundingClientRect().height), scene, step },
+      "*",
+    );
   }
   new ResizeObserver(tell).observe(document.body);
   return tell;

@@ -10,7 +10,9 @@ export function failure(failure, heading, retry, t) {
   const unreachable = failure.status === 0;
   // What the server refused it will refuse again; only what may pass is worth another try.
   const passing = unreachable || failure.status >= 500;
-  const first = unreachable ? t("failure.unreachable") : failure.detail || failure.title || t("failure.unexpected", { status: failure.status });
+  const first = unreachable
+    ? t("failure.unreachable")
+    : failure.detail || failure.title || t("failure.unexpected", { status: failure.status });
   const rest = unreachable ? [t("failure.unreachable-remedy")] : failure.problems.map((problem) => problem.message);
   return html`
     <div class="failure" role="alert">

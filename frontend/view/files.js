@@ -11,4 +11,8 @@ export function offer(name, content, type) {
 }
 
 /** False where the browser has no clipboard for the page, as over plain HTTP, or refuses it. @param {string} text @returns {Promise<boolean>} */
-export const toClipboard = async (text) => (await navigator.clipboard?.writeText(text).then(() => true, () => false)) ?? false;
+export const toClipboard = async (text) =>
+  (await navigator.clipboard?.writeText(text).then(
+    () => true,
+    () => false,
+  )) ?? false;

@@ -6,7 +6,8 @@ import { bearableIn, resize, typeset } from "./typesetting.js";
 const LONG = 600;
 
 /** What a long step has out of sight has a size, but its content has none yet. @param {HTMLElement} element */
-const laidOut = ({ firstElementChild: content }) => !content || content.checkVisibility({ contentVisibilityAuto: true });
+const laidOut = ({ firstElementChild: content }) =>
+  !content || content.checkVisibility({ contentVisibilityAuto: true });
 
 /**
  * What is too wide, and how small it would have to be. All is measured before anything is written, so that the page is
@@ -23,7 +24,9 @@ function measured(elements) {
 }
 
 export class Fitting {
-  #observer = new ResizeObserver((entries) => this.#fit(entries.map(({ target }) => /** @type {HTMLElement} */ (target))));
+  #observer = new ResizeObserver((entries) =>
+    this.#fit(entries.map(({ target }) => /** @type {HTMLElement} */ (target))),
+  );
   /** For which width each formula has its size. @type {WeakMap<HTMLElement, number>} */
   #widths = new WeakMap();
   /** What each formula says. @type {WeakMap<HTMLElement, string>} */
@@ -71,7 +74,9 @@ export class Fitting {
   #fit(elements) {
     const seen = elements.filter((element) => element.clientWidth > 0 && laidOut(element));
     this.#rows?.arrange(seen.filter((element) => this.#inRows.has(element)));
-    const due = seen.filter((element) => !this.#inRows.has(element) && this.#widths.get(element) !== element.clientWidth);
+    const due = seen.filter(
+      (element) => !this.#inRows.has(element) && this.#widths.get(element) !== element.clientWidth,
+    );
     for (const { element, width, part, bearable } of measured(due)) {
       this.#widths.set(element, width);
       if (part < 1) resize(element, part);

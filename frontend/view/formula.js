@@ -32,7 +32,9 @@ export function typesetAll() {
 window.addEventListener("beforeprint", typesetAll);
 
 // What was measured before the fonts of the formulas had come was not their width; what nobody sees is not measured at all.
-document.fonts.addEventListener("loadingdone", () => document.querySelectorAll(".formula").forEach((element) => fitting.fitSoon(/** @type {HTMLElement} */ (element))));
+document.fonts.addEventListener("loadingdone", () =>
+  document.querySelectorAll(".formula").forEach((element) => fitting.fitSoon(/** @type {HTMLElement} */ (element))),
+);
 
 /** @param {HTMLElement} element @param {string} latex @param {boolean} display @param {boolean} [atOnce]  it is seen now */
 function set(element, latex, display, atOnce = false) {
@@ -66,10 +68,13 @@ class Typeset extends Directive {
 const typesetInto = directive(Typeset);
 
 /** A formula within a line. @param {string} latex @param {string} [className] @param {boolean} [later] it is not seen yet */
-export const inline = (latex, className = "", later = false) => html`<span class="math ${className}" ${typesetInto(latex, false, later)}></span>`;
+export const inline = (latex, className = "", later = false) =>
+  html`<span class="math ${className}" ${typesetInto(latex, false, later)}></span>`;
 
 /** A formula on a line of its own. @param {string} latex @param {boolean} [later] it is not seen yet */
-export const displayed = (latex, later = false) => html`<div class="formula" tabindex="-1" ${typesetInto(latex, true, later)}></div>`;
+export const displayed = (latex, later = false) =>
+  html`<div class="formula" tabindex="-1" ${typesetInto(latex, true, later)}></div>`;
 
 /** A sentence of the server with its formulas. @param {import("../model/prose.js").CatalogText} sentence @param {boolean} [later] it is not seen yet */
-export const prose = (sentence, later = false) => pieces(sentence).map(({ text, formula }) => (formula ? inline(text, "", later) : text));
+export const prose = (sentence, later = false) =>
+  pieces(sentence).map(({ text, formula }) => (formula ? inline(text, "", later) : text));

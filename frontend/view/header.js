@@ -70,7 +70,8 @@ export function buttons({ session, enterLecture, t }) {
  */
 export function actions({ session, enterLecture, t }) {
   return [
-    action(t("tool.overview"), () => session.overlay("overview")), action(t("tool.share"), () => session.overlay("share")),
+    action(t("tool.overview"), () => session.overlay("overview")),
+    action(t("tool.share"), () => session.overlay("share")),
     action(t("tool.lecture"), enterLecture),
   ];
 }
@@ -80,8 +81,10 @@ export function places({ state, t }, here, more = nothing) {
   return html`
     <button class="tool menu" popovertarget="places" title=${t("places")} aria-label=${t("places")}>${icon("menu")}</button>
     <nav class="places" id="places" popover aria-label=${t("places")}>
-      <a class="action home" href=${pageAddress("", state.place)}>${t("place.start")}</a>${PAGES.map((name) => html`
-      <a href=${pageAddress(name, state.place)} aria-current=${name === here ? "page" : nothing}>${t(`place.${name}`)}</a>`)}${more}</nav>`;
+      <a class="action home" href=${pageAddress("", state.place)}>${t("place.start")}</a>${PAGES.map(
+        (name) => html`
+      <a href=${pageAddress(name, state.place)} aria-current=${name === here ? "page" : nothing}>${t(`place.${name}`)}</a>`,
+      )}${more}</nav>`;
 }
 
 /**
@@ -139,9 +142,10 @@ function sceneChooser({ state, session, t }) {
     session.move({ edit: "" });
     void session.choose(id);
   };
-  const freedoms = shown ? freedomsOf(shown) : entry?.degrees_of_freedom ?? 0;
+  const freedoms = shown ? freedomsOf(shown) : (entry?.degrees_of_freedom ?? 0);
   const about = inLanguage(state.scene?.summary, lang);
-  const titleOf = (/** @type {import("../model/types.js").SceneEntry} */ one) => inLanguage((one.id === scene && shown?.title) || one.title, lang);
+  const titleOf = (/** @type {import("../model/types.js").SceneEntry} */ one) =>
+    inLanguage((one.id === scene && shown?.title) || one.title, lang);
   const select = html`
     <select .value=${live(scene)} @change=${(/** @type {Event} */ e) => leaveFor(chosen(e))}>
       ${entry ? nothing : html`<option value=${scene} selected>${t("scene.choose")}</option>`}
@@ -172,9 +176,11 @@ export function appearance({ state, session, t }) {
 export function language({ state, session, t }) {
   return html`
     <div class="segments" role="group" aria-label=${t("language.choose")}>
-      ${["de", "en"].map((lang) => html`
+      ${["de", "en"].map(
+        (lang) => html`
         <button aria-pressed=${String(state.place.lang === lang)} lang=${lang} title=${t(`language.${lang}`)}
-          @click=${() => session.language(lang)}>${lang.toUpperCase()}</button>`)}
+          @click=${() => session.language(lang)}>${lang.toUpperCase()}</button>`,
+      )}
     </div>
   `;
 }

@@ -20,7 +20,9 @@ function quantitiesAt(element) {
 export function linkHighlights(root) {
   let lit = "";
   const light = (/** @type {Event} */ { target }) => {
-    const names = quantitiesAt(target instanceof Element ? target : null).map((name) => `.${CSS.escape(name)}`).join();
+    const names = quantitiesAt(target instanceof Element ? target : null)
+      .map((name) => `.${CSS.escape(name)}`)
+      .join();
     if (names === lit) return;
     lit = names;
     root.querySelectorAll(".lit").forEach((element) => element.classList.remove("lit"));

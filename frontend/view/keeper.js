@@ -2,7 +2,9 @@
 
 /** Nothing is ever there, and nothing can be written. @type {import("../model/homework/progress.js").Keeper} */
 const REFUSING = {
-  length: 0, key: () => null, getItem: () => null,
+  length: 0,
+  key: () => null,
+  getItem: () => null,
   setItem() {
     throw new Error("The browser keeps nothing for this page.");
   },

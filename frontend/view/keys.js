@@ -24,12 +24,26 @@ export function table({ go, fullscreen, overlay, play, substeps, lecture = () =>
   const next = () => go(1);
   const previous = () => go(-1);
   return {
-    ArrowRight: next, " ": next, n: next, PageDown: next,
-    ArrowLeft: previous, p: previous, PageUp: previous,
-    Home: () => go(-Infinity), End: () => go(Infinity),
-    f: fullscreen, b: () => overlay("black"), ".": () => overlay("black"),
-    Escape: () => overlay("overview"), o: () => overlay("overview"), "?": () => overlay("help"), g: () => overlay("jump"),
-    k: play, e: substeps, l: lecture, s: presenter,
+    ArrowRight: next,
+    " ": next,
+    n: next,
+    PageDown: next,
+    ArrowLeft: previous,
+    p: previous,
+    PageUp: previous,
+    Home: () => go(-Infinity),
+    End: () => go(Infinity),
+    f: fullscreen,
+    b: () => overlay("black"),
+    ".": () => overlay("black"),
+    Escape: () => overlay("overview"),
+    o: () => overlay("overview"),
+    "?": () => overlay("help"),
+    g: () => overlay("jump"),
+    k: play,
+    e: substeps,
+    l: lecture,
+    s: presenter,
   };
 }
 

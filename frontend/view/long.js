@@ -57,7 +57,10 @@ export class Long {
     const width = element.clientWidth;
     if (!width || this.width === width) return false;
     const style = getComputedStyle(element);
-    const { rows, part } = planned(this.latex, roomOf(element, style), { bearable: bearableIn(style), smallest: SMALLEST });
+    const { rows, part } = planned(this.latex, roomOf(element, style), {
+      bearable: bearableIn(style),
+      smallest: SMALLEST,
+    });
     this.width = width;
     shrink(element, part);
     this.#place(rows);
@@ -71,9 +74,15 @@ export class Long {
     while (grid.childElementCount > 2 * rows.length) grid.lastChild?.remove();
     while (grid.childElementCount < 2 * rows.length) grid.append(made("div", "cell"));
     const cells = /** @type {HTMLElement[]} */ ([...grid.children]);
-    rows.forEach(({ above, below }, i) => (cells[2 * i + 1].style.cssText = `--above:${above.toFixed(3)}em;--below:${below.toFixed(3)}em`));
+    rows.forEach(
+      ({ above, below }, i) =>
+        (cells[2 * i + 1].style.cssText = `--above:${above.toFixed(3)}em;--below:${below.toFixed(3)}em`),
+    );
     // Left sides first: the right ones stand beside the widest of them.
-    const due = [...rows.map(({ left }, i) => ({ cell: cells[2 * i], latex: left })), ...rows.map(({ right }, i) => ({ cell: cells[2 * i + 1], latex: `{}${right}` }))];
+    const due = [
+      ...rows.map(({ left }, i) => ({ cell: cells[2 * i], latex: left })),
+      ...rows.map(({ right }, i) => ({ cell: cells[2 * i + 1], latex: `{}${right}` })),
+    ];
     this.#due = due.filter(({ cell, latex }) => (cell.dataset.latex ?? "") !== latex);
   }
 
@@ -87,7 +96,8 @@ export class Long {
   /** Rows that are wider than was estimated become smaller, by a little more: letters have whole pixels in some browsers. */
   correct() {
     const { clientWidth: width, scrollWidth: needed, style } = this.element;
-    if (needed > width) shrink(this.element, (Number(style.getPropertyValue("--fit")) || 1) * ((0.98 * width) / needed));
+    if (needed > width)
+      shrink(this.element, (Number(style.getPropertyValue("--fit")) || 1) * ((0.98 * width) / needed));
   }
 
   /** Out of sight it is not drawn. */

@@ -8,7 +8,9 @@ import { timeScale } from "../model/plots.js";
  * @param {{seek: (t: number) => void, lang: () => string}} about  the language of what is shown, "" while nothing is
  */
 export function createMoment(root, { seek, lang }) {
-  const [cursor, ghost] = ["cursor", "ghost"].map((name) => /** @type {HTMLElement} */ (root.querySelector(`.${name}`)));
+  const [cursor, ghost] = ["cursor", "ghost"].map(
+    (name) => /** @type {HTMLElement} */ (root.querySelector(`.${name}`)),
+  );
   let scale = timeScale(1, 0, 16);
   let now = 0;
   let pointed = NaN;

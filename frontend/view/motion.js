@@ -24,17 +24,28 @@ export function createMotion({ root, state, clock, session, still, update }) {
 
   const instruments = createLater(async () => {
     const [{ open }] = await Promise.all([import("./figure/open.js"), sheet("instruments")]);
-    return open({ root, frame: find(".drawing"), parts: /** @type {NonNullable<typeof parts>} */ (parts), state, clock, session, seek: scrub });
+    return open({
+      root,
+      frame: find(".drawing"),
+      parts: /** @type {NonNullable<typeof parts>} */ (parts),
+      state,
+      clock,
+      session,
+      seek: scrub,
+    });
   }, update);
 
   function assemble() {
     const made = {
-      drawing: createDrawing(find(".drawing")), plots: createPlots(find(".plots"), { seek: scrub }),
-      readouts: createReadouts(find(".readouts")), transport: createTransport(find(".player")),
+      drawing: createDrawing(find(".drawing")),
+      plots: createPlots(find(".plots"), { seek: scrub }),
+      readouts: createReadouts(find(".readouts")),
+      transport: createTransport(find(".player")),
     };
     new ResizeObserver(() => made.drawing.resize(clock.time)).observe(find(".drawing"));
     // Not pointerover: browsers send it for a mouse that rests while the page is laid out under it.
-    for (const event of ["pointermove", "pointerdown", "focusin", "keydown"]) document.addEventListener(event, instruments.want, { once: true });
+    for (const event of ["pointermove", "pointerdown", "focusin", "keydown"])
+      document.addEventListener(event, instruments.want, { once: true });
     setTimeout(instruments.want, PATIENCE);
     return made;
   }
@@ -42,7 +53,10 @@ export function createMotion({ root, state, clock, session, still, update }) {
   /** The moment as a sentence, for those who do not see it. @param {number} t @param {string} values */
   function moment(t, values) {
     const { catalog, place } = state();
-    return translator(/** @type {Record<string, unknown>} */ (catalog.page ?? {}))("drawing.moment", { time: fixed(t, 2, place.lang), values });
+    return translator(/** @type {Record<string, unknown>} */ (catalog.page ?? {}))("drawing.moment", {
+      time: fixed(t, 2, place.lang),
+      values,
+    });
   }
 
   /** Shows the moment t everywhere. @param {number} t */
@@ -76,7 +90,8 @@ export function createMotion({ root, state, clock, session, still, update }) {
   clock.subscribe(move);
 
   return {
-    play, scrub,
+    play,
+    scrub,
     get instruments() {
       return instruments.part;
     },
@@ -88,7 +103,11 @@ export function createMotion({ root, state, clock, session, still, update }) {
       parts.readouts.show(scene, trajectory, place.lang);
       // The first step is to be read before the plots cost anything.
       const readable = lines.length > 0 || failures.derivation;
-      parts.plots.show(readable && scene && trajectory ? { scene, trajectory, runs, duration: place.duration, lang: place.lang, theme } : null);
+      parts.plots.show(
+        readable && scene && trajectory
+          ? { scene, trajectory, runs, duration: place.duration, lang: place.lang, theme }
+          : null,
+      );
       if (place.vary || place.with || place.runs || place.why) void instruments.want();
       instruments.part?.show();
       begin();

@@ -42,14 +42,18 @@ export function dialog(name, content, { session, t }) {
 function overview({ state, session, link, follow }) {
   return html`
     <div class="grid">
-      ${(state.derivation?.chapters ?? []).map((chapter, c) => html`
+      ${(state.derivation?.chapters ?? []).map(
+        (chapter, c) => html`
         <section>
           <h3><span class="ordinal">${c + 1}</span>${chapter.title}</h3>
-          <ol>${chapter.steps.map((step, s) => html`
+          <ol>${chapter.steps.map(
+            (step, s) => html`
             <li><a href=${link({ step: step.id })} aria-current=${step.id === state.place.step ? "step" : nothing}
               @click=${(/** @type {Event} */ e) => follow(e, () => session.goTo(step.id))}>
-              <span class="number">${c + 1}.${s + 1}</span><span>${prose(step.title)}</span></a></li>`)}</ol>
-        </section>`)}
+              <span class="number">${c + 1}.${s + 1}</span><span>${prose(step.title)}</span></a></li>`,
+          )}</ol>
+        </section>`,
+      )}
     </div>
   `;
 }
@@ -65,15 +69,19 @@ function jump({ state, session, link, follow, t }) {
   };
   const take = (/** @type {Event} */ event) => {
     event.preventDefault();
-    const first = /** @type {HTMLElement | null} */ (/** @type {HTMLElement} */ (event.target).querySelector("li:not([hidden])"));
+    const first = /** @type {HTMLElement | null} */ (
+      /** @type {HTMLElement} */ (event.target).querySelector("li:not([hidden])")
+    );
     if (first) session.goTo(first.dataset.to ?? "");
   };
   return html`
     <form class="jump" @submit=${take}>
       <label>${t("jump.label")}<input type="search" autocomplete="off" autofocus @input=${sought}></label>
-      <ol>${state.lines.map(({ step, number }) => html`
+      <ol>${state.lines.map(
+        ({ step, number }) => html`
         <li data-to=${step.id}><a href=${link({ step: step.id })} @click=${(/** @type {Event} */ e) => follow(e, () => session.goTo(step.id))}>
-          <span class="number">${number}</span><span>${prose(step.title)}</span></a></li>`)}</ol>
+          <span class="number">${number}</span><span>${prose(step.title)}</span></a></li>`,
+      )}</ol>
       <p class="none" role="status" hidden>${t("jump.none")}</p>
     </form>`;
 }

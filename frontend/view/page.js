@@ -79,7 +79,8 @@ function reading(view) {
 
 /** Which formulation leads to the equations. @param {View} view */
 function road({ state, session, t }) {
-  const chosen = (/** @type {Event} */ { target }) => session.formulate(/** @type {HTMLSelectElement} */ (target).value);
+  const chosen = (/** @type {Event} */ { target }) =>
+    session.formulate(/** @type {HTMLSelectElement} */ (target).value);
   return html`
     <label class="choice road" title=${t("formulation.choose")}>
       <span class="unseen">${t("formulation.choose")}</span>
@@ -112,8 +113,10 @@ function unknownScene({ state, link, follow, session, t }) {
   return html`
     <div class="failure" role="alert">
       <h2>${t("failure.scene")}</h2>
-      <ul>${state.scenes.map(({ id, title }) => html`<li><a href=${link({ scene: id, step: "" })}
-        @click=${(/** @type {Event} */ event) => follow(event, () => session.choose(id))}>${inLanguage(title, state.place.lang)}</a></li>`)}</ul>
+      <ul>${state.scenes.map(
+        ({ id, title }) => html`<li><a href=${link({ scene: id, step: "" })}
+        @click=${(/** @type {Event} */ event) => follow(event, () => session.choose(id))}>${inLanguage(title, state.place.lang)}</a></li>`,
+      )}</ul>
     </div>
   `;
 }
@@ -157,8 +160,10 @@ function patience({ state, t }) {
 function panels({ state, session, t }) {
   return html`
     <nav class="panels" aria-label=${t("panel.choose")}>
-      ${PANELS.map((panel) => html`
-        <button aria-pressed=${String(state.place.panel === panel)} @click=${() => session.move({ panel })}>${t(panel === "derivation" && state.place.edit ? "editor" : `panel.${panel}`)}</button>`)}
+      ${PANELS.map(
+        (panel) => html`
+        <button aria-pressed=${String(state.place.panel === panel)} @click=${() => session.move({ panel })}>${t(panel === "derivation" && state.place.edit ? "editor" : `panel.${panel}`)}</button>`,
+      )}
     </nav>
   `;
 }

@@ -21,7 +21,12 @@ const PATIENCE = 500;
 
 /** @param {HTMLElement} root @returns {import("../model/plots.js").Palette} */
 function coloured(root) {
-  const classes = ["energy-kinetic", "energy-potential", "energy-balance", ...Array.from({ length: 24 }, (_, i) => `q-${i}`)];
+  const classes = [
+    "energy-kinetic",
+    "energy-potential",
+    "energy-balance",
+    ...Array.from({ length: 24 }, (_, i) => `q-${i}`),
+  ];
   const palette = paletteOf(root);
   const colours = coloursOf(root, classes);
   return { ...palette, of: (name) => colours[classes.indexOf(name)] ?? palette.ink };
@@ -37,7 +42,9 @@ function createCurves(root) {
   /** @param {import("../model/plots.js").Row[]} rows @param {number} em */
   function label(rows, em) {
     const { t, b } = marginsOf(em);
-    const tops = domainsOf(rows.length, root.clientHeight, em).map(([, top]) => (1 - top) * (root.clientHeight - t - b));
+    const tops = domainsOf(rows.length, root.clientHeight, em).map(
+      ([, top]) => (1 - top) * (root.clientHeight - t - b),
+    );
     names.replaceChildren(...rows.map((row, r) => legend(row, tops[r])));
   }
 
@@ -48,9 +55,17 @@ function createCurves(root) {
     async draw({ scene, trajectory, runs, duration, lang }) {
       const palette = coloured(root);
       const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
-      const rows = rowsOf(scene, trajectory, runs.map((run) => run.trajectory));
+      const rows = rowsOf(
+        scene,
+        trajectory,
+        runs.map((run) => run.trajectory),
+      );
       const frame = { width: root.clientWidth, height: root.clientHeight, em, duration };
-      const layout = { ...layoutOf(rows, duration, palette, lang, root.clientHeight, em), width: frame.width, height: frame.height };
+      const layout = {
+        ...layoutOf(rows, duration, palette, lang, root.clientHeight, em),
+        width: frame.width,
+        height: frame.height,
+      };
       const traces = tracesOf(rows, trajectory, palette, frame);
       await globalThis.Plotly.react(canvas, traces, layout, { staticPlot: true, displayModeBar: false });
       label(rows, em);
@@ -102,7 +117,12 @@ export function createPlots(root, { seek }) {
     move: moment.move,
     /** @param {Shown | null} next */
     show(next) {
-      const same = next && shown && Object.keys(next).every((key) => next[/** @type {keyof Shown} */ (key)] === shown?.[/** @type {keyof Shown} */ (key)]);
+      const same =
+        next &&
+        shown &&
+        Object.keys(next).every(
+          (key) => next[/** @type {keyof Shown} */ (key)] === shown?.[/** @type {keyof Shown} */ (key)],
+        );
       if (same) return;
       shown = next;
       if (!shown) root.classList.remove("ready");

@@ -53,7 +53,11 @@ export function announce(lines, id, t) {
   const line = lines[indexOf(lines, id)];
   const announcer = document.getElementById("announcer");
   if (!line || !announcer) return;
-  announcer.textContent = t("step.announce", { number: line.number, title: plainly(line.step.title), text: plainly(line.step.text) });
+  announcer.textContent = t("step.announce", {
+    number: line.number,
+    title: plainly(line.step.title),
+    text: plainly(line.step.text),
+  });
 }
 
 /** Opens or closes the substeps of a step. @param {HTMLElement} root @param {string} id */

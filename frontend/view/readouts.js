@@ -44,18 +44,20 @@ export function createReadouts(root) {
 /** @param {HTMLElement} root @param {Scene} scene @param {Trajectory} trajectory @param {string} lang @returns {Field[]} */
 function fieldsIn(root, scene, trajectory, lang) {
   root.replaceChildren();
-  return scene.coordinates.filter(({ name }) => trajectory.coordinates[name]).map((coordinate) => {
-    const line = document.createElement("div");
-    const [symbol, value] = [document.createElement("span"), document.createElement("span")];
-    line.className = `q-${scene.coordinates.indexOf(coordinate)}`;
-    value.className = "number";
-    typeset(symbol, `${coordinate.latex || coordinate.name} =`, false, "html");
-    line.append(symbol, value);
-    root.append(line);
-    const digits = digitsIn(value);
-    const write = (/** @type {number} */ t) =>
-      (digits.data = `${fixed(coordinateAt(trajectory, coordinate.name, t), 3, lang)} ${unitText(coordinate.unit)}`);
-    write(0);
-    return { name: coordinate.name, write };
-  });
+  return scene.coordinates
+    .filter(({ name }) => trajectory.coordinates[name])
+    .map((coordinate) => {
+      const line = document.createElement("div");
+      const [symbol, value] = [document.createElement("span"), document.createElement("span")];
+      line.className = `q-${scene.coordinates.indexOf(coordinate)}`;
+      value.className = "number";
+      typeset(symbol, `${coordinate.latex || coordinate.name} =`, false, "html");
+      line.append(symbol, value);
+      root.append(line);
+      const digits = digitsIn(value);
+      const write = (/** @type {number} */ t) =>
+        (digits.data = `${fixed(coordinateAt(trajectory, coordinate.name, t), 3, lang)} ${unitText(coordinate.unit)}`);
+      write(0);
+      return { name: coordinate.name, write };
+    });
 }

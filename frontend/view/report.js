@@ -57,9 +57,17 @@ function facts(trajectory, { state, t, methodTitle }) {
   const horizon = trajectory.error?.horizon ?? null;
   return [
     { text: methodTitle(trajectory.method) },
-    ...(error === null ? [] : [{ text: t("status.error", { error: significant(error, 2, lang) }), help: t("status.error-help") }]),
-    ...(horizon !== null && horizon < state.place.duration ? [{ text: t("status.until", { time: fixed(horizon, 1, lang) }), help: t("status.until-help") }] : []),
-    ...(cost?.steps === undefined ? [] : [{ text: t("status.steps", { count: cost.steps }), help: t("status.rejected", { count: cost.rejected ?? 0 }) }]),
+    ...(error === null
+      ? []
+      : [{ text: t("status.error", { error: significant(error, 2, lang) }), help: t("status.error-help") }]),
+    ...(horizon !== null && horizon < state.place.duration
+      ? [{ text: t("status.until", { time: fixed(horizon, 1, lang) }), help: t("status.until-help") }]
+      : []),
+    ...(cost?.steps === undefined
+      ? []
+      : [
+          { text: t("status.steps", { count: cost.steps }), help: t("status.rejected", { count: cost.rejected ?? 0 }) },
+        ]),
     ...(cost?.wall_time === undefined ? [] : [{ text: duration(cost.wall_time, lang), help: t("status.time-help") }]),
   ];
 }

@@ -23,12 +23,16 @@ const LONGEST = 1200;
 function sharing(view, more) {
   const { link, t } = view;
   const address = location.origin + link({});
-  return dialog("share", html`
+  return dialog(
+    "share",
+    html`
     <div class="sharing">
       <section><h3>${t("share.link")}</h3>${copied(address, t("share.link"), t)}</section>
       <section class="code">${address.length > LONGEST ? html`<p>${t("share.code-too-long")}</p>` : code(address, t)}</section>
       ${more}
-    </div>`, view);
+    </div>`,
+    view,
+  );
 }
 
 /** A proof has an address, a frame and a handout. @param {Shared} view @param {string} proof */
@@ -37,24 +41,35 @@ export function shareProof(view, proof) {
   const { lang, theme } = state.place;
   const query = writePlace({ ...HOME, lang, theme });
   const frame = snippet(proofFrameAddress(location.origin, state.place), "derivation", t("place.proof"));
-  return sharing(view, html`
+  return sharing(
+    view,
+    html`
       ${framing(copied(frame, t("share.frame"), t), t)}
       <section><h3>${t("share.files")}</h3>
-        <ul class="files"><li>${handoutLink(`/handout${query}${query ? "&" : "?"}proof=${proof}`, t)}</li></ul></section>`);
+        <ul class="files"><li>${handoutLink(`/handout${query}${query ? "&" : "?"}proof=${proof}`, t)}</li></ul></section>`,
+  );
 }
 
 /** Lines of HTML for other pages. @param {unknown} lines @param {View["t"]} t */
-const framing = (lines, t) => html`<section><h3>${t("share.frame")}</h3><p>${t("share.frame-help")}</p>${lines}</section>`;
+const framing = (lines, t) =>
+  html`<section><h3>${t("share.frame")}</h3><p>${t("share.frame-help")}</p>${lines}</section>`;
 
 /** @param {View} view @param {Take} take */
 export function share(view, take) {
   const { state, t } = view;
   const title = inLanguage(state.scene?.title, state.place.lang);
-  const line = (/** @type {typeof SHOWN[number]} */ shown) => snippet(frameAddress(location.origin, state.place, shown, fragment(state)), shown, title);
+  const line = (/** @type {typeof SHOWN[number]} */ shown) =>
+    snippet(frameAddress(location.origin, state.place, shown, fragment(state)), shown, title);
   const named = (/** @type {typeof SHOWN[number]} */ shown) => t(`share.show-${shown || "both"}`);
-  return sharing(view, html`
-      ${framing(SHOWN.map((shown) => html`<p class="kind">${named(shown)}</p>${copied(line(shown), named(shown), t)}`), t)}
-      <section><h3>${t("share.files")}</h3>${files(view, take)}</section>`);
+  return sharing(
+    view,
+    html`
+      ${framing(
+        SHOWN.map((shown) => html`<p class="kind">${named(shown)}</p>${copied(line(shown), named(shown), t)}`),
+        t,
+      )}
+      <section><h3>${t("share.files")}</h3>${files(view, take)}</section>`,
+  );
 }
 
 /** @param {View["state"]} state */
@@ -67,7 +82,9 @@ function copied(text, label, t) {
     const done = await toClipboard(text);
     const field = /** @type {HTMLInputElement} */ (button.previousElementSibling);
     if (!done) field.select();
-    /** @type {HTMLElement} */ (button.nextElementSibling).textContent = t(done ? "share.copied" : "share.copy-by-hand");
+    /** @type {HTMLElement} */ (button.nextElementSibling).textContent = t(
+      done ? "share.copied" : "share.copy-by-hand",
+    );
   };
   return html`<p class="copied"><input readonly .value=${text} aria-label=${label} @focus=${(/** @type {Event} */ { target }) => /** @type {HTMLInputElement} */ (target).select()}>
     <button class="quiet" @click=${copy}>${t("share.copy")}</button><span role="status"></span></p>`;

@@ -25,12 +25,17 @@ function comesIntoView(event) {
 /** @param {View} view */
 export function steps(view) {
   const { state, t } = view;
-  if (!state.derivation) return html`<div class="steps waiting" role="status">${skeleton()}<span class="unseen">${t("derivation.loading")}</span></div>`;
+  if (!state.derivation)
+    return html`<div class="steps waiting" role="status">${skeleton()}<span class="unseen">${t("derivation.loading")}</span></div>`;
   if (!state.lines.length) return html`<p class="notice">${t("empty.steps")}</p>`;
   const current = indexOf(state.lines, state.place.step);
   const shown = state.lines.slice(0, current + 1);
   return html`<ol class="steps">
-    ${repeat(shown, (line) => line.step.id, (line) => step(line, line.index === current, view, line.index < current - NEAR))}
+    ${repeat(
+      shown,
+      (line) => line.step.id,
+      (line) => step(line, line.index === current, view, line.index < current - NEAR),
+    )}
   </ol>`;
 }
 
@@ -77,12 +82,14 @@ function substeps(content, view) {
     <details class="substeps" @toggle=${comesIntoView}>
       <summary>${icon("chevron")}${count === 1 ? view.t("step.substeps-one") : view.t("step.substeps", { count })}</summary>
       <ol>
-        ${content.substeps.map((part) => html`
+        ${content.substeps.map(
+          (part) => html`
           <li>
             <p class="prose">${part.title ? html`<b>${prose(part.title, true)}</b>` : nothing} ${prose(part.text, true)}</p>
             ${formulaOf(part, view, true)}
             ${part.substeps?.length ? substeps(part, view) : nothing}
-          </li>`)}
+          </li>`,
+        )}
       </ol>
     </details>
   `;
@@ -98,12 +105,16 @@ export function chapters(view) {
   return html`
     <nav class="chapters" aria-label=${t("chapters")} @focusin=${seen}>
       <ol>
-        ${(state.derivation?.chapters ?? []).filter((chapter) => chapter.steps.length).map((chapter) => html`
+        ${(state.derivation?.chapters ?? [])
+          .filter((chapter) => chapter.steps.length)
+          .map(
+            (chapter) => html`
           <li>
             <a href=${view.link({ step: chapter.steps[0].id })} aria-current=${chapter === current?.chapter ? "true" : nothing}
               @click=${(/** @type {Event} */ event) => view.follow(event, () => view.session.goTo(chapter.steps[0].id))}>
               <span class="ordinal">${(state.derivation?.chapters ?? []).indexOf(chapter) + 1}</span>${chapter.title}</a>
-          </li>`)}
+          </li>`,
+          )}
       </ol>
     </nav>
   `;

@@ -10,11 +10,15 @@ import { coordinateAt, endOf } from "../model/trajectory.js";
  */
 export function summary(scene, trajectory, t, lang) {
   const number = (/** @type {number} */ value) => fixed(value, 2, lang);
-  const told = scene.coordinates.filter(({ name }) => trajectory.coordinates[name]).map(({ name, unit }) => {
-    const course = courseOf(trajectory.t, (t) => coordinateAt(trajectory, name, t));
-    const numbers = Object.entries(course).filter(([key]) => key !== "kind").map(([key, value]) => [key, number(Number(value))]);
-    return t(`motion.${course.kind}`, { name, unit: unitText(unit), ...Object.fromEntries(numbers) });
-  });
+  const told = scene.coordinates
+    .filter(({ name }) => trajectory.coordinates[name])
+    .map(({ name, unit }) => {
+      const course = courseOf(trajectory.t, (t) => coordinateAt(trajectory, name, t));
+      const numbers = Object.entries(course)
+        .filter(([key]) => key !== "kind")
+        .map(([key, value]) => [key, number(Number(value))]);
+      return t(`motion.${course.kind}`, { name, unit: unitText(unit), ...Object.fromEntries(numbers) });
+    });
   const kept = keepsEnergy(trajectory);
   const energy = kept === null ? [] : [t(kept ? "motion.energy-kept" : "motion.energy-changes")];
   return t("motion", { time: number(endOf(trajectory)), told: [...told, ...energy].join("; ") });

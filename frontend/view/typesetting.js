@@ -14,7 +14,13 @@ const onlyClasses = (context) => context.command === "\\htmlClass" && areOfFormu
 export function typeset(element, latex, display, output = "htmlAndMathml") {
   try {
     globalThis.katex.render(latex, element, {
-      displayMode: display, output, trust: onlyClasses, strict: "ignore", throwOnError: true, maxExpand: 1000, maxSize: 10,
+      displayMode: display,
+      output,
+      trust: onlyClasses,
+      strict: "ignore",
+      throwOnError: true,
+      maxExpand: 1000,
+      maxSize: 10,
     });
   } catch {
     element.textContent = latex;

@@ -16,7 +16,8 @@ export function values(view) {
   if (!view.state.scene) return html`<section class="values" aria-label=${t("values")}></section>`;
   const { family } = state.scenes.find(({ id }) => id === state.place.scene) ?? {};
   const sliders = slidersOf(view.state.scene, state.changes);
-  const group = (/** @type {string} */ name) => sliders.filter((slider) => slider.group === name).map((slider) => row(slider, view));
+  const group = (/** @type {string} */ name) =>
+    sliders.filter((slider) => slider.group === name).map((slider) => row(slider, view));
   return html`
     <section class="values" aria-label=${t("values")}>
       ${family ? size({ ...family, value: state.place.n || family.value }, view) : nothing}
@@ -31,7 +32,8 @@ export function values(view) {
 
 /** How many members a chain has: another number is another scene. @param {import("../model/types.js").Family} family @param {View} view */
 function size({ parameter, min, max, value }, { state, session, t }) {
-  const chosen = (/** @type {Event} */ e) => void session.choose(state.place.scene, "", Number(/** @type {HTMLInputElement} */ (e.target).value));
+  const chosen = (/** @type {Event} */ e) =>
+    void session.choose(state.place.scene, "", Number(/** @type {HTMLInputElement} */ (e.target).value));
   return html`
     <div class="row" data-slider="size">
       <span class="symbol">${inline(parameter)}</span>
@@ -45,11 +47,13 @@ function size({ parameter, min, max, value }, { state, session, t }) {
 
 /** @param {Slider} slider @param {View} view */
 function row(slider, { state, session, t }) {
-  const kind = slider.group === "parameter" ? "values.parameter" : slider.field === "rate" ? "values.rate" : "values.value";
+  const kind =
+    slider.group === "parameter" ? "values.parameter" : slider.field === "rate" ? "values.rate" : "values.value";
   const label = t(kind, { name: slider.name });
   const filled = Math.max(0, Math.min(1, (slider.value - slider.min) / (slider.max - slider.min || 1)));
   const bound = (/** @type {number} */ number) => (Number.isFinite(number) ? number : nothing);
-  const moved = (/** @type {Event} */ e) => session.slide(slider, Number(/** @type {HTMLInputElement} */ (e.target).value));
+  const moved = (/** @type {Event} */ e) =>
+    session.slide(slider, Number(/** @type {HTMLInputElement} */ (e.target).value));
   const typed = (/** @type {Event} */ e) => {
     const field = /** @type {HTMLInputElement} */ (e.target);
     const asked = field.valueAsNumber;
@@ -76,6 +80,7 @@ const textOf = ({ decimals }, value) => String(Number(value.toFixed(Math.max(dec
 /** A number beyond what the scene allows: typed, it is held; given by a link, it is taken as it is. Either is told. @param {Slider} slider @param {View["state"]} state @param {View["t"]} t */
 function hintOf(slider, { held, place: { lang } }, t) {
   const range = rangeText(slider, lang);
-  if (held?.key === slider.key) return t("values.held", { asked: held.asked.toLocaleString(lang, { maximumSignificantDigits: 6 }), range });
+  if (held?.key === slider.key)
+    return t("values.held", { asked: held.asked.toLocaleString(lang, { maximumSignificantDigits: 6 }), range });
   return heldAt(slider, slider.value) === slider.value ? "" : t("values.outside", { range });
 }

@@ -3,7 +3,8 @@
 import { whenIdle } from "./frames.js";
 
 /** Milliseconds for which work goes on in one go, and after which what nobody sees has waited long enough. */
-const SLICE = 8, IMPATIENCE = 300;
+const SLICE = 8,
+  IMPATIENCE = 300;
 
 /**
  * Does the first of some things, if there is one, and more as long as there is time; takes away and returns what was done.

@@ -20,8 +20,8 @@ for (const file of files("view")) {
 
 const DRIVERS = readdirSync(FRONTEND).filter((file) => file.endsWith(".js"));
 
-test("no file is longer than 200 lines", () => {
-  const long = [...DRIVERS, ...files("model"), ...files("view")].filter((file) => source(file).split("\n").length > 201);
+test("no file is longer than 300 lines", () => {
+  const long = [...DRIVERS, ...files("model"), ...files("view")].filter((file) => source(file).split("\n").length > 301);
   assert.deepEqual(long, []);
 });
 

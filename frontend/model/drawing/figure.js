@@ -13,7 +13,26 @@ import { azimuth, polar } from "./space.js";
 
 /** Kinds of elements, undermost first. */
 export const KINDS = {
-  ground, wall, trail, dimension, angle, polar, azimuth, guide, damper, spring, hoop, rod, cart, block: cart, disc, moment, weight, force, pivot, bob,
+  ground,
+  wall,
+  trail,
+  dimension,
+  angle,
+  polar,
+  azimuth,
+  guide,
+  damper,
+  spring,
+  hoop,
+  rod,
+  cart,
+  block: cart,
+  disc,
+  moment,
+  weight,
+  force,
+  pivot,
+  bob,
 };
 const ORDER = Object.keys(KINDS);
 
@@ -22,7 +41,9 @@ const ORDER = Object.keys(KINDS);
  * @returns {Figure}
  */
 export function figureOf(stage, now) {
-  const figures = stage.once("elements", () => inOrder(stage)).map(({ draw, element, key }) => draw(element, stage, now, key));
+  const figures = stage
+    .once("elements", () => inOrder(stage))
+    .map(({ draw, element, key }) => draw(element, stage, now, key));
   return { shapes: [...ending(stage), ...figures.flatMap((f) => f.shapes)], labels: figures.flatMap((f) => f.labels) };
 }
 
@@ -36,7 +57,11 @@ function ending({ scene, trajectory, project, unit }) {
 /** @param {Stage} stage */
 function inOrder({ scene }) {
   return (scene.drawing?.elements ?? [])
-    .map((element, index) => ({ element, key: `${element.kind}${index}`, draw: KINDS[/** @type {keyof typeof KINDS} */ (element.kind)] }))
+    .map((element, index) => ({
+      element,
+      key: `${element.kind}${index}`,
+      draw: KINDS[/** @type {keyof typeof KINDS} */ (element.kind)],
+    }))
     .filter(({ draw }) => draw)
     .sort((a, b) => ORDER.indexOf(a.element.kind) - ORDER.indexOf(b.element.kind));
 }
@@ -48,5 +73,8 @@ function inOrder({ scene }) {
  */
 export function withDrawing(scene, trajectory) {
   if (scene.drawing?.elements?.length) return scene;
-  return { ...scene, drawing: { ...scene.drawing, vertical: verticalOf(scene), elements: sketchOf(scene, trajectory) } };
+  return {
+    ...scene,
+    drawing: { ...scene.drawing, vertical: verticalOf(scene), elements: sketchOf(scene, trajectory) },
+  };
 }

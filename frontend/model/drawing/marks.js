@@ -1,6 +1,19 @@
 /** What is written into a drawing: forces, weights, angles, dimensions. */
 
-import { add, arrowHead, at as pixel, fromDown, lengthOf, line, normal, scaled, sliverFromDown, subtract, unit, wrapped } from "./geometry.js";
+import {
+  add,
+  arrowHead,
+  at as pixel,
+  fromDown,
+  lengthOf,
+  line,
+  normal,
+  scaled,
+  sliverFromDown,
+  subtract,
+  unit,
+  wrapped,
+} from "./geometry.js";
 import { pullOf, verticalOf } from "./sketch.js";
 import { coordinateClass, latexOf, placeOf } from "./stage.js";
 
@@ -51,7 +64,9 @@ export function force(element, stage, now, key) {
   const samples = stage.trajectory.loads?.[element.load ?? ""];
   const value = now.loads[element.load ?? ""];
   if (!load || !samples || !value) return { shapes: [], labels: [] };
-  const largest = stage.once(`largest ${key}`, () => Math.max(...samples.map((sample) => lengthOf(stage.direct(sample))), 1e-12));
+  const largest = stage.once(`largest ${key}`, () =>
+    Math.max(...samples.map((sample) => lengthOf(stage.direct(sample))), 1e-12),
+  );
   const vector = scaled(stage.direct(value), (LONGEST * stage.unit) / largest);
   if (!(lengthOf(vector) > SHORTEST * stage.unit)) return { shapes: [], labels: [] };
   const from = placeOf(stage, now, load.at ?? "");
@@ -64,7 +79,9 @@ export function force(element, stage, now, key) {
 
 /** Gravity acts on every body. @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
 function weights(stage, now, key) {
-  const figures = stage.scene.bodies.map((body) => weight({ kind: "weight", at: body.name }, stage, now, `${key}-${body.name}`));
+  const figures = stage.scene.bodies.map((body) =>
+    weight({ kind: "weight", at: body.name }, stage, now, `${key}-${body.name}`),
+  );
   return { shapes: figures.flatMap((f) => f.shapes), labels: figures.flatMap((f) => f.labels) };
 }
 
@@ -77,7 +94,8 @@ function beyond(from, vector, gap) {
 export function forceLatex(load) {
   if (load.latex) return load.latex;
   const letter = /^([A-Za-z])_?(\w*)$/.exec(load.name);
-  if (letter && letter[2].length < 3) return letter[2] ? `\\mathbf{${letter[1]}}_{${letter[2]}}` : `\\mathbf{${letter[1]}}`;
+  if (letter && letter[2].length < 3)
+    return letter[2] ? `\\mathbf{${letter[1]}}_{${letter[2]}}` : `\\mathbf{${letter[1]}}`;
   return "\\mathbf{F}";
 }
 
@@ -100,8 +118,12 @@ const falls = (scene) => pullOf(scene) !== (verticalOf(scene) === "down" ? -1 : 
 /** m g where mass and acceleration are plain names, else G. @param {Element} element @param {Stage} stage @param {Load | undefined} load */
 function weightLatex(element, stage, load) {
   const body = stage.scene.bodies.find((candidate) => candidate.name === element.at);
-  const acceleration = (load?.acceleration ?? []).map((part) => part.replace(/[-\s]/g, "")).find((part) => part !== "0");
-  const names = [body?.mass, acceleration].map((name) => stage.scene.parameters.find((p) => p.name === name)?.latex || name);
+  const acceleration = (load?.acceleration ?? [])
+    .map((part) => part.replace(/[-\s]/g, ""))
+    .find((part) => part !== "0");
+  const names = [body?.mass, acceleration].map(
+    (name) => stage.scene.parameters.find((p) => p.name === name)?.latex || name,
+  );
   const plain = names.every((name) => name && /^[A-Za-z]\w*$|^\\?\w+(_\{?\w+\}?)?$/.test(name));
   return plain ? names.join("\\,") : "\\mathbf{G}";
 }
@@ -127,7 +149,11 @@ export function moment(element, stage, now, key) {
   return {
     shapes: [
       { key: `${key}-arc`, d: arc, className: `arrow ${className}` },
-      { key: `${key}-head`, d: arrowHead(at(to), scaled(normal(fromDown(to - 0.12)), -1), stage.unit), className: `head ${className}` },
+      {
+        key: `${key}-head`,
+        d: arrowHead(at(to), scaled(normal(fromDown(to - 0.12)), -1), stage.unit),
+        className: `head ${className}`,
+      },
     ],
     labels: [{ key, latex: symbol, at: add(centre, scaled(fromDown(from + 0.5), radius + stage.unit)), className }],
   };
@@ -152,7 +178,11 @@ export function angle(element, stage, now, key) {
   return {
     shapes: [
       reference,
-      { key: `${key}-arc`, d: sliverFromDown(centre, radius, short) + arrowHead(end, along, LINED * size), className: `pointed mark ${className}` },
+      {
+        key: `${key}-arc`,
+        d: sliverFromDown(centre, radius, short) + arrowHead(end, along, LINED * size),
+        className: `pointed mark ${className}`,
+      },
     ],
     labels: [
       {
@@ -177,7 +207,10 @@ export function dimension(element, stage, now, key) {
   const horizontal = Math.abs(to[0] - from[0]) > 3 * Math.abs(to[1] - from[1]);
   const aloof = (/** @type {number} */ usual) => -(Number(element.offset ?? 0) * stage.scale || usual * stage.unit);
   const offset = /** @type {Pixel} */ (horizontal ? [0, aloof(3.2)] : [aloof(4.2), 0]);
-  const [a, b] = [add(from, offset), add(/** @type {Pixel} */ (horizontal ? [to[0], from[1]] : [from[0], to[1]]), offset)];
+  const [a, b] = [
+    add(from, offset),
+    add(/** @type {Pixel} */ (horizontal ? [to[0], from[1]] : [from[0], to[1]]), offset),
+  ];
   const span = subtract(b, a);
   const className = coordinateClass(stage.scene, element.coordinate);
   const past = scaled(unit(offset), stage.unit * 0.5);
@@ -187,8 +220,14 @@ export function dimension(element, stage, now, key) {
     shapes: [
       { key: `${key}-from`, d: line(from, add(a, past)), className: "reference" },
       { key: `${key}-to`, d: line(to, add(b, past)), className: "extension" },
-      { key: `${key}-line`, d: line(a, add(b, scaled(unit(span), -size * 0.7))) + (size > 1 ? arrowHead(b, unit(span), LINED * size) : ""), className: `pointed mark ${className}` },
+      {
+        key: `${key}-line`,
+        d: line(a, add(b, scaled(unit(span), -size * 0.7))) + (size > 1 ? arrowHead(b, unit(span), LINED * size) : ""),
+        className: `pointed mark ${className}`,
+      },
     ],
-    labels: [{ key, latex: latexOf(stage.scene, element.coordinate), at: add(scaled(add(a, b), 0.5), aside), className }],
+    labels: [
+      { key, latex: latexOf(stage.scene, element.coordinate), at: add(scaled(add(a, b), 0.5), aside), className },
+    ],
   };
 }

@@ -48,7 +48,9 @@ function beside({ from = "", to = "", offset = 0 }, stage, now) {
  */
 export function damper(element, stage, now, key) {
   const [from, to] = beside(element, stage, now);
-  const first = ["from", "to"].map((end) => stage.project(stage.trajectory.positions[element[/** @type {"from" | "to"} */ (end)] ?? ""]?.[0] ?? [0, 0]));
+  const first = ["from", "to"].map((end) =>
+    stage.project(stage.trajectory.positions[element[/** @type {"from" | "to"} */ (end)] ?? ""]?.[0] ?? [0, 0]),
+  );
   const depth = lengthOf(subtract(first[1], first[0])) * 0.34;
   const along = unit(subtract(to, from));
   const wide = scaled(normal(along), stage.unit * 0.7);
@@ -58,8 +60,18 @@ export function damper(element, stage, now, key) {
   const className = `ink ${element.load ? `load-${element.load}` : ""}`;
   return {
     shapes: [
-      { key: `${key}-cup`, d: line(from, bottom) + polyline([add(rim, wide), add(bottom, wide), subtract(bottom, wide), subtract(rim, wide)]), className },
-      { key, d: line(to, piston) + line(add(piston, narrow), subtract(piston, narrow)), className: `${className} thick` },
+      {
+        key: `${key}-cup`,
+        d:
+          line(from, bottom) +
+          polyline([add(rim, wide), add(bottom, wide), subtract(bottom, wide), subtract(rim, wide)]),
+        className,
+      },
+      {
+        key,
+        d: line(to, piston) + line(add(piston, narrow), subtract(piston, narrow)),
+        className: `${className} thick`,
+      },
     ],
     labels: [],
   };
@@ -99,7 +111,10 @@ export function hoop(element, stage, now, key) {
   const turn = now.coordinates[element.coordinate ?? ""] ?? 0;
   const centre = now.positions[element.at ?? ""] ?? [0, 0, 0].slice(0, stage.scene.dimension);
   const ring = Array.from({ length: SIDES + 1 }, (_, i) => {
-    const [across, along] = [radius * Math.sin((i * 2 * Math.PI) / SIDES), radius * Math.cos((i * 2 * Math.PI) / SIDES)];
+    const [across, along] = [
+      radius * Math.sin((i * 2 * Math.PI) / SIDES),
+      radius * Math.cos((i * 2 * Math.PI) / SIDES),
+    ];
     const offset = centre.length < 3 ? [across, along] : [across * Math.cos(turn), across * Math.sin(turn), along];
     return stage.project(centre.map((x, c) => x + offset[c]));
   });
@@ -128,7 +143,17 @@ export function cart(element, stage, now, key) {
       className: "ink paper",
       at: place,
     })),
-    { key, d: polygon([[-w, -h], [w, -h], [w, h], [-w, h]]), className: `ink steel body-${element.at}`, at: place },
+    {
+      key,
+      d: polygon([
+        [-w, -h],
+        [w, -h],
+        [w, h],
+        [-w, h],
+      ]),
+      className: `ink steel body-${element.at}`,
+      at: place,
+    },
   ];
   return { shapes, labels: [] };
 }
@@ -155,13 +180,21 @@ export function trailOf({ trajectory, project, once }, place, from, to) {
  */
 export function trail(element, stage, now, key) {
   const newest = Math.floor(now.t / PIECE);
-  const path = (/** @type {number} */ n, /** @type {number} */ end) => (n < 0 ? "" : trailOf(stage, element.at ?? "", n * PIECE, end));
+  const path = (/** @type {number} */ n, /** @type {number} */ end) =>
+    n < 0 ? "" : trailOf(stage, element.at ?? "", n * PIECE, end);
   const shapes = Array.from({ length: PIECES }, (_, i) => {
-    const n = newest - ((newest - i) % PIECES + PIECES) % PIECES;
+    const n = newest - ((((newest - i) % PIECES) + PIECES) % PIECES);
     const fresh = Math.max(0, 1 - (now.t - n * PIECE) / (PIECES * PIECE));
     const shade = Math.round((fresh ** 1.6 * STRONGEST) / SHADE);
-    const piece = (/** @type {number} */ end) => ({ key: `${key}-${i}`, d: path(n, end), className: "trail", opacity: shade * SHADE });
-    return n === newest ? piece(now.t) : unlessMoved(stage, `${key}-${i}`, `${n} ${shade}`, () => piece((n + 1) * PIECE));
+    const piece = (/** @type {number} */ end) => ({
+      key: `${key}-${i}`,
+      d: path(n, end),
+      className: "trail",
+      opacity: shade * SHADE,
+    });
+    return n === newest
+      ? piece(now.t)
+      : unlessMoved(stage, `${key}-${i}`, `${n} ${shade}`, () => piece((n + 1) * PIECE));
   });
   return { shapes, labels: [] };
 }

@@ -18,8 +18,12 @@ export function sketchOf(scene, trajectory) {
   const paths = pathsOf(trajectory);
   const size = sizeOf(paths);
   const rods = rodsOf(scene, paths, size * EQUAL);
-  const coils = scene.loads.filter(joins).map((load) => ({ kind: load.kind, from: load.from, to: load.to, load: load.name }));
-  const held = [...new Set([...rods, ...coils].flatMap(({ from, to }) => [from ?? "", to ?? ""]))].filter((place) => isPoint(scene, place));
+  const coils = scene.loads
+    .filter(joins)
+    .map((load) => ({ kind: load.kind, from: load.from, to: load.to, load: load.name }));
+  const held = [...new Set([...rods, ...coils].flatMap(({ from, to }) => [from ?? "", to ?? ""]))].filter((place) =>
+    isPoint(scene, place),
+  );
   return [
     ...held.flatMap((place) => support(place, paths[place] ?? [], size * EQUAL)),
     ...scene.bodies.filter(hasPlace).map((body) => ({ kind: "trail", at: body.name })),
@@ -27,7 +31,9 @@ export function sketchOf(scene, trajectory) {
     ...rods.map((rod) => ({ kind: "rod", ...rod })),
     ...rods.filter(({ from }) => isPoint(scene, from)).map(({ from }) => ({ kind: "pivot", at: from })),
     ...(scene.dimension === 2 ? rods.flatMap((rod) => angles(scene, trajectory, paths, rod)) : []),
-    ...scene.loads.filter(({ kind }) => kind === "force" || kind === "gravity").map((load) => ({ kind: "force", load: load.name })),
+    ...scene.loads
+      .filter(({ kind }) => kind === "force" || kind === "gravity")
+      .map((load) => ({ kind: "force", load: load.name })),
     ...scene.bodies.filter(hasPlace).map((body) => ({ kind: "bob", at: body.name })),
   ];
 }
@@ -42,7 +48,9 @@ const joins = (load) => (load.kind === "spring" || load.kind === "damper") && Bo
 /** A few moments of the motion. @param {Trajectory} trajectory @returns {Record<string, number[][]>} */
 function pathsOf({ positions, t }) {
   const looks = Array.from({ length: LOOKS }, (_, i) => Math.round((i * (t.length - 1)) / (LOOKS - 1)));
-  return Object.fromEntries(Object.entries(positions).map(([name, path]) => [name, looks.map((i) => path[i] ?? path[0])]));
+  return Object.fromEntries(
+    Object.entries(positions).map(([name, path]) => [name, looks.map((i) => path[i] ?? path[0])]),
+  );
 }
 
 /** @param {number[]} a @param {number[]} b */
@@ -66,10 +74,14 @@ function rodsOf(scene, paths, equal) {
   return bodies.flatMap(({ name: to }, index) => {
     const path = paths[to];
     if (!path) return [];
-    const before = [...bodies.slice(0, index), ...scene.points].map(({ name }) => name).filter((name) => name !== to && paths[name]);
+    const before = [...bodies.slice(0, index), ...scene.points]
+      .map(({ name }) => name)
+      .filter((name) => name !== to && paths[name]);
     const from = before.find((name) => {
       const lengths = path.map((place, i) => distance(place, paths[name][i]));
-      const turns = path.some((place, i) => place.some((x, c) => Math.abs(x - paths[name][i][c] - (path[0][c] - paths[name][0][c])) > equal));
+      const turns = path.some((place, i) =>
+        place.some((x, c) => Math.abs(x - paths[name][i][c] - (path[0][c] - paths[name][0][c])) > equal),
+      );
       return turns && spread(lengths) < equal && lengths[0] > equal;
     });
     return from ? [{ from, to }] : [];
@@ -92,10 +104,14 @@ function support(at, path, equal) {
 function angles(scene, { coordinates, t }, paths, { from, to }) {
   if (verticalOf(scene) !== "down") return [];
   const turned = paths[to].map(([x, y], i) => Math.atan2(x - paths[from][i][0], y - paths[from][i][1]));
-  const found = scene.coordinates.find(({ name, unit }) => unit === "rad" && turned.every((angle, i) => {
-    const value = coordinates[name]?.[Math.round((i * (t.length - 1)) / (LOOKS - 1))];
-    return value !== undefined && Math.abs(Math.sin((value - angle) / 2)) < 1e-3;
-  }));
+  const found = scene.coordinates.find(
+    ({ name, unit }) =>
+      unit === "rad" &&
+      turned.every((angle, i) => {
+        const value = coordinates[name]?.[Math.round((i * (t.length - 1)) / (LOOKS - 1))];
+        return value !== undefined && Math.abs(Math.sin((value - angle) / 2)) < 1e-3;
+      }),
+  );
   return found ? [{ kind: "angle", at: from, coordinate: found.name }] : [];
 }
 

@@ -38,9 +38,13 @@ export function polar(element, stage, now, key) {
   const [x, y, z] = end.map((value, i) => value - centre[i]);
   const across = Math.hypot(x, y);
   const radius = Math.min((POLAR * stage.unit) / stage.scale, 0.75 * Math.hypot(across, z));
-  const on = /** @type {Circle} */ ((turn) => [
-    centre[0] + (across ? x / across : 1) * radius * Math.sin(turn), centre[1] + (across ? y / across : 0) * radius * Math.sin(turn), centre[2] + radius * Math.cos(turn),
-  ]);
+  const on = /** @type {Circle} */ (
+    (turn) => [
+      centre[0] + (across ? x / across : 1) * radius * Math.sin(turn),
+      centre[1] + (across ? y / across : 0) * radius * Math.sin(turn),
+      centre[2] + radius * Math.cos(turn),
+    ]
+  );
   const level = (/** @type {number} */ height) => stage.project([centre[0], centre[1], height]);
   const d = line(level(Math.min(centre[2], end[2])), level(Math.max(end[2], centre[2] + 1.15 * radius)));
   const axis = { key: `${key}-axis`, d, className: "reference" };
@@ -58,7 +62,9 @@ export function azimuth(element, stage, now, key) {
   const [foot, end] = [placeIn(now, element.at), placeIn(now, element.to)];
   const centre = /** @type {Place} */ ([foot[0], foot[1], end[2]]);
   const radius = (ROUND * stage.unit) / stage.scale;
-  const on = /** @type {Circle} */ ((turn) => [centre[0] + radius * Math.cos(turn), centre[1] + radius * Math.sin(turn), centre[2]]);
+  const on = /** @type {Circle} */ (
+    (turn) => [centre[0] + radius * Math.cos(turn), centre[1] + radius * Math.sin(turn), centre[2]]
+  );
   const middle = stage.project(centre);
   const past = (/** @type {Pixel} */ tip) => add(middle, scaled(subtract(tip, middle), 1.15));
   const below = [
@@ -84,14 +90,23 @@ function arc(element, stage, { key, centre, on, turn, below }) {
   const head = arrowHead(tip, unit(subtract(tip, points[count - 1])), LINED * size);
   // There and back: a path that is filled shows no more of the arc than its line.
   const there = polyline(points.slice(0, -1));
-  const back = points.slice(0, -2).reverse().map((point) => `L${pixel(point)}`).join("");
+  const back = points
+    .slice(0, -2)
+    .reverse()
+    .map((point) => `L${pixel(point)}`)
+    .join("");
   const middle = stage.project(on(turn / 2));
   const outwards = unit(subtract(middle, stage.project(centre)));
   return {
     shapes: [...below, { key: `${key}-arc`, d: there + back + head, className: `pointed mark ${className}` }],
-    labels: [{
-      key, latex: latexOf(stage.scene, element.coordinate), at: add(middle, scaled(outwards, stage.unit * 1.15)), className,
-      opacity: Math.min(1, Math.max(0, (Math.abs(turn) - 0.15) / 0.15)),
-    }],
+    labels: [
+      {
+        key,
+        latex: latexOf(stage.scene, element.coordinate),
+        at: add(middle, scaled(outwards, stage.unit * 1.15)),
+        className,
+        opacity: Math.min(1, Math.max(0, (Math.abs(turn) - 0.15) / 0.15)),
+      },
+    ],
   };
 }

@@ -72,8 +72,14 @@ const triangleHeight = (stage) => stage.unit * 1.9;
 export function pivot(element, stage, now, key) {
   const place = placeOf(stage, now, element.at ?? "");
   const height = triangleHeight(stage) * (place[1] > stage.size.height * 0.6 ? 1 : -1);
-  const fixed = (stage.scene.drawing?.elements ?? []).some((other) => other.kind === "ground" && other.at === element.at);
-  const triangle = polygon([[0, 0], [stage.unit * 1.15, height], [-stage.unit * 1.15, height]]);
+  const fixed = (stage.scene.drawing?.elements ?? []).some(
+    (other) => other.kind === "ground" && other.at === element.at,
+  );
+  const triangle = polygon([
+    [0, 0],
+    [stage.unit * 1.15, height],
+    [-stage.unit * 1.15, height],
+  ]);
   const hinge = { key: `${key}-hinge`, d: circle(stage.unit * 0.42), className: "ink paper hinge", at: place };
   const support = { key: `${key}-triangle`, d: triangle, className: "ink paper", at: place };
   return { shapes: fixed ? [support, hinge] : [hinge], labels: [] };
@@ -116,7 +122,10 @@ function railsAbout(middle, along, element, stage, key) {
  */
 function reachOf(stage, at, along) {
   const path = stage.trajectory.positions[at] ?? [[0, 0]];
-  const sorted = path.map((position) => dot(stage.project(position), along)).filter(Number.isFinite).sort((a, b) => a - b);
+  const sorted = path
+    .map((position) => dot(stage.project(position), along))
+    .filter(Number.isFinite)
+    .sort((a, b) => a - b);
   return [0.02, 0.98].map((part) => sorted[Math.round((sorted.length - 1) * part)] ?? 0);
 }
 

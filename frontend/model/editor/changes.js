@@ -56,17 +56,31 @@ export const inDimension = (document, dimension) => fitted({ ...document, dimens
 /** Without fields that belong to other kinds or another dimension: the form does not show them, so nobody could take them away. @param {SceneDocument} document */
 function fitted(document) {
   const sections = SECTIONS.filter(({ key, kinds }) => kinds && Array.isArray(document[key]));
-  return { ...document, ...Object.fromEntries(sections.map((section) => [section.key, rowsOf(document[section.key]).map((row) => fittedRow(section, row, dimensionOf(document)))])) };
+  return {
+    ...document,
+    ...Object.fromEntries(
+      sections.map((section) => [
+        section.key,
+        rowsOf(document[section.key]).map((row) => fittedRow(section, row, dimensionOf(document))),
+      ]),
+    ),
+  };
 }
 
 /** @param {import("./schema.js").Section} section @param {any} row @param {number} dimension */
 function fittedRow(section, row, dimension) {
   const shown = new Map(fieldsOf(section, row, dimension).map((field) => [field.key, field]));
-  const elsewhere = new Set([2, 3].flatMap((space) => Object.keys(section.kinds ?? {}).flatMap((kind) => fieldsOf(section, { kind }, space).map(({ key }) => key))));
-  return Object.fromEntries(Object.entries(row ?? {}).filter(([key, value]) => {
-    const field = shown.get(key);
-    return field ? isList(field) === Array.isArray(value) : !elsewhere.has(key);
-  }));
+  const elsewhere = new Set(
+    [2, 3].flatMap((space) =>
+      Object.keys(section.kinds ?? {}).flatMap((kind) => fieldsOf(section, { kind }, space).map(({ key }) => key)),
+    ),
+  );
+  return Object.fromEntries(
+    Object.entries(row ?? {}).filter(([key, value]) => {
+      const field = shown.get(key);
+      return field ? isList(field) === Array.isArray(value) : !elsewhere.has(key);
+    }),
+  );
 }
 
 /** @param {SceneDocument} document @param {string} key @param {number} index @param {number} by */
@@ -84,7 +98,9 @@ export function removed(document, key, index) {
   const next = { ...document, [key]: rowsOf(document[key]).filter((_, i) => i !== index) };
   if (!gone || UNREFERRED.includes(key)) return next;
   const keys = referring(key);
-  const kept = labelled(next, (labels) => Object.fromEntries(Object.entries(labels).filter(([name]) => key === "coordinates" || name !== gone)));
+  const kept = labelled(next, (labels) =>
+    Object.fromEntries(Object.entries(labels).filter(([name]) => key === "coordinates" || name !== gone)),
+  );
   return elements(kept, (all) => all.filter((element) => !keys.some((one) => element?.[one] === gone)));
 }
 
@@ -94,7 +110,9 @@ const referring = (section) => (section === "loads" ? ["load"] : section === "co
 /** @param {SceneDocument} given @param {(elements: any[]) => any[]} change */
 function elements(given, change) {
   const drawing = tableOf(given.drawing);
-  return drawing && Array.isArray(drawing.elements) ? { ...given, drawing: { ...drawing, elements: change(drawing.elements) } } : given;
+  return drawing && Array.isArray(drawing.elements)
+    ? { ...given, drawing: { ...drawing, elements: change(drawing.elements) } }
+    : given;
 }
 
 /** @param {SceneDocument} given @param {(labels: SceneDocument) => SceneDocument} change */
@@ -111,11 +129,22 @@ export function renamed(document, key, index, name) {
   const before = rowsOf(document[key])[index]?.name;
   const next = written(document, `/${key}/${index}/name`, name);
   const taken = SECTIONS.flatMap((section) => rowsOf(document[section.key]).map((row) => row?.name));
-  if (!before || !name || UNREFERRED.includes(key) || taken.includes(name) || taken.filter((one) => one === before).length > 1) return next;
+  if (
+    !before ||
+    !name ||
+    UNREFERRED.includes(key) ||
+    taken.includes(name) ||
+    taken.filter((one) => one === before).length > 1
+  )
+    return next;
   const keys = referring(key);
-  const follow = (/** @type {any} */ row) => Object.fromEntries(Object.entries(row ?? {}).map(([k, v]) => [k, keys.includes(k) && v === before ? name : v]));
+  const follow = (/** @type {any} */ row) =>
+    Object.fromEntries(Object.entries(row ?? {}).map(([k, v]) => [k, keys.includes(k) && v === before ? name : v]));
   const lists = key === "coordinates" ? ["guides"] : ["loads", "events"];
-  const moved = Object.fromEntries(lists.filter((list) => Array.isArray(next[list])).map((list) => [list, rowsOf(next[list]).map(follow)]));
-  const labels = (/** @type {SceneDocument} */ all) => Object.fromEntries(Object.entries(all).map(([k, v]) => [NAMED.includes(key) && k === before ? name : k, v]));
+  const moved = Object.fromEntries(
+    lists.filter((list) => Array.isArray(next[list])).map((list) => [list, rowsOf(next[list]).map(follow)]),
+  );
+  const labels = (/** @type {SceneDocument} */ all) =>
+    Object.fromEntries(Object.entries(all).map(([k, v]) => [NAMED.includes(key) && k === before ? name : k, v]));
   return elements(labelled({ ...next, ...moved }, labels), (all) => all.map(follow));
 }

@@ -28,7 +28,11 @@ export const formulaKey = (text, material) => `${material.join(" ")}|${text}`;
 /** @param {unknown} a @param {unknown} b */
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 /** @param {SceneDocument} document */
-export const jsonOf = (document) => JSON.stringify(document, null, 2).replace(/\[\s+((?:"[^"\n]*"|-?[\d.e+-]+)(?:,\s+(?:"[^"\n]*"|-?[\d.e+-]+))*)\s+\]/g, (_, inside) => `[${inside.replace(/,\s+/g, ", ")}]`);
+export const jsonOf = (document) =>
+  JSON.stringify(document, null, 2).replace(
+    /\[\s+((?:"[^"\n]*"|-?[\d.e+-]+)(?:,\s+(?:"[^"\n]*"|-?[\d.e+-]+))*)\s+\]/g,
+    (_, inside) => `[${inside.replace(/,\s+/g, ", ")}]`,
+  );
 
 /** JSON as typed, and the document in it; why it cannot be read, where it cannot. @param {string} text */
 function parsed(text) {
@@ -51,12 +55,20 @@ function createChecking({ get, set }, { api, lang, show }) {
 
   /** @param {SceneDocument} document @param {AbortSignal} signal */
   async function typesetAll(document, signal) {
-    const wanted = shownFields(document).filter(({ type, value }) => type === "expression" && typeof value === "string" && value.trim());
-    const texts = wanted.slice(0, 500).map(({ value, material }) => ({ expression: String(value).slice(0, 4000), material: material.filter(Boolean) }));
+    const wanted = shownFields(document).filter(
+      ({ type, value }) => type === "expression" && typeof value === "string" && value.trim(),
+    );
+    const texts = wanted
+      .slice(0, 500)
+      .map(({ value, material }) => ({ expression: String(value).slice(0, 4000), material: material.filter(Boolean) }));
     if (!texts.length) return;
     const answer = await api.typeset({ scene: document, expressions: texts, lang: lang() }, signal).catch(() => null);
     if (signal.aborted || !answer) return;
-    set({ formulas: new Map(answer.expressions.map(({ latex }, i) => [formulaKey(wanted[i].value, wanted[i].material), latex])) });
+    set({
+      formulas: new Map(
+        answer.expressions.map(({ latex }, i) => [formulaKey(wanted[i].value, wanted[i].material), latex]),
+      ),
+    });
   }
 
   /** @param {AbortSignal} signal */
@@ -82,7 +94,17 @@ function createChecking({ get, set }, { api, lang, show }) {
  * @param {import("../own.js").Draft} draft
  */
 export function createEditor({ address, keep, ...around }, draft) {
-  const store = createStore(/** @type {Writing} */ ({ ...draft, unread: "", verdict: "waiting", problems: [], formulas: new Map(), notice: "", kept: true }));
+  const store = createStore(
+    /** @type {Writing} */ ({
+      ...draft,
+      unread: "",
+      verdict: "waiting",
+      problems: [],
+      formulas: new Map(),
+      notice: "",
+      kept: true,
+    }),
+  );
   const { get, set } = store;
   const check = createChecking(store, around);
   let timer = /** @type {ReturnType<typeof setTimeout> | undefined} */ (undefined);
@@ -114,7 +136,10 @@ export function createEditor({ address, keep, ...around }, draft) {
     begin(document) {
       const before = get();
       if (same(before.document, document) && !before.unread) return;
-      const earlier = [before.document, ...before.earlier.filter((one) => !same(one, before.document))].slice(0, MOST_EARLIER);
+      const earlier = [before.document, ...before.earlier.filter((one) => !same(one, before.document))].slice(
+        0,
+        MOST_EARLIER,
+      );
       take({ document, text: null, unread: "", earlier, notice: "editor.set-aside" }, 0);
     },
     /** The scene that was set aside last. */

@@ -12,7 +12,10 @@ const HEAD = ["/id", "/title", "/summary", "/dimension", "/drawing"];
  * @returns {Map<string, Problem[]>}
  */
 export function placed(problems, document) {
-  const rows = SECTIONS.flatMap(({ key }) => [`/${key}`, ...(Array.isArray(document[key]) ? document[key].map((_, i) => `/${key}/${i}`) : [])]);
+  const rows = SECTIONS.flatMap(({ key }) => [
+    `/${key}`,
+    ...(Array.isArray(document[key]) ? document[key].map((_, i) => `/${key}/${i}`) : []),
+  ]);
   const known = new Set([...HEAD, ...rows, ...shownFields(document).map(({ pointer }) => pointer)]);
   /** @type {Map<string, Problem[]>} */
   const all = new Map();

@@ -50,7 +50,12 @@ export const SECTIONS = [
 ];
 
 /** In space a rigid body has three principal moments, and an angular velocity in place of an angle. */
-const RIGID_IN_SPACE = [field("mass", "expression"), POSITION, field("inertia", "vector"), field("angular_velocity", "vector")];
+const RIGID_IN_SPACE = [
+  field("mass", "expression"),
+  POSITION,
+  field("inertia", "vector"),
+  field("angular_velocity", "vector"),
+];
 
 /** The fields of a row. @param {Section} section @param {any} row @param {number} dimension @returns {Field[]} */
 export function fieldsOf(section, row, dimension) {
@@ -77,7 +82,8 @@ export const rowsOf = (value) => (Array.isArray(value) ? value : []);
 export const dimensionOf = (given) => (given.dimension === 3 ? 3 : 2);
 
 /** How many components a vector field shows: none that is there is hidden. @param {unknown} vector @param {number} dimension */
-export const componentsOf = (vector, dimension) => Array.from({ length: Math.max(dimension, rowsOf(vector).length) }, (_, i) => i);
+export const componentsOf = (vector, dimension) =>
+  Array.from({ length: Math.max(dimension, rowsOf(vector).length) }, (_, i) => i);
 
 /**
  * Every field the form shows, as a pointer, with what stands in it.
@@ -85,17 +91,33 @@ export const componentsOf = (vector, dimension) => Array.from({ length: Math.max
  * @returns {{pointer: string, value: unknown, type: FieldType, material: string[]}[]}
  */
 export function shownFields(document) {
-  return SECTIONS.flatMap((section) => rowsOf(document[section.key]).flatMap((row, i) =>
-    fieldsOf(section, row, dimensionOf(document)).flatMap((field) => parts(`/${section.key}/${i}/${field.key}`, field.type, row?.[field.key], row, dimensionOf(document)))));
+  return SECTIONS.flatMap((section) =>
+    rowsOf(document[section.key]).flatMap((row, i) =>
+      fieldsOf(section, row, dimensionOf(document)).flatMap((field) =>
+        parts(`/${section.key}/${i}/${field.key}`, field.type, row?.[field.key], row, dimensionOf(document)),
+      ),
+    ),
+  );
 }
 
 /** @param {string} pointer @param {FieldType} type @param {any} value @param {any} row @param {number} dimension */
 function parts(pointer, type, value, row, dimension) {
   const material = materialOf(row);
   if (type === "vector") {
-    return componentsOf(value, dimension).map((c) => ({ pointer: `${pointer}/${c}`, value: value?.[c], type: /** @type {FieldType} */ ("expression"), material }));
+    return componentsOf(value, dimension).map((c) => ({
+      pointer: `${pointer}/${c}`,
+      value: value?.[c],
+      type: /** @type {FieldType} */ ("expression"),
+      material,
+    }));
   }
   if (type !== "material") return [{ pointer, value, type, material }];
-  return rowsOf(value).flatMap((one, i) => ["name", "from", "to"].map((key) =>
-    ({ pointer: `${pointer}/${i}/${key}`, value: one?.[key], type: /** @type {FieldType} */ (key === "name" ? "text" : "expression"), material: [] })));
+  return rowsOf(value).flatMap((one, i) =>
+    ["name", "from", "to"].map((key) => ({
+      pointer: `${pointer}/${i}/${key}`,
+      value: one?.[key],
+      type: /** @type {FieldType} */ (key === "name" ? "text" : "expression"),
+      material: [],
+    })),
+  );
 }

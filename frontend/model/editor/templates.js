@@ -6,8 +6,18 @@ import { componentsOf, dimensionOf, rowsOf, SECTIONS } from "./schema.js";
 
 /** @type {SceneDocument} */
 export const EMPTY = {
-  format: 1, id: "my-scene", title: { de: "Meine Szene", en: "My scene" }, summary: { de: "", en: "" }, dimension: 2,
-  coordinates: [], parameters: [], points: [], bodies: [], loads: [], guides: [], events: [],
+  format: 1,
+  id: "my-scene",
+  title: { de: "Meine Szene", en: "My scene" },
+  summary: { de: "", en: "" },
+  dimension: 2,
+  coordinates: [],
+  parameters: [],
+  points: [],
+  bodies: [],
+  loads: [],
+  guides: [],
+  events: [],
 };
 
 /** @type {Record<string, object>} */

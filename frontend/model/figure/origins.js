@@ -31,10 +31,12 @@ export function originsOf(lines, index) {
   const learn = (/** @type {Step} */ from, /** @type {string} */ at) => {
     for (const side of sidesOf(textOf(from))) {
       // A whole side may come again as one term, as E does in L = E − V.
-      for (const { bare, sign } of [...side, { bare: joined(side), sign: 1 }]) if (!NAME.test(bare)) known.set(bare, { sign, number: at });
+      for (const { bare, sign } of [...side, { bare: joined(side), sign: 1 }])
+        if (!NAME.test(bare)) known.set(bare, { sign, number: at });
     }
   };
-  for (const line of lines.slice(Math.max(0, index - BACK), index)) [...within(line.step), line.step].forEach((part) => learn(part, line.number));
+  for (const line of lines.slice(Math.max(0, index - BACK), index))
+    [...within(line.step), line.step].forEach((part) => learn(part, line.number));
   const parts = within(step);
   parts.forEach((part) => learn(part, number));
 
@@ -44,20 +46,35 @@ export function originsOf(lines, index) {
     from[change].add(at);
     return `\\htmlClass{term-${change}}{${text}}`;
   };
-  const formulas = new Map([[step, withTerms(textOf(step), (side) => {
-    const found = side.map(({ bare }) => known.get(bare));
-    if (side.length < 2 || !found.some(Boolean)) return side.map(() => null);
-    return side.map(({ text, sign, bare }, i) => {
-      const origin = found[i];
-      if (!origin) return NAME.test(bare) || bare === "0" ? null : mark("new", text, number);
-      return mark(origin.sign === sign ? "kept" : "turned", text, origin.number);
-    });
-  })]]);
+  const formulas = new Map([
+    [
+      step,
+      withTerms(textOf(step), (side) => {
+        const found = side.map(({ bare }) => known.get(bare));
+        if (side.length < 2 || !found.some(Boolean)) return side.map(() => null);
+        return side.map(({ text, sign, bare }, i) => {
+          const origin = found[i];
+          if (!origin) return NAME.test(bare) || bare === "0" ? null : mark("new", text, number);
+          return mark(origin.sign === sign ? "kept" : "turned", text, origin.number);
+        });
+      }),
+    ],
+  ]);
   const lost = cancelled(step, parts);
   for (const part of lost.size ? parts : []) {
-    formulas.set(part, withTerms(textOf(part), (side) => side.map(({ text, bare }) => (lost.has(bare) ? mark("gone", text, number) : null))));
+    formulas.set(
+      part,
+      withTerms(textOf(part), (side) =>
+        side.map(({ text, bare }) => (lost.has(bare) ? mark("gone", text, number) : null)),
+      ),
+    );
   }
-  return { formulas, from: /** @type {Record<Change, string[]>} */ (Object.fromEntries(Object.entries(from).map(([change, numbers]) => [change, [...numbers]]))) };
+  return {
+    formulas,
+    from: /** @type {Record<Change, string[]>} */ (
+      Object.fromEntries(Object.entries(from).map(([change, numbers]) => [change, [...numbers]]))
+    ),
+  };
 }
 
 /** A sum as it stands within another. @param {import("./terms.js").Term[]} side */
@@ -65,11 +82,19 @@ const joined = (side) => side.map(({ bare, sign }, i) => (sign < 0 ? "-" : i ? "
 
 /** Terms that two of the intermediate steps have and the result has not: they cancel. @param {Step} step @param {readonly Step[]} parts */
 function cancelled(step, parts) {
-  const result = new Set(sidesOf(textOf(step)).flat().map(({ bare }) => bare));
+  const result = new Set(
+    sidesOf(textOf(step))
+      .flat()
+      .map(({ bare }) => bare),
+  );
   const counts = new Map();
   for (const part of parts) {
     const last = sidesOf(textOf(part)).at(-1) ?? [];
     for (const bare of new Set(last.map((term) => term.bare))) counts.set(bare, (counts.get(bare) ?? 0) + 1);
   }
-  return new Set([...counts].filter(([bare, count]) => count > 1 && !result.has(bare) && !NAME.test(bare) && bare !== "0").map(([bare]) => bare));
+  return new Set(
+    [...counts]
+      .filter(([bare, count]) => count > 1 && !result.has(bare) && !NAME.test(bare) && bare !== "0")
+      .map(([bare]) => bare),
+  );
 }

@@ -40,7 +40,15 @@ function stateOf(trajectory, name) {
 export function portraitsOf(scene, trajectories, size, em) {
   const shown = scene.coordinates.filter(({ name }) => trajectories[0].coordinates[name]).slice(0, MOST);
   const width = size.width / shown.length;
-  return shown.map((coordinate, i) => portrait(coordinate, `q-${scene.coordinates.indexOf(coordinate)}`, trajectories, { left: i * width, width, height: size.height }, em));
+  return shown.map((coordinate, i) =>
+    portrait(
+      coordinate,
+      `q-${scene.coordinates.indexOf(coordinate)}`,
+      trajectories,
+      { left: i * width, width, height: size.height },
+      em,
+    ),
+  );
 }
 
 /**
@@ -51,14 +59,31 @@ export function portraitsOf(scene, trajectories, size, em) {
 function portrait({ name, latex, unit }, className, trajectories, { left, width, height }, em) {
   const [trajectory] = trajectories;
   const least = leastRange(trajectory);
-  const x = scaleOf(trajectories.flatMap((each) => each.coordinates[name] ?? []), left + ROOM.left * em, left + width - ROOM.right * em, { least });
-  const y = scaleOf(trajectories.flatMap((each) => each.rates[name] ?? []), height - ROOM.bottom * em, ROOM.top * em, { least });
+  const x = scaleOf(
+    trajectories.flatMap((each) => each.coordinates[name] ?? []),
+    left + ROOM.left * em,
+    left + width - ROOM.right * em,
+    { least },
+  );
+  const y = scaleOf(
+    trajectories.flatMap((each) => each.rates[name] ?? []),
+    height - ROOM.bottom * em,
+    ROOM.top * em,
+    { least },
+  );
   const place = (/** @type {Pixel} */ [q, v]) => /** @type {Pixel} */ ([x.pixel(q), y.pixel(v)]);
   const states = trajectories.map((each) => stateOf(each, name));
   const curves = trajectories.map((each, i) => traced((t) => place(states[i](t)), each.t));
   return {
-    name, className, left, width, columns: x.ticks, rows: y.ticks,
-    across: latex || name, up: dotted(latex || name), units: [unitText(unit), unitText(perSecond(unit))],
+    name,
+    className,
+    left,
+    width,
+    columns: x.ticks,
+    rows: y.ticks,
+    across: latex || name,
+    up: dotted(latex || name),
+    units: [unitText(unit), unitText(perSecond(unit))],
     paths: curves.map(({ t, points }, i) => polyline(points.filter((_, n) => t[n] <= trustedUntil(trajectories[i])))),
     doubted: polyline(curves[0].points.filter((_, n) => curves[0].t[n] >= trustedUntil(trajectory))),
     where: (t) => place(states[0](t)),
@@ -83,13 +108,19 @@ function niceCeil(x) {
  *   share of the range that is left free at both ends, pixels from one number to the next, and the least range that shows anything
  */
 export function scaleOf(values, from, to, { share = 0.08, apart = APART, least = 0 } = {}) {
-  const [low, high] = values.reduce(([least, most], value) => [Math.min(least, value), Math.max(most, value)], [Infinity, -Infinity]);
+  const [low, high] = values.reduce(
+    ([least, most], value) => [Math.min(least, value), Math.max(most, value)],
+    [Infinity, -Infinity],
+  );
   const span = Math.max(high - low, least, STILL * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
   const room = share * span + (span - (high - low)) / 2;
   const [a, b] = [low - room, high + room];
   const pixel = (/** @type {number} */ value) => from + ((value - a) / (b - a)) * (to - from);
   const step = niceCeil(((b - a) * apart) / Math.abs(to - from));
   const first = Math.ceil(a / step);
-  const ticks = Array.from({ length: Math.max(0, Math.floor(b / step) - first + 1) }, (_, i) => ({ value: Number(((first + i) * step).toPrecision(6)), position: pixel((first + i) * step) }));
+  const ticks = Array.from({ length: Math.max(0, Math.floor(b / step) - first + 1) }, (_, i) => ({
+    value: Number(((first + i) * step).toPrecision(6)),
+    position: pixel((first + i) * step),
+  }));
   return { pixel, ticks };
 }

@@ -17,20 +17,30 @@ export const keyOf = ({ changes, method }) => `${writeChanges(changes)}@${method
 
 /** @param {string} text runs joined by "+" @returns {Asked[]} */
 export function readRuns(text) {
-  return text.split("+").filter((part) => part.includes("@")).slice(0, MOST).map((part) => {
-    const [changes, method] = part.split("@");
-    return { changes: readChanges(changes), method };
-  });
+  return text
+    .split("+")
+    .filter((part) => part.includes("@"))
+    .slice(0, MOST)
+    .map((part) => {
+      const [changes, method] = part.split("@");
+      return { changes: readChanges(changes), method };
+    });
 }
 
 /** The address with another run; the oldest makes room, and none is there twice. @param {string} text @param {Asked} asked */
 export function withRun(text, asked) {
-  const keys = readRuns(text).map(keyOf).filter((key) => key !== keyOf(asked));
+  const keys = readRuns(text)
+    .map(keyOf)
+    .filter((key) => key !== keyOf(asked));
   return [...keys, keyOf(asked)].slice(-MOST).join("+");
 }
 
 /** @param {string} text @param {string} key */
-export const withoutRun = (text, key) => readRuns(text).map(keyOf).filter((other) => other !== key).join("+");
+export const withoutRun = (text, key) =>
+  readRuns(text)
+    .map(keyOf)
+    .filter((other) => other !== key)
+    .join("+");
 
 /**
  * What sets some runs apart, for each of them: only what is not the same in all, as "name = value" in LaTeX.
@@ -40,12 +50,16 @@ export const withoutRun = (text, key) => readRuns(text).map(keyOf).filter((other
 export function differences(runs, scene) {
   const quantity = (/** @type {string} */ latex, /** @type {(changes: Changes) => number} */ of) => ({ latex, of });
   const quantities = [
-    ...scene.parameters.map(({ name, latex, value }) => quantity(latex || name, ({ parameters }) => parameters[name] ?? value)),
+    ...scene.parameters.map(({ name, latex, value }) =>
+      quantity(latex || name, ({ parameters }) => parameters[name] ?? value),
+    ),
     ...scene.coordinates.flatMap(({ name, latex, value, rate }) => [
       quantity(`${latex || name}(0)`, ({ initial }) => initial[name]?.value ?? value),
       quantity(`${dotted(latex || name)}(0)`, ({ initial }) => initial[name]?.rate ?? rate),
     ]),
   ];
   const differing = quantities.filter(({ of }) => new Set(runs.map(({ changes }) => of(changes))).size > 1);
-  return runs.map(({ changes }) => differing.map(({ latex, of }) => `${latex} = ${Number(of(changes).toPrecision(3))}`));
+  return runs.map(({ changes }) =>
+    differing.map(({ latex, of }) => `${latex} = ${Number(of(changes).toPrecision(3))}`),
+  );
 }

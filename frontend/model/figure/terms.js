@@ -19,7 +19,7 @@ const DRESS = /\\htmlClass\{[^}]*\}|\\(?:left|right)(?![a-z])|\\,|[{}\s]/g;
 function cut(latex, at) {
   const parts = [{ part: "", before: "" }];
   let depth = 0;
-  for (let rest = latex; rest; ) {
+  for (let rest = latex; rest;) {
     const found = depth === 0 ? at.exec(rest)?.[0] : undefined;
     const step = found ?? STEP.exec(rest)?.[0] ?? rest[0];
     if (found) parts.push({ part: "", before: found });
@@ -43,18 +43,29 @@ export const bare = (latex) => latex.replace(DRESS, "");
  */
 export function withTerms(latex, change) {
   const inside = ALIGNED.exec(latex)?.[1];
-  const lines = cut(inside ?? latex, NEWLINE).map(({ part, before }) => before + cut(part, RELATION).map((side) => side.before + changed(side.part, change)).join(""));
+  const lines = cut(inside ?? latex, NEWLINE).map(
+    ({ part, before }) =>
+      before +
+      cut(part, RELATION)
+        .map((side) => side.before + changed(side.part, change))
+        .join(""),
+  );
   return inside === undefined ? lines.join("") : `\\begin{aligned}${lines.join("")}\\end{aligned}`;
 }
 
 /** @param {string} side @param {(side: Term[]) => (string | null)[]} change */
 function changed(side, change) {
-  const parts = cut(side, SIGN).map(({ part, before }) => ({ before: before + (/^\s*/.exec(part)?.[0] ?? ""), text: part.trim(), after: part.trim() ? part.slice(part.trimEnd().length) : "", sign: /** @type {1 | -1} */ (before.includes("-") ? -1 : 1) }));
+  const parts = cut(side, SIGN).map(({ part, before }) => ({
+    before: before + (/^\s*/.exec(part)?.[0] ?? ""),
+    text: part.trim(),
+    after: part.trim() ? part.slice(part.trimEnd().length) : "",
+    sign: /** @type {1 | -1} */ (before.includes("-") ? -1 : 1),
+  }));
   const terms = parts.filter(({ text }) => text).map(({ text, sign }) => ({ text, sign, bare: bare(text) }));
   if (!terms.length) return side;
   const texts = change(terms);
   let next = 0;
-  return parts.map(({ before, text, after }) => before + (text ? texts[next++] ?? text : "") + after).join("");
+  return parts.map(({ before, text, after }) => before + (text ? (texts[next++] ?? text) : "") + after).join("");
 }
 
 /** All terms of a formula, side by side. @param {string} latex @returns {Term[][]} */

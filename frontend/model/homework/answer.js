@@ -18,7 +18,8 @@ const SINGLE = { start: "", between: "", end: "" };
 const SPACE = /\\;/g;
 
 /** How many parts an answer has. @param {Asked} task @param {number} freedoms */
-export const partsOf = ({ form, components }, freedoms) => (form === "vector" ? (components ?? 1) : form in FRAMES ? freedoms : 1);
+export const partsOf = ({ form, components }, freedoms) =>
+  form === "vector" ? (components ?? 1) : form in FRAMES ? freedoms : 1;
 
 /** @param {string} text */
 const isWhole = (text) => /^\s*(\[|\\begin|\\left)/.test(text) || /[;\n]/.test(text.replace(SPACE, ""));
@@ -46,7 +47,8 @@ export function placeIn(parts, form, syntax, offset) {
   let begin = frame.start.length;
   for (const [index, part] of parts.entries()) {
     const size = [...part].length;
-    if (offset <= begin + size || index === parts.length - 1) return { part: index, offset: Math.max(0, Math.min(size, offset - begin)) };
+    if (offset <= begin + size || index === parts.length - 1)
+      return { part: index, offset: Math.max(0, Math.min(size, offset - begin)) };
     begin += size + frame.between.length;
   }
   return { part: 0, offset: 0 };

@@ -26,13 +26,20 @@ export const valueOf = (entry, draft) => joined(partsIn(entry, draft), entry.tas
 export const sameTexts = (a, b) => a.length === b.length && a.every((text, i) => text === b[i]);
 
 /** Whether what stands there was made from the other syntax, and not touched since. @param {Entry} entry @param {Draft} draft */
-export const isTranslated = (entry, draft) => draft.converted !== null && draft.converted.from !== draft.syntax && sameTexts(draft.converted.texts, partsIn(entry, draft));
+export const isTranslated = (entry, draft) =>
+  draft.converted !== null &&
+  draft.converted.from !== draft.syntax &&
+  sameTexts(draft.converted.texts, partsIn(entry, draft));
 
 /** Whether the last verdict is about what stands there now. @param {Entry} entry @param {Draft} draft */
 export function isCurrent(entry, draft) {
   const { checked } = draft;
   if (checked?.syntax === draft.syntax) return checked.value === valueOf(entry, draft);
-  return checked !== null && isTranslated(entry, draft) && checked.value === valueOf(entry, { ...draft, syntax: checked.syntax });
+  return (
+    checked !== null &&
+    isTranslated(entry, draft) &&
+    checked.value === valueOf(entry, { ...draft, syntax: checked.syntax })
+  );
 }
 
 /** What the server understands of what is typed, asked for when the hand rests. @param {import("./state.js").Store} store @param {import("./state.js").Api} api */
@@ -44,7 +51,8 @@ function createReading({ get, set }, api) {
     const { lang } = get().asked.place;
     const answer = { ...entry.reference, task: entry.task.id, answer: { syntax, value }, lang };
     const reading = await api.post("/checks/reading", answer, signal).catch(() => null);
-    if (reading && get().entry?.key === entry.key && valueOf(entry, get().draft) === value) set({ reading: { of: value, ...reading } });
+    if (reading && get().entry?.key === entry.key && valueOf(entry, get().draft) === value)
+      set({ reading: { of: value, ...reading } });
   }
 
   function ask() {
@@ -52,7 +60,8 @@ function createReading({ get, set }, api) {
     if (!entry) return;
     const parts = partsIn(entry, draft);
     if (isEmpty(parts)) set({ reading: null });
-    else if (isComplete(parts, entry.task.form)) void readings.ask({ entry, syntax: draft.syntax, value: valueOf(entry, draft) });
+    else if (isComplete(parts, entry.task.form))
+      void readings.ask({ entry, syntax: draft.syntax, value: valueOf(entry, draft) });
   }
 
   return { ask, cancel: readings.cancel };
@@ -78,19 +87,31 @@ export function createAnswering(store, api, progress) {
   function previous(entry) {
     const entries = get().sheet?.entries ?? [];
     const earlier = entries.slice(0, entries.indexOf(entry)).filter(({ group }) => group === entry.group);
-    return earlier.flatMap(({ key, task }) => {
-      const { checked } = progress.draft(key);
-      return checked && CARRIED.includes(checked.verdict.outcome) ? [{ task: task.id, answer: { syntax: checked.syntax, value: checked.value } }] : [];
-    }).slice(-MOST_LINES);
+    return earlier
+      .flatMap(({ key, task }) => {
+        const { checked } = progress.draft(key);
+        return checked && CARRIED.includes(checked.verdict.outcome)
+          ? [{ task: task.id, answer: { syntax: checked.syntax, value: checked.value } }]
+          : [];
+      })
+      .slice(-MOST_LINES);
   }
 
   /** @param {Entry} entry @param {Syntax} syntax @param {string} value @param {number} counted as a try */
   async function verdict(entry, syntax, value, counted) {
     const { lang } = get().asked.place;
     await attempt(store, "trouble", "checking", async () => {
-      const found = await api.post("/checks", { ...entry.reference, task: entry.task.id, answer: { syntax, value }, previous: previous(entry), lang });
+      const found = await api.post("/checks", {
+        ...entry.reference,
+        task: entry.task.id,
+        answer: { syntax, value },
+        previous: previous(entry),
+        lang,
+      });
       keep(entry, ({ tries, solved }) => ({
-        checked: { verdict: found, syntax, value, lang }, tries: tries + counted, solved: solved || found.outcome === "correct",
+        checked: { verdict: found, syntax, value, lang },
+        tries: tries + counted,
+        solved: solved || found.outcome === "correct",
       }));
     });
   }
@@ -109,7 +130,9 @@ export function createAnswering(store, api, progress) {
     type(part, text) {
       const { entry } = get();
       if (!entry) return;
-      keep(entry, (draft) => ({ texts: { ...draft.texts, [draft.syntax]: partsIn(entry, draft).map((old, i) => (i === part ? text : old)) } }));
+      keep(entry, (draft) => ({
+        texts: { ...draft.texts, [draft.syntax]: partsIn(entry, draft).map((old, i) => (i === part ? text : old)) },
+      }));
       set({ notice: "" });
       reading.ask();
     },
@@ -117,7 +140,8 @@ export function createAnswering(store, api, progress) {
       const { entry, draft } = get();
       if (!entry) return;
       const parts = partsIn(entry, draft);
-      if (!isComplete(parts, entry.task.form)) return set({ notice: isEmpty(parts) ? "homework.empty" : "homework.incomplete" });
+      if (!isComplete(parts, entry.task.form))
+        return set({ notice: isEmpty(parts) ? "homework.empty" : "homework.incomplete" });
       set({ notice: "", answered: null });
       await verdict(entry, draft.syntax, valueOf(entry, draft), 1);
     },

@@ -5,22 +5,34 @@ import { sampled, samplesFor } from "../sampling.js";
 
 /** @typedef {import("./sheet.js").Entry} Entry */
 
-const MOTION = { t_end: 10, samples: samplesFor(400), include: ["coordinates", "rates", "positions", "loads", "error"] };
+const MOTION = {
+  t_end: 10,
+  samples: samplesFor(400),
+  include: ["coordinates", "rates", "positions", "loads", "error"],
+};
 
 /** A built-in scene by its id, any other whole. @param {Entry} entry */
-const sceneOf = ({ reference, scene }) => (Object.keys(reference).length === 1 && typeof reference.scene === "string" ? reference.scene : scene);
+const sceneOf = ({ reference, scene }) =>
+  Object.keys(reference).length === 1 && typeof reference.scene === "string" ? reference.scene : scene;
 
 /** @param {import("./state.js").Store} store @param {import("./state.js").Api} api */
 export function createComparison(store, api) {
   const { get, set } = store;
   const lang = () => get().asked.place.lang;
-  const simulate = sampled((/** @type {typeof MOTION & {scene: unknown, lang: string}} */ request) => api.simulate(request));
+  const simulate = sampled((/** @type {typeof MOTION & {scene: unknown, lang: string}} */ request) =>
+    api.simulate(request),
+  );
 
   /** @param {Entry} entry */
   async function animate(entry) {
     const simulated = simulate({ scene: sceneOf(entry), ...MOTION, lang: lang() }).catch(() => null);
-    const guides = (entry.scene.guides ?? []).flatMap(({ coordinate, value }) => [{ expression: coordinate }, { expression: value }]);
-    const typeset = guides.length ? api.typeset({ scene: entry.scene, expressions: guides, lang: lang() }).catch(() => null) : null;
+    const guides = (entry.scene.guides ?? []).flatMap(({ coordinate, value }) => [
+      { expression: coordinate },
+      { expression: value },
+    ]);
+    const typeset = guides.length
+      ? api.typeset({ scene: entry.scene, expressions: guides, lang: lang() }).catch(() => null)
+      : null;
     const [right, written] = await Promise.all([simulated, typeset]);
     if (get().entry?.group !== entry.group) return;
     const latex = (written?.expressions ?? []).map((one) => one.latex);
@@ -36,7 +48,12 @@ export function createComparison(store, api) {
       if (!entry || !checked) return;
       await attempt(store, "trouble", "moving", async () => {
         const answer = { syntax: checked.syntax, value: checked.value };
-        const { scene } = await api.post("/checks/motion", { ...entry.reference, task: entry.task.id, answer, lang: lang() });
+        const { scene } = await api.post("/checks/motion", {
+          ...entry.reference,
+          task: entry.task.id,
+          answer,
+          lang: lang(),
+        });
         const answered = await simulate({ scene, ...MOTION, lang: lang() });
         if (get().entry?.key === entry.key) set({ answered });
       });

@@ -16,13 +16,21 @@ export function createConversion({ get, set }, api, answering) {
     const { lang } = get().asked.place;
     const { id } = entry.task;
     if (parts.length === 1) {
-      const read = await api.post("/checks/reading", { ...entry.reference, task: id, answer: { syntax: from, value: parts[0] }, lang }).catch(() => null);
+      const read = await api
+        .post("/checks/reading", { ...entry.reference, task: id, answer: { syntax: from, value: parts[0] }, lang })
+        .catch(() => null);
       return read && !read.problems.length ? [read[to]] : null;
     }
     const asked = parts.map((expression) => ({ expression: expression.trim() || "0", syntax: from }));
-    const answer = await api.post("/expressions/batch", { scene: entry.scene, expressions: asked, lang }).catch(() => null);
-    const texts = answer?.expressions.map((/** @type {any} */ one, /** @type {number} */ i) => (parts[i].trim() ? one[to] : ""));
-    return texts?.every((/** @type {string} */ text, /** @type {number} */ i) => text || !parts[i].trim()) ? /** @type {string[]} */ (texts) : null;
+    const answer = await api
+      .post("/expressions/batch", { scene: entry.scene, expressions: asked, lang })
+      .catch(() => null);
+    const texts = answer?.expressions.map((/** @type {any} */ one, /** @type {number} */ i) =>
+      parts[i].trim() ? one[to] : "",
+    );
+    return texts?.every((/** @type {string} */ text, /** @type {number} */ i) => text || !parts[i].trim())
+      ? /** @type {string[]} */ (texts)
+      : null;
   }
 
   /** @param {Syntax} to */
@@ -35,7 +43,10 @@ export function createConversion({ get, set }, api, answering) {
     if (isEmpty(parts) || isTranslated(entry, draft)) return answering.keep(entry, () => ({ syntax: to }));
     const texts = await converted(entry, parts, from, to);
     if (get().entry?.key !== entry.key || !sameTexts(parts, partsIn(entry, get().draft, from))) return;
-    answering.keep(entry, (now) => ({ syntax: to, ...(texts ? { texts: { ...now.texts, [to]: texts }, converted: { from, texts } } : {}) }));
+    answering.keep(entry, (now) => ({
+      syntax: to,
+      ...(texts ? { texts: { ...now.texts, [to]: texts }, converted: { from, texts } } : {}),
+    }));
     if (!texts) set({ notice: `homework.kept-${from}` });
     answering.arrive();
   };

@@ -18,8 +18,23 @@ export const isSame = (a, b) => a.seed === b.seed && a.place.scene === b.place.s
 const isStill = (a, b) => a.assignment === b.assignment && a.own === b.own && isSame(a.asked, b.asked);
 
 /** The sheet that is asked for, in the language of the page. @param {import("./state.js").Api} api @param {State} state */
-async function fetchSheet(api, { asked: { seed, place: { scene, lang } }, assignment, own }) {
-  if (assignment) return sheetOfAssignment(assignment, seed, await api.post("/assignments", { assignment, ...(seed ? { seed } : {}), lang }));
+async function fetchSheet(
+  api,
+  {
+    asked: {
+      seed,
+      place: { scene, lang },
+    },
+    assignment,
+    own,
+  },
+) {
+  if (assignment)
+    return sheetOfAssignment(
+      assignment,
+      seed,
+      await api.post("/assignments", { assignment, ...(seed ? { seed } : {}), lang }),
+    );
   const reference = referenceOf(own ?? (scene || FIRST_SCENE), seed);
   return sheetOfScene(reference, await api.post("/tasks", { ...reference, lang }));
 }
@@ -45,7 +60,12 @@ export function createExercise(store, api, progress, answering) {
       if (!sheet || !isStill(get(), wanted)) return;
       set({ sheet });
       const { entries } = sheet;
-      show(entries.find(({ key }) => key === get().entry?.key) ?? entries.find(({ id }) => id === get().asked.task) ?? entries[0] ?? null);
+      show(
+        entries.find(({ key }) => key === get().entry?.key) ??
+          entries.find(({ id }) => id === get().asked.task) ??
+          entries[0] ??
+          null,
+      );
     });
   }
 
@@ -71,7 +91,10 @@ export function createExercise(store, api, progress, answering) {
     /** @param {Asked} asked @param {Assignment | null} assignment @param {import("../own.js").SceneDocument | null} own  a scene that the address brings along */
     async start(asked, assignment, own) {
       set({ asked, assignment, own });
-      const listed = api.scenes().then(({ scenes }) => set({ scenes })).catch(() => {});
+      const listed = api
+        .scenes()
+        .then(({ scenes }) => set({ scenes }))
+        .catch(() => {});
       await Promise.all([listed, load()]);
     },
     /** Another scene; what was typed for this one is kept. @param {string} scene */

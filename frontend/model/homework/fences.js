@@ -2,7 +2,16 @@
 
 const COMMAND = /\\(left|right)(\\[A-Za-z]+|\\.|.)/g;
 /** @type {Readonly<Record<string, string>>} */
-const MIRROR = { "(": ")", ")": "(", "[": "]", "]": "[", "\\lbrace": "\\rbrace", "\\rbrace": "\\lbrace", "\\{": "\\}", "\\}": "\\{" };
+const MIRROR = {
+  "(": ")",
+  ")": "(",
+  "[": "]",
+  "]": "[",
+  "\\lbrace": "\\rbrace",
+  "\\rbrace": "\\lbrace",
+  "\\{": "\\}",
+  "\\}": "\\{",
+};
 
 /** @typedef {{start: number, end: number, fence: string}} Half  where a half stands in the text, and its bracket: "." once it is gone */
 
@@ -31,7 +40,8 @@ export function paired(latex, backward) {
   const inside = latex.slice(left.end, right.start);
   const [before, after] = [latex.slice(0, left.start), latex.slice(right.end)];
   if ((left.fence === ".") === backward) return { latex: apart(before, inside) + after, shift: -1 };
-  const [opening, closing] = left.fence === "." ? [mirrored(right.fence), right.fence] : [left.fence, mirrored(left.fence)];
+  const [opening, closing] =
+    left.fence === "." ? [mirrored(right.fence), right.fence] : [left.fence, mirrored(left.fence)];
   return { latex: `${before}\\left${opening}${inside}\\right${closing}${after}`, shift: 0 };
 }
 
@@ -39,4 +49,5 @@ export function paired(latex, backward) {
 const mirrored = (fence) => MIRROR[fence] ?? fence;
 
 /** A command ends where no letter follows it. @param {string} before @param {string} after */
-const apart = (before, after) => (/\\[A-Za-z]+$/.test(before) && /^[A-Za-z]/.test(after) ? `${before} ${after}` : before + after);
+const apart = (before, after) =>
+  /\\[A-Za-z]+$/.test(before) && /^[A-Za-z]/.test(after) ? `${before} ${after}` : before + after;

@@ -6,18 +6,46 @@ import { dotted } from "../values.js";
 /** @typedef {{id: string, keys: Key[]}} Row */
 
 const VIRTUAL = ["virtual-displacement", "virtual-work"];
-const GREEK = ["alpha", "beta", "gamma", "delta", "epsilon", "theta", "lambda", "mu", "xi", "pi", "rho", "sigma", "tau", "varphi", "psi", "omega", "Omega"];
+const GREEK = [
+  "alpha",
+  "beta",
+  "gamma",
+  "delta",
+  "epsilon",
+  "theta",
+  "lambda",
+  "mu",
+  "xi",
+  "pi",
+  "rho",
+  "sigma",
+  "tau",
+  "varphi",
+  "psi",
+  "omega",
+  "Omega",
+];
 
 /** @param {string} label @param {string} latex @param {string} plain @param {string} [name] @returns {Key} */
 const key = (label, latex, plain, name = plain) => ({ label, latex, plain, name });
 
 const OPERATIONS = [
-  key("\\tfrac{a}{b}", "\\frac{#@}{#?}", "/", "a/b"), key("a^2", "^2", "^2"), key("a^n", "^{#?}", "^"), key("\\sqrt{a}", "\\sqrt{#0}", "sqrt(|)"),
-  key("(\\,)", "\\left(#0\\right)", "(|)", "( )"), key("\\sin", "\\sin\\left(#0\\right)", "sin(|)"), key("\\cos", "\\cos\\left(#0\\right)", "cos(|)"),
-  key("\\cdot", "\\cdot", "*"), key("+", "+", " + "), key("-", "-", " - "),
+  key("\\tfrac{a}{b}", "\\frac{#@}{#?}", "/", "a/b"),
+  key("a^2", "^2", "^2"),
+  key("a^n", "^{#?}", "^"),
+  key("\\sqrt{a}", "\\sqrt{#0}", "sqrt(|)"),
+  key("(\\,)", "\\left(#0\\right)", "(|)", "( )"),
+  key("\\sin", "\\sin\\left(#0\\right)", "sin(|)"),
+  key("\\cos", "\\cos\\left(#0\\right)", "cos(|)"),
+  key("\\cdot", "\\cdot", "*"),
+  key("+", "+", " + "),
+  key("-", "-", " - "),
 ];
 const EQUALS = key("=", "=", " = ");
-const TIME = [key("t", "t", "t"), key("\\tfrac{\\mathrm d}{\\mathrm dt}", "\\frac{d}{dt}\\left(#0\\right)", "diff(|, t)", "d/dt")];
+const TIME = [
+  key("t", "t", "t"),
+  key("\\tfrac{\\mathrm d}{\\mathrm dt}", "\\frac{d}{dt}\\left(#0\\right)", "diff(|, t)", "d/dt"),
+];
 
 /** The dots of a rate stand on the letter, not on its index. @param {string} latex */
 const twiceDotted = (latex) => dotted(latex).replace("\\dot{", "\\ddot{");
@@ -36,7 +64,9 @@ function motionKeys({ name, latex }, kind) {
 export function keyboardOf({ symbols, task, scene }) {
   const guided = new Set((scene.guides ?? []).map(({ coordinate }) => coordinate));
   const coordinates = symbols.filter(({ kind, name }) => kind === "coordinate" && !guided.has(name));
-  const parameters = symbols.filter(({ kind }) => kind === "parameter").map(({ name, latex }) => key(latex, latex, name));
+  const parameters = symbols
+    .filter(({ kind }) => kind === "parameter")
+    .map(({ name, latex }) => key(latex, latex, name));
   const relation = /equation|set/.test(task.form) ? [EQUALS] : [];
   const frequency = task.form === "set" ? [key("\\omega", "\\omega", "omega")] : [];
   return [
@@ -68,10 +98,15 @@ export function written(text, start, end, plain) {
 /** Typed in a math field: phidot, phiddot, dphi and the names of the scene become what they mean. @param {import("./sheet.js").TaskSymbol[]} symbols */
 export function shortcutsOf(symbols) {
   const named = symbols.filter(({ name }) => name.length > 1).map(({ name, latex }) => [name, latex]);
-  const moving = symbols.filter(({ kind }) => kind === "coordinate").flatMap(({ name, latex }) => [
-    [`${name}'`, dotted(latex)], [`${name}''`, twiceDotted(latex)],
-    [`${name}dot`, dotted(latex)], [`${name}ddot`, twiceDotted(latex)], [`delta${name}`, `\\delta ${latex}`],
-  ]);
+  const moving = symbols
+    .filter(({ kind }) => kind === "coordinate")
+    .flatMap(({ name, latex }) => [
+      [`${name}'`, dotted(latex)],
+      [`${name}''`, twiceDotted(latex)],
+      [`${name}dot`, dotted(latex)],
+      [`${name}ddot`, twiceDotted(latex)],
+      [`delta${name}`, `\\delta ${latex}`],
+    ]);
   const greek = [...GREEK, "phi"].map((name) => [name, `\\${name}`]);
   const functions = ["sin", "cos", "tan", "exp", "ln"].map((name) => [name, `\\${name}`]);
   return Object.fromEntries([...greek, ...functions, ["sqrt", "\\sqrt{#?}"], ["*", "\\cdot"], ...named, ...moving]);

@@ -12,7 +12,10 @@ import { coordinateAt, endOf } from "../trajectory.js";
  */
 export function framed(scene, motions) {
   const paths = motions.flatMap(({ positions }) => Object.entries(positions));
-  const together = { ...motions[0], positions: Object.fromEntries(paths.map(([name, path], i) => [`${i}/${name}`, path])) };
+  const together = {
+    ...motions[0],
+    positions: Object.fromEntries(paths.map(([name, path], i) => [`${i}/${name}`, path])),
+  };
   return { ...scene, drawing: { ...scene.drawing, view: viewOf(scene, together) } };
 }
 
@@ -20,7 +23,10 @@ export function framed(scene, motions) {
 export function parting(one, other, least = 0.02) {
   const names = Object.keys(one.coordinates);
   const end = Math.min(endOf(one), endOf(other));
-  const reach = names.flatMap((name) => one.coordinates[name]).reduce((most, value) => Math.max(most, Math.abs(value)), 1e-9);
-  const apart = (/** @type {number} */ t) => names.some((name) => Math.abs(coordinateAt(one, name, t) - coordinateAt(other, name, t)) > least * reach);
+  const reach = names
+    .flatMap((name) => one.coordinates[name])
+    .reduce((most, value) => Math.max(most, Math.abs(value)), 1e-9);
+  const apart = (/** @type {number} */ t) =>
+    names.some((name) => Math.abs(coordinateAt(one, name, t) - coordinateAt(other, name, t)) > least * reach);
   return one.t.find((t) => t <= end && apart(t)) ?? null;
 }

@@ -31,4 +31,5 @@ export function writeAsked({ task, seed, side, place }) {
  * Where the derivation shows the answer: an address of the scene's own page, if the scene is one of the library as it is.
  * @param {string} scene @param {string} step @param {import("../types.js").Place} place
  */
-export const stepAddress = (scene, step, { lang, theme }) => `/scene${writePlace({ ...HOME, scene, step, lang, theme })}`;
+export const stepAddress = (scene, step, { lang, theme }) =>
+  `/scene${writePlace({ ...HOME, scene, step, lang, theme })}`;

@@ -35,7 +35,16 @@ const FORMAT = "deltaq-homework-1";
 const LARGEST = 2_000_000;
 
 /** @type {Draft} */
-export const BLANK = { syntax: "latex", texts: { plain: [], latex: [] }, converted: null, checked: null, tries: 0, hints: 0, solved: false, shown: false };
+export const BLANK = {
+  syntax: "latex",
+  texts: { plain: [], latex: [] },
+  converted: null,
+  checked: null,
+  tries: 0,
+  hints: 0,
+  solved: false,
+  shown: false,
+};
 
 /** @param {unknown} value @returns {Record<string, any> | null} */
 const table = (value) => (value && typeof value === "object" && !Array.isArray(value) ? value : null);
@@ -52,14 +61,24 @@ export function draftOf(value) {
   return {
     syntax: syntaxOf(kept.syntax),
     texts: { plain: texts(kept.texts?.plain), latex: texts(kept.texts?.latex) },
-    converted: table(kept.converted) ? { from: syntaxOf(kept.converted.from), texts: texts(kept.converted.texts) } : null,
+    converted: table(kept.converted)
+      ? { from: syntaxOf(kept.converted.from), texts: texts(kept.converted.texts) }
+      : null,
     checked: checked && typeof table(checked.verdict)?.outcome === "string" ? /** @type {Checked} */ (checked) : null,
-    tries: number(kept.tries), hints: Math.min(3, number(kept.hints)), solved: kept.solved === true, shown: kept.shown === true,
+    tries: number(kept.tries),
+    hints: Math.min(3, number(kept.hints)),
+    solved: kept.solved === true,
+    shown: kept.shown === true,
   };
 }
 
 /** @param {unknown} value @returns {Line[]} */
-export const linesOf = (value) => (Array.isArray(value) ? value.filter((line) => typeof table(line)?.value === "string" && typeof line.task === "string").map(({ task, syntax, value }) => ({ task, syntax: syntaxOf(syntax), value })) : []);
+export const linesOf = (value) =>
+  Array.isArray(value)
+    ? value
+        .filter((line) => typeof table(line)?.value === "string" && typeof line.task === "string")
+        .map(({ task, syntax, value }) => ({ task, syntax: syntaxOf(syntax), value }))
+    : [];
 
 /** @param {Keeper} keeper */
 export function createProgress(keeper) {
@@ -84,7 +103,10 @@ export function createProgress(keeper) {
 
   function keys() {
     try {
-      return Array.from({ length: keeper.length }, (_, i) => keeper.key(i) ?? "").filter((key) => key.startsWith(PREFIX)).map((key) => key.slice(PREFIX.length)).sort();
+      return Array.from({ length: keeper.length }, (_, i) => keeper.key(i) ?? "")
+        .filter((key) => key.startsWith(PREFIX))
+        .map((key) => key.slice(PREFIX.length))
+        .sort();
     } catch {
       return [];
     }
@@ -97,7 +119,8 @@ export function createProgress(keeper) {
     lines: (key) => linesOf(read(key)),
     write,
     /** All records as a file's text. */
-    exported: () => JSON.stringify({ format: FORMAT, records: Object.fromEntries(keys().map((key) => [key, read(key)])) }, null, 1),
+    exported: () =>
+      JSON.stringify({ format: FORMAT, records: Object.fromEntries(keys().map((key) => [key, read(key)])) }, null, 1),
     /** Takes a file's records over those of the same name; how many, or null if the file is none. @param {string} text @returns {number | null} */
     imported(text) {
       if (text.length > LARGEST) return null;

@@ -43,7 +43,11 @@ export const referenceOf = (scene, seed) => (seed ? { scene, seed } : { scene })
 /** @param {Reference} reference @param {{scene: Scene, symbols: TaskSymbol[], tasks: Task[]}} answer @returns {Sheet} */
 export function sheetOfScene(reference, { scene, symbols, tasks }) {
   const group = groupOf(reference);
-  return { title: null, followThrough: 0.5, entries: tasks.map((task) => ({ id: task.id, key: `${group}/${task.id}`, group, reference, scene, symbols, task })) };
+  return {
+    title: null,
+    followThrough: 0.5,
+    entries: tasks.map((task) => ({ id: task.id, key: `${group}/${task.id}`, group, reference, scene, symbols, task })),
+  };
 }
 
 /**
@@ -72,7 +76,11 @@ export function referenceIn(assignment, index, seed) {
  * @param {Sheet} sheet @param {Record<string, string>} title @returns {Assignment}
  */
 export function assignmentOf({ entries, followThrough }, title) {
-  const tasks = entries.map(({ reference: { seed: _, ...scene }, task }) => ({ ...scene, task: task.id, points: task.points }));
+  const tasks = entries.map(({ reference: { seed: _, ...scene }, task }) => ({
+    ...scene,
+    task: task.id,
+    points: task.points,
+  }));
   return /** @type {Assignment} */ ({ format: 1, title, individual: false, follow_through: followThrough, tasks });
 }
 
@@ -89,5 +97,10 @@ export const freedomsOf = (scene) => scene.coordinates.length - (scene.guides ??
 export function pointsOf({ entries }, draft) {
   const earned = entries.filter(({ key }) => draft(key).solved && !draft(key).shown);
   const sum = (/** @type {Entry[]} */ some) => some.reduce((total, { task }) => total + task.points, 0);
-  return { earned: sum(earned), of: sum(entries), solved: entries.filter(({ key }) => draft(key).solved).length, count: entries.length };
+  return {
+    earned: sum(earned),
+    of: sum(entries),
+    solved: entries.filter(({ key }) => draft(key).solved).length,
+    count: entries.length,
+  };
 }

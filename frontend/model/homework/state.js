@@ -38,8 +38,22 @@ export const FRESH = { reading: null, busy: "", trouble: null, notice: "", solut
 
 /** @param {import("./place.js").Asked} asked @returns {State} */
 export const begin = (asked) => ({
-  asked, catalog: {}, scenes: [], assignment: null, own: null, sheet: null, failure: null, entry: null, guides: [], draft: BLANK, ...FRESH,
-  right: null, still: false, lines: [], marked: null, kept: true,
+  asked,
+  catalog: {},
+  scenes: [],
+  assignment: null,
+  own: null,
+  sheet: null,
+  failure: null,
+  entry: null,
+  guides: [],
+  draft: BLANK,
+  ...FRESH,
+  right: null,
+  still: false,
+  lines: [],
+  marked: null,
+  kept: true,
 });
 
 /** @typedef {ReturnType<typeof import("../store.js").createStore<State>>} Store */

@@ -14,7 +14,8 @@ export function createTrail(past, here) {
    */
   return (address, task) => {
     if (!task && at) return;
-    if (address !== here.pathname + here.search + here.hash) past[at && task !== at ? "pushState" : "replaceState"](null, "", address);
+    if (address !== here.pathname + here.search + here.hash)
+      past[at && task !== at ? "pushState" : "replaceState"](null, "", address);
     at = task;
   };
 }

@@ -30,7 +30,8 @@ export function createWorking(store, api, progress, exercise) {
     entries,
     add() {
       const { lines, draft } = get();
-      if (lines.length < MOST) exercise.write([...lines, { task: nextTask(), syntax: lines.at(-1)?.syntax ?? draft.syntax, value: "" }]);
+      if (lines.length < MOST)
+        exercise.write([...lines, { task: nextTask(), syntax: lines.at(-1)?.syntax ?? draft.syntax, value: "" }]);
     },
     /** @param {number} index @param {Partial<Line>} patch */
     edit: (index, patch) => exercise.write(get().lines.map((line, i) => (i === index ? { ...line, ...patch } : line))),
@@ -39,16 +40,34 @@ export function createWorking(store, api, progress, exercise) {
     /** One line for each task that has been answered by itself. */
     gather() {
       const answered = entries().map((entry) => ({ entry, draft: progress.draft(entry.key) }));
-      const lines = answered.map(({ entry, draft }) => ({ task: entry.task.id, syntax: draft.syntax, value: valueOf(entry, draft), blank: !draft.texts[draft.syntax].some((text) => text.trim()) }));
-      exercise.write(lines.filter(({ blank }) => !blank).slice(0, MOST).map(({ blank: _, ...line }) => line));
+      const lines = answered.map(({ entry, draft }) => ({
+        task: entry.task.id,
+        syntax: draft.syntax,
+        value: valueOf(entry, draft),
+        blank: !draft.texts[draft.syntax].some((text) => text.trim()),
+      }));
+      exercise.write(
+        lines
+          .filter(({ blank }) => !blank)
+          .slice(0, MOST)
+          .map(({ blank: _, ...line }) => line),
+      );
     },
     /** A line in the other syntax; it stays as it is where it cannot be read. @param {number} index */
     async convert(index) {
       const { lines, entry, asked } = get();
       const line = lines[index];
       const to = line.syntax === "plain" ? "latex" : "plain";
-      if (!line.value.trim()) return exercise.write(lines.map((one, i) => (i === index ? { ...one, syntax: to } : one)));
-      const read = await api.post("/checks/reading", { ...entry?.reference, task: line.task, answer: { syntax: line.syntax, value: line.value }, lang: asked.place.lang }).catch(() => null);
+      if (!line.value.trim())
+        return exercise.write(lines.map((one, i) => (i === index ? { ...one, syntax: to } : one)));
+      const read = await api
+        .post("/checks/reading", {
+          ...entry?.reference,
+          task: line.task,
+          answer: { syntax: line.syntax, value: line.value },
+          lang: asked.place.lang,
+        })
+        .catch(() => null);
       if (get().lines[index] !== line) return;
       if (!read || read.problems.length) return set({ notice: `homework.kept-${line.syntax}` });
       exercise.write(get().lines.map((one, i) => (i === index ? { ...one, syntax: to, value: read[to] } : one)));
@@ -61,7 +80,12 @@ export function createWorking(store, api, progress, exercise) {
       await attempt(store, "trouble", "marking", async () => {
         const points = Object.fromEntries(entries().map(({ task }) => [task.id, task.points]));
         const scheme = { points, follow_through: sheet?.followThrough ?? 0.5 };
-        const body = { ...entry.reference, lines: lines.map(({ task, syntax, value }) => ({ task, answer: { syntax, value } })), scheme, lang: asked.place.lang };
+        const body = {
+          ...entry.reference,
+          lines: lines.map(({ task, syntax, value }) => ({ task, answer: { syntax, value } })),
+          scheme,
+          lang: asked.place.lang,
+        };
         const { lines: marks, first_wrong, points: earned, of } = await api.post("/checks/lines", body);
         set({ marked: { of: fingerprint(lines), lines: marks, first_wrong, points: earned, total: of } });
       });

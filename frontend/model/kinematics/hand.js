@@ -22,7 +22,9 @@ export function movable(kinematics, now, stage) {
   const unit = Object.fromEntries(kinematics.free.map((name) => [name, Math.SQRT2]));
   const slope = kinematics.slope(now.coordinates, now.t, unit);
   const { scene } = stage;
-  const places = [...scene.bodies, ...scene.points].map(({ name }) => name).filter((name) => slope[name] && now.positions[name]);
+  const places = [...scene.bodies, ...scene.points]
+    .map(({ name }) => name)
+    .filter((name) => slope[name] && now.positions[name]);
   return places.filter((name) => Math.hypot(...stage.direct(slope[name])) > FIXED);
 }
 
@@ -41,11 +43,16 @@ export function nearest(places, where, hand, within) {
  */
 export function brought({ kinematics, scene, now, stage }, place, q, hand) {
   const found = reached(kinematics, place, q, now.t, hand, stage.project);
-  return Object.fromEntries(scene.coordinates.map((coordinate) => {
-    const value = coordinate.unit === "rad" ? wrapped(found[coordinate.name]) : found[coordinate.name];
-    const [low, high] = coordinateRange(coordinate);
-    return [coordinate.name, kinematics.free.includes(coordinate.name) ? Math.max(low, Math.min(high, value)) : value];
-  }));
+  return Object.fromEntries(
+    scene.coordinates.map((coordinate) => {
+      const value = coordinate.unit === "rad" ? wrapped(found[coordinate.name]) : found[coordinate.name];
+      const [low, high] = coordinateRange(coordinate);
+      return [
+        coordinate.name,
+        kinematics.free.includes(coordinate.name) ? Math.max(low, Math.min(high, value)) : value,
+      ];
+    }),
+  );
 }
 
 /**
@@ -54,7 +61,10 @@ export function brought({ kinematics, scene, now, stage }, place, q, hand) {
  * @returns {Changes}
  */
 export function startedAt(changes, scene, { free }, q) {
-  const rate = (/** @type {string} */ name) => changes.initial[name]?.rate ?? scene.coordinates.find((c) => c.name === name)?.rate ?? 0;
-  const initial = Object.fromEntries(free.map((name) => [name, { value: Number(q[name].toPrecision(4)), rate: rate(name) }]));
+  const rate = (/** @type {string} */ name) =>
+    changes.initial[name]?.rate ?? scene.coordinates.find((c) => c.name === name)?.rate ?? 0;
+  const initial = Object.fromEntries(
+    free.map((name) => [name, { value: Number(q[name].toPrecision(4)), rate: rate(name) }]),
+  );
   return { ...changes, initial: { ...changes.initial, ...initial } };
 }

@@ -26,9 +26,13 @@ const H = 1e-5;
 export function kinematicsOf(scene, result, parameters) {
   const given = { ...Object.fromEntries(scene.parameters.map(({ name, value }) => [name, value])), ...parameters };
   const guided = new Set((scene.guides ?? []).map(({ coordinate }) => coordinate));
-  const fields = Object.entries({ ...result.points, ...result.positions })
-    .map(([name, { plain }]) => /** @type {const} */ ([name, plain.map(evaluator)]));
-  const terms = (result.virtual_work?.terms ?? []).map(({ plain, sources }) => ({ work: evaluator(plain), load: sources[0] ?? "" }));
+  const fields = Object.entries({ ...result.points, ...result.positions }).map(
+    ([name, { plain }]) => /** @type {const} */ ([name, plain.map(evaluator)]),
+  );
+  const terms = (result.virtual_work?.terms ?? []).map(({ plain, sources }) => ({
+    work: evaluator(plain),
+    load: sources[0] ?? "",
+  }));
 
   /** @param {Values} q @param {number} t @returns {Places} */
   function places(q, t) {
@@ -41,7 +45,9 @@ export function kinematicsOf(scene, result, parameters) {
     places,
     slope(q, t, along, time = 0) {
       const [after, before] = [1, -1].map((sign) => places(moved(q, along, sign * H), t + sign * H * time));
-      return Object.fromEntries(Object.entries(after).map(([name, place]) => [name, place.map((x, c) => (x - before[name][c]) / (2 * H))]));
+      return Object.fromEntries(
+        Object.entries(after).map(([name, place]) => [name, place.map((x, c) => (x - before[name][c]) / (2 * H))]),
+      );
     },
     works(q, rates, t, delta) {
       const values = { ...given, ...q, ...wrapped("dot", rates), ...wrapped("delta", delta), t };
@@ -60,7 +66,8 @@ export function moved(q, along, s = 1) {
 }
 
 /** @param {"dot" | "delta"} operator @param {Values} values @returns {Values} */
-const wrapped = (operator, values) => Object.fromEntries(Object.entries(values).map(([name, value]) => [`${operator}(${name})`, value]));
+const wrapped = (operator, values) =>
+  Object.fromEntries(Object.entries(values).map(([name, value]) => [`${operator}(${name})`, value]));
 
 /**
  * The snapshot of a configuration: what the drawing needs to show it.

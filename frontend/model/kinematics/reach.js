@@ -45,7 +45,8 @@ function columnOf(kinematics, place, q, t, name, project) {
 
 /** Jᵀ (J Jᵀ + λ)⁻¹ b: two rows, so the inverse is written down. @param {Pixel[]} columns @param {Pixel} b @param {number} relative */
 function solved(columns, b, relative) {
-  const dot = (/** @type {0 | 1} */ r, /** @type {0 | 1} */ s) => columns.reduce((sum, column) => sum + column[r] * column[s], 0);
+  const dot = (/** @type {0 | 1} */ r, /** @type {0 | 1} */ s) =>
+    columns.reduce((sum, column) => sum + column[r] * column[s], 0);
   const damping = relative * Math.max(...columns.map(([x, y]) => x * x + y * y), 1e-12);
   const [a, c, d] = [dot(0, 0) + damping, dot(0, 1), dot(1, 1) + damping];
   const size = a * d - c * c;

@@ -38,7 +38,8 @@ export function createBench({ run, scene, document, lang }, question) {
   let answered = "";
 
   /** @param {unknown} error */
-  const failureIn = (error) => (error instanceof ApiError ? error.failure : { title: "", detail: String(error), problems: [], status: 500 });
+  const failureIn = (error) =>
+    error instanceof ApiError ? error.failure : { title: "", detail: String(error), problems: [], status: 500 };
 
   function stop() {
     renew();
@@ -53,7 +54,8 @@ export function createBench({ run, scene, document, lang }, question) {
     set({ ...cleared, running: true });
     const body = requestOf(question, document(question.scene), lang());
     const asked = JSON.stringify([question.lab, body]);
-    const hear = (/** @type {Part} */ { done, total, charts }) => signal.aborted || set({ waiting: null, progress: done / total, charts });
+    const hear = (/** @type {Part} */ { done, total, charts }) =>
+      signal.aborted || set({ waiting: null, progress: done / total, charts });
     const wait = (/** @type {Waiting} */ waiting) => signal.aborted || set({ waiting });
     try {
       const result = await run(question.lab, body, hear, signal, renews && before !== null && asked === answered, wait);

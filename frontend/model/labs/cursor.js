@@ -30,5 +30,9 @@ const within = (place, count) => Math.min(Math.max(place, 0), count - 1);
 /** What the map says there; it may have become coarser meanwhile. @param {Spot} spot @param {any} map */
 export function seenAt({ column, row }, map) {
   const [i, j] = [within(column, map.x.length), within(row, map.y.length)];
-  return { x: /** @type {number} */ (map.x[i]), y: /** @type {number} */ (map.y[j]), value: /** @type {number | null} */ (map.z[j]?.[i] ?? null) };
+  return {
+    x: /** @type {number} */ (map.x[i]),
+    y: /** @type {number} */ (map.y[j]),
+    value: /** @type {number | null} */ (map.z[j]?.[i] ?? null),
+  };
 }

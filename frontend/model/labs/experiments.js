@@ -13,7 +13,15 @@ import { duration } from "./options.js";
 /** @typedef {import("./options.js").Option} Option */
 
 /** @type {Record<string, Experiment>} */
-const EXPERIMENTS = { "work-precision": workPrecision, convergence, "energy-drift": energyDrift, stability, "stability-map": stabilityMap, chaos, fidelity };
+const EXPERIMENTS = {
+  "work-precision": workPrecision,
+  convergence,
+  "energy-drift": energyDrift,
+  stability,
+  "stability-map": stabilityMap,
+  chaos,
+  fidelity,
+};
 
 /** What is asked of an experiment of which only the server knows. @type {Experiment} */
 const OTHER = { example: { scene: "double-pendulum" }, options: [duration()] };
@@ -22,4 +30,10 @@ const OTHER = { example: { scene: "double-pendulum" }, options: [duration()] };
 export const experimentOf = (lab) => EXPERIMENTS[lab] ?? OTHER;
 
 /** Every option there is, once. */
-export const OPTIONS = [...new Map(Object.values(EXPERIMENTS).flatMap(({ options }) => options).map((option) => [option.name, option])).values()];
+export const OPTIONS = [
+  ...new Map(
+    Object.values(EXPERIMENTS)
+      .flatMap(({ options }) => options)
+      .map((option) => [option.name, option]),
+  ).values(),
+];

@@ -7,11 +7,13 @@ import { stepRange } from "./step.js";
 
 const NARROW = 640;
 /** In the type size: how wide a letter of the legend is, and the symbol and margins beside it. */
-const LETTER = 0.38, BESIDE = 4.5;
+const LETTER = 0.38,
+  BESIDE = 4.5;
 /** The type size in pixels for which charts are made. */
 const TYPE = 16;
 /** Plotly's own, where a chart says nothing. */
-const LINE = 2, SYMBOL = 6;
+const LINE = 2,
+  SYMBOL = 6;
 /** Symbols and lines in ink on white paper are in the page's ink. */
 const INK = "#222222";
 
@@ -20,7 +22,9 @@ const INK = "#222222";
  */
 export function themed(chart, palette, width, em, lang) {
   const narrow = width < NARROW * (em / TYPE);
-  const told = narrow ? { ...chart, data: chart.data.map((trace) => broken(trace, (width - BESIDE * em) / (LETTER * em))) } : chart;
+  const told = narrow
+    ? { ...chart, data: chart.data.map((trace) => broken(trace, (width - BESIDE * em) / (LETTER * em))) }
+    : chart;
   const layout = {
     ...chart.layout,
     width,
@@ -30,7 +34,17 @@ export function themed(chart, palette, width, em, lang) {
     paper_bgcolor: "rgba(0,0,0,0)",
     plot_bgcolor: "rgba(0,0,0,0)",
     separators: lang === "de" ? ",." : ".,",
-    legend: narrow ? { ...chart.layout.legend, orientation: "h", x: 0, y: -0.22, xanchor: "left", yanchor: "top", font: { size: 0.72 * em } } : { ...chart.layout.legend, font: { size: 0.75 * em } },
+    legend: narrow
+      ? {
+          ...chart.layout.legend,
+          orientation: "h",
+          x: 0,
+          y: -0.22,
+          xanchor: "left",
+          yanchor: "top",
+          font: { size: 0.72 * em },
+        }
+      : { ...chart.layout.legend, font: { size: 0.75 * em } },
     ...axesOf(chart.layout, palette),
   };
   return { data: told.data.map((trace) => thickened(inked(trace, palette), em / TYPE)), layout };
@@ -56,7 +70,18 @@ function heightOf(chart, narrow, em) {
 /** @param {Record<string, any>} layout @param {Palette} palette */
 function axesOf(layout, palette) {
   const axes = Object.keys(layout).filter((key) => /^[xy]axis\d*$/.test(key));
-  return Object.fromEntries(axes.map((key) => [key, { ...layout[key], gridcolor: palette.grid, linecolor: palette.muted, tickcolor: palette.muted, zerolinecolor: palette.muted }]));
+  return Object.fromEntries(
+    axes.map((key) => [
+      key,
+      {
+        ...layout[key],
+        gridcolor: palette.grid,
+        linecolor: palette.muted,
+        tickcolor: palette.muted,
+        zerolinecolor: palette.muted,
+      },
+    ]),
+  );
 }
 
 /** @param {any} trace @param {Palette} palette */
@@ -64,29 +89,55 @@ function inked(trace, palette) {
   const { marker } = trace;
   const shown = (/** @type {unknown} */ color) => (color === INK ? palette.ink : color);
   if (![marker?.color, marker?.line?.color].includes(INK)) return trace;
-  return { ...trace, marker: { ...marker, color: shown(marker.color), ...(marker.line && { line: { ...marker.line, color: shown(marker.line.color) } }) } };
+  return {
+    ...trace,
+    marker: {
+      ...marker,
+      color: shown(marker.color),
+      ...(marker.line && { line: { ...marker.line, color: shown(marker.line.color) } }),
+    },
+  };
 }
 
 /** @param {Record<string, number>} lengths @param {number} by */
-const scaled = (lengths, by) => Object.fromEntries(Object.entries(lengths).map(([name, length]) => [name, length * by]));
+const scaled = (lengths, by) =>
+  Object.fromEntries(Object.entries(lengths).map(([name, length]) => [name, length * by]));
 
 /** Lines and symbols grow with the type. @param {any} trace @param {number} by */
 function thickened(trace, by) {
   const { line, marker } = trace;
   const sized = marker && (Array.isArray(marker.size) ? marker : { ...marker, size: (marker.size ?? SYMBOL) * by });
-  return { ...trace, ...(line && { line: { ...line, width: (line.width ?? LINE) * by } }), ...(sized && { marker: sized }) };
+  return {
+    ...trace,
+    ...(line && { line: { ...line, width: (line.width ?? LINE) * by } }),
+    ...(sized && { marker: sized }),
+  };
 }
 
 /** The crosses hλ for a step h. @param {Chart} chart @param {number} h @returns {Chart} */
 export function withStep(chart, h) {
   const moved = (/** @type {any} */ trace) =>
-    trace.meta?.role === "eigenvalues" ? { ...trace, x: trace.x.map((/** @type {number} */ v) => v * h), y: trace.y.map((/** @type {number} */ v) => v * h) } : trace;
+    trace.meta?.role === "eigenvalues"
+      ? {
+          ...trace,
+          x: trace.x.map((/** @type {number} */ v) => v * h),
+          y: trace.y.map((/** @type {number} */ v) => v * h),
+        }
+      : trace;
   return { ...chart, data: chart.data.map(moved) };
 }
 
 /** A line across at the error that is wanted, on the charts of error. @param {Chart} chart @param {number} tolerance @param {string} color @returns {Chart} */
 export function withTolerance(chart, tolerance, color) {
-  const line = { type: "line", xref: "paper", x0: 0, x1: 1, y0: tolerance, y1: tolerance, line: { color, width: 1.5, dash: "dash" } };
+  const line = {
+    type: "line",
+    xref: "paper",
+    x0: 0,
+    x1: 1,
+    y0: tolerance,
+    y1: tolerance,
+    line: { color, width: 1.5, dash: "dash" },
+  };
   return { ...chart, layout: { ...chart.layout, shapes: [line] } };
 }
 

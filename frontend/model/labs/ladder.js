@@ -15,5 +15,8 @@ export function titleOf({ parts }, t, names = {}, lang = "en") {
   };
   const told = (/** @type {Record<string, string>} */ parameters) =>
     Object.fromEntries(Object.entries(parameters).map(([key, some]) => [key, some.split(", ").map(called).join(", ")]));
-  return parts.map(({ kind, parameters }) => t(`ladder.kinds.${kind}.title`, told(parameters))).join(", ") || t("ladder.kinds.full.title");
+  return (
+    parts.map(({ kind, parameters }) => t(`ladder.kinds.${kind}.title`, told(parameters))).join(", ") ||
+    t("ladder.kinds.full.title")
+  );
 }

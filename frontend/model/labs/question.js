@@ -9,7 +9,13 @@ import { experimentOf, OPTIONS } from "./experiments.js";
  */
 
 /** @type {Question} */
-export const NOTHING = { lab: "work-precision", scene: "", ...Object.fromEntries(OPTIONS.map(({ name, usual }) => [name, usual])), parameters: {}, initial: {} };
+export const NOTHING = {
+  lab: "work-precision",
+  scene: "",
+  ...Object.fromEntries(OPTIONS.map(({ name, usual }) => [name, usual])),
+  parameters: {},
+  initial: {},
+};
 
 /** The scene that shows a lab best, and what else to ask there. @param {string} lab */
 export const exampleOf = (lab) => experimentOf(lab).example;
@@ -17,9 +23,19 @@ export const exampleOf = (lab) => experimentOf(lab).example;
 /** @param {string} query */
 export function readQuestion(query) {
   const given = new URLSearchParams(query);
-  const answers = OPTIONS.map(({ name, key, usual, read }) => [name, given.has(key) ? read(given.get(key) ?? "") : usual]);
+  const answers = OPTIONS.map(({ name, key, usual, read }) => [
+    name,
+    given.has(key) ? read(given.get(key) ?? "") : usual,
+  ]);
   /** @type {Question} */
-  const question = { ...NOTHING, lab: given.get("lab") || NOTHING.lab, scene: given.get("scene") ?? "", ...Object.fromEntries(answers), parameters: {}, initial: {} };
+  const question = {
+    ...NOTHING,
+    lab: given.get("lab") || NOTHING.lab,
+    scene: given.get("scene") ?? "",
+    ...Object.fromEntries(answers),
+    parameters: {},
+    initial: {},
+  };
   for (const [key, text] of given) put(question, key, Number(text));
   return question;
 }
@@ -38,7 +54,10 @@ export function writeQuestion(question) {
   const { parameters, initial, lab, scene } = question;
   const answers = OPTIONS.map(({ name, key, write }) => [key, write(question[name])]);
   const values = Object.entries(parameters).map(([name, value]) => [`p.${name}`, value]);
-  const starts = Object.entries(initial).flatMap(([name, { value, rate }]) => [[`q.${name}`, value], [`v.${name}`, rate]]);
+  const starts = Object.entries(initial).flatMap(([name, { value, rate }]) => [
+    [`q.${name}`, value],
+    [`v.${name}`, rate],
+  ]);
   const query = new URLSearchParams();
   for (const [key, value] of [["lab", lab], ["scene", scene], ...answers, ...values, ...starts]) {
     if (value !== "" && value !== undefined) query.set(String(key), String(value));
@@ -49,12 +68,17 @@ export function writeQuestion(question) {
 /** @param {Question} question @param {string | object} scene @param {string} lang */
 export function requestOf(question, scene, lang) {
   const { lab, parameters, initial } = question;
-  return Object.assign({ scene, parameters, initial, lang }, ...experimentOf(lab).options.map(({ name, asked }) => asked(question[name])));
+  return Object.assign(
+    { scene, parameters, initial, lang },
+    ...experimentOf(lab).options.map(({ name, asked }) => asked(question[name])),
+  );
 }
 
 /** The question with the answers that are usual in its scene, where nobody has given any. @param {Question} question @param {Scene | null} scene @returns {Question} */
 export function answered(question, scene) {
-  const usual = experimentOf(question.lab).options.flatMap(({ name, usualIn }) => (scene && usualIn ? [[name, question[name] ?? usualIn(scene)]] : []));
+  const usual = experimentOf(question.lab).options.flatMap(({ name, usualIn }) =>
+    scene && usualIn ? [[name, question[name] ?? usualIn(scene)]] : [],
+  );
   return { ...question, ...Object.fromEntries(usual) };
 }
 
@@ -67,7 +91,10 @@ export function onScene(question, scene) {
 /** Whether nobody has chosen anything: scene and values are still those that show the lab best. @param {Question} question */
 function isExample({ lab, scene, parameters, initial }) {
   const { example } = experimentOf(lab);
-  return scene === example.scene && JSON.stringify([parameters, initial]) === JSON.stringify([example.parameters ?? {}, example.initial ?? {}]);
+  return (
+    scene === example.scene &&
+    JSON.stringify([parameters, initial]) === JSON.stringify([example.parameters ?? {}, example.initial ?? {}])
+  );
 }
 
 /** Another lab, on the same scene if somebody chose it; else, or where not every scene will do, on the one that shows it best. @param {Question} question @param {string} lab @returns {Question} */

@@ -14,7 +14,17 @@ const PARTS = ["coordinates", "rates", "positions", "loads", "energy"];
 export function motionOf({ parameters, initial }, wish, scene, lang) {
   const { method, step, t_end = SECONDS } = wish;
   const stepped = method ? { method, step } : {};
-  return { scene, parameters, initial, ...only(wish), t_end, samples: samplesFor(RATE * SECONDS), include: PARTS, lang, ...stepped };
+  return {
+    scene,
+    parameters,
+    initial,
+    ...only(wish),
+    t_end,
+    samples: samplesFor(RATE * SECONDS),
+    include: PARTS,
+    lang,
+    ...stepped,
+  };
 }
 
 /** @param {Wish} wish */
@@ -23,7 +33,9 @@ const only = ({ parameters, initial }) => ({ ...(parameters ? { parameters } : {
 /** The values of a point, as a line of text. @param {Wish} wish */
 export function written({ parameters = {}, initial = {} }) {
   const starts = Object.entries(initial).map(([name, { value }]) => /** @type {const} */ ([name, value ?? 0]));
-  return [...Object.entries(parameters), ...starts].map(([name, value]) => `${name} = ${Number(value.toPrecision(4))}`).join(", ");
+  return [...Object.entries(parameters), ...starts]
+    .map(([name, value]) => `${name} = ${Number(value.toPrecision(4))}`)
+    .join(", ");
 }
 
 /**

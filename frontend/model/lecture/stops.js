@@ -57,7 +57,9 @@ export function meant(lines, text) {
   if (/^\d+([.,]\d*)?$/.test(wanted)) {
     const number = wanted.replace(",", ".");
     const exact = lines.filter((line) => line.number === number);
-    return exact.length ? exact : lines.filter((line) => line.number.startsWith(number.includes(".") ? number : `${number}.`));
+    return exact.length
+      ? exact
+      : lines.filter((line) => line.number.startsWith(number.includes(".") ? number : `${number}.`));
   }
   return lines.filter((line) => `${line.step.title} ${line.chapter.title}`.toLowerCase().includes(wanted));
 }

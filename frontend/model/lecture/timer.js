@@ -9,7 +9,8 @@ export const STOPPED = { before: 0, since: null };
 export const elapsed = ({ before, since }, now) => before + (since === null ? 0 : now - since);
 
 /** Begins or stops counting. @param {Timer} timer @param {number} now @returns {Timer} */
-export const toggled = (timer, now) => (timer.since === null ? { ...timer, since: now } : { before: elapsed(timer, now), since: null });
+export const toggled = (timer, now) =>
+  timer.since === null ? { ...timer, since: now } : { before: elapsed(timer, now), since: null };
 
 /** "0:07", "12:34", "1:02:03". @param {number} milliseconds */
 export function clockText(milliseconds) {

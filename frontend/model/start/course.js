@@ -17,7 +17,12 @@ const varied = (id) => ({ id, path: "/variations", place: {}, more: writeQuestio
 const proved = (id, step) => ({ id, path: "/proof", place: { step } });
 
 /** @param {string} id @param {string} lab @returns {Entry} */
-const measured = (id, lab) => ({ id, path: "/labs", place: {}, more: writeLab({ ...NOTHING, ...exampleOf(lab), lab }) });
+const measured = (id, lab) => ({
+  id,
+  path: "/labs",
+  place: {},
+  more: writeLab({ ...NOTHING, ...exampleOf(lab), lab }),
+});
 
 /** @type {Part[]} */
 export const COURSE = [
@@ -42,7 +47,11 @@ export const COURSE = [
   },
   {
     id: "dalembert",
-    entries: [proved("proof", ""), shown("dots", "elastic-pendulum", "cancellation-of-dots:bob"), shown("inertia", "elastic-pendulum", "inertia-work:phi")],
+    entries: [
+      proved("proof", ""),
+      shown("dots", "elastic-pendulum", "cancellation-of-dots:bob"),
+      shown("inertia", "elastic-pendulum", "inertia-work:phi"),
+    ],
   },
   {
     id: "lagrange",

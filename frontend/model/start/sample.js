@@ -29,16 +29,23 @@ export function createSamples(api, lang) {
 
   /** @param {string} id @returns {Promise<Sample | null>} null where it cannot be had: the card then goes without */
   async function sample(id) {
-    const request = { scene: id, t_end: SECONDS, samples: samplesFor(SECONDS * RATE), include: ["coordinates", "rates", "positions", "loads"], lang: lang() };
+    const request = {
+      scene: id,
+      t_end: SECONDS,
+      samples: samplesFor(SECONDS * RATE),
+      include: ["coordinates", "rates", "positions", "loads"],
+      lang: lang(),
+    };
     const [scene, trajectory] = await Promise.all([api.scene(id, lang()), sampled(api.simulate)(request)]);
     return trajectory.t.length && !trajectory.coarse ? { scene, trajectory } : null;
   }
 
   return {
     /** @param {string} id @returns {Promise<Sample | null>} */
-    ask: (id) => new Promise((done) => {
-      waiting.push(() => sample(id).then(done, () => done(null)));
-      next();
-    }),
+    ask: (id) =>
+      new Promise((done) => {
+        waiting.push(() => sample(id).then(done, () => done(null)));
+        next();
+      }),
   };
 }

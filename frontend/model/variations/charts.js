@@ -13,19 +13,27 @@ const CEILING = 2;
 const DECADES = 16;
 
 /** @param {Size} size @returns {Frame} */
-export const frameOf = ({ width, height, em }) => ({ left: 4.8 * em, right: width - 0.8 * em, top: 0.7 * em, bottom: height - 2.6 * em });
+export const frameOf = ({ width, height, em }) => ({
+  left: 4.8 * em,
+  right: width - 0.8 * em,
+  top: 0.7 * em,
+  bottom: height - 2.6 * em,
+});
 
 /** @param {number} low @param {number} high @param {number} from @param {number} to */
-const scale = (low, high, from, to) => (/** @type {number} */ value) => from + ((value - low) / (high - low || 1)) * (to - from);
+const scale = (low, high, from, to) => (/** @type {number} */ value) =>
+  from + ((value - low) / (high - low || 1)) * (to - from);
 
 /** A path through points; where one is missing it is broken. @param {([number, number] | null)[]} points */
 export function pathOf(points) {
   let pen = "M";
-  return points.map((point) => {
-    const piece = point ? `${pen}${point[0].toFixed(1)} ${point[1].toFixed(1)}` : "";
-    pen = point ? "L" : "M";
-    return piece;
-  }).join("");
+  return points
+    .map((point) => {
+      const piece = point ? `${pen}${point[0].toFixed(1)} ${point[1].toFixed(1)}` : "";
+      pen = point ? "L" : "M";
+      return piece;
+    })
+    .join("");
 }
 
 /** At most `count` round numbers between two. @param {number} low @param {number} high @param {number} count */
@@ -34,7 +42,9 @@ export function ticksBetween(low, high, count) {
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = power * ([1, 2, 5, 10].find((lead) => lead * power >= raw * 0.999) ?? 10);
   const first = Math.ceil(low / step - 1e-9);
-  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, i) => Number(((first + i) * step).toPrecision(12)));
+  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, i) =>
+    Number(((first + i) * step).toPrecision(12)),
+  );
 }
 
 /**
@@ -45,27 +55,40 @@ export function curvesChart({ curves }, h, size) {
   const frame = frameOf(size);
   const names = Object.keys(curves.functions);
   const moved = (/** @type {string} */ name, /** @type {number} */ by) =>
-    curves.functions[name].map((value, i) => (value === null || curves.direction[name][i] === null ? null : value + by * Number(curves.direction[name][i])));
+    curves.functions[name].map((value, i) =>
+      value === null || curves.direction[name][i] === null ? null : value + by * Number(curves.direction[name][i]),
+    );
   const values = names.flatMap((name) => [0, 1].flatMap((by) => moved(name, by))).filter((value) => value !== null);
   const [low, high] = values.length ? [Math.min(...values), Math.max(...values)] : [0, 1];
   const room = 0.06 * (high - low || 1);
   const times = /** @type {const} */ ([curves.t[0], curves.t[curves.t.length - 1]]);
   const x = scale(...times, frame.left, frame.right);
   const y = scale(low - room, high + room, frame.bottom, frame.top);
-  const line = (/** @type {(number | null)[]} */ list) => pathOf(list.map((value, i) => (value === null ? null : [x(curves.t[i]), y(value)])));
+  const line = (/** @type {(number | null)[]} */ list) =>
+    pathOf(list.map((value, i) => (value === null ? null : [x(curves.t[i]), y(value)])));
   return {
     frame,
     across: ticksBetween(...times, 5).map((value) => ({ at: x(value), text: value })),
     up: ticksBetween(low - room, high + room, 5).map((value) => ({ at: y(value), text: value })),
-    lines: names.flatMap((name, i) => [{ className: `q-${i} plain`, d: line(curves.functions[name]) }, { className: `q-${i} neighbour`, d: line(moved(name, h)) }]),
-    between: names.map((name, i) => ({ className: `q-${i} between`, d: bars(curves.functions[name], moved(name, h), (k) => x(curves.t[k]), y) })),
+    lines: names.flatMap((name, i) => [
+      { className: `q-${i} plain`, d: line(curves.functions[name]) },
+      { className: `q-${i} neighbour`, d: line(moved(name, h)) },
+    ]),
+    between: names.map((name, i) => ({
+      className: `q-${i} between`,
+      d: bars(curves.functions[name], moved(name, h), (k) => x(curves.t[k]), y),
+    })),
     at: curves.at === null ? null : x(curves.at),
   };
 }
 
 /** Thin bars from a curve to its neighbour: h v(t). @param {(number | null)[]} from @param {(number | null)[]} to @param {(k: number) => number} x @param {(value: number) => number} y */
 function bars(from, to, x, y) {
-  const ends = from.map((value, k) => (k % 8 || value === null || to[k] === null ? "" : `M${x(k).toFixed(1)} ${y(value).toFixed(1)}V${y(Number(to[k])).toFixed(1)}`));
+  const ends = from.map((value, k) =>
+    k % 8 || value === null || to[k] === null
+      ? ""
+      : `M${x(k).toFixed(1)} ${y(value).toFixed(1)}V${y(Number(to[k])).toFixed(1)}`,
+  );
   return ends.join("");
 }
 
@@ -81,18 +104,36 @@ export function errorChart(quotient, size) {
   const kinds = /** @type {const} */ (["one_sided", "central"]);
   const point = (/** @type {number} */ h, /** @type {number | null} */ error) => {
     const height = error === null ? null : Math.log10(Math.abs(error));
-    return height === null ? null : /** @type {[number, number]} */ ([x(Math.log10(h)), y(Math.min(CEILING, Math.max(FLOOR, height)))]);
+    return height === null
+      ? null
+      : /** @type {[number, number]} */ ([x(Math.log10(h)), y(Math.min(CEILING, Math.max(FLOOR, height)))]);
   };
   const rounding = roundingLevel(quotient);
-  const law = quotient.h.map((h) => (rounding === null || rounding / h < 10 ** FLOOR || rounding / h > 10 ** CEILING ? null : point(h, rounding / h)));
+  const law = quotient.h.map((h) =>
+    rounding === null || rounding / h < 10 ** FLOOR || rounding / h > 10 ** CEILING ? null : point(h, rounding / h),
+  );
   return {
     frame,
     across: [-16, -12, -8, -4, 0].map((power) => ({ at: x(power), text: power })),
     up: [-16, -12, -8, -4, 0].map((power) => ({ at: y(power), text: power })),
-    dots: kinds.map((kind) => ({ className: kind, points: quotient[kind].error.map((error, i) => point(quotient.h[i], error)) })),
-    truncation: kinds.map((kind) => ({ className: kind, d: pathOf(quotient[kind].truncation.map((part, i) => (Math.abs(part ?? 0) < 10 ** FLOOR ? null : point(quotient.h[i], part)))) })),
+    dots: kinds.map((kind) => ({
+      className: kind,
+      points: quotient[kind].error.map((error, i) => point(quotient.h[i], error)),
+    })),
+    truncation: kinds.map((kind) => ({
+      className: kind,
+      d: pathOf(
+        quotient[kind].truncation.map((part, i) =>
+          Math.abs(part ?? 0) < 10 ** FLOOR ? null : point(quotient.h[i], part),
+        ),
+      ),
+    })),
     rounding: pathOf(law),
-    optima: kinds.flatMap((kind) => (quotient[kind].predicted ? [{ className: kind, x: x(Math.log10(quotient[kind].predicted)), h: quotient[kind].predicted }] : [])),
+    optima: kinds.flatMap((kind) =>
+      quotient[kind].predicted
+        ? [{ className: kind, x: x(Math.log10(quotient[kind].predicted)), h: quotient[kind].predicted }]
+        : [],
+    ),
     x: (/** @type {number} */ h) => x(Math.log10(h)),
     notes: [...kinds.flatMap((kind) => slopeNote(kind, quotient, point)), ...roundingNote(quotient, rounding, point)],
   };
@@ -100,7 +141,9 @@ export function errorChart(quotient, size) {
 
 /** What rounding times h is, typically; null where there is none. @param {Quotient} quotient */
 export function roundingLevel({ one_sided: { rounding }, h }) {
-  const levels = rounding.flatMap((part, i) => (part && h[i] < 1e-3 ? [Math.abs(part) * h[i]] : [])).sort((a, b) => a - b);
+  const levels = rounding
+    .flatMap((part, i) => (part && h[i] < 1e-3 ? [Math.abs(part) * h[i]] : []))
+    .sort((a, b) => a - b);
   return levels.length ? levels[Math.floor(levels.length * 0.75)] : null;
 }
 

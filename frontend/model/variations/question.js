@@ -21,8 +21,20 @@
 
 /** @type {Question} */
 export const EMPTY = {
-  kind: "expression", expression: "", syntax: "plain", functions: "x", direction: "", parameters: "",
-  at: "0", from: "0", to: "1", ends: "fixed", samples: {}, along: {}, values: {}, t: "1",
+  kind: "expression",
+  expression: "",
+  syntax: "plain",
+  functions: "x",
+  direction: "",
+  parameters: "",
+  at: "0",
+  from: "0",
+  to: "1",
+  ends: "fixed",
+  samples: {},
+  along: {},
+  values: {},
+  t: "1",
 };
 export const KINDS = /** @type {const} */ (["expression", "value", "integral"]);
 export const ENDS = ["fixed", "free", "fixed-free", "free-fixed"];
@@ -51,7 +63,8 @@ export function requestOf(question, lang) {
 /** The same with concrete functions, for the difference quotient. @param {Question} question @param {string} lang */
 export function quotientRequestOf(question, lang) {
   const request = requestOf(question, lang);
-  const table = (/** @type {"samples" | "along" | "values"} */ key, /** @type {string[]} */ names) => names.map((name) => [name, textOf(question, key, name)]);
+  const table = (/** @type {"samples" | "along" | "values"} */ key, /** @type {string[]} */ names) =>
+    names.map((name) => [name, textOf(question, key, name)]);
   const numeric = {
     functions: Object.fromEntries(table("samples", request.functions)),
     direction: Object.fromEntries(table("along", request.functions)),
@@ -70,26 +83,38 @@ export function numberOf(text) {
 /** The query of a question; what is as in an empty one is left out. @param {Question} question */
 export function writeQuestion(question) {
   const query = new URLSearchParams();
-  for (const key of /** @type {const} */ (["kind", "syntax", "ends", ...TEXTS])) if (question[key] !== EMPTY[key]) query.set(key, question[key]);
+  for (const key of /** @type {const} */ (["kind", "syntax", "ends", ...TEXTS]))
+    if (question[key] !== EMPTY[key]) query.set(key, question[key]);
   for (const key of TABLES) {
     const entries = Object.entries(question[key]);
     if (entries.length) query.set(key, entries.map(([name, text]) => `${name}:${text}`).join(";"));
   }
-  return query.toString().replaceAll("%3A", ":").replaceAll("%2C", ",").replaceAll("%28", "(").replaceAll("%29", ")").replaceAll("%3B", ";");
+  return query
+    .toString()
+    .replaceAll("%3A", ":")
+    .replaceAll("%2C", ",")
+    .replaceAll("%28", "(")
+    .replaceAll("%29", ")")
+    .replaceAll("%3B", ";");
 }
 
 /** The question in a query; null if it has none. @param {string} query @returns {Question | null} */
 export function readQuestion(query) {
   const given = new URLSearchParams(query);
   if (!given.get("expression")) return null;
-  const oneOf = (/** @type {readonly string[]} */ allowed, /** @type {string} */ key, /** @type {string} */ otherwise) => {
+  const oneOf = (
+    /** @type {readonly string[]} */ allowed,
+    /** @type {string} */ key,
+    /** @type {string} */ otherwise,
+  ) => {
     const value = given.get(key) ?? "";
     return allowed.includes(value) ? value : otherwise;
   };
   const texts = TEXTS.map((key) => [key, (given.get(key) ?? EMPTY[key]).slice(0, LONGEST)]);
   const tables = TABLES.map((key) => [key, Object.fromEntries(pairsIn((given.get(key) ?? "").slice(0, LONGEST)))]);
   return {
-    ...EMPTY, ...Object.fromEntries([...texts, ...tables]),
+    ...EMPTY,
+    ...Object.fromEntries([...texts, ...tables]),
     kind: /** @type {Kind} */ (oneOf(KINDS, "kind", EMPTY.kind)),
     syntax: /** @type {"plain" | "latex"} */ (oneOf(["plain", "latex"], "syntax", EMPTY.syntax)),
     ends: oneOf(ENDS, "ends", EMPTY.ends),

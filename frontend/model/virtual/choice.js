@@ -20,10 +20,17 @@ export function reachOf({ unit, min, max, value }) {
  * @returns {Choice}
  */
 export function readChoice(text, free) {
-  const given = new Map(text.split(",").map((part) => /** @type {[string, number]} */ ([part.split(":")[0], Number(part.split(":")[1])])));
-  const within = (/** @type {number | undefined} */ value, /** @type {number} */ reach) => Math.max(-reach, Math.min(reach, value || 0));
-  if (!text.includes(":")) return { delta: Object.fromEntries(free.map((each) => [each.name, round(2 * FIRST * reachOf(each))])), dt: 0 };
-  return { delta: Object.fromEntries(free.map((each) => [each.name, within(given.get(each.name), reachOf(each))])), dt: Math.max(0, within(given.get("dt"), LONGEST)) };
+  const given = new Map(
+    text.split(",").map((part) => /** @type {[string, number]} */ ([part.split(":")[0], Number(part.split(":")[1])])),
+  );
+  const within = (/** @type {number | undefined} */ value, /** @type {number} */ reach) =>
+    Math.max(-reach, Math.min(reach, value || 0));
+  if (!text.includes(":"))
+    return { delta: Object.fromEntries(free.map((each) => [each.name, round(2 * FIRST * reachOf(each))])), dt: 0 };
+  return {
+    delta: Object.fromEntries(free.map((each) => [each.name, within(given.get(each.name), reachOf(each))])),
+    dt: Math.max(0, within(given.get("dt"), LONGEST)),
+  };
 }
 
 /** @param {Choice} choice */
@@ -33,11 +40,13 @@ export function writeChoice({ delta, dt }) {
 
 /** How far the coordinates are from one configuration to another, each within its reach. @param {import("../types.js").Coordinate[]} free @param {Values} from @param {Values} to @returns {Values} */
 export function differences(free, from, to) {
-  return Object.fromEntries(free.map((each) => {
-    const far = to[each.name] - from[each.name];
-    const reach = reachOf(each);
-    return [each.name, Math.max(-reach, Math.min(reach, each.unit === "rad" ? wrapped(far) : far))];
-  }));
+  return Object.fromEntries(
+    free.map((each) => {
+      const far = to[each.name] - from[each.name];
+      const reach = reachOf(each);
+      return [each.name, Math.max(-reach, Math.min(reach, each.unit === "rad" ? wrapped(far) : far))];
+    }),
+  );
 }
 
 /** @param {number} x */

@@ -35,13 +35,16 @@ export function virtualFigure(stage, { varied, later, displacements }) {
 
 /** The members of a drawing at a moment, in a class of their own. @param {Stage} stage @param {Snapshot} then @param {string} kind */
 export function outline(stage, then, kind) {
-  return figureOf(stage, then).shapes
-    .filter(({ key }) => MEMBERS.test(key))
+  return figureOf(stage, then)
+    .shapes.filter(({ key }) => MEMBERS.test(key))
     .map((shape) => ({ ...shape, key: `${kind} ${shape.key}`, className: `outline ${kind} ${shape.className}` }));
 }
 
 /** @param {readonly Figure[]} figures @returns {Figure} */
-const merged = (figures) => ({ shapes: figures.flatMap(({ shapes }) => shapes), labels: figures.flatMap(({ labels }) => labels) });
+const merged = (figures) => ({
+  shapes: figures.flatMap(({ shapes }) => shapes),
+  labels: figures.flatMap(({ labels }) => labels),
+});
 
 /**
  * @param {Stage} stage @param {import("./virtual.js").Displacement} displacement @param {boolean} running  time is not frozen
@@ -49,20 +52,39 @@ const merged = (figures) => ({ shapes: figures.flatMap(({ shapes }) => shapes), 
  */
 function arrowsOf(stage, { body, at, variation, frozen, explicit }, running) {
   const from = stage.project(at);
-  const drawn = (/** @type {Arrow[]} */ arrows) => merged(arrows.map((one) => labelled(stage, { ...one, key: `${one.key}-${body}`, className: `${one.className} body-${body}` })));
+  const drawn = (/** @type {Arrow[]} */ arrows) =>
+    merged(
+      arrows.map((one) =>
+        labelled(stage, { ...one, key: `${one.key}-${body}`, className: `${one.className} body-${body}` }),
+      ),
+    );
   const whole = frozen.map((x, c) => x + explicit[c]);
   const partly = add(from, stage.direct(frozen));
   /** @type {Arrow} */
   const virtual = { key: "variation", from, vector: variation, className: "virtual", latex: "\\delta\\mathbf r" };
   if (!running) return drawn([virtual]);
   /** @type {Arrow} */
-  const actual = { key: "differential", from, vector: whole, className: "actual", latex: "\\mathrm d\\mathbf r", side: -1 };
+  const actual = {
+    key: "differential",
+    from,
+    vector: whole,
+    className: "actual",
+    latex: "\\mathrm d\\mathbf r",
+    side: -1,
+  };
   if (!(lengthOf(stage.direct(explicit)) > 1)) return drawn([virtual, actual]);
   return drawn([
     virtual,
     actual,
     { key: "frozen", from, vector: frozen, className: "actual part" },
-    { key: "explicit", from: partly, vector: explicit, className: "time-term", latex: "\\frac{\\partial\\mathbf r}{\\partial t}\\mathrm dt", side: -1 },
+    {
+      key: "explicit",
+      from: partly,
+      vector: explicit,
+      className: "time-term",
+      latex: "\\frac{\\partial\\mathbf r}{\\partial t}\\mathrm dt",
+      side: -1,
+    },
   ]);
 }
 
@@ -74,5 +96,20 @@ function labelled(stage, { key, from, vector: direction, className, latex, side 
   const middle = add(from, scaled(vector, 0.5));
   const aside = scaled(normal(unit(vector)), side * stage.unit * 1.2);
   const shapes = arrow(from, vector, key, className, Math.min(stage.unit, long * 0.5));
-  return { shapes, labels: latex ? [{ key, latex, at: long > 3 * stage.unit ? subtract(middle, aside) : add(add(from, vector), scaled(unit(vector), stage.unit)), className }] : [] };
+  return {
+    shapes,
+    labels: latex
+      ? [
+          {
+            key,
+            latex,
+            at:
+              long > 3 * stage.unit
+                ? subtract(middle, aside)
+                : add(add(from, vector), scaled(unit(vector), stage.unit)),
+            className,
+          },
+        ]
+      : [],
+  };
 }

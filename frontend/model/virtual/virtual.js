@@ -26,22 +26,31 @@ export function virtualOf(kinematics, now, bodies, { delta, dt }) {
   const q = now.coordinates;
   const along = scaled(now.rates, dt);
   const [variation, frozen, explicit] = [
-    kinematics.slope(q, now.t, delta), kinematics.slope(q, now.t, only(along, kinematics.free)), kinematics.slope(q, now.t, {}, dt),
+    kinematics.slope(q, now.t, delta),
+    kinematics.slope(q, now.t, only(along, kinematics.free)),
+    kinematics.slope(q, now.t, {}, dt),
   ];
   const works = kinematics.works(q, now.rates, now.t, delta);
   return {
     varied: configured(kinematics, now, moved(q, delta)),
     later: dt ? configured(kinematics, { ...now, t: now.t + dt }, moved(q, along)) : null,
-    displacements: bodies.filter((body) => variation[body]?.every(Number.isFinite)).map((body) => ({
-      body, at: now.positions[body], variation: variation[body], frozen: frozen[body], explicit: explicit[body],
-    })),
+    displacements: bodies
+      .filter((body) => variation[body]?.every(Number.isFinite))
+      .map((body) => ({
+        body,
+        at: now.positions[body],
+        variation: variation[body],
+        frozen: frozen[body],
+        explicit: explicit[body],
+      })),
     works,
     total: works.reduce((sum, { work }) => sum + work, 0),
   };
 }
 
 /** @param {Values} values @param {number} s @returns {Values} */
-export const scaled = (values, s) => Object.fromEntries(Object.entries(values).map(([name, value]) => [name, value * s]));
+export const scaled = (values, s) =>
+  Object.fromEntries(Object.entries(values).map(([name, value]) => [name, value * s]));
 
 /** @param {Values} values @param {readonly string[]} names @returns {Values} */
 const only = (values, names) => Object.fromEntries(names.map((name) => [name, values[name] ?? 0]));

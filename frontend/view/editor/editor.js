@@ -23,7 +23,8 @@ const SIDES = /** @type {const} */ (["form", "json", "toml"]);
 export function editorView(view) {
   const { editing, state } = view;
   const writing = editing.get();
-  const put = (/** @type {string} */ pointer, /** @type {unknown} */ value) => editing.edit(written(editing.get().document, pointer, value));
+  const put = (/** @type {string} */ pointer, /** @type {unknown} */ value) =>
+    editing.edit(written(editing.get().document, pointer, value));
   const sheet = { ...view, writing, put, problems: placed(writing.problems, writing.document) };
   return html`
     <div class="sides">${tabs(sheet)}${menu(sheet)}</div>
@@ -36,8 +37,10 @@ export function editorView(view) {
 
 /** @param {Sheet} sheet */
 function tabs({ state, session, t }) {
-  return html`<div class="segments" role="group" aria-label=${t("editor.sides")}>${SIDES.map((side) => html`
-    <button aria-pressed=${String(state.place.edit === side)} @click=${() => session.move({ edit: side })}>${t(`editor.side.${side}`)}</button>`)}</div>`;
+  return html`<div class="segments" role="group" aria-label=${t("editor.sides")}>${SIDES.map(
+    (side) => html`
+    <button aria-pressed=${String(state.place.edit === side)} @click=${() => session.move({ edit: side })}>${t(`editor.side.${side}`)}</button>`,
+  )}</div>`;
 }
 
 /** @param {Sheet} sheet */

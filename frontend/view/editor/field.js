@@ -31,7 +31,10 @@ export function complaints({ problems }, pointer, text = "") {
 /** @param {Sheet} sheet @param {string} pointer */
 function aria({ problems }, pointer) {
   const found = problems.get(pointer) ?? [];
-  return { invalid: String(found.some((problem) => !isWarning(problem))), why: found.length ? `${idOf(pointer)}-why` : nothing };
+  return {
+    invalid: String(found.some((problem) => !isWarning(problem))),
+    why: found.length ? `${idOf(pointer)}-why` : nothing,
+  };
 }
 
 /** @param {Sheet} sheet @param {string} pointer @param {string} label @param {unknown} value @param {(text: string) => void} change @param {{className?: string, mode?: string, standard?: string}} [look]  `standard` is what an empty field means */
@@ -80,17 +83,20 @@ export function choice(sheet, pointer, label, value, { options, say = (one) => o
 function vector(sheet, pointer, label, { row }, key) {
   const components = componentsOf(row[key], dimensionOf(sheet.writing.document));
   return html`<div class="vector">${components.map((c) =>
-    expression(sheet, `${pointer}/${c}`, html`${label}<sub>${c + 1}</sub>`, row[key]?.[c], materialOf(row)))}</div>`;
+    expression(sheet, `${pointer}/${c}`, html`${label}<sub>${c + 1}</sub>`, row[key]?.[c], materialOf(row)),
+  )}</div>`;
 }
 
 /** @param {Sheet} sheet @param {string} pointer @param {any} row */
 function material(sheet, pointer, row) {
   const { t } = sheet;
   const list = rowsOf(row.material);
-  return html`<div class="material">${list.map((one, i) => html`<div class="vector">
+  return html`<div class="material">${list.map(
+    (one, i) => html`<div class="vector">
       ${line(sheet, `${pointer}/${i}/name`, t("editor.field.material"), one?.name, (text) => sheet.put(`${pointer}/${i}/name`, text), { className: "narrow" })}
       ${expression(sheet, `${pointer}/${i}/from`, t("editor.field.lower"), one?.from, [])}
-      ${expression(sheet, `${pointer}/${i}/to`, t("editor.field.upper"), one?.to, [])}</div>`)}
+      ${expression(sheet, `${pointer}/${i}/to`, t("editor.field.upper"), one?.to, [])}</div>`,
+  )}
     ${complaints(sheet, pointer)}
     <div class="actions">
       ${list.length < 3 ? html`<button class="quiet small" @click=${() => sheet.put(`${pointer}/${list.length}`, { name: "suv"[list.length], from: "0", to: "1" })}>${t("editor.material-add")}</button>` : nothing}
@@ -105,15 +111,39 @@ export function fieldOf(sheet, at, { key, type }) {
   const pointer = `/${section}/${index}/${key}`;
   const label = sheet.t(`editor.field.${key}`);
   const put = (/** @type {unknown} */ value) => sheet.put(pointer, value);
-  const places = [...rowsOf(document.points), ...rowsOf(document.bodies).filter((body) => body?.kind !== "continuum")].map((one) => String(one?.name ?? ""));
+  const places = [
+    ...rowsOf(document.points),
+    ...rowsOf(document.bodies).filter((body) => body?.kind !== "continuum"),
+  ].map((one) => String(one?.name ?? ""));
   const coordinates = rowsOf(document.coordinates).map((one) => String(one?.name ?? ""));
   if (type === "vector") return vector(sheet, pointer, label, at, key);
   if (type === "expression") return expression(sheet, pointer, label, row[key], materialOf(row));
   if (type === "material") return material(sheet, pointer, row);
-  if (type === "number") return line(sheet, pointer, label, row[key], (text) => put(numberOf(text)), { className: "narrow", mode: "decimal", standard: standardOf(section, key) });
+  if (type === "number")
+    return line(sheet, pointer, label, row[key], (text) => put(numberOf(text)), {
+      className: "narrow",
+      mode: "decimal",
+      standard: standardOf(section, key),
+    });
   if (type === "place") return choice(sheet, pointer, label, row[key] ?? "", { options: places }, put);
   if (type === "coordinate") return choice(sheet, pointer, label, row[key] ?? "", { options: coordinates }, put);
-  if (type === "flag") return choice(sheet, pointer, label, String(row[key] ?? true), { options: ["true", "false"], say: (one) => sheet.t(`editor.flag.${one}`) }, (text) => put(text === "true"));
-  if (key === "name") return line(sheet, pointer, label, row[key], (text) => sheet.editing.edit(renamed(document, section, index, text)), { className: "name" });
+  if (type === "flag")
+    return choice(
+      sheet,
+      pointer,
+      label,
+      String(row[key] ?? true),
+      { options: ["true", "false"], say: (one) => sheet.t(`editor.flag.${one}`) },
+      (text) => put(text === "true"),
+    );
+  if (key === "name")
+    return line(
+      sheet,
+      pointer,
+      label,
+      row[key],
+      (text) => sheet.editing.edit(renamed(document, section, index, text)),
+      { className: "name" },
+    );
   return line(sheet, pointer, label, row[key], (text) => put(text || undefined), { className: "narrow" });
 }

@@ -30,8 +30,16 @@ function about(sheet) {
   const { lang } = state.place;
   const text = (/** @type {"title" | "summary"} */ key) => {
     const given = document[key];
-    const change = (/** @type {string} */ value) => sheet.put(`/${key}`, { ...(typeof given === "string" ? { de: given, en: given } : given), [lang]: value });
-    return line(sheet, `/${key}`, t(`editor.field.${key}`), typeof given === "string" ? given : given?.[lang] ?? given?.en, change, { className: "wide" });
+    const change = (/** @type {string} */ value) =>
+      sheet.put(`/${key}`, { ...(typeof given === "string" ? { de: given, en: given } : given), [lang]: value });
+    return line(
+      sheet,
+      `/${key}`,
+      t(`editor.field.${key}`),
+      typeof given === "string" ? given : (given?.[lang] ?? given?.en),
+      change,
+      { className: "wide" },
+    );
   };
   return html`
     <section class="part about">
@@ -63,7 +71,16 @@ function card(sheet, section, row, index) {
   const { t, writing } = sheet;
   const { key, kinds } = section;
   const [first, ...others] = fieldsOf(section, row, dimensionOf(writing.document));
-  const kind = kinds && choice(sheet, `/${key}/${index}/kind`, t("editor.field.kind"), row.kind ?? "", { options: Object.keys(kinds), say: (one) => t(`editor.kind.${one}`) }, (one) => sheet.editing.edit(ofKind(writing.document, key, index, one)));
+  const kind =
+    kinds &&
+    choice(
+      sheet,
+      `/${key}/${index}/kind`,
+      t("editor.field.kind"),
+      row.kind ?? "",
+      { options: Object.keys(kinds), say: (one) => t(`editor.kind.${one}`) },
+      (one) => sheet.editing.edit(ofKind(writing.document, key, index, one)),
+    );
   const asked = others.filter((field) => !field.optional);
   const beside = others.filter((field) => field.optional);
   const fields = key === "coordinates" || key === "parameters" ? others : [...asked, ...beside];

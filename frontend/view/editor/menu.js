@@ -46,7 +46,11 @@ function beginnings({ state, editing, writing, api, t }) {
     select.value = "";
     if (kind === "empty") editing.begin(EMPTY);
     else if (kind === "earlier") editing.begin(writing.earlier[Number(name)]);
-    else await api.scene(name, lang).then((scene) => editing.begin(copyOf(scene)), () => editing.tell("failure.unreachable"));
+    else
+      await api.scene(name, lang).then(
+        (scene) => editing.begin(copyOf(scene)),
+        () => editing.tell("failure.unreachable"),
+      );
   };
   return html`<label class="choice"><span class="unseen">${t("editor.start")}</span>
     <select @change=${chosen}>
@@ -58,19 +62,24 @@ function beginnings({ state, editing, writing, api, t }) {
 }
 
 /** @param {import("../../model/own.js").SceneDocument} document @param {string} lang */
-const titleOf = (document, lang) => (typeof document.title === "string" ? document.title : inLanguage(document.title, lang)) || String(document.id ?? "");
+const titleOf = (document, lang) =>
+  (typeof document.title === "string" ? document.title : inLanguage(document.title, lang)) || String(document.id ?? "");
 
 /** @param {Sheet} sheet */
 async function copyLink({ writing, editing, state }) {
   const fragment = await fragmentOf(writing.document);
   const address = `${location.origin}${location.pathname}?scene=own&lang=${state.place.lang}${fragment}`;
-  editing.tell(await toClipboard(address) ? "editor.link-copied" : "editor.link-refused");
+  editing.tell((await toClipboard(address)) ? "editor.link-copied" : "editor.link-refused");
 }
 
 /** @param {Sheet} sheet @param {"json" | "toml"} format */
 function save({ writing }, format) {
   const text = format === "json" ? (writing.text ?? jsonOf(writing.document)) : tomlOf(writing.document);
-  offer(`${String(writing.document.id ?? "scene").replace(/[^\w-]/g, "_") || "scene"}.${format}`, text, `application/${format}`);
+  offer(
+    `${String(writing.document.id ?? "scene").replace(/[^\w-]/g, "_") || "scene"}.${format}`,
+    text,
+    `application/${format}`,
+  );
 }
 
 /** @param {Sheet} sheet @param {Event} event */
@@ -81,7 +90,9 @@ async function load({ editing, api, state }, event) {
   if (!file) return;
   try {
     const text = file.size <= LARGEST_FILE ? await file.text() : "";
-    const read = tableOf(file.name.endsWith(".toml") ? (await api.readToml(text, state.place.lang)).scene : JSON.parse(text));
+    const read = tableOf(
+      file.name.endsWith(".toml") ? (await api.readToml(text, state.place.lang)).scene : JSON.parse(text),
+    );
     if (read) editing.begin(read);
     else editing.tell("editor.load-refused");
   } catch (error) {

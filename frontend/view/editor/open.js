@@ -21,9 +21,16 @@ function firstDraft({ place, own, scene }, draft) {
  *   state: () => import("../../model/state.js").State, draft: Draft | null, keep: (draft: Draft) => boolean, changed: () => void}} around
  */
 export function open({ api, session, state, draft, keep, changed }) {
-  const editor = createEditor({
-    api, keep, lang: () => state().place.lang, show: (document) => void session.show(document), address: (document) => void session.address(document),
-  }, firstDraft(state(), draft));
+  const editor = createEditor(
+    {
+      api,
+      keep,
+      lang: () => state().place.lang,
+      show: (document) => void session.show(document),
+      address: (document) => void session.address(document),
+    },
+    firstDraft(state(), draft),
+  );
   let lang = state().place.lang;
   editor.subscribe(changed);
   return {

@@ -3,7 +3,11 @@
 import { html, render } from "lit-html";
 import { inline } from "../formula.js";
 
-const KINDS = /** @type {const} */ ([["kinetic", "E"], ["potential", "V"], ["balance", "E+V"]]);
+const KINDS = /** @type {const} */ ([
+  ["kinetic", "E"],
+  ["potential", "V"],
+  ["balance", "E+V"],
+]);
 
 /** @param {import("./open.js").Bench} bench */
 export function createEnergies({ frame, state, now }) {
@@ -26,8 +30,13 @@ export function createEnergies({ frame, state, now }) {
       const all = KINDS.flatMap(([key]) => trajectory.energy?.[key] ?? []).filter(Number.isFinite);
       const [low, high] = [Math.min(0, ...all), Math.max(0, ...all)];
       largest = high - low || 1;
-      render(KINDS.map(([key, latex]) => html`
-        <span class="column energy-${key}"><span class="rail"><i class="zero" style="top:${(100 * high) / largest}%"></i><i class="fill" style="top:${(100 * high) / largest}%"></i></span>${inline(latex)}</span>`), box);
+      render(
+        KINDS.map(
+          ([key, latex]) => html`
+        <span class="column energy-${key}"><span class="rail"><i class="zero" style="top:${(100 * high) / largest}%"></i><i class="fill" style="top:${(100 * high) / largest}%"></i></span>${inline(latex)}</span>`,
+        ),
+        box,
+      );
       fills = [...box.querySelectorAll(".fill")].map((fill) => /** @type {HTMLElement} */ (fill));
     },
     move() {

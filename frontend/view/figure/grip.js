@@ -18,14 +18,18 @@ export function createGrip({ parts: { drawing }, state, session, clock, kinemati
   /** Everything there is to hold on to, or null. */
   function around() {
     const all = { kinematics: kinematics(), now: now(), stage: drawing.stage, scene: state().scene };
-    return all.kinematics && all.now && all.stage && all.scene ? /** @type {{[K in keyof typeof all]: NonNullable<typeof all[K]>}} */ (all) : null;
+    return all.kinematics && all.now && all.stage && all.scene
+      ? /** @type {{[K in keyof typeof all]: NonNullable<typeof all[K]>}} */ (all)
+      : null;
   }
 
   /** Where a place stands, also while the motion has not followed to it. @param {string} place @returns {Pixel} */
   function where(place) {
     const all = around();
     if (!all) return [0, 0];
-    return awaited ? all.stage.project(all.kinematics.places(awaited.q, all.now.t)[place]) : placeOf(all.stage, all.now, place);
+    return awaited
+      ? all.stage.project(all.kinematics.places(awaited.q, all.now.t)[place])
+      : placeOf(all.stage, all.now, place);
   }
 
   /** @param {string} place */
@@ -64,7 +68,10 @@ export function createGrip({ parts: { drawing }, state, session, clock, kinemati
       const all = around();
       return all ? movable(all.kinematics, all.now, all.stage) : [];
     },
-    where, take, lead, release,
+    where,
+    take,
+    lead,
+    release,
     holds: () => held !== null,
     /** Takes a place a little further. @param {string} place @param {Pixel} by */
     nudge(place, [dx, dy]) {
@@ -77,7 +84,9 @@ export function createGrip({ parts: { drawing }, state, session, clock, kinemati
     arrived() {
       const { trajectory, failures, simulating, changes } = state();
       if (!awaited || held || simulating) return;
-      const starts = Object.entries(changes.initial).every(([name, { value }]) => !(Math.abs((trajectory?.coordinates[name]?.[0] ?? NaN) - value) > 1e-6));
+      const starts = Object.entries(changes.initial).every(
+        ([name, { value }]) => !(Math.abs((trajectory?.coordinates[name]?.[0] ?? NaN) - value) > 1e-6),
+      );
       if (!starts && !failures.simulation) return;
       const { resume } = awaited;
       awaited = null;

@@ -60,8 +60,15 @@ export function createHand(bench, virtual) {
     /** For those who use keys: a button at each place. @param {import("../page.js").View} view */
     handles({ state, t }) {
       const name = (/** @type {string} */ place) => called(state.scene?.labels, place, state.place.lang, t);
-      render(grip.places().map((place) => html`<button class="handle ${state.scene?.bodies.some((body) => body.name === place) ? `body-${place}` : ""}" data-place=${place} aria-label=${t("hand.handle", { place: name(place) })}
-        @keydown=${(/** @type {KeyboardEvent} */ event) => press(event, place)}></button>`), handles);
+      render(
+        grip.places().map(
+          (
+            place,
+          ) => html`<button class="handle ${state.scene?.bodies.some((body) => body.name === place) ? `body-${place}` : ""}" data-place=${place} aria-label=${t("hand.handle", { place: name(place) })}
+        @keydown=${(/** @type {KeyboardEvent} */ event) => press(event, place)}></button>`,
+        ),
+        handles,
+      );
     },
     move() {
       grip.arrived();

@@ -38,7 +38,10 @@ function keeper(state) {
     const { scene, derivation, changes } = state();
     const on = [scene, derivation?.result, changes.parameters];
     if (on.some((part, i) => part !== kept.on[i])) {
-      kept = { on, made: scene && derivation?.result ? kinematicsOf(scene, derivation.result, changes.parameters) : null };
+      kept = {
+        on,
+        made: scene && derivation?.result ? kinematicsOf(scene, derivation.result, changes.parameters) : null,
+      };
     }
     return kept.made;
   };

@@ -18,7 +18,13 @@ export function createPaths({ parts: { drawing }, state }, { draw }) {
       drawnFor = given;
       if (!on) return draw({ shapes: [], labels: [] });
       const path = (/** @type {string} */ name) => trailOf(stage, name, trajectory.t[0] ?? 0, endOf(trajectory));
-      draw({ shapes: scene.bodies.map(({ name }) => ({ key: name, d: path(name), className: `path body-${name}` })), labels: [] }, stage.size);
+      draw(
+        {
+          shapes: scene.bodies.map(({ name }) => ({ key: name, d: path(name), className: `path body-${name}` })),
+          labels: [],
+        },
+        stage.size,
+      );
     },
   };
 }

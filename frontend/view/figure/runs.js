@@ -17,7 +17,9 @@ import { keeper } from "../../model/drawing/stage.js";
  */
 function doubt(trajectory, { lang }, t) {
   const caveats = caveatsOf(trajectory, t);
-  return caveats.length ? html` <span title=${caveats.join(" ")}>(${t("status.until", { time: fixed(trajectory.coarse ? 0 : trustedUntil(trajectory), 1, lang) })})</span>` : "";
+  return caveats.length
+    ? html` <span title=${caveats.join(" ")}>(${t("status.until", { time: fixed(trajectory.coarse ? 0 : trustedUntil(trajectory), 1, lang) })})</span>`
+    : "";
 }
 
 /** @param {import("./open.js").Bench} bench @param {ReturnType<typeof import("./layer.js").layerIn>} layer */
@@ -34,10 +36,12 @@ export function createRuns({ parts: { drawing }, state, session, clock }, { draw
     if (wanted === asked || !scene) return;
     const again = asked.split(" ").slice(1).join() !== wanted.split(" ").slice(1).join();
     asked = wanted;
-    const found = await Promise.all(readRuns(place.runs).map(async (run) => {
-      const kept = again ? null : runs.find(({ key }) => key === keyOf(run));
-      return kept ?? { ...run, key: keyOf(run), trajectory: await session.run(run.changes, run.method) };
-    })).catch(() => null);
+    const found = await Promise.all(
+      readRuns(place.runs).map(async (run) => {
+        const kept = again ? null : runs.find(({ key }) => key === keyOf(run));
+        return kept ?? { ...run, key: keyOf(run), trajectory: await session.run(run.changes, run.method) };
+      }),
+    ).catch(() => null);
     if (asked === wanted && found) session.compare(found);
   }
 
@@ -62,7 +66,15 @@ export function createRuns({ parts: { drawing }, state, session, clock }, { draw
       if (!stage || (!runs.length && !drawn)) return;
       drawn = runs.length > 0;
       const going = runs.flatMap((run, i) => (clock.time <= endOf(run.trajectory) ? [{ run, i }] : []));
-      draw({ shapes: going.flatMap(({ run, i }) => outline(stageOf(run, stage), snapshotAt(run.trajectory, clock.time), `run-${i}`)), labels: [] }, stage.size);
+      draw(
+        {
+          shapes: going.flatMap(({ run, i }) =>
+            outline(stageOf(run, stage), snapshotAt(run.trajectory, clock.time), `run-${i}`),
+          ),
+          labels: [],
+        },
+        stage.size,
+      );
     },
     /** @param {import("../page.js").View} view */
     legend({ state, session, t, methodTitle }) {
@@ -71,12 +83,15 @@ export function createRuns({ parts: { drawing }, state, session, clock }, { draw
       const all = [...runs, { changes: state.changes, method: place.method }];
       const names = differences(all, scene);
       const methods = new Set(all.map(({ method }) => method)).size > 1;
-      const name = (/** @type {number} */ i) => html`${names[i].map((each) => inline(each))}${methods ? html`<span>${all[i].method ? methodTitle(all[i].method) : t("numerics.auto")}</span>` : ""}`;
+      const name = (/** @type {number} */ i) =>
+        html`${names[i].map((each) => inline(each))}${methods ? html`<span>${all[i].method ? methodTitle(all[i].method) : t("numerics.auto")}</span>` : ""}`;
       return html`
         <ul class="runs" aria-label=${t("runs")}>
           <li><span class="swatch"></span>${t("runs.now")} ${name(runs.length)}</li>
-          ${runs.map((run, i) => html`<li><span class="swatch ${DASHES[i]}"></span>${name(i)}${doubt(run.trajectory, place, t)}
-            <button class="quiet small" aria-label=${t("runs.drop")} title=${t("runs.drop")} @click=${() => session.move({ runs: withoutRun(place.runs, run.key) })}>${icon("close")}</button></li>`)}
+          ${runs.map(
+            (run, i) => html`<li><span class="swatch ${DASHES[i]}"></span>${name(i)}${doubt(run.trajectory, place, t)}
+            <button class="quiet small" aria-label=${t("runs.drop")} title=${t("runs.drop")} @click=${() => session.move({ runs: withoutRun(place.runs, run.key) })}>${icon("close")}</button></li>`,
+          )}
         </ul>`;
     },
   };

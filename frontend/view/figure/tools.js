@@ -13,7 +13,8 @@ const PATHS = {
 };
 
 /** @param {keyof typeof PATHS} name */
-const picture = (name) => html`<svg class="icon" viewBox="0 0 20 20" aria-hidden="true">${svg`<path d=${PATHS[name]} />`}</svg>`;
+const picture = (name) =>
+  html`<svg class="icon" viewBox="0 0 20 20" aria-hidden="true">${svg`<path d=${PATHS[name]} />`}</svg>`;
 
 /** Seconds of the viewer's time that a step takes. */
 const STEP = 0.04;
@@ -34,7 +35,9 @@ export function tools({ state, session, clock, t }, { keep }) {
   };
   const toggled = (/** @type {string} */ name) => {
     const names = shown.split(",").filter(Boolean);
-    session.move({ with: names.includes(name) ? names.filter((other) => other !== name).join() : [...names, name].join() });
+    session.move({
+      with: names.includes(name) ? names.filter((other) => other !== name).join() : [...names, name].join(),
+    });
   };
   const switched = (/** @type {"bars" | "paths" | "phase"} */ name) => html`
     <button class="tool" aria-pressed=${String(shown.split(",").includes(name))} title=${t(`tools.${name}`)} aria-label=${t(`tools.${name}`)} @click=${() => toggled(name)}>${picture(name)}</button>`;

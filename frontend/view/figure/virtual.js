@@ -17,7 +17,12 @@ const NOTHING = { shapes: [], labels: [] };
 
 /** @param {Bench} bench */
 export function createVirtual(bench) {
-  const { frame, parts: { drawing }, state, session } = bench;
+  const {
+    frame,
+    parts: { drawing },
+    state,
+    session,
+  } = bench;
   const [under, over] = ["under", "over"].map((name) => layerIn(frame, name));
   let shown = false;
 
@@ -40,7 +45,12 @@ export function createVirtual(bench) {
   function compute() {
     const [kinematics, now] = [bench.kinematics(), bench.now()];
     if (!kinematics || !now || !state().scene) return null;
-    return virtualOf(kinematics, now, (state().scene?.bodies ?? []).map(({ name }) => name), choice());
+    return virtualOf(
+      kinematics,
+      now,
+      (state().scene?.bodies ?? []).map(({ name }) => name),
+      choice(),
+    );
   }
 
   function move() {
@@ -85,7 +95,8 @@ export function createVirtual(bench) {
       if (now) choose({ ...choice(), delta: differences(free(), now.coordinates, q) });
     },
     /** @param {View} view */
-    panel: (view) => panel(view, free(), choice(), { choose, follow, loads: compute()?.works.map(({ load }) => load) ?? [] }),
+    panel: (view) =>
+      panel(view, free(), choice(), { choose, follow, loads: compute()?.works.map(({ load }) => load) ?? [] }),
   };
 }
 
@@ -101,17 +112,30 @@ function panel({ state, session, t }, free, { delta, dt }, { choose, follow, loa
     <section class="values virtual-panel" aria-label=${t("virtual")}>
       <div class="heading"><h2>${t("virtual.frozen")}</h2>
         <button class="quiet small" @click=${() => session.move({ vary: "" })}>${t("virtual.close")}</button></div>
-      ${free.map((each) => row({
-        className: `q-${index(each.name)}`, key: each.name, latex: `\\delta ${each.latex || each.name}`, unit: each.unit, label: t("virtual.delta", { name: each.name }),
-        value: delta[each.name] ?? 0, reach: reachOf(each), least: -reachOf(each), set: (value) => choose({ delta: { ...delta, [each.name]: value }, dt }),
-      }))}
+      ${free.map((each) =>
+        row({
+          className: `q-${index(each.name)}`,
+          key: each.name,
+          latex: `\\delta ${each.latex || each.name}`,
+          unit: each.unit,
+          label: t("virtual.delta", { name: each.name }),
+          value: delta[each.name] ?? 0,
+          reach: reachOf(each),
+          least: -reachOf(each),
+          set: (value) => choose({ delta: { ...delta, [each.name]: value }, dt }),
+        }),
+      )}
       <div class="heading"><h2>${t("virtual.running")}</h2>
         <button class="quiet small" title=${t("virtual.follow-help")} ?disabled=${!dt} @click=${follow}>${inline("\\delta q = \\dot q\\,\\mathrm dt")}</button></div>
       ${row({ className: "time-term", key: "dt", latex: "\\mathrm dt", unit: "s", label: t("virtual.dt"), value: dt, reach: LONGEST, least: 0, set: (value) => choose({ delta, dt: value }) })}
       <ul class="arrows">
         <li><span class="swatch virtual"></span>${inline("\\delta\\mathbf r")}<span>${t("virtual.variation")}</span></li>
-        ${dt ? html`<li><span class="swatch actual"></span>${inline("\\mathrm d\\mathbf r")}<span>${t("virtual.differential")}</span></li>
-          <li class="time-term"><span class="swatch"></span>${inline("\\tfrac{\\partial\\mathbf r}{\\partial t}\\mathrm dt")}<span>${state.scene?.guides?.length ? t("virtual.explicit") : t("virtual.no-explicit")}</span></li>` : ""}
+        ${
+          dt
+            ? html`<li><span class="swatch actual"></span>${inline("\\mathrm d\\mathbf r")}<span>${t("virtual.differential")}</span></li>
+          <li class="time-term"><span class="swatch"></span>${inline("\\tfrac{\\partial\\mathbf r}{\\partial t}\\mathrm dt")}<span>${state.scene?.guides?.length ? t("virtual.explicit") : t("virtual.no-explicit")}</span></li>`
+            : ""
+        }
       </ul>
       <div class="heading"><h2>${t("virtual.work")} ${inline("\\mathbf F\\cdot\\delta\\mathbf r")}</h2></div>
       <div class="bars">

@@ -72,6 +72,8 @@ function changes(origins, own, { t, link, follow, session, state }) {
     const id = state.lines.find((line) => line.number === number)?.step.id ?? "";
     return html`<a href=${link({ step: id })} @click=${(/** @type {Event} */ event) => follow(event, () => session.goTo(id))}>${number}</a> `;
   };
-  return html`<ul class="changes">${shown.map((change) => html`
-    <li><span class="term-${change}">${t(`why.${change}`)}</span> ${change === "kept" || change === "turned" ? origins?.from[change].map(step) : nothing}</li>`)}</ul>`;
+  return html`<ul class="changes">${shown.map(
+    (change) => html`
+    <li><span class="term-${change}">${t(`why.${change}`)}</span> ${change === "kept" || change === "turned" ? origins?.from[change].map(step) : nothing}</li>`,
+  )}</ul>`;
 }

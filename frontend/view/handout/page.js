@@ -72,11 +72,17 @@ function values({ scene, state, t }) {
   const { parameters, initial } = readChanges(state.place.set);
   const guided = new Set((scene.guides ?? []).map((guide) => guide.coordinate));
   const rows = [
-    ...scene.parameters.map(({ name, latex, value, unit }) => ({ latex: latex || name, value: parameters[name] ?? value, unit })),
-    ...scene.coordinates.filter(({ name }) => !guided.has(name)).flatMap(({ name, latex, value, rate, unit }) => [
-      { latex: `${latex || name}(0)`, value: initial[name]?.value ?? value, unit },
-      { latex: `${dotted(latex || name)}(0)`, value: initial[name]?.rate ?? rate, unit: perSecond(unit) },
-    ]),
+    ...scene.parameters.map(({ name, latex, value, unit }) => ({
+      latex: latex || name,
+      value: parameters[name] ?? value,
+      unit,
+    })),
+    ...scene.coordinates
+      .filter(({ name }) => !guided.has(name))
+      .flatMap(({ name, latex, value, rate, unit }) => [
+        { latex: `${latex || name}(0)`, value: initial[name]?.value ?? value, unit },
+        { latex: `${dotted(latex || name)}(0)`, value: initial[name]?.rate ?? rate, unit: perSecond(unit) },
+      ]),
   ];
   return html`
     <table><caption>${t("handout.values")}</caption>
@@ -91,9 +97,11 @@ function step({ step, number, chapter, chapterIndex }, { substeps }) {
     <section class="step" data-step=${step.id}>
       <h3><span class="number">${number}</span>${prose(step.title)}</h3>
       ${words(step)}
-      ${parts.map(({ step: part, depth }, i) => html`
+      ${parts.map(
+        ({ step: part, depth }, i) => html`
         <section class="part" style="--depth:${depth}">
-          ${part.title ? html`<h4><span class="number">${number}.${i + 1}</span>${prose(part.title)}</h4>` : nothing}${words(part)}</section>`)}
+          ${part.title ? html`<h4><span class="number">${number}.${i + 1}</span>${prose(part.title)}</h4>` : nothing}${words(part)}</section>`,
+      )}
     </section>`;
 }
 

@@ -54,8 +54,12 @@ function wanted({ state }, entry) {
 
 /** @param {HomeworkView} view */
 function syntaxes({ state, t, switchTo }) {
-  return html`<div class="segments" role="group" aria-label=${t("homework.syntax")}>${/** @type {const} */ (["latex", "plain"]).map((one) => html`
-    <button type="button" aria-pressed=${String(one === state.draft.syntax)} @click=${() => switchTo(one)}>${t(`homework.syntax-${one}`)}</button>`)}</div>`;
+  return html`<div class="segments" role="group" aria-label=${t("homework.syntax")}>${
+    /** @type {const} */ (["latex", "plain"]).map(
+      (one) => html`
+    <button type="button" aria-pressed=${String(one === state.draft.syntax)} @click=${() => switchTo(one)}>${t(`homework.syntax-${one}`)}</button>`,
+    )
+  }</div>`;
 }
 
 /** @param {HomeworkView} view @param {Entry} entry */
@@ -64,7 +68,9 @@ function fields(view, entry) {
   const { draft } = state;
   const parts = partsIn(entry, draft);
   const found = problemsOf(state);
-  const places = found.map((problem) => (problem.offset === null ? null : placeIn(parts, entry.task.form, draft.syntax, problem.offset)));
+  const places = found.map((problem) =>
+    problem.offset === null ? null : placeIn(parts, entry.task.form, draft.syntax, problem.offset),
+  );
   const outcomes = isCurrent(entry, draft) ? (draft.checked?.verdict.parts ?? []) : [];
   return html`<div class="parts">${parts.map((value, index) => {
     const invalid = places.some((place) => place?.part === index);
@@ -81,7 +87,9 @@ function fields(view, entry) {
 /** @param {Entry} entry @param {number} index @param {number} count @param {HomeworkView["t"]} t */
 function labelOf({ task }, index, count, t) {
   if (count === 1) return t("homework.answer");
-  return task.form === "vector" ? t("homework.component", { name: AXES[index] }) : t("homework.line", { number: index + 1 });
+  return task.form === "vector"
+    ? t("homework.component", { name: AXES[index] })
+    : t("homework.line", { number: index + 1 });
 }
 
 /** How the text of an answer to such a task looks. @param {Entry} entry */

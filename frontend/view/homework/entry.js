@@ -61,11 +61,17 @@ export function keyboard(rows, t) {
   };
   // The field keeps the focus while a key is pressed by hand.
   const hold = (/** @type {Event} */ event) => event.preventDefault();
-  const keys = (/** @type {Key[]} */ some) => some.map((key) => html`
-    <button type="button" class="key-cap" title=${key.name} aria-label=${key.name} @pointerdown=${hold} @mousedown=${hold} @click=${(/** @type {Event} */ e) => press(e, key)}>${inline(key.label)}</button>`);
+  const keys = (/** @type {Key[]} */ some) =>
+    some.map(
+      (key) => html`
+    <button type="button" class="key-cap" title=${key.name} aria-label=${key.name} @pointerdown=${hold} @mousedown=${hold} @click=${(/** @type {Event} */ e) => press(e, key)}>${inline(key.label)}</button>`,
+    );
   const together = rows.filter(({ id }) => id !== "greek").flatMap((row) => row.keys);
   const columns = (/** @type {Key[]} */ some) => `--columns:${columnsFor(some.length)}`;
-  return html`<div class="keyboard" role="group" aria-label=${t("homework.keyboard")} style=${columns(together)}>${rows.map(({ id, keys: some }) => id === "greek"
-    ? html`<details class="greek" style=${columns(some)}><summary>${t("homework.greek")}</summary><div class="keys">${keys(some)}</div></details>`
-    : html`<div class="keys ${id}" role="group" aria-label=${t(`homework.keys-${id}`)}>${keys(some)}</div>`)}</div>`;
+  return html`<div class="keyboard" role="group" aria-label=${t("homework.keyboard")} style=${columns(together)}>${rows.map(
+    ({ id, keys: some }) =>
+      id === "greek"
+        ? html`<details class="greek" style=${columns(some)}><summary>${t("homework.greek")}</summary><div class="keys">${keys(some)}</div></details>`
+        : html`<div class="keys ${id}" role="group" aria-label=${t(`homework.keys-${id}`)}>${keys(some)}</div>`,
+  )}</div>`;
 }

@@ -49,7 +49,9 @@ function given({ state, t }) {
   const { lang } = asked.place;
   const { coordinates, parameters } = entry.scene;
   const guided = new Set((entry.scene.guides ?? []).map(({ coordinate }) => coordinate));
-  const free = coordinates.flatMap(({ name, latex, unit }, index) => (guided.has(name) ? [] : [{ latex: latex || name, unit, index }]));
+  const free = coordinates.flatMap(({ name, latex, unit }, index) =>
+    guided.has(name) ? [] : [{ latex: latex || name, unit, index }],
+  );
   return html`<div class="given"><h2>${t("homework.given")}</h2>
     <p class="about">${inLanguage(entry.scene.summary, lang)}</p>
     <dl>

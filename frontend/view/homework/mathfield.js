@@ -33,10 +33,17 @@ export async function fetchMathLive() {
 /** Where there is no keyboard to type on, MathLive's own shows the keys of the task. @param {import("../../model/homework/keys.js").Row[]} rows @param {string} label */
 export function offerKeys(rows, label) {
   if (!coarse.matches || !window.mathVirtualKeyboard) return;
-  const caps = rows.filter(({ id }) => id !== "greek").flatMap(({ keys }) => keys.map((key) => ({ latex: key.label, insert: key.latex, tooltip: key.name })));
+  const caps = rows
+    .filter(({ id }) => id !== "greek")
+    .flatMap(({ keys }) => keys.map((key) => ({ latex: key.label, insert: key.latex, tooltip: key.name })));
   const digits = [..."1234567890"].map((digit) => ({ label: digit, key: digit }));
   const acts = ["[left]", "[right]", ",", ";", "[backspace]", "[return]"];
-  const layout = { label, rows: low.matches ? [...inRows(caps, IN_A_LONG_ROW), [...digits, ...acts]] : [...inRows(caps, IN_A_ROW), digits, acts] };
+  const layout = {
+    label,
+    rows: low.matches
+      ? [...inRows(caps, IN_A_LONG_ROW), [...digits, ...acts]]
+      : [...inRows(caps, IN_A_ROW), digits, acts],
+  };
   window.mathVirtualKeyboard.layouts = /** @type {any} */ ([layout, "alphabetic", "greek"]);
 }
 
@@ -69,10 +76,14 @@ class MathField extends Directive {
       keepPairs(field, /** @type {InputEvent} */ (event).inputType);
       this.wiring?.change((this.held = field.getValue("latex-without-placeholders")));
     });
-    field.addEventListener("keydown", (event) => {
-      if (event.key === "Enter") this.wiring?.enter();
-      if (event.key === " " && !event.ctrlKey) blank(field, event);
-    }, { capture: true });
+    field.addEventListener(
+      "keydown",
+      (event) => {
+        if (event.key === "Enter") this.wiring?.enter();
+        if (event.key === " " && !event.ctrlKey) blank(field, event);
+      },
+      { capture: true },
+    );
     field.addEventListener("focusin", () => {
       if (coarse.matches) setTimeout(() => field.scrollIntoView({ block: "start" }), RISE);
     });

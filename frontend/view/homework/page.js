@@ -68,7 +68,8 @@ function heading({ state, t, exercise }) {
       <p class="summary">${entry ? inLanguage(entry.scene.title, lang) : ""}</p><button class="quiet small" @click=${leave}>${t("homework.leave")}</button></div>`;
   }
   const listed = state.own ? null : scenes.find(({ id }) => id === chosen);
-  const title = inLanguage(listed?.title ?? entry?.scene.title, lang) || (scenes.length || state.failure ? t("scene.choose") : "");
+  const title =
+    inLanguage(listed?.title ?? entry?.scene.title, lang) || (scenes.length || state.failure ? t("scene.choose") : "");
   const select = html`
     <select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => void exercise.choose(/** @type {HTMLSelectElement} */ (e.target).value)}>
       ${listed ? nothing : html`<option value=${chosen} selected>${title}</option>`}
@@ -79,8 +80,10 @@ function heading({ state, t, exercise }) {
 
 /** @param {HomeworkView} view */
 function sides({ state, t, exercise }) {
-  return html`<div class="work-head"><div class="segments" role="group" aria-label=${t("homework.side")}>${SIDES.map((side) => html`
-    <button aria-pressed=${String(side === state.asked.side)} @click=${() => exercise.turn(side)}>${t(`homework.side-${side}`)}</button>`)}</div></div>`;
+  return html`<div class="work-head"><div class="segments" role="group" aria-label=${t("homework.side")}>${SIDES.map(
+    (side) => html`
+    <button aria-pressed=${String(side === state.asked.side)} @click=${() => exercise.turn(side)}>${t(`homework.side-${side}`)}</button>`,
+  )}</div></div>`;
 }
 
 /** @param {HomeworkView} view */

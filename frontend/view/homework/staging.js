@@ -48,7 +48,8 @@ export function createStaging(root, clock) {
     show(state, still) {
       parts ??= assemble();
       lang = state.asked.place.lang;
-      if (staged.entry !== state.entry || staged.right !== state.right || staged.answered !== state.answered) set(state, still);
+      if (staged.entry !== state.entry || staged.right !== state.right || staged.answered !== state.answered)
+        set(state, still);
       parts.right.show(staged.scene, state.right, clock.time);
       parts.yours.show(staged.scene, state.answered, clock.time);
       move(clock.time);
@@ -74,6 +75,7 @@ export function createReach(root) {
     const judged = checked !== seen.checked && entry?.key === seen.key;
     if (entry?.key !== seen.key) toTop(root);
     seen = { key: entry?.key, checked };
-    if (judged) root.querySelector(".verdict-card")?.scrollIntoView({ block: "nearest", behavior: still ? "instant" : "smooth" });
+    if (judged)
+      root.querySelector(".verdict-card")?.scrollIntoView({ block: "nearest", behavior: still ? "instant" : "smooth" });
   };
 }

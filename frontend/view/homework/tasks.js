@@ -31,13 +31,23 @@ function total({ state, t, draftOf }) {
 /** @param {HomeworkView} view @param {Entry} entry @param {number} index */
 function row({ state, t, draftOf, exercise, link, follow }, entry, index) {
   const draft = draftOf(entry.key);
-  const status = draft.solved ? "solved" : draft.checked ? draft.checked.verdict.outcome : draft.texts.latex.concat(draft.texts.plain).some((text) => text.trim()) ? "begun" : "";
+  const status = draft.solved
+    ? "solved"
+    : draft.checked
+      ? draft.checked.verdict.outcome
+      : draft.texts.latex.concat(draft.texts.plain).some((text) => text.trim())
+        ? "begun"
+        : "";
   const before = state.sheet?.entries[index - 1];
   const { lang } = state.asked.place;
   return html`
     ${state.assignment && before?.group !== entry.group ? html`<li class="of-scene">${inLanguage(entry.scene.title, lang)}</li>` : nothing}
     <li><a class="task" data-status=${status || nothing} href=${link({ task: entry.id, side: "task" })} aria-current=${entry.key === state.entry?.key ? "true" : nothing}
-      @click=${(/** @type {Event} */ event) => follow(event, () => { exercise.turn(state.asked.side === "class" ? "task" : state.asked.side); exercise.show(entry); })}>
+      @click=${(/** @type {Event} */ event) =>
+        follow(event, () => {
+          exercise.turn(state.asked.side === "class" ? "task" : state.asked.side);
+          exercise.show(entry);
+        })}>
       <span class="tick" aria-hidden="true">${status === "solved" ? icon("verified") : nothing}</span><span>${prose(entry.task.title)}</span>
       ${status ? html`<span class="unseen">${t(`homework.status-${status}`)}</span>` : nothing}</a></li>`;
 }
@@ -51,7 +61,8 @@ function own({ state, t, exercise, download, upload }) {
     input.value = "";
   };
   const asks = state.assignment?.individual === true && !state.asked.seed;
-  const seed = (/** @type {Event} */ event) => void exercise.individual(/** @type {HTMLInputElement} */ (event.target).value.trim());
+  const seed = (/** @type {Event} */ event) =>
+    void exercise.individual(/** @type {HTMLInputElement} */ (event.target).value.trim());
   return html`<div class="own">
     <label class="field seed"><span>${t("homework.seed")}</span><input type="text" maxlength="64" autocomplete="off" spellcheck="false" .value=${state.asked.seed} placeholder=${t("homework.seed-none")} @change=${seed}></label>
     <p class="so ${asks ? "asks" : ""}" role="status">${t(asks ? "homework.seed-wanted" : "homework.seed-help")}</p>

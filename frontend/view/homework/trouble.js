@@ -6,6 +6,7 @@ import { html, nothing } from "lit-html";
 export function failureLine({ state, t }) {
   const { trouble, kept } = state;
   if (!trouble) return kept ? nothing : html`<p class="wrong" role="alert">${t("homework.not-kept")}</p>`;
-  const said = trouble.status === 0 ? t("homework.unreachable") : trouble.problems[0]?.message || trouble.detail || trouble.title;
+  const said =
+    trouble.status === 0 ? t("homework.unreachable") : trouble.problems[0]?.message || trouble.detail || trouble.title;
   return html`<p class="wrong" role="alert">${said}${trouble.status === 0 || trouble.status >= 500 ? html` <span class="so">${t("homework.safe")}</span>` : nothing}</p>`;
 }

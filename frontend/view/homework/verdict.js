@@ -12,8 +12,22 @@ import { stepAddress } from "../../model/homework/place.js";
 /** @typedef {import("../../model/homework/progress.js").Verdict} Verdict */
 
 const AXES = ["", "x", "y", "z"];
-const MOVING = ["kinetic-energy", "potential-energy", "lagrangian", "momentum", "generalized-force", "equation", "equations"];
-const ICONS = /** @type {const} */ ({ correct: "verified", follow_through: "verified", wrong: "close", undecided: "help", invalid: "help" });
+const MOVING = [
+  "kinetic-energy",
+  "potential-energy",
+  "lagrangian",
+  "momentum",
+  "generalized-force",
+  "equation",
+  "equations",
+];
+const ICONS = /** @type {const} */ ({
+  correct: "verified",
+  follow_through: "verified",
+  wrong: "close",
+  undecided: "help",
+  invalid: "help",
+});
 
 /** The sentences after the outcome, which stands above them. @param {Verdict} verdict @param {HomeworkView["t"]} t */
 export const furtherOf = ({ feedback, outcome }, t) => {
@@ -40,8 +54,12 @@ export function verdict(view) {
 /** The next task that is not solved yet. @param {HomeworkView} view */
 function onward({ state, t, draftOf, exercise }) {
   const entries = state.sheet?.entries ?? [];
-  const next = entries.slice(entries.findIndex(({ key }) => key === state.entry?.key) + 1).find(({ key }) => !draftOf(key).solved);
-  return next ? html`<p class="acts"><button type="button" class="quiet framed" @click=${() => exercise.show(next)}><span>${t("homework.next-task")}: ${prose(next.task.title)}</span>${icon("next")}</button></p>` : nothing;
+  const next = entries
+    .slice(entries.findIndex(({ key }) => key === state.entry?.key) + 1)
+    .find(({ key }) => !draftOf(key).solved);
+  return next
+    ? html`<p class="acts"><button type="button" class="quiet framed" @click=${() => exercise.show(next)}><span>${t("homework.next-task")}: ${prose(next.task.title)}</span>${icon("next")}</button></p>`
+    : nothing;
 }
 
 /** @param {HomeworkView} view @param {Verdict} found */
@@ -72,7 +90,8 @@ function example({ state, t }, { values, latex = {}, of, yours, right }) {
 
 /** @param {HomeworkView} view @param {Verdict} found */
 function comparing({ state, t, exercise }, { outcome }) {
-  const offered = ["wrong", "follow_through", "undecided"].includes(outcome) && MOVING.includes(state.entry?.task.kind ?? "");
+  const offered =
+    ["wrong", "follow_through", "undecided"].includes(outcome) && MOVING.includes(state.entry?.task.kind ?? "");
   if (!offered || state.answered) return nothing;
   return html`<p class="acts"><button type="button" class="quiet framed" ?disabled=${state.busy === "moving"} @click=${exercise.compare}>${icon("play")}${t(state.busy === "moving" ? "homework.moving" : "homework.compare")}</button></p>`;
 }
@@ -90,15 +109,24 @@ export function solution(view) {
   const { state, t, exercise } = view;
   const { entry, draft } = state;
   if (!entry || !(draft.solved || draft.tries)) return nothing;
-  if (!state.solution) return html`<p class="acts solving"><button type="button" class="quiet framed" ?disabled=${state.busy === "solving"} @click=${exercise.solve}>${t("homework.solution")}</button>
+  if (!state.solution)
+    return html`<p class="acts solving"><button type="button" class="quiet framed" ?disabled=${state.busy === "solving"} @click=${exercise.solve}>${t("homework.solution")}</button>
     ${draft.solved ? nothing : html`<span class="so">${t("homework.solution-costs")}</span>`}</p>`;
   const { latex, step } = state.solution;
-  const address = step && (isPlain(entry.reference) ? stepAddress(String(entry.reference.scene), step.id, state.asked.place) : view.ownStep(step.id));
+  const address =
+    step &&
+    (isPlain(entry.reference)
+      ? stepAddress(String(entry.reference.scene), step.id, state.asked.place)
+      : view.ownStep(step.id));
   return html`<section class="worked" aria-label=${t("homework.solution")}>
     <h3>${t("homework.worked")}</h3>
     <div class="model-answer">${latex.map((one) => displayed(one))}</div>
-    ${step ? html`<div class="shown-step"><h4>${prose(step.title)}</h4>${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
+    ${
+      step
+        ? html`<div class="shown-step"><h4>${prose(step.title)}</h4>${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
       ${step.marked || step.latex ? displayed(step.marked || step.latex) : nothing}
-      ${address ? html`<p><a href=${address}>${t("homework.to-step")}</a></p>` : nothing}</div>` : nothing}
+      ${address ? html`<p><a href=${address}>${t("homework.to-step")}</a></p>` : nothing}</div>`
+        : nothing
+    }
   </section>`;
 }

@@ -52,11 +52,15 @@ function written(view, line, index, mark, first) {
       <button type="button" class="quiet small" @click=${() => session.convert(index)}>${t(`homework.to-${line.syntax === "plain" ? "latex" : "plain"}`)}</button>
       <button type="button" class="tool" title=${t("homework.remove-line")} aria-label=${`${t("homework.remove-line")} ${index + 1}`} @click=${() => session.remove(index)}>${icon("close")}</button></div>
     ${entryField({ label, syntax: line.syntax, value: line.value, invalid: mark?.outcome === "invalid", why: mark ? `mark-${index}` : "", placeholder: "…", change: (value) => session.edit(index, { value }), enter: () => void session.mark(), shortcuts }, formulas && state.asked.side === "working")}
-    ${mark ? html`<div class="mark" id=${`mark-${index}`}>
+    ${
+      mark
+        ? html`<div class="mark" id=${`mark-${index}`}>
       <p><b>${first ? t("homework.first-wrong") : t(`homework.outcome.${mark.outcome}`)}</b> <span class="score">${t("homework.total", { earned: number(view, mark.points), of: number(view, mark.of) })}</span></p>
       ${at ? html`<code class="where" aria-hidden="true">${at[0]}<mark>${at[1]}</mark>${at[2]}</code>` : nothing}
       ${mark.understood_as && mark.outcome !== "correct" ? displayed(mark.understood_as) : nothing}
       ${furtherOf(mark, t) ? html`<p class="prose">${mark.misconceptions[0] ? html`<b>${prose(mark.misconceptions[0].title)}.</b> ` : nothing}${prose(furtherOf(mark, t))}</p>` : nothing}
-    </div>` : nothing}
+    </div>`
+        : nothing
+    }
   </li>`;
 }

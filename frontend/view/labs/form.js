@@ -49,18 +49,24 @@ function sceneOf({ bench, benches, scenes, t, state }) {
 }
 
 /** @param {View} view @param {string} label @param {unknown} control */
-const field = ({ t }, label, control) => html`<label class="field"><span>${t(`labs.${label}`)}</span>${control}</label>`;
+const field = ({ t }, label, control) =>
+  html`<label class="field"><span>${t(`labs.${label}`)}</span>${control}</label>`;
 
 /** @param {number | ""} value @param {(value: number) => void} put @param {{min?: number, max?: number, step?: string, placeholder?: string}} [bounds] */
 function number(value, put, { min, max, step = "any", placeholder = "" } = {}) {
-  const changed = (/** @type {Event} */ e) => textOf(e) !== "" && Number.isFinite(Number(textOf(e))) && put(Number(textOf(e)));
+  const changed = (/** @type {Event} */ e) =>
+    textOf(e) !== "" && Number.isFinite(Number(textOf(e))) && put(Number(textOf(e)));
   return html`<input type="number" inputmode="decimal" step=${step} min=${min ?? nothing} max=${max ?? nothing} placeholder=${placeholder} .value=${settled(String(value))} @change=${changed}>`;
 }
 
 /** @param {View} view @param {Option} option */
 function quantity(view, { name, label, range }) {
   const { bench, benches } = view;
-  return field(view, label, number(bench.question[name] || range?.shown, (given) => benches.edit({ [name]: given }), range));
+  return field(
+    view,
+    label,
+    number(bench.question[name] || range?.shown, (given) => benches.edit({ [name]: given }), range),
+  );
 }
 
 /** @param {View} view @param {Option} option */
@@ -72,22 +78,34 @@ function tick({ bench, benches, t }, { name, label }) {
 function choice(view, { name, label, choices = [] }) {
   const { bench, benches, state, t } = view;
   const chosen = bench.question[name];
-  const said = (/** @type {string | number} */ one) => (typeof one === "number" ? one.toLocaleString(state.place.lang) : t(`labs.${label}-${one}`));
-  return field(view, label, html`<select .value=${live(String(chosen))} @change=${(/** @type {Event} */ e) => benches.edit({ [name]: choices.find((one) => String(one) === textOf(e)) })}>
-    ${choices.map((one) => html`<option value=${one} ?selected=${one === chosen}>${said(one)}</option>`)}</select>`);
+  const said = (/** @type {string | number} */ one) =>
+    typeof one === "number" ? one.toLocaleString(state.place.lang) : t(`labs.${label}-${one}`);
+  return field(
+    view,
+    label,
+    html`<select .value=${live(String(chosen))} @change=${(/** @type {Event} */ e) => benches.edit({ [name]: choices.find((one) => String(one) === textOf(e)) })}>
+    ${choices.map((one) => html`<option value=${one} ?selected=${one === chosen}>${said(one)}</option>`)}</select>`,
+  );
 }
 
 /** @param {View} view */
 const parametersOf = ({ bench }) => bench.scene?.parameters ?? [];
 /** @param {import("../../model/types.js").Parameter[]} parameters @param {string} chosen */
-const entries = (parameters, chosen) => parameters.map(({ name, latex }) => html`<option value=${name} ?selected=${name === chosen}>${inUnicode(latex || name)}</option>`);
+const entries = (parameters, chosen) =>
+  parameters.map(
+    ({ name, latex }) => html`<option value=${name} ?selected=${name === chosen}>${inUnicode(latex || name)}</option>`,
+  );
 
 /** @param {View} view @param {Option} option */
 function parameter(view, { name, label }) {
   const { bench, benches, t } = view;
   const chosen = bench.question[name];
-  return field(view, label, html`<select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => benches.edit({ [name]: textOf(e) })}>
-    <option value="">${t(`labs.${label}-usual`)}</option>${entries(parametersOf(view), chosen)}</select>`);
+  return field(
+    view,
+    label,
+    html`<select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => benches.edit({ [name]: textOf(e) })}>
+    <option value="">${t(`labs.${label}-usual`)}</option>${entries(parametersOf(view), chosen)}</select>`,
+  );
 }
 
 /** @param {View} view @param {Option} option */
@@ -97,7 +115,8 @@ function side(view, { name, label }) {
   const now = answered(bench.question, bench.scene)[name];
   if (!now) return nothing;
   const put = (/** @type {object} */ patch) => benches.edit({ [name]: { ...now, ...patch } });
-  const choose = (/** @type {Event} */ e) => put(rangeOf(parameters.find((one) => one.name === textOf(e)) ?? parameters[0]));
+  const choose = (/** @type {Event} */ e) =>
+    put(rangeOf(parameters.find((one) => one.name === textOf(e)) ?? parameters[0]));
   return html`
     <fieldset class="side"><legend>${t(`labs.${label}`)}</legend>
       <select aria-label=${t("labs.parameter")} .value=${live(now.parameter)} @change=${choose}>${entries(parameters, now.parameter)}</select>
@@ -116,13 +135,20 @@ function values(view, scene) {
   const { parameters, initial } = bench.question;
   const guided = new Set((scene.guides ?? []).map((guide) => guide.coordinate));
   const changed = Object.keys(parameters).length + Object.keys(initial).length;
-  const start = (/** @type {string} */ name, /** @type {object} */ patch) => benches.edit({ initial: { ...initial, [name]: { ...initial[name], ...patch } } });
+  const start = (/** @type {string} */ name, /** @type {object} */ patch) =>
+    benches.edit({ initial: { ...initial, [name]: { ...initial[name], ...patch } } });
   return html`
     <details class="numbers-of-scene" ?open=${changed > 0}><summary>${t("labs.values")}</summary>
-      ${scene.parameters.map(({ name, latex, unit, value }) => html`<label class="field row"><span>${inline(latex || name)}</span>
-        ${number(parameters[name] ?? value, (given) => benches.edit({ parameters: { ...parameters, [name]: given } }))}<span class="unit">${unitText(unit ?? "")}</span></label>`)}
-      ${scene.coordinates.filter(({ name }) => !guided.has(name)).map(({ name, latex, unit, value, rate }) => html`
+      ${scene.parameters.map(
+        ({ name, latex, unit, value }) => html`<label class="field row"><span>${inline(latex || name)}</span>
+        ${number(parameters[name] ?? value, (given) => benches.edit({ parameters: { ...parameters, [name]: given } }))}<span class="unit">${unitText(unit ?? "")}</span></label>`,
+      )}
+      ${scene.coordinates
+        .filter(({ name }) => !guided.has(name))
+        .map(
+          ({ name, latex, unit, value, rate }) => html`
         <label class="field row"><span>${inline(`${latex || name}(0)`)}</span>${number(initial[name]?.value ?? value, (given) => start(name, { value: given }))}<span class="unit">${unitText(unit ?? "")}</span></label>
-        <label class="field row"><span>${inline(`${dotted(latex || name)}(0)`)}</span>${number(initial[name]?.rate ?? rate, (given) => start(name, { rate: given }))}<span class="unit">${unitText(perSecond(unit ?? ""))}</span></label>`)}
+        <label class="field row"><span>${inline(`${dotted(latex || name)}(0)`)}</span>${number(initial[name]?.rate ?? rate, (given) => start(name, { rate: given }))}<span class="unit">${unitText(perSecond(unit ?? ""))}</span></label>`,
+        )}
     </details>`;
 }

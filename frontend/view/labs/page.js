@@ -49,7 +49,8 @@ export function page(view) {
 }
 
 /** Where the labs do not all fit beside each other, the open one is in sight. @param {Element} root */
-export const showOpen = (root) => root.querySelector(".kinds [aria-current]")?.scrollIntoView({ block: "nearest", inline: "center" });
+export const showOpen = (root) =>
+  root.querySelector(".kinds [aria-current]")?.scrollIntoView({ block: "nearest", inline: "center" });
 
 /** @param {View} view @param {string} lab */
 function kind({ bench, benches, link, t }, lab) {
@@ -89,11 +90,19 @@ function charts(view) {
   return html`
     ${taken(view)}
     ${bench.result ? (ABOVE[lab]?.(view) ?? nothing) : nothing}
-    ${repeat(view.charts, (chart) => chart.id, (chart) => figure(view, chart))}
+    ${repeat(
+      view.charts,
+      (chart) => chart.id,
+      (chart) => figure(view, chart),
+    )}
     ${bench.result ? (BELOW[lab]?.(view) ?? nothing) : nothing}
-    ${bench.result ? html`<p class="files">${t("labs.all")}
+    ${
+      bench.result
+        ? html`<p class="files">${t("labs.all")}
       <button class="quiet small" @click=${() => fetchFile("text/csv")}>CSV</button>
-      <button class="quiet small" @click=${() => fetchFile("text/html")}>HTML</button></p>` : nothing}`;
+      <button class="quiet small" @click=${() => fetchFile("text/html")}>HTML</button></p>`
+        : nothing
+    }`;
 }
 
 /** Of each processor: beyond it another program had to wait now and then. */
@@ -101,11 +110,19 @@ const BUSY = 0.7;
 
 /** When the times were measured and how busy the machine was; and to measure them again. @param {View} view */
 function taken({ bench, benches, t, state }) {
-  const found = /** @type {{date: string, load: number | null, repetitions: number, processors: number} | undefined} */ (bench.result?.taken);
+  const found =
+    /** @type {{date: string, load: number | null, repetitions: number, processors: number} | undefined} */ (
+      bench.result?.taken
+    );
   if (!found) return nothing;
   const { lang } = state.place;
   const date = new Intl.DateTimeFormat(lang, { dateStyle: "medium", timeStyle: "short" }).format(new Date(found.date));
-  const told = { date, load: found.load === null ? "–" : significant(found.load, 2, lang), repetitions: String(found.repetitions), processors: String(found.processors) };
+  const told = {
+    date,
+    load: found.load === null ? "–" : significant(found.load, 2, lang),
+    repetitions: String(found.repetitions),
+    processors: String(found.processors),
+  };
   return html`<p class="note taken"><time datetime=${found.date}>${t(found.repetitions > 1 ? "labs.taken" : "labs.taken-once", told)}</time>
     ${(found.load ?? 0) > BUSY ? t("labs.busy") : nothing}
     <button class="quiet small" ?disabled=${bench.running} @click=${benches.start}>${t("labs.again")}</button></p>`;

@@ -31,7 +31,10 @@ export function createCharts(root, press) {
     shown.set(canvas, look);
     await globalThis.Plotly.react(canvas, data, layout, CONFIG);
     const target = /** @type {any} */ (canvas);
-    if (first) target.on("plotly_click", (/** @type {any} */ event) => press(target.chart, event.points[0].x, event.points[0].y));
+    if (first)
+      target.on("plotly_click", (/** @type {any} */ event) =>
+        press(target.chart, event.points[0].x, event.points[0].y),
+      );
     target.chart = chart;
   }
 
@@ -64,7 +67,17 @@ export function createCharts(root, press) {
     /** As it was made, dark on light. @param {Chart} chart @param {"png" | "svg"} format */
     async save(chart, format) {
       if (!(await library())) return;
-      await globalThis.Plotly.downloadImage({ data: chart.data, layout: { ...chart.layout, title: { text: `${chart.title}<br><sub>${chart.subject}</sub>` }, margin: { ...chart.layout.margin, t: 72 } } }, { ...FILE, format, filename: chart.id });
+      await globalThis.Plotly.downloadImage(
+        {
+          data: chart.data,
+          layout: {
+            ...chart.layout,
+            title: { text: `${chart.title}<br><sub>${chart.subject}</sub>` },
+            margin: { ...chart.layout.margin, t: 72 },
+          },
+        },
+        { ...FILE, format, filename: chart.id },
+      );
     },
   };
 }

@@ -11,10 +11,13 @@ export function rungs(view) {
   if (!result) return nothing;
   const { lang } = state.place;
   const title = (/** @type {any} */ rung) => titleOf(rung, t, result.names, lang);
-  const fragile = result.measured.filter((/** @type {any} */ one) => one.survives === false).map((/** @type {any} */ one) => {
-    const error = one.nudged === undefined ? t("labs.fidelity.fragile-ended") : `${significant(100 * one.nudged, 2, lang)} %`;
-    return `${title(result.rungs.find((/** @type {any} */ rung) => rung.id === one.rung))} (${error})`;
-  });
+  const fragile = result.measured
+    .filter((/** @type {any} */ one) => one.survives === false)
+    .map((/** @type {any} */ one) => {
+      const error =
+        one.nudged === undefined ? t("labs.fidelity.fragile-ended") : `${significant(100 * one.nudged, 2, lang)} %`;
+      return `${title(result.rungs.find((/** @type {any} */ rung) => rung.id === one.rung))} (${error})`;
+    });
   const least = result.rungs.find((/** @type {any} */ rung) => rung.id === result.least);
   return html`
     ${least ? html`<p class="verdict">${t("labs.fidelity.least", { tolerance: significant(100 * result.tolerance, 2, lang), title: title(least) })}</p>` : nothing}
@@ -46,7 +49,11 @@ function until({ bench, t, state }) {
 function line({ bench, t, state, open }, rung) {
   const { lang } = state.place;
   const one = bench.result?.measured.find((/** @type {any} */ each) => each.rung === rung.id) ?? {};
-  const failed = rung.refused.length ? t("labs.fidelity.refused") : one.status && one.status !== "ok" ? outcome(one.status, t) : "";
+  const failed = rung.refused.length
+    ? t("labs.fidelity.refused")
+    : one.status && one.status !== "ok"
+      ? outcome(one.status, t)
+      : "";
   return html`<tr class=${rung.id === bench.result?.least ? "least" : ""}>
     <th scope="row">${titleOf(rung, t, bench.result?.names, lang)}</th><td>${rung.degrees}</td><td>${one.operations?.total ?? ""}</td>
     <td>${one.time ? `${significant(1e3 * one.time[0], 3, lang)} ms` : ""}</td>

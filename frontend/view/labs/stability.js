@@ -28,7 +28,16 @@ const DASH = "—";
 /** @typedef {{method: string, bound: number | null, predicted: number | null, measured: number | null, deviation: number | null, basis?: string, cause?: string, reason?: string, limit?: number | null}} Row */
 
 /** Why there is no figure in some places, or another end than growth: each once; a number in the table points here. @param {Row[]} rows */
-const reasonsOf = (rows) => [...new Set(rows.flatMap(({ basis, reason, cause }) => [basis === "flow" ? "linearization-varies" : "", reason ?? "", cause === "newton_failed" ? cause : ""]))].filter(Boolean);
+const reasonsOf = (rows) =>
+  [
+    ...new Set(
+      rows.flatMap(({ basis, reason, cause }) => [
+        basis === "flow" ? "linearization-varies" : "",
+        reason ?? "",
+        cause === "newton_failed" ? cause : "",
+      ]),
+    ),
+  ].filter(Boolean);
 
 /** @param {View} view @param {Row[]} rows */
 function untold({ bench, t, state }, rows) {
@@ -56,13 +65,21 @@ export function slider({ bench, dial, turn, t, state }) {
 /** @param {View} view @param {Row} row */
 function line({ methodTitle, t, state, watch, bench }, row) {
   const { lang } = state.place;
-  const seconds = (/** @type {number | null} */ value) => (value === null ? t("labs.stability.never") : value === 0 ? t("labs.stability.always") : `${significant(value, 3, lang)} s`);
+  const seconds = (/** @type {number | null} */ value) =>
+    value === null
+      ? t("labs.stability.never")
+      : value === 0
+        ? t("labs.stability.always")
+        : `${significant(value, 3, lang)} s`;
   const reasons = reasonsOf(bench.result?.methods ?? []);
   const mark = (/** @type {string} */ reason) => html`<sup>${reasons.indexOf(reason) + 1}</sup>`;
-  const none = (/** @type {string} */ reason, /** @type {number | null} */ limit = null) => html`${limit === null ? DASH : t("labs.stability.from", { step: `${significant(limit, 2, lang)} s` })}${mark(reason)}`;
-  const foretold = (/** @type {number | null} */ value) => (row.basis === "flow" ? none("linearization-varies") : seconds(value));
+  const none = (/** @type {string} */ reason, /** @type {number | null} */ limit = null) =>
+    html`${limit === null ? DASH : t("labs.stability.from", { step: `${significant(limit, 2, lang)} s` })}${mark(reason)}`;
+  const foretold = (/** @type {number | null} */ value) =>
+    row.basis === "flow" ? none("linearization-varies") : seconds(value);
   const failing = row.measured ?? 0;
-  const play = () => watch({ method: row.method, step: 1.05 * failing, t_end: Math.min(200 * failing, bench.result?.t_end ?? 10) });
+  const play = () =>
+    watch({ method: row.method, step: 1.05 * failing, t_end: Math.min(200 * failing, bench.result?.t_end ?? 10) });
   return html`<tr>
     <th scope="row">${methodTitle(row.method)}</th>
     <td>${foretold(row.bound)}</td><td>${foretold(row.predicted)}</td><td>${row.reason ? none(row.reason, row.limit) : row.basis === "flow" && row.measured ? `≈ ${significant(row.measured, 2, lang)} s` : seconds(row.measured)}${row.cause === "newton_failed" ? mark(row.cause) : nothing}</td>

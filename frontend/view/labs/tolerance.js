@@ -11,7 +11,12 @@ export function tolerance({ bench, dial, turn, t, methodTitle, state }) {
   const best = cheapestFor(bench.result?.cheapest ?? [], dial.tolerance);
   const write = (/** @type {number} */ value) => significant(value, 2, lang);
   const told = best
-    ? t("labs.work-precision.cheapest", { tolerance: write(dial.tolerance), method: methodTitle(best.method), milliseconds: write(1e3 * best.time), setting: settingOf(best, t, write) })
+    ? t("labs.work-precision.cheapest", {
+        tolerance: write(dial.tolerance),
+        method: methodTitle(best.method),
+        milliseconds: write(1e3 * best.time),
+        setting: settingOf(best, t, write),
+      })
     : t("labs.work-precision.none");
   return html`
     <div class="dial">
@@ -23,4 +28,7 @@ export function tolerance({ bench, dial, turn, t, methodTitle, state }) {
 }
 
 /** @param {any} best @param {import("./page.js").View["t"]} t @param {(value: number) => string} write */
-const settingOf = (best, t, write) => ("step" in best ? t("labs.hover.step", { value: write(best.step) }) : t("labs.hover.tolerance", { value: write(best.tolerance) }));
+const settingOf = (best, t, write) =>
+  "step" in best
+    ? t("labs.hover.step", { value: write(best.step) })
+    : t("labs.hover.tolerance", { value: write(best.tolerance) });

@@ -69,7 +69,8 @@ export function open({ root, session, state, about, changed, play }) {
   const spot = createSpot(root);
   const reachNewest = createNewest(root);
 
-  const stopAt = (/** @type {import("../../model/lecture/stops.js").Stop} */ { step, part }) => session.goTo(step, part);
+  const stopAt = (/** @type {import("../../model/lecture/stops.js").Stop} */ { step, part }) =>
+    session.goTo(step, part);
   const go = (/** @type {number} */ by) => stopAt(onwards(state().lines, state().place, by, state().place.pace));
   const step = (/** @type {number} */ by) => stopAt(within(state().lines, state().place, by));
   const turn = () => session.move({ beside: BESIDE[(BESIDE.indexOf(state().place.beside) + 1) % BESIDE.length] });
@@ -91,7 +92,11 @@ export function open({ root, session, state, about, changed, play }) {
 
   function present() {
     const { lang, theme } = state().place;
-    window.open(`/presenter?with=${id}&lang=${lang}${theme === "auto" ? "" : `&theme=${theme}`}`, `presenter-${id}`, "popup,width=1200,height=780");
+    window.open(
+      `/presenter?with=${id}&lang=${lang}${theme === "auto" ? "" : `&theme=${theme}`}`,
+      `presenter-${id}`,
+      "popup,width=1200,height=780",
+    );
   }
 
   function leave() {
@@ -115,16 +120,25 @@ export function open({ root, session, state, about, changed, play }) {
   const touch = createTouch(go);
   /** What keys mean here besides what they always mean. @type {Record<string, () => void>} */
   const keys = {
-    ArrowDown: () => step(1), ArrowUp: () => step(-1), e: () => stopAt(allOrNone(state().lines, state().place)),
-    t: () => session.move({ pace: state().place.pace ? "" : "substeps" }), d: turn, h: pointOut, l: leave, w: why,
+    ArrowDown: () => step(1),
+    ArrowUp: () => step(-1),
+    e: () => stopAt(allOrNone(state().lines, state().place)),
+    t: () => session.move({ pace: state().place.pace ? "" : "substeps" }),
+    d: turn,
+    h: pointOut,
+    l: leave,
+    w: why,
   };
   return {
-    go, present, leave,
+    go,
+    present,
+    leave,
     /** Those, and Esc while a law is open: it closes that first. */
     get keys() {
       return { ...keys, ...(explained() ? { Escape: why } : {}) };
     },
-    slide: (/** @type {import("./slide.js").Shown} */ view) => slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch }),
+    slide: (/** @type {import("./slide.js").Shown} */ view) =>
+      slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch }),
     /** Called when anything has changed. */
     update() {
       sender.tell();

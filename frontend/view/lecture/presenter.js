@@ -83,13 +83,17 @@ function desk(here, view) {
 
 /** A step as far as it is shown: the newest substep last. @param {import("../../model/reveal.js").Line} line @param {number} part */
 function sheet({ step, number }, part) {
-  const parts = partsOf(step).slice(0, part).map((shown) => shown.step);
+  const parts = partsOf(step)
+    .slice(0, part)
+    .map((shown) => shown.step);
   return html`
     <div class="sheet" tabindex="0" role="region" aria-label=${number}>
       <h3 class="title"><span class="number">${number}</span><span>${prose(step.title)}</span></h3>
-      ${[step, ...parts].map((one) => html`
+      ${[step, ...parts].map(
+        (one) => html`
         ${one === step || !one.title ? nothing : html`<h4>${prose(one.title)}</h4>`}
         ${one.text ? html`<p class="prose">${prose(one.text)}</p>` : nothing}
-        ${one.marked || one.latex ? displayed(one.marked || one.latex) : nothing}`)}
+        ${one.marked || one.latex ? displayed(one.marked || one.latex) : nothing}`,
+      )}
     </div>`;
 }

@@ -29,13 +29,18 @@ function sheet({ step, number, chapter, chapterIndex }, view) {
   return html`
     <p class="where"><span class="ordinal">${chapterIndex + 1}</span>${chapter.title}</p>
     <div class="scroll" tabindex="0" role="region" aria-label=${view.t("derivation")}>
-      ${keyed(step.id, html`
+      ${keyed(
+        step.id,
+        html`
         <article class="step" data-step=${step.id} aria-current="step">
           <h1 class="title"><span class="number">${number}</span><span>${prose(step.title)}${view.why?.button(step, /** @type {any} */ (view))}</span></h1>
           ${view.why?.panel(step, /** @type {any} */ (view))}
           ${words(step, view)}
-          ${partsOf(step).slice(0, shown).map((one, i) => part(one, i, view))}
-        </article>`)}
+          ${partsOf(step)
+            .slice(0, shown)
+            .map((one, i) => part(one, i, view))}
+        </article>`,
+      )}
       ${more(step, shown, view)}
     </div>`;
 }
@@ -69,7 +74,12 @@ function bar(view, { go, present, leave, spot, spotted }) {
   const { place, lines } = state;
   const total = lines.length;
   const position = indexOf(lines, place.step) + 1;
-  const tool = (/** @type {Parameters<typeof icon>[0]} */ name, /** @type {string} */ label, /** @type {() => void} */ press, /** @type {boolean | null} */ pressed = null) => html`
+  const tool = (
+    /** @type {Parameters<typeof icon>[0]} */ name,
+    /** @type {string} */ label,
+    /** @type {() => void} */ press,
+    /** @type {boolean | null} */ pressed = null,
+  ) => html`
     <button class="tool" title=${label} aria-label=${label} aria-pressed=${pressed === null ? nothing : String(pressed)} @click=${press}>${icon(name)}</button>`;
   return html`
     <footer class="pager lecturing">

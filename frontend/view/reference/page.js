@@ -40,8 +40,10 @@ const titleOf = (subject, t) => told(`reference.subject.${subject}`, subject, t)
 /** In which language the samples are. @param {ReferenceView} view */
 function languages({ groups, sample, choose, t }) {
   const known = groups.flatMap(({ calls }) => calls)[0]?.samples ?? [];
-  return html`<div class="segments" role="group" aria-label=${t("reference.samples")}>${known.map(({ lang }) => html`
-    <button type="button" aria-pressed=${lang === sample} @click=${() => choose(lang)}>${lang}</button>`)}</div>`;
+  return html`<div class="segments" role="group" aria-label=${t("reference.samples")}>${known.map(
+    ({ lang }) => html`
+    <button type="button" aria-pressed=${lang === sample} @click=${() => choose(lang)}>${lang}</button>`,
+  )}</div>`;
 }
 
 /** Names stand between backticks. @param {string} text */
@@ -51,7 +53,7 @@ const described = (text) => text.split("`").map((part, i) => (i % 2 ? html`<code
 function copying(source, call, lang, t) {
   const copy = async (/** @type {Event} */ { currentTarget }) => {
     const told = /** @type {HTMLElement} */ (/** @type {HTMLElement} */ (currentTarget).nextElementSibling);
-    told.textContent = t(await toClipboard(source) ? "trial.copied" : "trial.copy-by-hand");
+    told.textContent = t((await toClipboard(source)) ? "trial.copied" : "trial.copy-by-hand");
   };
   return html`<button type="button" class="quiet small" lang=${lang} aria-label=${`${t("trial.copy")}: ${call}`} @click=${copy}>${t("trial.copy")}</button><small role="status"></small>`;
 }
@@ -65,10 +67,16 @@ function article({ id, method, path, text, fields, samples, answers }, { t, stat
         <a class="try" lang=${state.place.lang} href=${`${pageAddress(TRIAL, state.place)}#${id}`} aria-label=${`${t("trial.try")}: ${method} ${path}`}>${t("trial.try")}</a>
         ${written.map(({ source }) => copying(source, `${method} ${path}`, state.place.lang, t))}</h3>
       <p>${described(text)}</p>
-      ${fields.length ? html`
-        <dl>${fields.map(({ name, kind, text: meaning, required }) => html`
+      ${
+        fields.length
+          ? html`
+        <dl>${fields.map(
+          ({ name, kind, text: meaning, required }) => html`
           <div><dt><code>${name}</code>${required ? html` <span lang=${state.place.lang}>${t("reference.required")}</span>` : nothing}</dt>
-            <dd><span class="kind">${kind}</span> ${meaning}</dd></div>`)}</dl>` : nothing}
+            <dd><span class="kind">${kind}</span> ${meaning}</dd></div>`,
+        )}</dl>`
+          : nothing
+      }
       ${written.map(({ lang, source }) => html`<pre tabindex="0" aria-label=${lang}><code>${source}</code></pre>`)}
       <p class="answers">${answers.map(({ status, text: meaning }) => html`<span><b>${status}</b> ${meaning}</span>`)}</p>
     </article>`;

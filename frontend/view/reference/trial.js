@@ -41,17 +41,22 @@ function request(call, view) {
     view.send();
   };
   const press = (/** @type {KeyboardEvent} */ event) => {
-    if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) /** @type {HTMLFormElement} */ (event.currentTarget).requestSubmit();
+    if (event.key === "Enter" && (event.ctrlKey || event.metaKey))
+      /** @type {HTMLFormElement} */ (event.currentTarget).requestSubmit();
   };
   return html`
     <form @submit=${submit} @keydown=${press}>
       ${chooser(call, view)}
       <p class="meaning"><span lang="en">${call.text}</span> <a href=${`${pageAddress("docs", view.state.place)}#${call.id}`}>${t("trial.fields")}</a></p>
       ${call.inputs.map((input) => inputField(input, view))}
-      ${call.type ? html`
+      ${
+        call.type
+          ? html`
         <label class="body"><span>${t("trial.body", { type: call.type })}</span>
           <textarea spellcheck="false" autocapitalize="off" autocomplete="off" rows=${Math.min(24, Math.max(6, draft.body.split("\n").length + 1))}
-            .value=${live(draft.body)} @input=${(/** @type {Event} */ event) => write({ body: valueOf(event) })}></textarea></label>` : nothing}
+            .value=${live(draft.body)} @input=${(/** @type {Event} */ event) => write({ body: valueOf(event) })}></textarea></label>`
+          : nothing
+      }
       <div class="acts">
         <button class="main">${t("trial.send")}</button>
         ${view.coming.state === "waiting" ? html`<button type="button" class="quiet" @click=${view.stop}>${t("trial.stop")}</button>` : html`<span class="hint">${t("trial.hint")}</span>`}
@@ -65,8 +70,13 @@ function request(call, view) {
 const chooser = (call, { groups, choose, t }) => html`
   <label class="called"><span>${t("trial.call")}</span>
     <span class="choice"><select @change=${(/** @type {Event} */ event) => choose(valueOf(event))}>
-      ${groups.map(({ subject, calls }) => html`<optgroup label=${subject}>${calls.map(({ id, method, path }) => html`
-        <option value=${id} ?selected=${id === call.id}>${method} ${path}</option>`)}</optgroup>`)}</select>${icon("chevron")}</span></label>`;
+      ${groups.map(
+        ({ subject, calls }) =>
+          html`<optgroup label=${subject}>${calls.map(
+            ({ id, method, path }) => html`
+        <option value=${id} ?selected=${id === call.id}>${method} ${path}</option>`,
+          )}</optgroup>`,
+      )}</select>${icon("chevron")}</span></label>`;
 
 /** @param {Input} input @param {TrialView} view */
 function inputField({ name, text, required, choices }, { draft, write, t }) {
@@ -82,8 +92,10 @@ function inputField({ name, text, required, choices }, { draft, write, t }) {
 function examples(call, { show, t }) {
   if (!call.type && !call.inputs.length) return nothing;
   const numbers = call.examples.length ? call.examples.map((_, i) => i) : [0];
-  return html`<span class="examples" role="group" aria-label=${t("trial.examples")}>${numbers.map((i) => html`
-    <button type="button" class="quiet" @click=${() => show(i)}>${t("trial.example", { number: i + 1 })}</button>`)}</span>`;
+  return html`<span class="examples" role="group" aria-label=${t("trial.examples")}>${numbers.map(
+    (i) => html`
+    <button type="button" class="quiet" @click=${() => show(i)}>${t("trial.example", { number: i + 1 })}</button>`,
+  )}</span>`;
 }
 
 /** @param {Call} call @param {TrialView} view */
@@ -91,7 +103,7 @@ function commandLine(call, { draft, origin, t }) {
   const line = `DELTAQ=${origin}\n${curlOf(call, draft)}`;
   const copy = async (/** @type {Event} */ { currentTarget }) => {
     const told = /** @type {HTMLElement} */ (/** @type {HTMLElement} */ (currentTarget).previousElementSibling);
-    told.textContent = t(await toClipboard(line) ? "trial.copied" : "trial.copy-by-hand");
+    told.textContent = t((await toClipboard(line)) ? "trial.copied" : "trial.copy-by-hand");
   };
   return html`
     <section class="line"><h2>${t("trial.line")}</h2>
@@ -99,19 +111,32 @@ function commandLine(call, { draft, origin, t }) {
       <pre tabindex="0" role="region" aria-label=${t("trial.line")}><code>${line}</code></pre></section>`;
 }
 
-const SILENCE = { empty: "trial.empty", waiting: "trial.waiting", stopped: "trial.stopped", unreachable: "trial.unreachable" };
+const SILENCE = {
+  empty: "trial.empty",
+  waiting: "trial.waiting",
+  stopped: "trial.stopped",
+  unreachable: "trial.unreachable",
+};
 
 /** @param {TrialView} view */
 function answer({ coming, state, t }) {
   return html`
     <section class="answer ${coming.state}" aria-labelledby="answer"><h2 id="answer">${t("trial.answer")}</h2>
       <p class="outcome" role="status">${coming.state === "answered" ? outcome(coming.answer, state.place.lang, t) : t(SILENCE[coming.state])}</p>
-      ${coming.state === "answered" ? html`
+      ${
+        coming.state === "answered"
+          ? html`
         <pre tabindex="0" role="region" aria-labelledby="answer"><code>${coming.answer.text}</code></pre>
-        ${coming.answer.cut ? html`<p class="hint">${t("trial.cut", { count: coming.answer.cut })}</p>` : nothing}` : nothing}
+        ${coming.answer.cut ? html`<p class="hint">${t("trial.cut", { count: coming.answer.cut })}</p>` : nothing}`
+          : nothing
+      }
     </section>`;
 }
 
 /** @param {import("../../model/trial.js").Answer} answer @param {string} lang @param {import("../../model/catalog.js").Translate} t */
-const outcome = ({ status, milliseconds, bytes }, lang, t) => html`<span class="status ${status < 400 ? "good" : "bad"}">${t("trial.status", {
-  status, milliseconds: Math.round(milliseconds), size: (bytes / 1000).toLocaleString(lang, { maximumSignificantDigits: 3 }) })}</span>`;
+const outcome = ({ status, milliseconds, bytes }, lang, t) =>
+  html`<span class="status ${status < 400 ? "good" : "bad"}">${t("trial.status", {
+    status,
+    milliseconds: Math.round(milliseconds),
+    size: (bytes / 1000).toLocaleString(lang, { maximumSignificantDigits: 3 }),
+  })}</span>`;

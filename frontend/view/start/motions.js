@@ -30,10 +30,16 @@ export function createMotions(ask, { still, always }) {
     motions.set(frame, motion);
   }
 
-  const seen = new IntersectionObserver((entries) => entries.filter((entry) => entry.isIntersecting).forEach(({ target }) => {
-    seen.unobserve(target);
-    void begin(/** @type {HTMLElement} */ (target));
-  }), { rootMargin: "100px" });
+  const seen = new IntersectionObserver(
+    (entries) =>
+      entries
+        .filter((entry) => entry.isIntersecting)
+        .forEach(({ target }) => {
+          seen.unobserve(target);
+          void begin(/** @type {HTMLElement} */ (target));
+        }),
+    { rootMargin: "100px" },
+  );
 
   return {
     /** Watches the frames that are there now. @param {ParentNode} root */

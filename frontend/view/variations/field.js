@@ -12,7 +12,10 @@ export const typed = (event) => /** @type {HTMLInputElement} */ (event.target).v
 const idOf = (pointer) => `field${pointer.replaceAll("/", "-")}`;
 
 /** What the server says of a field or of what lies in it. @param {VariationsView} view @param {string} pointer */
-export const problemsAt = ({ asking }, pointer) => [...asking.problems, ...asking.numericProblems].filter((one) => one.pointer === pointer || one.pointer.startsWith(`${pointer}/`));
+export const problemsAt = ({ asking }, pointer) =>
+  [...asking.problems, ...asking.numericProblems].filter(
+    (one) => one.pointer === pointer || one.pointer.startsWith(`${pointer}/`),
+  );
 
 /** @param {VariationsView} view @param {Problem} problem @param {string} text */
 function complaint({ lab, t }, problem, text) {
@@ -21,8 +24,16 @@ function complaint({ lab, t }, problem, text) {
   return html`
     ${parts ? html`<code class="where" aria-hidden="true">${parts[0]}<mark>${parts[1]}</mark>${parts[2]}</code>` : nothing}
     <p class="wrong">${problem.message}</p>
-    ${name ? html`<p class="ways">${/** @type {const} */ (["parameters", "functions"]).map((list) => html`
-      <button class="quiet small" type="button" @click=${() => lab.declare(list, name)}>${t(`variations.declare-${list}`, { name })}</button>`)}</p>` : nothing}`;
+    ${
+      name
+        ? html`<p class="ways">${
+            /** @type {const} */ (["parameters", "functions"]).map(
+              (list) => html`
+      <button class="quiet small" type="button" @click=${() => lab.declare(list, name)}>${t(`variations.declare-${list}`, { name })}</button>`,
+            )
+          }</p>`
+        : nothing
+    }`;
 }
 
 /**
@@ -43,5 +54,7 @@ export function field(view, pointer, label, value, change, { className = "", hel
 
 /** A few ways, of which one holds. @param {string} label @param {readonly string[]} options @param {string} value @param {(one: string) => void} choose @param {(one: string) => string} say */
 export const segments = (label, options, value, choose, say) => html`
-  <div class="segments" role="group" aria-label=${label}>${options.map((one) => html`
-    <button type="button" aria-pressed=${String(one === value)} @click=${() => choose(one)}>${say(one)}</button>`)}</div>`;
+  <div class="segments" role="group" aria-label=${label}>${options.map(
+    (one) => html`
+    <button type="button" aria-pressed=${String(one === value)} @click=${() => choose(one)}>${say(one)}</button>`,
+  )}</div>`;

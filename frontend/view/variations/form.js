@@ -13,14 +13,28 @@ import { field, problemsAt, segments, typed } from "./field.js";
 export function form(view) {
   const { asking, lab, t } = view;
   const { question } = asking;
-  const put = (/** @type {keyof import("../../model/variations/question.js").Question} */ key) => (/** @type {string} */ text) => lab.edit({ [key]: text });
+  const put =
+    (/** @type {keyof import("../../model/variations/question.js").Question} */ key) => (/** @type {string} */ text) =>
+      lab.edit({ [key]: text });
   const integral = question.kind === "integral";
   return html`
     <form class="question" aria-label=${t("variations.question")} @submit=${(/** @type {Event} */ e) => e.preventDefault()}>
       ${examples(view)}
-      ${segments(t("variations.kind"), KINDS, question.kind, (kind) => lab.edit({ kind: /** @type {any} */ (kind) }), (kind) => t(`variations.kind-${kind}`))}
+      ${segments(
+        t("variations.kind"),
+        KINDS,
+        question.kind,
+        (kind) => lab.edit({ kind: /** @type {any} */ (kind) }),
+        (kind) => t(`variations.kind-${kind}`),
+      )}
       ${field(view, "/expression", html`${t(integral ? "variations.integrand" : "variations.expression")}`, question.expression, put("expression"), { className: "expression wide" })}
-      ${segments(t("variations.syntax"), ["plain", "latex"], question.syntax, (syntax) => lab.edit({ syntax: /** @type {any} */ (syntax) }), (syntax) => t(`variations.syntax-${syntax}`))}
+      ${segments(
+        t("variations.syntax"),
+        ["plain", "latex"],
+        question.syntax,
+        (syntax) => lab.edit({ syntax: /** @type {any} */ (syntax) }),
+        (syntax) => t(`variations.syntax-${syntax}`),
+      )}
       <div class="fields">
         ${field(view, "/functions", t("variations.functions"), question.functions, put("functions"), { help: t("variations.functions-help") })}
         ${field(view, "/direction", t("variations.direction"), question.direction, put("direction"), { help: t("variations.direction-help"), placeholder: t("variations.direction-usual") })}
@@ -47,22 +61,45 @@ function interval(view) {
   const { asking, lab, t } = view;
   const { question } = asking;
   const ends = bothEnds(question.ends);
-  const change = (/** @type {number} */ index, /** @type {string} */ end) => lab.edit({ ends: index ? endsOf(ends[0], end) : endsOf(end, ends[1]) });
-  return html`<div class="ends">${/** @type {const} */ (["from", "to"]).map((key, index) => html`
+  const change = (/** @type {number} */ index, /** @type {string} */ end) =>
+    lab.edit({ ends: index ? endsOf(ends[0], end) : endsOf(end, ends[1]) });
+  return html`<div class="ends">${
+    /** @type {const} */ (["from", "to"]).map(
+      (key, index) => html`
     <div class="end">
       ${field(view, `/functional/${key}`, t(`variations.${key}`), question[key], (text) => lab.edit({ [key]: text }), { className: "narrow" })}
-      ${segments(t(`variations.end-${key}`), ["fixed", "free"], ends[index], (end) => change(index, end), (end) => t(`variations.end-${end}`))}
-    </div>`)}</div>`;
+      ${segments(
+        t(`variations.end-${key}`),
+        ["fixed", "free"],
+        ends[index],
+        (end) => change(index, end),
+        (end) => t(`variations.end-${end}`),
+      )}
+    </div>`,
+    )
+  }</div>`;
 }
 
-const SHOWN = ["/expression", "/functions", "/direction", "/parameters", "/functional/at", "/functional/from", "/functional/to", "/numeric"];
+const SHOWN = [
+  "/expression",
+  "/functions",
+  "/direction",
+  "/parameters",
+  "/functional/at",
+  "/functional/from",
+  "/functional/to",
+  "/numeric",
+];
 
 /** What is wrong elsewhere than in a field. @param {VariationsView} view */
 function elsewhere(view) {
   const { asking, lab, t } = view;
-  if (asking.verdict === "unreachable") return html`<p class="wrong" role="alert">${t("failure.unreachable")}
+  if (asking.verdict === "unreachable")
+    return html`<p class="wrong" role="alert">${t("failure.unreachable")}
     <button class="quiet small" type="button" @click=${lab.again}>${t("retry")}</button></p>`;
   const shown = new Set(SHOWN.flatMap((pointer) => problemsAt(view, pointer)));
   const rest = asking.problems.filter((problem) => !shown.has(problem));
-  return rest.length ? html`<div class="complaints" role="alert">${rest.map(({ message }) => html`<p class="wrong">${message}</p>`)}</div>` : nothing;
+  return rest.length
+    ? html`<div class="complaints" role="alert">${rest.map(({ message }) => html`<p class="wrong">${message}</p>`)}</div>`
+    : nothing;
 }

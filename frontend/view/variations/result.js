@@ -59,8 +59,13 @@ export function contents({ asking, t, link, follow, session }) {
 export function derivation(view) {
   const lines = linesOf(view.asking.answer?.chapters ?? []);
   if (!lines.length && view.asking.verdict !== "waiting") return nothing;
-  if (!lines.length) return html`<div class="steps waiting" role="status"><div class="bone"></div><div class="bone"></div></div>`;
-  const [first, left, right, rest] = [[lines[0]], ...ROUTES.map((id) => lines.filter((line) => line.chapter.id === id)), lines.filter((line) => line !== lines[0] && !ROUTES.includes(line.chapter.id))];
+  if (!lines.length)
+    return html`<div class="steps waiting" role="status"><div class="bone"></div><div class="bone"></div></div>`;
+  const [first, left, right, rest] = [
+    [lines[0]],
+    ...ROUTES.map((id) => lines.filter((line) => line.chapter.id === id)),
+    lines.filter((line) => line !== lines[0] && !ROUTES.includes(line.chapter.id)),
+  ];
   return html`
     <div class="${view.asking.verdict === "refused" ? "stale" : ""}">
       ${list(first, view)}
@@ -70,4 +75,9 @@ export function derivation(view) {
 }
 
 /** @param {Line[]} lines @param {VariationsView} view */
-const list = (lines, view) => html`<ol class="steps">${repeat(lines, (line) => line.step.id, (line) => step(line, line.step.id === view.state.place.step, view))}</ol>`;
+const list = (lines, view) =>
+  html`<ol class="steps">${repeat(
+    lines,
+    (line) => line.step.id,
+    (line) => step(line, line.step.id === view.state.place.step, view),
+  )}</ol>`;

@@ -31,13 +31,17 @@ export function slider(view) {
 function concrete(view) {
   const { asking, lab, t } = view;
   const { question } = asking;
-  const put = (/** @type {"samples" | "along" | "values"} */ table, /** @type {string} */ name) => (/** @type {string} */ text) => lab.edit({ [table]: { ...question[table], [name]: text } });
+  const put =
+    (/** @type {"samples" | "along" | "values"} */ table, /** @type {string} */ name) => (/** @type {string} */ text) =>
+      lab.edit({ [table]: { ...question[table], [name]: text } });
   const directions = namesIn(question.direction);
   return html`
     <div class="fields concrete">
-      ${namesIn(question.functions).map((name, i) => html`
+      ${namesIn(question.functions).map(
+        (name, i) => html`
         ${field(view, `/numeric/functions/${name}`, html`<span class="q-${i}">${name}(t)</span>`, textOf(question, "samples", name), put("samples", name), { className: "expression" })}
-        ${field(view, `/numeric/direction/${name}`, html`<span class="q-${i}">${directions[i] ?? `δ${name}`}(t)</span>`, textOf(question, "along", name), put("along", name), { className: "expression" })}`)}
+        ${field(view, `/numeric/direction/${name}`, html`<span class="q-${i}">${directions[i] ?? `δ${name}`}(t)</span>`, textOf(question, "along", name), put("along", name), { className: "expression" })}`,
+      )}
       ${namesIn(question.parameters).map((name) => field(view, `/numeric/parameters/${name}`, name, textOf(question, "values", name), put("values", name), { className: "narrow" }))}
       ${question.kind === "expression" ? field(view, "/numeric/t", t("variations.instant"), question.t, (text) => lab.edit({ t: text }), { className: "narrow" }) : nothing}
     </div>`;
@@ -64,7 +68,12 @@ function shown(view, quotient) {
 /** @param {import("../../model/variations/lab.js").Quotient} quotient @param {number} size @param {string} lang */
 function spoken({ h, one_sided, central, derivative }, size, lang) {
   const write = (/** @type {number | null} */ value) => significant(value ?? NaN, 6, lang);
-  return { h: significant(h[size], 2, lang), one: write(one_sided.quotient[size]), central: write(central.quotient[size]), derivative: write(derivative) };
+  return {
+    h: significant(h[size], 2, lang),
+    one: write(one_sided.quotient[size]),
+    central: write(central.quotient[size]),
+    derivative: write(derivative),
+  };
 }
 
 /** @param {import("../../model/variations/lab.js").Quotient} quotient @param {number} size @param {VariationsView} view */
@@ -97,11 +106,16 @@ function curves(view, quotient, h) {
   const names = Object.keys(quotient.curves.functions);
   const directions = namesIn(asking.question.direction);
   const { top, bottom } = chart.frame;
-  const number = (/** @type {string | number} */ value) => String(value).replace(".", state.place.lang === "de" ? "," : ".").replace("-", "−");
+  const number = (/** @type {string | number} */ value) =>
+    String(value)
+      .replace(".", state.place.lang === "de" ? "," : ".")
+      .replace("-", "−");
   return html`
     <figure style="width:${size.width}px">
-      <figcaption class="legend">${names.map((name, i) => html`
-        <span class="key q-${i}"><i class="plain"></i>${name}(t)</span><span class="key q-${i}"><i class="neighbour"></i>${name}(t) + h ${directions[i] ?? `δ${name}`}(t)</span>`)}</figcaption>
+      <figcaption class="legend">${names.map(
+        (name, i) => html`
+        <span class="key q-${i}"><i class="plain"></i>${name}(t)</span><span class="key q-${i}"><i class="neighbour"></i>${name}(t) + h ${directions[i] ?? `δ${name}`}(t)</span>`,
+      )}</figcaption>
       <svg width=${size.width} height=${size.height} role="img" aria-label=${t("variations.curves-label")}>
         ${axes(chart.frame, chart.across, chart.up, number, ["t", t("variations.functions-axis")], size.em)}
         ${chart.at === null ? nothing : svg`<path class="instant" d="M${chart.at} ${top}V${bottom}"/>`}
@@ -120,7 +134,8 @@ function errors(view, quotient, index) {
     const box = /** @type {Element} */ (event.currentTarget).getBoundingClientRect();
     if (event.buttons & 1) lab.show(sizeAt(quotient.h, event.clientX - box.left, size));
   };
-  const power = (/** @type {string | number} */ value) => significant(10 ** Number(value), 1, state.place.lang).replace(/^1·/, "");
+  const power = (/** @type {string | number} */ value) =>
+    significant(10 ** Number(value), 1, state.place.lang).replace(/^1·/, "");
   return html`
     <figure style="width:${size.width}px">
       <figcaption class="legend">${KINDS.map((kind) => html`<span class="key ${kind}"><i class="dot"></i>${t(`variations.${kind}`)}</span>`)}

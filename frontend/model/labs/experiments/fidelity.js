@@ -8,6 +8,12 @@ export default {
   options: [
     duration(),
     // In percent of the motion.
-    number({ name: "allowed", label: "fidelity.tolerance", usual: 1, range: { shown: 1, min: 1e-6, max: 100 }, asked: (percent) => ({ tolerance: percent / 100 }) }),
+    number({
+      name: "allowed",
+      label: "fidelity.tolerance",
+      usual: 1,
+      range: { shown: 1, min: 1e-6, max: 100 },
+      asked: (percent) => ({ tolerance: percent / 100 }),
+    }),
   ],
 };
