@@ -44,12 +44,26 @@ import { patient } from "./patience.js";
  */
 
 /** @type {Class} */
-const EMPTY = { name: "", running: false, waiting: 0, total: 0, rows: [], totals: { points: 0, of: 0, tasks: [], students: [] }, csv: null, failure: null, notice: "", looked: false };
+const EMPTY = {
+  name: "",
+  running: false,
+  waiting: 0,
+  total: 0,
+  rows: [],
+  totals: { points: 0, of: 0, tasks: [], students: [] },
+  csv: null,
+  failure: null,
+  notice: "",
+  looked: false,
+};
 /** Bytes of a piece; a multiple of three, so that only the last one is filled up. */
 const PIECE = 6000;
 
 /** The bytes of a file in base64 (RFC 4648 §4), in pieces that the server takes: a single text may not be long. @param {Uint8Array} bytes */
-export const base64 = (bytes) => Array.from({ length: Math.max(1, Math.ceil(bytes.length / PIECE)) }, (_, n) => btoa(String.fromCharCode(...bytes.subarray(n * PIECE, (n + 1) * PIECE))));
+export const base64 = (bytes) =>
+  Array.from({ length: Math.max(1, Math.ceil(bytes.length / PIECE)) }, (_, n) =>
+    btoa(String.fromCharCode(...bytes.subarray(n * PIECE, (n + 1) * PIECE))),
+  );
 
 /** What is known of a class after some more events. @param {Class} known @param {readonly StreamEvent[]} events @returns {Class} */
 export function heard(known, events) {
@@ -58,7 +72,9 @@ export function heard(known, events) {
   const { csv = known.csv, ...totals } = result ?? of("totals").at(-1) ?? known.totals;
   const last = events.at(-1);
   return {
-    ...known, totals, csv,
+    ...known,
+    totals,
+    csv,
     total: of("begun")[0]?.rows ?? known.total,
     rows: [...known.rows, ...of("row")],
     waiting: last ? (last.kind === "waiting" ? last.data.seconds : 0) : known.waiting,
@@ -69,7 +85,9 @@ export function heard(known, events) {
 export function createClassroom({ send, state, questions }) {
   const store = createStore(EMPTY);
   const { get, set } = store;
-  const begin = patient((/** @type {object} */ body, /** @type {AbortSignal} */ signal) => ask(send, "/checks/table", body, { accept: EVENTS }, signal));
+  const begin = patient((/** @type {object} */ body, /** @type {AbortSignal} */ signal) =>
+    ask(send, "/checks/table", body, { accept: EVENTS }, signal),
+  );
   let marking = new AbortController();
   let again = () => {};
 

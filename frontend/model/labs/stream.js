@@ -26,7 +26,11 @@ export function eventReader() {
 /** @param {string} block @returns {StreamEvent} */
 function eventOf(block) {
   const lines = block.split("\n");
-  const of = (/** @type {string} */ field) => lines.filter((line) => line.startsWith(`${field}: `)).map((line) => line.slice(field.length + 2)).join("\n");
+  const of = (/** @type {string} */ field) =>
+    lines
+      .filter((line) => line.startsWith(`${field}: `))
+      .map((line) => line.slice(field.length + 2))
+      .join("\n");
   return { kind: of("event"), data: JSON.parse(of("data") || "null") };
 }
 
@@ -38,7 +42,13 @@ function eventOf(block) {
  * @returns {Promise<Result>}
  */
 export async function experiment(send, name, body, hear, signal, anew = false, wait = () => {}) {
-  const response = await ask(send, `/experiments/${name}`, body, { accept: EVENTS, ...(anew ? { "cache-control": "no-cache" } : {}) }, signal);
+  const response = await ask(
+    send,
+    `/experiments/${name}`,
+    body,
+    { accept: EVENTS, ...(anew ? { "cache-control": "no-cache" } : {}) },
+    signal,
+  );
   for await (const events of eventsOf(response)) {
     for (const { kind, data } of events) {
       if (kind === "waiting") wait(data);
@@ -75,12 +85,15 @@ function brokenOff(error) {
  * The result as a file: text/html or text/csv.
  * @param {typeof fetch} send @param {string} name @param {object} body @param {string} accept
  */
-export const file = async (send, name, body, accept) => (await ask(send, `/experiments/${name}`, body, { accept })).blob();
+export const file = async (send, name, body, accept) =>
+  (await ask(send, `/experiments/${name}`, body, { accept })).blob();
 
 /** The head of an answer, if it is none of a failure. @param {typeof fetch} send @param {string} path @param {object} body @param {Record<string, string>} wanted  headers @param {AbortSignal} [signal] */
 export async function ask(send, path, body, wanted, signal) {
   const headers = { "content-type": "application/json", ...wanted };
-  const response = await send(`/api/v1${path}`, { method: "POST", headers, body: JSON.stringify(body), signal }).catch(brokenOff);
+  const response = await send(`/api/v1${path}`, { method: "POST", headers, body: JSON.stringify(body), signal }).catch(
+    brokenOff,
+  );
   if (!response.ok) throw new ApiError(failureOf(response.status, await response.json().catch(() => null)));
   return response;
 }

@@ -15,7 +15,8 @@ import { prose } from "../formula.js";
 
 /** @type {import("../../model/homework/classroom.js").Outcome[]} */
 const OUTCOMES = ["correct", "follow_through", "undecided", "invalid", "wrong"];
-const SAMPLE = "student,scene,task,answer,syntax,line\nada,pendulum,kinetic-energy,m*l^2*dot(phi)^2,plain,1\nada,pendulum,equation:phi,2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0,plain,2\nemmy,pendulum,equation:phi,\\ddot\\varphi = -\\frac{g}{\\ell}\\sin\\varphi,latex,1\n";
+const SAMPLE =
+  "student,scene,task,answer,syntax,line\nada,pendulum,kinetic-energy,m*l^2*dot(phi)^2,plain,1\nada,pendulum,equation:phi,2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0,plain,2\nemmy,pendulum,equation:phi,\\ddot\\varphi = -\\frac{g}{\\ell}\\sin\\varphi,latex,1\n";
 
 /** @param {HomeworkView} view @param {Classroom} session */
 export function classroom(view, session) {
@@ -58,7 +59,13 @@ function preparing({ state, t }, session) {
     const file = await session.stack();
     if (file) offer(`${entry?.scene.id}-stack.xml`, file, "application/xml");
   };
-  const begin = () => sheet && offer(`${entry?.scene.id}-assignment.json`, JSON.stringify(assignmentOf(sheet, sheet.title ?? entry?.scene.title ?? {}), null, 1), "application/json");
+  const begin = () =>
+    sheet &&
+    offer(
+      `${entry?.scene.id}-assignment.json`,
+      JSON.stringify(assignmentOf(sheet, sheet.title ?? entry?.scene.title ?? {}), null, 1),
+      "application/json",
+    );
   return html`<p class="acts"><button type="button" class="quiet framed" @click=${begin}>${t("homework.class-assignment")}</button>
     <button type="button" class="quiet framed" @click=${stack}>${t("homework.class-stack")}</button></p>
     <p class="so">${t("homework.class-link")}</p>`;
@@ -80,7 +87,10 @@ function outcome(view, session) {
 /** Who earned what: a column for each task, by its number below. @param {HomeworkView} view @param {StudentTotals[]} all @param {TaskTotals[]} tasks */
 function students(view, all, tasks) {
   const { t } = view;
-  const cell = (/** @type {StudentTotals["answers"][number]} */ answer) => (answer ? html`<td data-outcome=${answer.outcome} title=${t(`homework.status-${answer.outcome}`)}><span class="unseen">${t(`homework.status-${answer.outcome}`)}: </span>${number(view, answer.points)}</td>` : html`<td></td>`);
+  const cell = (/** @type {StudentTotals["answers"][number]} */ answer) =>
+    answer
+      ? html`<td data-outcome=${answer.outcome} title=${t(`homework.status-${answer.outcome}`)}><span class="unseen">${t(`homework.status-${answer.outcome}`)}: </span>${number(view, answer.points)}</td>`
+      : html`<td></td>`;
   return html`<div class="students" tabindex="0" role="region" aria-label=${t("homework.class-students")}><table>
     <thead><tr><th scope="col">${t("homework.class-student")}</th>${tasks.map(({ title }, n) => html`<th scope="col" title=${plainly(title)}><span class="unseen">${prose(title)}: </span>${n + 1}</th>`)}<th scope="col">${t("homework.class-points")}</th></tr></thead>
     <tbody>${all.map(({ student, answers: given, points, of }) => html`<tr><th scope="row">${student}</th>${given.map(cell)}<td class="sum">${number(view, points)} / ${number(view, of)}</td></tr>`)}</tbody></table></div>`;
@@ -95,15 +105,23 @@ function answers(view, session) {
   const { rows, looked } = session.get();
   const toggled = (/** @type {Event} */ event) => session.look(/** @type {HTMLDetailsElement} */ (event.target).open);
   return html`<details class="all-results" ?open=${looked} @toggle=${toggled}><summary>${t("homework.class-all", { count: rows.length })}</summary>
-    ${looked ? html`<div class="table"><table><thead><tr>${["row", "student", "task", "answer", "outcome", "points"].map((column) => html`<th scope="col">${t(`homework.class-${column}`)}</th>`)}</tr></thead>
-      <tbody>${[...rows].sort((a, b) => a.index - b.index).map((row) => answer(view, row))}</tbody></table></div>` : nothing}</details>`;
+    ${
+      looked
+        ? html`<div class="table"><table><thead><tr>${["row", "student", "task", "answer", "outcome", "points"].map((column) => html`<th scope="col">${t(`homework.class-${column}`)}</th>`)}</tr></thead>
+      <tbody>${[...rows].sort((a, b) => a.index - b.index).map((row) => answer(view, row))}</tbody></table></div>`
+        : nothing
+    }</details>`;
 }
 
 /** @param {HomeworkView} view @param {Row} row */
 function answer(view, { row, student, title, answer: given, outcome: found, mistake, column, feedback, points, of }) {
   const { t } = view;
   const place = column ? t("homework.class-place", { column }) : "";
-  const why = mistake ? html`: ${prose(mistake)}` : found === "invalid" || found === "undecided" ? html`: ${place} ${prose(feedback)}` : nothing;
+  const why = mistake
+    ? html`: ${prose(mistake)}`
+    : found === "invalid" || found === "undecided"
+      ? html`: ${place} ${prose(feedback)}`
+      : nothing;
   return html`<tr data-outcome=${found}><td>${row}</td><td>${student}</td><td>${prose(title)}</td><td><code>${given}</code></td><td>${t(`homework.status-${found}`)}${why}</td><td>${number(view, points)} / ${number(view, of)}</td></tr>`;
 }
 
@@ -113,7 +131,13 @@ function chart({ t }, { title, scene, count, outcomes, mistakes }, place) {
   const shown = OUTCOMES.flatMap((one) => (outcomes[one] ? [{ one, some: outcomes[one] }] : []));
   return html`<figure class="chart"><figcaption><b>${place}. ${prose(title)}</b> <span class="so">${scene}</span><span class="share">${t("homework.class-right", { right: outcomes.correct ?? 0, count })}</span></figcaption>
     <div class="stack" role="img" aria-label=${shown.map(({ one, some }) => `${t(`homework.status-${one}`)}: ${some}`).join(", ")}>${shown.map(({ one, some }) => html`<span data-outcome=${one} style="width:${share(some)}"></span>`)}</div>
-    ${mistakes.length ? html`<table class="mistakes"><tbody>${mistakes.map(({ outcome: one, mistake, count: times, students: who }) => html`
-      <tr title=${who.join(", ")} data-outcome=${one}><th scope="row">${prose(mistake)}</th><td class="bar"><span style="width:${share(times)}"></span></td><td class="times">${times}</td></tr>`)}</tbody></table>` : nothing}
+    ${
+      mistakes.length
+        ? html`<table class="mistakes"><tbody>${mistakes.map(
+            ({ outcome: one, mistake, count: times, students: who }) => html`
+      <tr title=${who.join(", ")} data-outcome=${one}><th scope="row">${prose(mistake)}</th><td class="bar"><span style="width:${share(times)}"></span></td><td class="times">${times}</td></tr>`,
+          )}</tbody></table>`
+        : nothing
+    }
   </figure>`;
 }
