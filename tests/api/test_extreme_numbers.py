@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import logging
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
 import httpx
 import pytest
+import sympy as sp
 from fastapi import FastAPI
 from tests.api.extreme_numbers import QUICK, is_wrong, requests
 
 from deltaq.api.app import create_app
-from deltaq.api.extremes import extremes, unless_extreme
-from deltaq.api.workers.job import DeadlineExceeded, JobFailed
-from deltaq.errors import RequestError
+from deltaq.narration.matrix_writing import rounded
 from deltaq.settings import Settings
 
 pytestmark = pytest.mark.anyio
@@ -84,37 +82,55 @@ async def test_numbers_that_were_too_much(quick: httpx.AsyncClient, path: str, b
 
 
 @pytest.mark.parametrize(
-    ("question", "pointers"),
+    ("path", "body", "status"),
     [
-        pytest.param({"parameters": {"m": 1e31, "l": 1.0}}, ["/parameters/m"], id="large"),
-        pytest.param({"initial": {"a/b": {"value": -1e-31}}}, ["/initial/a~1b/value"], id="small"),
-        pytest.param({"scene": {"bodies": [{}, {"mass": "(10^30)^64"}]}}, ["/scene/bodies/1/mass"], id="power"),
-        pytest.param({"guides": [{"value": "1e200*t"}]}, ["/guides/0/value"], id="exponent"),
-        pytest.param({"guides": [{"value": "123456789012345678901"}]}, ["/guides/0/value"], id="digits"),
-        pytest.param({"parameters": {"m": 0.0, "g": 9.81, "G": 6.7e-11, "M": 2e30 / 3}}, [], id="physics"),
-        pytest.param({"scene": "chain-pendulum", "value": "m*l^2*x^12/2 + 1e-6", "seed": "4711"}, [], id="formulas"),
+        pytest.param(
+            "simulations",
+            {"scene": "base-pendulum", "t_end": 1.0, "method": "newmark", "step": 0.01, "parameters": {"g": 1e300}},
+            200,
+            id="rounding to decimals",
+        ),
+        pytest.param(
+            "simulations",
+            {"scene": "quarter-car", "t_end": 1.0, "parameters": {"k1": 2.3e-308, "m1": 1e77, "w0": 1e300}},
+            200,
+            id="rates of a guide",
+        ),
+        pytest.param("simulations", {"scene": "pendulum", "t_end": 1e-200}, 200, id="the square of a span"),
+        pytest.param("simulations", {"scene": "pendulum", "t_end": 5e-324}, 422, id="no part of a span"),
+        pytest.param("derivations", {"scene": "base-pendulum", "parameters": {"m": 1e-155}}, 200, id="a root of -0"),
+        pytest.param(
+            "derivations", {"scene": "base-pendulum", "parameters": {"g": 5e-324}}, 200, id="exact and inexact rest"
+        ),
+        pytest.param(
+            "derivations",
+            {"scene": "double-pendulum", "parameters": {"g": 1e154, "l2": 8e-278, "l1": 9e-157}},
+            200,
+            id="the square of a frequency",
+        ),
     ],
 )
-async def test_extreme_numbers_are_to_blame_for_a_failure(
-    question: dict[str, Any], pointers: list[str], caplog: pytest.LogCaptureFixture
+async def test_numbers_whose_answers_are_known(
+    quick: httpx.AsyncClient, path: str, body: dict[str, Any], status: int
 ) -> None:
-    async def failing() -> bytes:
-        raise JobFailed("ZeroDivisionError: secret", "a trace")
-
-    expected = RequestError if pointers else JobFailed
-    with caplog.at_level(logging.WARNING), pytest.raises(expected) as caught:
-        await unless_extreme(failing(), question)
-    if isinstance(caught.value, RequestError):
-        assert [(one.code, one.pointer) for one in caught.value.problems] == [
-            ("extreme-number", one) for one in pointers
-        ]
-        assert "a trace" in caplog.text  # it may be our mistake all the same
-    assert [one.pointer for one in extremes(question)] == pointers
+    """No answer holds a number that is not finite, and what can be answered is."""
+    answer = await quick.post(f"/api/v1/{path}", json=body)
+    assert answer.status_code in {status, 504}, answer.text[:300]
 
 
-async def test_other_ends_of_a_job_are_what_they_are() -> None:
-    async def slow() -> bytes:
-        raise DeadlineExceeded("too slow")
+async def test_frequencies_beyond_all_doubles_are_not_given(quick: httpx.AsyncClient) -> None:
+    body = {"scene": "double-pendulum", "parameters": {"g": 1e154, "l2": 8e-278, "l1": 9e-157}}
+    answer = (await quick.post("/api/v1/derivations", json=body)).json()
+    assert all(one["modes"] == [] == one["eigenvalues"] for one in answer["result"]["equilibria"])
 
-    with pytest.raises(DeadlineExceeded):
-        await unless_extreme(slow(), {"parameters": {"m": 1e300}})
+
+@pytest.mark.parametrize(
+    ("value", "latex"),
+    [
+        (sp.Integer(10) ** 400 * 3, r"3.000 \cdot 10^{400}"),
+        (-sp.Rational(10**400, 3), r"-3.333 \cdot 10^{399}"),
+        (sp.Rational(5, 2), "2.5"),
+    ],
+)
+def test_numbers_beyond_all_doubles_are_written(value: sp.Expr, latex: str) -> None:
+    assert rounded(value) == latex

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deltaq.simulation.rounding import rounded, significant
+from deltaq.simulation.rounding import rounded, short, significant
 
 
 @pytest.mark.parametrize(
@@ -48,3 +48,18 @@ def test_significant_digits(value: float, digits: int, expected: float) -> None:
 def test_sample_times_are_the_shortest_decimals() -> None:
     times = np.linspace(0.0, 10.0, 301)
     assert significant(times, 15).tolist() == [float(f"{t:.15g}") for t in times]
+
+
+def test_rounding_never_leaves_the_range_of_doubles() -> None:
+    """Whatever finite number is rounded to whatever digits, a finite one comes of it, and near it."""
+    draw, largest = np.random.default_rng(8), np.finfo(np.float64).max
+    values = np.concatenate([10.0 ** draw.uniform(-320, 308, 400), largest * draw.uniform(0.9, 1.0, 100)])
+    values = np.concatenate([values, -values, [0.0, largest, -largest, 5e-324]])
+    for error in (0.0, 1e-300, 1e-12, 1.0, 1e300):
+        found = rounded(values, np.full(len(values), error))
+        assert np.isfinite(found).all()
+        assert (np.abs(found / 2 - values / 2) <= 0.5 * np.maximum(np.abs(values) * 1e-15, 0.5)).all()
+    for digits in (1, 2, 3, 12):
+        near = 5.1 * 10.0**-digits * np.abs(values) + 5e-324
+        assert (np.abs(significant(values, digits) - values) <= near).all()
+        assert (np.abs(np.array([short(float(v), digits) for v in values]) - values) <= near).all()

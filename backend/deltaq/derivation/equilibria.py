@@ -21,7 +21,7 @@ from .closed_form import Known, Sought, closed_form
 from .compiled import compiled
 from .matrix_form import forces_at_rest, forcing, is_autonomous, mass_matrix
 from .newton import root
-from .refinement import refined
+from .refinement import in_numbers, refined
 from .system import System
 
 STARTS = 32
@@ -59,14 +59,15 @@ def equilibria(system: System) -> tuple[Equilibrium, ...] | None:
     if any(not part.unknowns for part in parts):
         return ()
     found = [list(_solutions(system, part)) for part in parts]
-    combined = (Equilibrium(_merged(system, each), all(e.exact for e in each)) for each in product(*found))
-    return tuple(islice(combined, MOST))
+    return tuple(_merged(system, each) for each in islice(product(*found), MOST))
 
 
-def _merged(system: System, parts: tuple[Equilibrium, ...]) -> dict[sp.Symbol, sp.Expr]:
-    """All values in the order of the coordinates."""
+def _merged(system: System, parts: tuple[Equilibrium, ...]) -> Equilibrium:
+    """All values in the order of the coordinates: closed forms if all are, else numbers."""
     values = {q: value for part in parts for q, value in part.values.items()}
-    return {q: values[q] for q in map(system.q, system.free) if q in values}
+    ordered = {q: values[q] for q in map(system.q, system.free) if q in values}
+    exact = all(part.exact for part in parts)
+    return Equilibrium(ordered if exact else in_numbers(ordered, system.parameter_values), exact)
 
 
 def free_coordinates(system: System) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from .linearization import Linearization
+from .spectrum import Spectrum
 from .system import System
 
 LONGEST = 24  # operations in ω²
@@ -28,7 +29,7 @@ def symbolic_modes(system: System, linear: Linearization) -> SymbolicModes | Non
     """The modes as expressions, if the equilibrium is exact, nothing depends on rates, and they are short."""
     if not linear.equilibrium.exact or linear.is_damped or linear.spectrum is None or not linear.spectrum.modes:
         return None
-    squares = _squares(system, linear)
+    squares = _squares(system, linear, linear.spectrum)
     if squares is None:
         return None
     shapes = [shape for square in squares if (shape := _shape(system, linear, square)) is not None]
@@ -44,7 +45,10 @@ def damped_root(system: System, linear: Linearization) -> tuple[sp.Expr, sp.Expr
     return decay, system.display(K / M - decay**2)
 
 
-def _squares(system: System, linear: Linearization) -> tuple[sp.Expr, ...] | None:
+def _squares(system: System, linear: Linearization, spectrum: Spectrum) -> tuple[sp.Expr, ...] | None:
+    """ω² in the order of the modes; None where they are not short, or not those: of frequencies some 10²⁰ times apart
+    the smaller ones are zero in numbers.
+    """
     M, K = linear.mass, linear.stiffness
     if M.shape == (1, 1):
         return (system.display(K[0, 0] / M[0, 0]),)
@@ -57,7 +61,10 @@ def _squares(system: System, linear: Linearization) -> tuple[sp.Expr, ...] | Non
     numbers = [sp.N(square.xreplace(values), 30) for square in found]
     if not all(number.is_Float or number.is_Integer for number in numbers):
         return None
-    return tuple(square for _, square in sorted(zip(numbers, found, strict=True), key=lambda pair: float(pair[0])))
+    ordered = sorted(zip(numbers, found, strict=True), key=lambda pair: pair[0])
+    if any(sp.sign(number) != sp.sign(mode.square) for (number, _), mode in zip(ordered, spectrum.modes, strict=True)):
+        return None
+    return tuple(square for _, square in ordered)
 
 
 def _roots(system: System, M: sp.ImmutableMatrix, K: sp.ImmutableMatrix) -> list[sp.Expr]:

@@ -31,6 +31,15 @@ def refined(equations: list[sp.Expr], start: Mapping[sp.Symbol, float]) -> dict[
     return None
 
 
+def in_numbers(
+    values: Mapping[sp.Symbol, sp.Expr], parameters: Mapping[sp.Symbol, sp.Expr]
+) -> dict[sp.Symbol, sp.Expr]:
+    """Expressions in the parameters as exact binary fractions, as precise as refined roots."""
+    with ctx.workprec(BITS):
+        point = {symbol.name: number(value, {}) for symbol, value in parameters.items()}
+        return {q: rational(number(value, point)) for q, value in values.items()}
+
+
 def _step(value: list[arb], slopes: list[list[arb]]) -> list[arb] | None:
     """The shortest step that solves F + J d = 0."""
     columns = [[part.mid() for part in column] for column in zip(*slopes, strict=True)]

@@ -7,6 +7,7 @@ Source: Meirovitch, Methods of Analytical Dynamics, §6.4 and §6.6; Tisseur, Me
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -67,6 +68,12 @@ class Spectrum:
     def frequencies(self) -> tuple[sp.Rational, ...]:
         """Circular frequencies Im λ > 0 in rad/s."""
         return tuple(value.imaginary for value in self.eigenvalues if value.imaginary > 0)
+
+    @property
+    def is_representable(self) -> bool:
+        """Whether all numbers of it are doubles: λ = 10²⁰⁰/s is one, and its square is not."""
+        parts = [part for value in self.eigenvalues for part in (value.real, value.imaginary)]
+        return all(math.isfinite(float(part)) for part in (*parts, *(mode.square for mode in self.modes)))
 
 
 def spectrum(mass: list[arb], damping: list[arb], stiffness: list[arb], size: int) -> Spectrum | None:

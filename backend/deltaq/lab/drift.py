@@ -16,12 +16,14 @@ import numpy as np
 
 from ..simulation.library import get_method
 from ..simulation.problem import Floats, Problem
+from ..simulation.reference import demand_motion
 from ..simulation.run import Run, Steps
 from ..simulation.run import run as run_once
 
 WINDOWS, IN_WINDOW = 120, 80
 EARLIEST = 1e-4  # of the span: where the logarithmic axis begins
 FEWEST, BLOCKS = 8, 6  # windows for a fit; blocks of them that are left out in turn for its interval
+MOST = 1e99  # of the energy: what is told of an error that is no number
 LOST = 0.3  # of the energy: an error this large leaves nothing of its balance
 EPSILON, WALK = 2.3e-16, 10.0  # rounding of one step in parts of the energy, and how far its random walk may go
 BIASED = 5.0  # times EPSILON and the steps: rounding that always goes one way, as that of Newton's iteration
@@ -159,9 +161,11 @@ def sample_times(t_end: float, step: float) -> Floats:
 
 
 def departure(problem: Problem, found: Run, scale: float) -> Departure:
-    """Of a run with samples at `sample_times`, in parts of the energy `scale`."""
+    """Of a run with samples at `sample_times`, in parts of the energy `scale`; at most MOST of it,
+    also where the balance is no number any more.
+    """
     balance = _balance(problem, found)
-    off = (balance - balance[0]) / scale
+    off = np.clip(np.nan_to_num((balance - balance[0]) / scale, nan=MOST), -MOST, MOST)
     places = np.searchsorted(found.times, _edges(problem.t_end))
     windows = [slice(a, b) for a, b in pairwise(places) if a < b]
     ends = np.array([found.times[window.stop - 1] for window in windows])
@@ -174,11 +178,15 @@ def _largest(errors: Floats) -> float:
 
 
 def energy_scale(problem: Problem, span: float) -> float:
-    """The largest kinetic energy within a first span, by an accurate run; at rest, the potential energy or 1 J."""
+    """The largest kinetic energy within a first span, by an accurate run; at rest, the potential energy or 1 J.
+
+    Raises RequestError where it is no number.
+    """
     short, times = replace(problem, t_end=span), np.linspace(0.0, span, 400)
     found = run_once(short, get_method("dop853"), times, np.zeros(1, dtype=np.int64), Steps(span / 10, 1e-9))
     seen = problem.model.observe(problem.inputs(found.times, found.states[:, : 2 * problem.degrees]))
     kinetic, potential = (float(np.abs(energy).max(initial=0.0)) for energy in (seen.kinetic, seen.potential))
+    demand_motion(found.times, kinetic + potential)
     return kinetic or potential or 1.0
 
 

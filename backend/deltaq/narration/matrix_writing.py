@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Protocol
 
 import sympy as sp
@@ -62,15 +63,17 @@ def write_matrix(writer: Writer, formula: MatrixFormula) -> str:  # noqa: PLR091
 def rounded(value: Value, unit: str = "") -> str:
     """LaTeX of a number, or of a vector or matrix of numbers, to four digits."""
     if isinstance(value, sp.MatrixBase):
-        return _column([" & ".join(_number(float(entry)) for entry in row) for row in value.tolist()])
-    return _number(float(value)) + (rf"\,\text{{{unit}}}" if unit else "")
+        return _column([" & ".join(map(_number, row)) for row in value.tolist()])
+    return _number(value) + (rf"\,\text{{{unit}}}" if unit else "")
 
 
 def _column(rows: list[str]) -> str:
     return r"\begin{bmatrix} " + r" \\ ".join(rows) + r" \end{bmatrix}"
 
 
-def _number(value: float) -> str:
-    text = f"{value if abs(value) > TINY else 0.0:.{DIGITS}g}"
+def _number(value: sp.Expr) -> str:
+    """Also of a number beyond those of IEEE 754."""
+    size = float(value) if abs(value) > TINY else 0.0
+    text = f"{size:.{DIGITS}g}" if math.isfinite(size) else str(sp.Float(value, DIGITS))
     mantissa, _, exponent = text.partition("e")
     return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa

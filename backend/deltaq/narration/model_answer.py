@@ -27,11 +27,11 @@ def equilibrium(linear: Linearization, scene: Scene, typography: Typography) -> 
     """One equilibrium: where, how stable, and with which frequencies (rad/s) it oscillates in which shapes.
 
     Coordinates that are not among the `values` may have any value. `exact` says that plain and latex are closed forms
-    in the parameters; `number` is their value in this scene.
+    in the parameters; `number` is their value in this scene. No numbers of small motions where one is beyond doubles.
     """
     free = [coordinate.name for coordinate in scene.free]
     point = {parameter.name: arb(parameter.value) for parameter in scene.parameters}
-    spectrum = linear.spectrum
+    spectrum = linear.spectrum if linear.spectrum and linear.spectrum.is_representable else None
     return {
         "values": {q.name: _value(q, linear, point, typography) for q in linear.equilibrium.values},
         "exact": linear.equilibrium.exact,

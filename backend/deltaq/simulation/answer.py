@@ -13,7 +13,7 @@ from .columns import WRITERS, Column
 from .outcome import Outcome
 from .problem import Floats, Problem
 from .request import Request
-from .rounding import rounded, significant
+from .rounding import rounded, short, significant
 from .slopes import power
 from .trajectory import Trajectory
 
@@ -93,7 +93,7 @@ def _event(request: Request, trajectory: Trajectory) -> Document | None:
         return None
     event = request.scene.events[found.index]
     time, doubt = np.array([found.time]), np.array([found.error or UNKNOWN_ERROR])
-    error = None if found.error is None else float(f"{found.error:.3g}")
+    error = None if found.error is None else short(found.error)
     return {"name": event.name, "title": plainly(event.title), "t": float(rounded(time, doubt)[0]), "error": error}
 
 
@@ -111,7 +111,7 @@ def _energy(
     named = zip(("kinetic", "potential", "power", "work", "balance"), energies, strict=True)
     return {
         **{name: column(energy) for name, energy in named},
-        "drift": float(f"{np.max(np.abs(balance - balance[:1]), initial=0.0):.3g}"),  # no sample where it cannot start
+        "drift": short(float(np.max(np.abs(balance - balance[:1]), initial=0.0))),  # no sample where it cannot start
     }
 
 
@@ -120,7 +120,7 @@ def _error(trajectory: Trajectory, tolerance: float | None) -> Document:
     return {
         "estimate": significant(found.errors, 3).tolist() if found else [None] * len(trajectory.times),
         "horizon": found.horizon if found else None,
-        "worst": float(f"{found.worst:.3g}") if found else None,
+        "worst": short(found.worst) if found else None,
         "tolerance": tolerance,
         "reached": trajectory.tolerance_reached,
     }

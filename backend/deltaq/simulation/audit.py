@@ -117,7 +117,12 @@ class Audit:
 
     def _threshold(self, tolerance: float) -> float:
         """The change of q̈ that could move a coordinate by its share of the tolerance."""
-        return SHARE * tolerance / self.problem.t_end**2
+        return SHARE * tolerance * self._per_span * self._per_span
+
+    @property
+    def _per_span(self) -> float:
+        """1/t_end, whose square may be infinite: that of t_end may be 0, by which nothing can be divided."""
+        return 1.0 / self.problem.t_end
 
     @cached_property
     def _tape(self) -> Tape:
@@ -154,7 +159,7 @@ class Audit:
                 rows != columns, weights[:, columns] * bends[:, rows], 0.0
             )
         guided = len(model.layout.guided)
-        guides = np.repeat([[1.0 / self.problem.t_end**2, 1.0 / self.problem.t_end]], guided, axis=1)
+        guides = np.repeat([[self._per_span * self._per_span, self._per_span]], guided, axis=1)
         found = np.hstack([of_mass, weights, np.repeat(guides, len(times), axis=0)])
         return np.asarray(np.nan_to_num(found, nan=np.finfo(float).max, posinf=np.finfo(float).max))
 

@@ -8,6 +8,7 @@ from .kernels.motion import HELD, TOO_LARGE
 from .method import Method
 from .outcome import OK, Number, Outcome, outcome_of
 from .problem import Problem
+from .rounding import short
 from .stability import largest_stable_step
 from .stiffness import eigenvalues
 
@@ -18,19 +19,19 @@ def outcome(
     problem: Problem, method: Method, best: Attempt, tolerance: float | None, step: float | None, blow: Blow | None
 ) -> Outcome:
     """What ended the runs comes first, then a horizon (behind which no event is sure), an event, a tolerance missed."""
-    told: dict[str, Number] = {"method": method.id, "t": _short(best.reached), "t_end": problem.t_end}
+    told: dict[str, Number] = {"method": method.id, "t": short(best.reached), "t_end": problem.t_end}
     ended = _failed(problem, method, best, step, told) or _unseen(best, step, told)
     if ended is not None:
         return ended
     found = best.estimate
     if found is not None and found.horizon is not None:
-        return Outcome("horizon_reached", "horizon_reached", told | {"t": _short(found.horizon)})
+        return Outcome("horizon_reached", "horizon_reached", told | {"t": short(found.horizon)})
     if best.doubtful is not None or best.chosen.event is not None:
         return _ended(best, told)
     if blow is not None:
-        return Outcome("guide_jumps", "guide_jumps", told | {"t": _short(blow.time), "name": blow.name})
+        return Outcome("guide_jumps", "guide_jumps", told | {"t": short(blow.time), "name": blow.name})
     if found is not None and tolerance is not None and found.worst > tolerance:
-        parameters = told | {"tolerance": tolerance, "error": _short(found.worst)}
+        parameters = told | {"tolerance": tolerance, "error": short(found.worst)}
         return Outcome("tolerance_missed", "tolerance_missed", parameters)
     return OK
 
@@ -46,7 +47,7 @@ def _failed(
     if failed is None and held:  # friction holds one run and not the other
         first = min(stop.time for stop in held)
         size = problem.t_end / max(best.chosen.result.steps, 1)
-        return Outcome("unresolved", "unresolved", told | {"t": _short(first), "step": _short(0.1 * size)})
+        return Outcome("unresolved", "unresolved", told | {"t": short(first), "step": short(0.1 * size)})
     if failed is None:
         return None
     steps = int(failed.result.steps + failed.result.rejected)
@@ -59,10 +60,10 @@ def _unseen(best: Attempt, step: float | None, told: dict[str, Number]) -> Outco
     """Steps that stayed too long to see what the forces do, chosen here or given."""
     if best.blind:
         first = best.blind[0]
-        return Outcome("unresolved", "unresolved", told | {"t": _short(first.start), "step": _short(first.step)})
+        return Outcome("unresolved", "unresolved", told | {"t": short(first.start), "step": short(first.step)})
     if best.too_long is None:
         return None
-    needed = {"t": _short(best.too_long.start), "step": _short(step or 0.0), "needed": _short(best.too_long.step)}
+    needed = {"t": short(best.too_long.start), "step": short(step or 0.0), "needed": short(best.too_long.step)}
     return Outcome("step_blind", "step_blind", told | needed)
 
 
@@ -71,19 +72,15 @@ def _ended(best: Attempt, told: dict[str, Number]) -> Outcome:
     if best.doubtful is not None:
         return Outcome("event", "event_doubtful", told)
     error = 0.0 if best.estimate is None else best.estimate.event or 0.0
-    precise = told | {"t": float(f"{best.reached:.6g}")}
+    precise = told | {"t": short(best.reached, 6)}
     if error <= SMALL * best.reached:
         return Outcome("event", "event", precise)
-    return Outcome("event", "event_timed", precise | {"error": float(f"{error:.2g}")})
+    return Outcome("event", "event_timed", precise | {"error": short(error, 2)})
 
 
 def _grown(problem: Problem, method: Method, step: float, told: dict[str, Number]) -> Outcome:
     """A motion that grew beyond all bounds: because the step is outside of the region of stability, or by itself."""
     bound = largest_stable_step(method.tableau, eigenvalues(problem, 0.0, problem.state[: 2 * problem.degrees]))
     if 0.0 < bound < step:
-        return Outcome("diverged", "unstable_step", told | {"step": _short(step), "bound": _short(bound)})
+        return Outcome("diverged", "unstable_step", told | {"step": short(step), "bound": short(bound)})
     return outcome_of(TOO_LARGE, told)
-
-
-def _short(number: float) -> float:
-    return float(f"{number:.3g}")

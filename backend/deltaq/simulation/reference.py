@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..errors import Problem as Mistake
+from ..errors import RequestError
 from .driver import simulate
 from .library import get_method
 from .problem import Floats, Problem
@@ -35,10 +37,17 @@ class Reference:
 
 
 def reference(problem: Problem) -> Reference:
-    """The reference of a problem at its samples."""
+    """The reference of a problem at its samples. RequestError if it cannot be followed even to the second of them."""
     first, second = (simulate(problem, get_method(name), tolerance=TOLERANCE) for name in METHODS)
     count = min(len(first.times), len(second.times))
+    demand_motion(first.times[:count])
     apart = np.abs(first.values[:count] - second.values[:count]).max(axis=1)
     size = np.maximum(1.0, np.abs(first.values[:count]).max(axis=1))
     grain = np.finfo(np.float64).eps * size
     return Reference(first.times[:count], first.values[:count], np.maximum.accumulate(apart) + grain, METHODS)
+
+
+def demand_motion(times: Floats, size: float = 1.0) -> None:
+    """Raises RequestError if a motion has no sample after its start, or no finite size, so that nothing can be told."""
+    if len(times) < 2 or not np.isfinite(size):
+        raise RequestError(Mistake("no-motion"))

@@ -17,6 +17,7 @@ COLUMNS = ("numbers", "base64")  # how arrays may be written (`columns`)
 PARTS = ("coordinates", "rates", "positions", "loads", "energy", "error")
 FIELDS = ("scene", "guides", "freeze", "parameters", "initial", "t_end", "samples", "method", "tolerance", "step")
 LARGEST_SPAN, SAMPLES, DEFAULT_SAMPLES = 1e5, (2, 20001), 501
+SHORTEST = 1e-250  # seconds; parts of less are no longer different numbers
 TOLERANCES, DEFAULT_TOLERANCE = (1e-13, 1e-1), 1e-6
 
 
@@ -37,8 +38,8 @@ class Request:
 def read_request(document: Mapping[str, object]) -> Request:
     """The request in a document. Raises InputError with all problems of the fields, or of the scene."""
     fields = Fields(document)
-    t_end = fields.number("t_end", 0.0, LARGEST_SPAN, required=True)
-    step = fields.number("step", 0.0, max(t_end or 0.0, 0.0) or LARGEST_SPAN)
+    t_end = fields.number("t_end", SHORTEST, LARGEST_SPAN, required=True)
+    step = fields.number("step", SHORTEST, t_end or LARGEST_SPAN)
     tolerance = fields.number("tolerance", *TOLERANCES, closed=True)
     if step is not None and tolerance is not None:
         fields.complain("request-step-and-tolerance", "/tolerance")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from .problem import Floats
@@ -9,6 +11,7 @@ from .problem import Floats
 GUARD_DIGITS = 3  # below the first digit in doubt
 MOST_DIGITS = 15
 EXACT = 22  # powers of ten up to this one are doubles
+WHOLE = 2.0**53  # from here on doubles are whole numbers, and without decimals
 
 
 def rounded(values: Floats, errors: Floats) -> Floats:
@@ -17,8 +20,27 @@ def rounded(values: Floats, errors: Floats) -> Floats:
     result = np.array(values, dtype=np.float64)
     for count in np.unique(decimals):
         chosen = decimals == count
-        result[chosen] = np.round(result[chosen], int(count))
+        result[chosen] = _with_decimals(result[chosen], int(count))
     return result + 0.0  # no negative zero
+
+
+def short(value: float, digits: int = 3) -> float:
+    """So many digits of a number for people; of one so large that rounding it up gives none, all."""
+    found = float(f"{value:.{digits}g}")
+    return found if math.isfinite(found) else float(value)
+
+
+def _with_decimals(values: Floats, decimals: int) -> Floats:
+    """Rounded, except what has no decimals: 10ⁿ times that may be no number."""
+    has_decimals = np.abs(values) < WHOLE
+    return np.where(has_decimals, np.round(np.where(has_decimals, values, 0.0), decimals), values)
+
+
+def _within(values: Floats, decimals: int) -> Floats:
+    """Rounded, or as they are where rounding would leave the range of doubles."""
+    with np.errstate(over="ignore"):
+        found = np.round(values, decimals)
+    return np.where(np.isfinite(found), found, values)
 
 
 def _decimals(errors: Floats) -> Floats:
@@ -34,5 +56,6 @@ def significant(values: Floats, digits: int) -> Floats:
     found = np.array(values, dtype=np.float64)
     for place in np.unique(leading):
         chosen, decimals = leading == place, digits - 1 - int(place)
-        found[chosen] = np.round(found[chosen], decimals) if decimals <= EXACT else found[chosen]
+        if decimals <= EXACT:
+            found[chosen] = _within(found[chosen], decimals)
     return found

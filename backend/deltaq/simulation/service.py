@@ -21,11 +21,14 @@ from .driver import simulate
 from .event import event_values
 from .library import get_method, method_ids
 from .outcome import Outcome
-from .problem import Problem
+from .problem import Floats, Problem
 from .request import Request, read_request
+from .rounding import short
+from .slopes import power
 from .trajectory import Trajectory
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
+LARGEST = float(np.finfo(np.float64).max) / 16  # of a number in an answer: differences of energies are numbers, too
 
 
 def run(document: Mapping[str, object]) -> Document:
@@ -56,7 +59,8 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
     )
     states = np.hstack([trajectory.values, trajectory.rates])
     seen = problem.model.observe(problem.inputs(trajectory.times, states))
-    return answer(request, choice, problem, *_finite(trajectory, seen), compile_time)
+    watts = power(problem, trajectory.times, states)
+    return answer(request, choice, problem, *_finite(trajectory, seen, watts), compile_time)
 
 
 def demand_no_event(scene: Scene, problem: Problem) -> None:
@@ -72,7 +76,7 @@ def demand_no_event(scene: Scene, problem: Problem) -> None:
 
 
 def _at_start(event: Event, value: float) -> dict[str, str | int | float]:
-    return {"name": event.name, "value": event.value.text[:80], "found": float(f"{value:.3g}")}
+    return {"name": event.name, "value": event.value.text[:80], "found": short(float(value))}
 
 
 def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:
@@ -98,13 +102,14 @@ def warm(*chosen: str) -> None:
             simulate(problem_of(load_scene("pendulum"), 0.1, 2), method, step=0.05)
 
 
-def _finite(trajectory: Trajectory, seen: Observation) -> tuple[Trajectory, Observation]:
-    """Both as far as everything seen is finite (a position may have a pole where the motion has none)."""
-    arrays = [seen.kinetic, seen.potential, *seen.values.values(), *seen.rates.values()]
-    vectors = [*seen.positions.values(), *seen.arrows.values()]
-    table = np.column_stack([*arrays, *vectors])
-    good = int(np.isfinite(table).all(axis=1).cumprod().sum())
-    if good == len(table):
+def _finite(trajectory: Trajectory, seen: Observation, watts: Floats) -> tuple[Trajectory, Observation]:
+    """Both as far as everything seen is finite (a position may have a pole where the motion has none), and sums of it
+    are, too.
+    """
+    arrays = [trajectory.values, trajectory.rates, trajectory.work, watts, seen.kinetic, seen.potential]
+    told = [*seen.values.values(), *seen.rates.values(), *seen.positions.values(), *seen.arrows.values()]
+    good = int((np.abs(np.column_stack([*arrays, *told])) <= LARGEST).all(axis=1).cumprod().sum())
+    if good == len(trajectory.times):
         return trajectory, seen
     return _cut(trajectory, good), _cut_observation(seen, good)
 

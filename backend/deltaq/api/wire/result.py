@@ -136,7 +136,9 @@ class Equilibrium(Answer):
     values: dict[str, EquilibriumValue] = Field(description="a coordinate that is missing may have any value")
     exact: bool = Field(description="whether the values are closed forms in the parameters")
     stability: str
-    eigenvalues: tuple[tuple[float, float], ...] = Field(description="[real, imaginary] in 1/s")
+    eigenvalues: tuple[tuple[float, float], ...] = Field(
+        description="[real, imaginary] in 1/s; none, and no modes, where a number of them is beyond double precision"
+    )
     eigenfrequencies: tuple[float, ...]
     modes: tuple[Mode, ...] = Field(description="where no force depends on rates")
     complex_modes: tuple[ComplexMode, ...] = Field(description="elsewhere")

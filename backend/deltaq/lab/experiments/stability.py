@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from ...errors import Problem as Mistake
 from ...errors import RequestError
 from ...language.tree import Name
 from ...mechanics.loads.spring import Spring
@@ -47,6 +48,8 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
     place = parameter_of(subject, stiffness, "/stiffness") if stiffness else -1
     problem = bounded(subject, STEP_LIMIT)
     neighbours, is_rest = _place(problem, at)
+    if not math.isfinite(neighbours.varies):
+        raise RequestError(Mistake("no-motion"))
     total = len(methods) + (len(FACTORS) * len(STIFFENED) if stiffness else 0)
     head = _spectrum(neighbours.eigenvalues) | {"at": at, "rest": is_rest, "varies": significant(neighbours.varies, 2)}
     head |= {"taken": measured(1)}

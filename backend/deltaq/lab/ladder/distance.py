@@ -97,13 +97,15 @@ class Yardstick:
 
     @cached_property
     def size(self) -> float:
-        """A length to measure by: the extent or, at rest, that of a turn by a radian or of the coordinates' values."""
+        """A length to measure by: the extent or, at rest, that of a turn by a radian or of the coordinates' values;
+        not finite where masses or motions are beyond all numbers.
+        """
         if self.extent > 0.0:
             return self.extent
         turns = self._arms * self._in_radians
         values = np.abs(self._values).max(axis=0, initial=0.0)
         candidates = (turns.max(initial=0.0), self._reach(self._values), (self._arms * values).max(initial=0.0), 1.0)
-        return float(next(each for each in candidates if each > self._noise))
+        return float(next((each for each in candidates if each > self._noise), self._noise))
 
     @cached_property
     def units(self) -> Floats:

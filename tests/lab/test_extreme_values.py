@@ -1,0 +1,34 @@
+"""What of a motion that cannot be followed at all is told: that it cannot."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from deltaq.api.jobs import experiment
+from deltaq.errors import RequestError
+
+
+@pytest.mark.parametrize(
+    ("name", "scene", "parameters"),
+    [
+        pytest.param("convergence", "pendulum", {"l": 1e155}, id="no second sample"),
+        pytest.param("chaos", "elastic-pendulum", {"k": 1e153}, id="no reference"),
+        pytest.param("fidelity", "two-mass-oscillator", {"kappa": 3.8e97}, id="no yardstick"),
+        pytest.param("fidelity", "double-pendulum", {"l1": 2.9e52, "m1": 1.7e308, "l2": 1e200}, id="no size"),
+        pytest.param("energy-drift", "pendulum", {"m": 9.6e-60, "l": 1e200, "g": 1e16}, id="no energy"),
+        pytest.param("stability", "elastic-pendulum", {"k": 1e155, "m": 1.2e240, "l": 7e178}, id="no linearization"),
+    ],
+)
+def test_experiments_on_no_motion_say_so(name: str, scene: str, parameters: dict[str, float]) -> None:
+    question: dict[str, Any] = {
+        "experiment": name,
+        "scene": scene,
+        "parameters": parameters,
+        "t_end": 0.5,
+        "lang": "en",
+    }
+    with pytest.raises(RequestError) as caught:
+        list(experiment(question))
+    assert [one.code for one in caught.value.problems] == ["no-motion"]
