@@ -23,7 +23,6 @@ from .body import LargeBodies
 from .cache import Cache, content_hash
 from .clients import ACCOUNT
 from .ending import Ending
-from .extremes import unless_extreme
 from .flights import Hear, Said, ignore
 from .kernels import Kernels
 from .metrics import Metrics, make_metrics
@@ -61,9 +60,10 @@ class Service:
         """The gzipped JSON of a pure job, from the cache if it is there."""
 
         async def compute(_tell: Hear) -> bytes:
-            return await asyncio.to_thread(pack, await self.run(job, document))
+            return await asyncio.to_thread(pack, await self.run(job, document, key))
 
-        return await _shared(partial(self.cache.get, key, compute))
+        with self.pool.asked(key, ACCOUNT.get()):
+            return await _shared(partial(self.cache.get, key, compute))
 
     async def measurement(self, key: str, job: Job, document: Any, hear: Hear, *, anew: bool) -> bytes:
         """The gzipped JSON of an experiment; `hear` gets its place in the queue and its parts before.
@@ -76,18 +76,23 @@ class Service:
             await self.kernels.wait()
             account = ACCOUNT.get()
             account.admit()
-            measured = self.laboratory.run(
-                job, document, lambda part: tell(Said("part", part)), account.let_in(), lambda place: tell(_told(place))
+            measured = await self.laboratory.run(
+                job,
+                document,
+                lambda part: tell(Said("part", part)),
+                account.let_in(),
+                lambda place: tell(_told(place)),
+                key,
             )
-            return await asyncio.to_thread(pack, await unless_extreme(measured, document))
+            return await asyncio.to_thread(pack, measured)
 
         ask = self.cache.renew if anew else self.cache.get
-        return await _shared(partial(ask, key, compute, hear))
+        with self.laboratory.asked(key, ACCOUNT.get()):
+            return await _shared(partial(ask, key, compute, hear))
 
-    async def run(self, job: Job, document: Any) -> bytes:
+    async def run(self, job: Job, document: Any, key: str = "") -> bytes:
         """The JSON of a job's answer, at the expense of the client that asks."""
-        question = document.get("request", document)  # as the client knows it
-        return await unless_extreme(self.pool.run(job, document, ignore, ACCOUNT.get()), question)
+        return await self.pool.run(job, document, ignore, ACCOUNT.get(), key=key)
 
     @staticmethod
     def key(*question: Any) -> str:

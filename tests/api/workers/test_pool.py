@@ -17,6 +17,7 @@ from typing import Any
 import pytest
 
 from deltaq.api.workers import worker
+from deltaq.api.workers.account import Account
 from deltaq.api.workers.job import DeadlineExceeded, Job, JobFailed, MemoryExceeded, Overloaded, WorkerDied
 from deltaq.api.workers.pool import Pool, PoolState
 from deltaq.errors import Problem, SceneError, UnknownNameError
@@ -431,6 +432,7 @@ async def test_kill_of_the_fork_server_itself_is_survived(make_pool: MakePool) -
 
 ORPHAN = """
 import asyncio, json
+from deltaq.api.workers.account import Account
 from deltaq.api.workers.job import Job
 from deltaq.api.workers.lane import Limits
 from deltaq.api.workers.pool import Pool
@@ -457,3 +459,26 @@ async def test_no_orphan_survives_the_kill_of_its_server(root: Path) -> None:
         assert is_alive(worker)
         server.kill()
         assert gone_within(worker, 3.0)
+
+
+async def test_who_asks_for_what_a_greedy_client_waits_for_waits_at_a_place_of_his_own(
+    make_pool: MakePool, tmp_path: Path
+) -> None:
+    """Shared or not, nobody stands behind all that another has asked for."""
+    pool, ended = make_pool(1), list[str]()
+    holding = await held(pool, tmp_path / "door")
+
+    async def ask(key: str, client: str) -> None:
+        account = Account(client)
+        with pool.asked(key, account):
+            await pool.run(job("echo"), key, account=account, key=key)
+        ended.append(key)
+
+    asking = [asyncio.create_task(ask(f"a{n}", "greedy")) for n in range(8)]
+    await asyncio.sleep(0.02)
+    with pool.asked("a7", Account("modest")), pool.asked("a6", Account("")):  # and one that begins to wait before
+        (tmp_path / "door").touch()
+        await asyncio.gather(holding, *asking)
+    assert sorted(ended) == [f"a{n}" for n in range(8)]
+    assert {"a7", "a6"} <= set(ended[:4])
+    assert len(ended) == 8

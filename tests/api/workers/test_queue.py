@@ -29,7 +29,7 @@ class Clock:
 
 
 def task(name: str, client: str = "", pace: Pace = "fast") -> Task:
-    return Task(Job(name, 1.0, pace=pace), b"", account=Account(client))
+    return Task(Job(name, 1.0, pace=pace), b"", account=Account(client), key=name)
 
 
 def filled(tasks: Iterable[Task], lanes: Lanes = MANY, length: int = 1000) -> FairQueue:
@@ -303,3 +303,48 @@ def test_what_was_given_up_tells_nothing_of_durations() -> None:
     before = queue._running.durations.usual("x")
     queue.done(given_up)
     assert queue._running.durations.usual("x") == before
+
+
+def test_what_two_ask_for_waits_at_the_better_place_and_is_run_once() -> None:
+    """Whoever has asked for much before, the other one does not stand behind all of it."""
+    draw = random.Random(5)
+    for _ in range(50):
+        queue = filled(task(f"a{n}", "a") for n in range(20))
+        shared = f"a{draw.randrange(2, 20)}"
+        before = draw.randrange(3)
+        taken(queue, before)
+        queue.share(shared, Account("b"))
+        queue.share(shared, Account("b"))
+        order = taken(queue, 20 - before)
+        assert sorted(one.job.target for one in order) == sorted(f"a{n}" for n in range(before, 20))
+        place = next(n for n, one in enumerate(order) if one.job.target == shared)
+        assert place <= 1
+        assert len(queue) == 0
+
+
+def test_who_has_his_turn_pays_for_what_two_ask_for() -> None:
+    queue = filled([task("a0", "a"), task("a1", "a"), task("a2", "a")])
+    queue.share("a2", Account("b"))
+    assert [(one.job.target, one.account.client) for one in taken(queue, 3)] == [("a0", "a"), ("a2", "b"), ("a1", "a")]
+
+
+def test_a_place_of_what_two_ask_for_is_free_when_one_of_them_leaves() -> None:
+    first, shared = task("a0", "a"), task("a1", "a")
+    queue = filled([first, shared])
+    queue.share("a1", Account("b"))
+    assert (len(queue), queue.place_of(shared)) == (3, Place(2, pytest.approx(0.1)))
+    queue.leave("a1", "b")
+    queue.leave("a0", "a")  # nobody else waits for it: it goes with its task
+    assert (len(queue), names(taken(queue, 2))) == (2, "a0 a1")
+    queue = filled([first, shared])
+    queue.share("a1", Account("b"))
+    assert queue.discard(shared)
+    assert (len(queue), names(taken(queue, 1))) == (1, "a0")
+
+
+def test_what_two_ask_for_takes_no_place_where_there_is_none() -> None:
+    queue = filled([task("a0", "a"), task("a1", "a"), task("b0", "b")], length=3)
+    with pytest.raises(Overloaded):
+        queue.share("a1", Account("c"))
+    queue.share("nothing waits for it", Account("c"))
+    assert names(taken(queue, 3)) == "a0 b0 a1"

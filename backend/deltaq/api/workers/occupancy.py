@@ -73,7 +73,7 @@ class Occupancy:
         self._runs: dict[Task, Run] = {}
 
     def __contains__(self, task: Task) -> bool:
-        return task in self._runs
+        return any(run.answer is task.answer for run in self._runs)
 
     def begin(self, task: Task, pace: Pace) -> None:
         """A lane is at it from now on."""

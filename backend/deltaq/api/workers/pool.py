@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from threading import Event
 from typing import Any
 
-from .account import FREE, Account
+from .account import FREE, Account, QuotaExceeded
 from .job import Job, Overloaded
 from .lane import Lane, Limits
 from .message import encode_request
@@ -45,6 +46,7 @@ class Pool:
         self._tasks = FairQueue(queue_length, Lanes(size + reserve, size))
         self._limits = limits
         self._modules = tuple(modules)
+        self._askers: dict[str, list[Account]] = {}
         self._lanes = tuple(Lane(self._tasks, limits) for _ in range(size + reserve))
 
     def start(self) -> None:
@@ -71,9 +73,10 @@ class Pool:
         hear: Callable[[bytes], object] = _ignore,
         account: Account = FREE,
         wait: Callable[[Place], object] | None = None,
+        key: str = "",
     ) -> bytes:
         """The JSON of the job's answer; `hear` gets its parts before, in the event loop; `account` pays. As long as it
-        has to wait, `wait` hears of its place in the queue.
+        has to wait, `wait` hears of its place in the queue: the best one of all who ask for `key`.
 
         InputError as the job raised it; Overloaded, QuotaExceeded, DeadlineExceeded, MemoryExceeded, WorkerDied or
         JobFailed otherwise. Always ends: with a full queue at once, else after patience where it has not begun by
@@ -82,15 +85,41 @@ class Pool:
         account.admit()
         loop, gone = asyncio.get_running_loop(), Event()
         listener = Listener(lambda part: loop.call_soon_threadsafe(hear, part), gone.is_set)
-        task = Task(job, encode_request(job.target, job.processor_time, document), listener, account)
+        task = Task(job, encode_request(job.target, job.processor_time, document), listener, account, key=key)
         try:
             return await self._answer(task, wait)
         finally:
             gone.set()
             self._tasks.discard(task)
 
+    @contextmanager
+    def asked(self, key: str, account: Account) -> Iterator[None]:
+        """As long as somebody asks for what is run under a key, it waits at a place of his, too, if it has to wait.
+
+        So nobody stands behind all that another one has asked for who happened to ask for the same before.
+        """
+        askers = self._askers.setdefault(key, [])
+        askers.append(account)
+        self._share(key, account)
+        try:
+            yield
+        finally:
+            askers.remove(account)
+            if not askers:
+                del self._askers[key]
+            if all(one.client != account.client for one in askers):
+                self._tasks.leave(key, account.client)
+
+    def _share(self, key: str, account: Account) -> None:
+        """Who may not have a place of his own waits at the other's."""
+        with suppress(Overloaded, QuotaExceeded):
+            account.admit()
+            self._tasks.share(key, account)
+
     async def _answer(self, task: Task, wait: Callable[[Place], object] | None = None) -> bytes:
         self._tasks.put(task)
+        for account in self._askers.get(task.key, ()):
+            self._share(task.key, account)
         loop, patience = asyncio.get_running_loop(), self._limits.patience
         refusal = loop.call_later(patience, self._refuse, task)
         if wait is not None:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import time
 from collections import OrderedDict, deque
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from threading import Condition
 from weakref import WeakSet
 
+from .account import Account
 from .job import Overloaded, Pace
 from .occupancy import Lanes, Occupancy
 from .task import Task
@@ -96,23 +97,39 @@ class FairQueue:
             self._count += 1
             self._changed.notify_all()
 
-    def discard(self, task: Task) -> bool:
-        """Free the place of a task that nobody waits for any more; False if it has none."""
-        client = task.account.client
+    def share(self, key: str, account: Account) -> None:
+        """Let what waits under a key wait at a place of this client, too; Overloaded if he can have none."""
         with self._changed:
-            places = (n for n, one in enumerate(self._by_client.get(client, ())) if one is task)
-            if (place := next(places, None)) is None:
-                return False
-            self._remove(client, place)
+            found = next((task for task in self._waiting() if task.key == key), None)
+            if found is None or any(one.answer is found.answer for one in self._by_client.get(account.client, ())):
+                return
+            own = replace(found, account=account)
+            if found in self._outgrown:
+                self._outgrown.add(own)
+            self.put(own)
+
+    def leave(self, key: str, client: str) -> None:
+        """Free the place of a client who does not wait any more for what others still wait for."""
+        with self._changed:
+            for task in [one for one in self._by_client.get(client, ()) if one.key == key]:
+                if sum(one.answer is task.answer for one in self._waiting()) > 1:
+                    self._free(task)
+
+    def discard(self, task: Task) -> bool:
+        """Free all places of a task that nobody waits for any more; False if it has none."""
+        with self._changed:
+            alike = [one for one in self._waiting() if one.answer is task.answer]
+            for one in alike:
+                self._free(one)
             self._changed.notify_all()
-            return True
+            return bool(alike)
 
     def place_of(self, task: Task) -> Place | None:
         """Where a task stands, if it waits."""
         with self._changed:
             ahead = self._running.left
             for number, one in enumerate(self._in_turn(), 1):
-                if one is task:
+                if one.answer is task.answer:
                     return Place(number, sum(ahead) / self._running.lanes.all)
                 ahead.append(self._running.durations.usual(one.job.kind))
             return None
@@ -125,7 +142,7 @@ class FairQueue:
         """End all waiting; the tasks that are left."""
         with self._changed:
             self._open = False
-            left = [task for tasks in self._by_client.values() for task in tasks]
+            left = list(self._waiting())
             self._by_client.clear()
             self._count = 0
             self._changed.notify_all()
@@ -136,8 +153,21 @@ class FairQueue:
         for client, tasks in self._by_client.items():
             place = next((n for n, task in enumerate(tasks) if self._has_lane(task)), None)
             if place is not None:
-                return self._remove(client, place)
+                task = self._remove(client, place)
+                self.discard(task)  # the others who ask for it wait for the same answer
+                return task
         return None
+
+    def _waiting(self) -> Iterator[Task]:
+        return (task for tasks in self._by_client.values() for task in tasks)
+
+    def _free(self, task: Task) -> None:
+        """Free one place; whose turn it is stays as it is."""
+        tasks = self._by_client[task.account.client]
+        tasks.remove(task)
+        self._count -= 1
+        if not tasks:
+            del self._by_client[task.account.client]
 
     def _has_lane(self, task: Task) -> bool:
         return self._running.has_lane(task.account.client, self._pace_of(task))
@@ -148,9 +178,13 @@ class FairQueue:
     def _in_turn(self) -> Iterator[Task]:
         """The tasks that wait, in the order in which they would be taken if none were kept from it by its pace."""
         lines = deque(deque(tasks) for tasks in self._by_client.values())
+        seen = set[int]()
         while lines:
             line = lines.popleft()
-            yield line.popleft()
+            task = line.popleft()
+            if id(task.answer) not in seen:  # what several wait for is run once
+                yield task
+            seen.add(id(task.answer))
             if line:
                 lines.append(line)
 
