@@ -2,16 +2,38 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import random
 import resource
+import select
+import socket
+import threading
+import time
 from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
+from http.client import HTTPConnection
 from typing import Any, cast
 
+import httpx
 import pytest
+import uvicorn
 
-from deltaq.api.connection import DESCRIPTORS, RESERVED, Connection, Crowd, most_connections, refusal
+from deltaq.api.connection import (
+    DESCRIPTORS,
+    FAREWELL,
+    RESERVED,
+    SEEN_OFF,
+    Connection,
+    Crowd,
+    Patience,
+    connections,
+    most_connections,
+    refusal,
+)
 
 
 @dataclass(eq=False)
@@ -82,6 +104,78 @@ def test_who_never_entered_may_leave() -> None:
     leave(crowd, one)
     leave(crowd, one)
     assert len(crowd) == 0
+
+
+@contextmanager
+def full(most: int) -> Iterator[str]:
+    """The address of a server in which one client has all the connections that it may have, none of them idle."""
+    over, begun = threading.Event(), threading.Semaphore(0)
+
+    async def app(scope: Any, receive: Any, send: Any) -> None:
+        begun.release()
+        while not over.is_set():
+            await asyncio.sleep(0.01)
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        await send({"type": "http.response.body", "body": b""})
+
+    http: Any = connections(Patience(10.0, 10.0), most)
+    server = uvicorn.Server(uvicorn.Config(app, http=http, port=0, lifespan="off", log_config=None))
+    with socket.create_server(("127.0.0.1", 0)) as listener, ThreadPoolExecutor(1 + most) as others:
+        serving = others.submit(server.run, [listener])
+        address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
+        try:
+            held = [others.submit(httpx.get, address, timeout=60) for _ in range(most // 2)]
+            assert all(begun.acquire(timeout=20) for _ in held)
+            yield address
+            over.set()
+            assert [one.result().status_code for one in held] == [200] * (most // 2)
+        finally:
+            over.set()
+            server.should_exit = True
+            serving.result(20)
+
+
+@pytest.mark.parametrize("size", [0, 100, 400_000], ids=["no body", "a body", "a large body"])
+def test_whom_there_is_no_room_for_is_told_so(size: int) -> None:
+    """Whatever a client has still to send when it is refused, it reads the answer."""
+    with full(4) as address:
+        for _ in range(12):
+            asking = HTTPConnection(httpx.URL(address).netloc.decode(), timeout=20)
+            with closing(asking):  # a plain client, which sends all before it reads, and here after it was refused
+                asking.connect()
+                select.select([asking.sock], [], [], 20.0)
+                asking.request("POST" if size else "GET", "/", body=b"x" * size or None)
+                response = asking.getresponse()
+                problem = json.loads(response.read())
+            assert (response.status, response.getheader("content-type")) == (503, "application/problem+json")
+            assert int(response.getheader("retry-after", "0")) > 0
+            assert (problem["type"], problem["status"]) == ("/problems/overloaded", 503)
+
+
+def test_who_is_refused_and_does_not_go_is_cut_off() -> None:
+    with full(4) as address, socket.create_connection(("127.0.0.1", httpx.URL(address).port or 80), timeout=20) as one:
+        while one.recv(2**16):
+            pass
+        end = time.monotonic() + 20.0 * FAREWELL
+        while is_open(one):
+            assert time.monotonic() < end
+
+
+def is_open(connection: socket.socket) -> bool:
+    """Whether the other end still takes what is sent."""
+    time.sleep(0.05)
+    try:
+        connection.sendall(b"x")
+    except OSError:
+        return False
+    return True
+
+
+def test_few_of_those_refused_may_stay() -> None:
+    crowd, many = Crowd(4), [Fake("a", is_idle=False) for _ in range(2 * SEEN_OFF)]
+    assert [crowd.see_off(cast("Connection", one)) for one in many] == [True] * SEEN_OFF + [False] * SEEN_OFF
+    leave(crowd, many[0])
+    assert crowd.see_off(cast("Connection", many[-1]))
 
 
 def test_refusal_is_a_problem_document() -> None:

@@ -25,6 +25,8 @@ from .problems import MEDIA_TYPE, OVERLOADED, RETRY_AFTER, Report
 SLOWEST = 1024.0  # bytes per second that a client must read at least
 DESCRIPTORS = 16_384  # more are not asked of the system
 RESERVED = 96  # descriptors that are not for connections: files of the page, pipes to the workers, those just accepted
+SEEN_OFF = 32  # refused connections at a time that may still read why; they have to fit into the reserve, too
+FAREWELL = 1.0  # seconds that they get
 ACCEPTED = 16  # connections at a time; they have to fit into the reserve, for they are counted afterwards
 
 
@@ -73,6 +75,7 @@ class Crowd:
         self.most = most
         self._by_address: dict[str, dict[Connection, None]] = {}  # the oldest first
         self._count = 0
+        self._leaving: set[Connection] = set()
 
     def __len__(self) -> int:
         return self._count
@@ -90,8 +93,16 @@ class Crowd:
         self._count += 1
         return True
 
+    def see_off(self, connection: Connection) -> bool:
+        """Whether one that did not enter may stay until its client has read why."""
+        if len(self._leaving) >= SEEN_OFF:
+            return False
+        self._leaving.add(connection)
+        return True
+
     def leave(self, connection: Connection) -> None:
         """It is closed; one that never entered may leave, too."""
+        self._leaving.discard(connection)
         own = self._by_address.get(connection.address, {})
         if connection in own:
             del own[connection]
@@ -121,6 +132,7 @@ class Connection(H11Protocol):
     """HTTP/1.1 with deadlines. The body of a request has its own (see body), and so has an idle connection."""
 
     address = ""  # of the client
+    is_refused = False
 
     def __init__(self, *arguments: Any, patience: Patience, crowd: Crowd, **options: Any) -> None:
         super().__init__(*arguments, **options)
@@ -135,7 +147,20 @@ class Connection(H11Protocol):
         if self.crowd.enter(self):
             self._watch_head()
         else:
-            transport.write(refusal())
+            self._refuse(transport)
+
+    def _refuse(self, transport: asyncio.Transport) -> None:
+        """Tell that there is no room, and let what the client sends come in unread until it has gone.
+
+        Closed at once, with the request still to come, the system would answer that with a reset, and a reset takes
+        from the client what it has not read yet (RFC 9112 §9.6).
+        """
+        transport.write(refusal())
+        if self.crowd.see_off(self):
+            self.is_refused = True
+            transport.write_eof()
+            self._head.start(self.loop, FAREWELL, transport.abort)
+        else:
             transport.close()
 
     @property
@@ -145,6 +170,8 @@ class Connection(H11Protocol):
         return cycle is None or cycle.response_complete
 
     def data_received(self, data: bytes) -> None:
+        if self.is_refused:
+            return
         super().data_received(data)
         self._watch_head()
 
