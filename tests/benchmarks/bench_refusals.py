@@ -1,8 +1,9 @@
 """How a service refuses the worst bodies that can be sent to it, and what that costs those who ask for something else.
 
-Run it from the checkout: `python -m tests.benchmarks.bench_refusals [share]`. Sends all bodies of
-`tests.api.worst_bodies`, or so great a share of them, one after the other, to a service on this machine; beside them
-another client reads its version all the time. Prints; judges nothing.
+Run it from the checkout: `python -m tests.benchmarks.bench_refusals [share] [count]`. Sends all bodies of
+`tests.api.worst_bodies`, or so great a share of them, one after the other, to a service on this machine; then 5,000
+requests of `tests.api.extreme_numbers`, or so many, four at a time. Beside them another client reads its version all
+the time. Prints; judges nothing.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from time import perf_counter
 
 import httpx
 import numpy as np
+from tests.api.extreme_numbers import QUICK, Request, is_wrong, requests
 from tests.api.worst_bodies import Worst, worst_bodies
 from tests.benchmarks.memory import resident
 from tests.serving import Served, served
@@ -28,6 +30,7 @@ from tests.serving import Served, served
 from deltaq.api.workers.meter import Clock, processor_clock
 
 PAUSE = 0.005  # seconds between two readings
+AT_ONCE = 4  # extreme requests
 LISTED = 12  # of the slowest and of the largest
 
 
@@ -50,13 +53,14 @@ class Tally:
         large = [f"  {size / 1e3:7.1f} kB  {name}" for size, name in sorted(self.sizes)[-LISTED:]]
         return "\n".join(
             [
-                f"{len(refusals)} bodies: {dict(sorted(self.statuses.items()))}",
+                f"{len(refusals)} requests: {dict(sorted(self.statuses.items()))}",
                 f"answered within {told(refusals)}",
+                f"refused (4xx) within {told([1e3 * s for s, name in self.seconds if name.startswith('4')])}",
                 *slow,
                 f"largest answers: {max(self.sizes)[0] / 1e3:.1f} kB",
                 *large,
-                f"processor time of the web process for each {told([1e3 * s for s in self.processor])}",
-                f"another's reading before {told([1e3 * s for s in self.quiet])}",
+                *([f"processor time of the web process for each {told(self.processor)}"] if self.processor else ()),
+                *([f"another's reading before {told([1e3 * s for s in self.quiet])}"] if self.quiet else ()),
                 f"another's reading, {len(readings)} times: {told(readings)}",
                 f"memory of the web process {self.memory[0]:.0f} MiB, at most {max(self.memory) - self.memory[0]:+.0f}",
                 *(f"WRONG {one}" for one in self.bad),
@@ -80,7 +84,7 @@ async def send(client: httpx.AsyncClient, worst: Worst, clock: Clock, tally: Tal
         tally.bad.append(f"{worst}: {error!r}")
         return
     tally.statuses[answer.status_code] += 1
-    tally.processor.append(clock() - used)
+    tally.processor.append(1e3 * (clock() - used))
     tally.seconds.append((perf_counter() - begin, f"{answer.status_code} {worst}"))
     tally.sizes.append((len(answer.content), f"{answer.status_code} {worst}"))
     if answer.status_code >= 500:
@@ -121,35 +125,58 @@ async def watch(service: Served, tally: Tally) -> None:
         await asyncio.sleep(0.02)
 
 
-async def drive(service: Served, share: float) -> Tally:
-    """All bodies, or a share of them, while another client reads."""
-    tally, draw, clock = Tally(), random.Random(1), processor_clock(service.process.pid)
+async def ask(client: httpx.AsyncClient, left: Iterator[Request], tally: Tally) -> None:
+    """Send what is left, one after the other."""
+    for path, body in left:
+        begin = perf_counter()
+        answer = await client.post(path, json=body)
+        name = f"{answer.status_code} {path} {str(body)[:120]}"
+        tally.statuses[answer.status_code] += 1
+        tally.seconds.append((perf_counter() - begin, name))
+        tally.sizes.append((len(answer.content), name))
+        if is_wrong(answer.status_code):
+            tally.bad.append(f"{answer.status_code} {path} {body}")
+        if len(tally.seconds) % 500 == 0:
+            print(f"{len(tally.seconds)} extreme requests", flush=True)
+
+
+async def drive(service: Served, share: float, count: int) -> tuple[Tally, Tally]:
+    """All worst bodies, or a share of them, then so many extreme requests, while another client reads."""
+    draw, clock = random.Random(1), processor_clock(service.process.pid)
+    worst, extreme = Tally(), Tally()
     async with httpx.AsyncClient(base_url=service.address, timeout=300) as client:
         document = (await client.get("/api/v1/openapi.json")).json()
-        chosen = [worst for worst in worst_bodies(document) if draw.random() < share]
+        chosen = [one for one in worst_bodies(document) if draw.random() < share]
         draw.shuffle(chosen)
         while (await client.get("/api/v1/ready")).status_code != 200:
             await asyncio.sleep(0.2)
         for small in list(worst_bodies(document, 1000))[::100]:
             await send(client, small, clock, Tally())
-        watching = asyncio.create_task(watch(service, tally))
-        with reader(service.address, tally.quiet):
+        watching = asyncio.create_task(watch(service, worst))
+        with reader(service.address, worst.quiet):
             await asyncio.sleep(5.0)
-        with reader(service.address, tally.readings):
+        with reader(service.address, worst.readings):
             await asyncio.sleep(2.0)
-            for number, worst in enumerate(chosen, 1):
-                await send(client, worst, clock, tally)
+            for number, one in enumerate(chosen, 1):
+                await send(client, one, clock, worst)
                 if number % 500 == 0:
                     print(f"{number} of {len(chosen)}", flush=True)
         watching.cancel()
-    return tally
+        watching, left = asyncio.create_task(watch(service, extreme)), requests(count)
+        with reader(service.address, extreme.readings):
+            await asyncio.sleep(2.0)
+            await asyncio.gather(*(ask(client, left, extreme) for _ in range(AT_ONCE)))
+        watching.cancel()
+    return worst, extreme
 
 
 def main() -> None:
     share = float(sys.argv[1]) if len(sys.argv) > 1 else 1.0
-    with served(queue_patience=60) as service:
-        print(asyncio.run(drive(service, share)))
-        print(f"load of the machine {os.getloadavg()[0]:.1f}")
+    count = int(sys.argv[2]) if len(sys.argv) > 2 else 5000
+    with served(**QUICK) as service:
+        worst, extreme = asyncio.run(drive(service, share, count))
+    print(f"WORST BODIES\n{worst}\nEXTREME NUMBERS\n{extreme}")
+    print(f"load of the machine {os.getloadavg()[0]:.1f}")
 
 
 if __name__ == "__main__":
