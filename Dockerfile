@@ -28,7 +28,7 @@ RUN useradd --system --no-create-home --shell /usr/sbin/nologin deltaq \
  && install --directory --owner deltaq /cache
 COPY --from=build /opt/deltaq /opt/deltaq
 COPY --from=build /opt/kernels /opt/kernels
-ENV NUMBA_CACHE_DIR=/cache/kernels DELTAQ_MODEL_CACHE=/cache/models DELTAQ_CACHE_FOLDER=/cache/answers TMPDIR=/cache
+ENV NUMBA_CACHE_DIR=/cache/kernels DELTAQ_CACHE_FOLDER=/cache/answers TMPDIR=/cache
 ENV PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1
 USER deltaq
 EXPOSE 8000

@@ -26,8 +26,8 @@ MAY_KNOW = {
 }
 # Who may know the modules beside the packages.
 BESIDE = {
-    "": {"errors", "packages"},
-    "api": {"errors", "packages", "settings"},
+    "": {"errors", "packages", "ownership"},
+    "api": {"errors", "packages", "ownership", "settings"},
     "commands": {"errors", "bench", "settings"},
 }
 FORBIDDEN = {

@@ -187,7 +187,6 @@ LISTS = {
     "log_level": (["loud", "INFO", ""], ["debug", "error"]),
     "static": (["/nowhere", "/etc/passwd"], ["", "/tmp"]),
     "cache_folder": (["/etc/passwd", "/etc/passwd/below", "/dev/null"], ["", "/tmp", "/tmp/not-there-yet"]),
-    "model_cache": (["/etc/passwd", "/dev/null/x"], ["", "/tmp"]),
 }
 
 

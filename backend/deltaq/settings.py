@@ -119,7 +119,6 @@ class Settings:
     log_level: str = setting(
         "warning", f"what is logged: {', '.join(LOG_LEVELS)} (info: each request)", one_of(*LOG_LEVELS)
     )
-    model_cache: str = setting("", "folder of compiled models", folder)  # read by deltaq.model.store
     static: str = setting("", "folder of the page's files", folder_there)
 
     @classmethod

@@ -24,7 +24,7 @@ METHODS = ("auto", "rk4", "stormer-verlet", "gauss-4", "radau-5", "newmark")
 @contextmanager
 def serving(cache: str) -> Iterator[tuple[str, float]]:
     """A service with its caches in a folder: its address, and when it was started."""
-    environment = os.environ | {"NUMBA_CACHE_DIR": f"{cache}/kernels", "DELTAQ_MODEL_CACHE": f"{cache}/models"}
+    environment = os.environ | {"NUMBA_CACHE_DIR": f"{cache}/kernels"}
     environment.pop("PYTHONDONTWRITEBYTECODE", None)  # a machine keeps the bytecode of the packages installed on it
     start = time.perf_counter()
     command = [sys.executable, "-m", "deltaq.cli", "serve", "--port", "0"]

@@ -41,7 +41,9 @@ def run(options: argparse.Namespace) -> None:
         listener = _listen(options.host, options.port)
     except OSError as error:
         raise CommandError(_cannot_listen(options.host, options.port, error)) from None
-    with listener, suppress(KeyboardInterrupt):
+    from ..api.workers.kernels import own_folder
+
+    with listener, suppress(KeyboardInterrupt), own_folder():
         settings = _settings(listener)
         address = _address(options.host, listener.getsockname()[1])
         print(f"δq is at {address}  (Ctrl-C ends it)", flush=True)

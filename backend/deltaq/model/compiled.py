@@ -24,7 +24,7 @@ QUICK, THOROUGH = 0, 3
 class Compiled:
     """A function from `inputs` to `outputs` doubles: void f(double *out, const double *in, void *data).
 
-    The addresses are valid as long as this object lives. It can be pickled; addresses are made anew on loading.
+    The addresses are valid as long as this object lives.
     """
 
     function: Any

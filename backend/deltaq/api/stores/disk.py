@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from ...ownership import NotOursError, believe, believe_state
 from .store import sealed, unsealed
 
 LOGGER = logging.getLogger("deltaq.cache")
@@ -17,7 +18,10 @@ _KEY = re.compile(r"[0-9a-f]{32}(\.[a-z]+)?")  # of a kind that can be asked for
 
 
 class Disk:
-    """One file for each answer; those used longest ago go when there are more than `size` bytes."""
+    """One file for each answer; those used longest ago go when there are more than `size` bytes.
+
+    Answers that others may have written are not given, and none are kept where others may write.
+    """
 
     name = "disk"
 
@@ -32,13 +36,13 @@ class Disk:
             return None
         file = self._file(key)
         try:
-            answer = unsealed(key, file.read_bytes())
+            answer = unsealed(key, self._read(file))
             if answer is None:
                 LOGGER.warning("a damaged answer was removed")
                 file.unlink(missing_ok=True)
             else:
                 os.utime(file)
-        except FileNotFoundError:
+        except (FileNotFoundError, NotOursError):
             return None
         except OSError as error:
             LOGGER.warning("the cache on disk cannot be read: %s", error.strerror)
@@ -53,14 +57,26 @@ class Disk:
             self._written += len(content)
             if self._written > self.size:
                 self._make_room()
+        except NotOursError:
+            return
         except OSError as error:
             LOGGER.warning("the cache on disk cannot be written: %s", error.strerror)
 
     def _file(self, key: str) -> Path:
         return self.folder / key[:2] / f"{key}.answer"
 
+    def _read(self, file: Path) -> bytes:
+        """What nobody else can have written: a file of ours in folders of ours. Raises NotOursError."""
+        for folder in (self.folder, file.parent):
+            believe(folder)
+        with os.fdopen(os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK), "rb") as found:
+            believe_state(os.fstat(found.fileno()), str(file))
+            return found.read()
+
     def _write(self, file: Path, content: bytes) -> None:
-        file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        for folder in (self.folder, file.parent):
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            believe(folder)
         descriptor, name = tempfile.mkstemp(dir=file.parent, suffix=".new")
         try:
             with os.fdopen(descriptor, "wb") as new:

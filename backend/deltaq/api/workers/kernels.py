@@ -5,16 +5,46 @@ from __future__ import annotations
 import hashlib
 import os
 import platform
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from ...ownership import NotOursError, believe
 
 KERNELS = Path(__file__).parents[2] / "simulation" / "kernels"
 PROCESSOR = Path("/proc/cpuinfo")
+VARIABLE = "NUMBA_CACHE_DIR"
 
 
 def folder() -> Path:
     """Where Numba keeps what it has compiled."""
-    return Path(os.environ.get("NUMBA_CACHE_DIR") or KERNELS / "__pycache__")
+    return Path(os.environ.get(VARIABLE) or KERNELS / "__pycache__")
+
+
+@contextmanager
+def own_folder() -> Iterator[None]:
+    """A folder for kernels that nobody else writes: where others may, an empty one for as long as the service runs.
+
+    In theirs Numba would believe nothing, and every worker compile for itself.
+    """
+    if _is_believed(folder()):
+        yield
+        return
+    with TemporaryDirectory(prefix="deltaq-kernels-") as own:
+        os.environ[VARIABLE] = own
+        yield
+
+
+def _is_believed(place: Path) -> bool:
+    """Whether nobody else writes there; what is not there yet will be made by us."""
+    try:
+        believe(place)
+    except FileNotFoundError:
+        return True
+    except NotOursError:
+        return False
+    return True
 
 
 def compiled_kernels() -> int:

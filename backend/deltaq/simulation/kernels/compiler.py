@@ -6,13 +6,17 @@ import ast
 import hashlib
 import logging
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from pickle import UnpicklingError
 from typing import Any, TypeVar, cast
 
 from numba import njit
+from numba.core import config
+from numba.core.caching import IndexDataCacheFile
+
+from ...ownership import believe
 
 LOGGER = logging.getLogger("deltaq.simulation")
 F = TypeVar("F", bound=Callable[..., object])
@@ -38,9 +42,29 @@ def _compiled(function: F, *, forceinline: bool) -> F:
     compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, **options)(function)
     # Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
     stamp = source_stamp(Path(function.__code__.co_filename))
-    compiled._cache._cache_file._source_stamp = stamp  # noqa: SLF001 - Numba offers no other way
+    base = compiled._cache._impl.filename_base  # noqa: SLF001 - Numba offers no other way
+    compiled._cache._cache_file = OwnFiles(compiled._cache.cache_path, base, stamp)  # noqa: SLF001
     compiled._cache._guard_against_spurious_io_errors = _unkept  # noqa: SLF001
     return cast("F", compiled)
+
+
+class OwnFiles(IndexDataCacheFile):
+    """Numba's files of a kernel, pickles and machine code: nothing is read that others may have written."""
+
+    def __init__(self, folder: str, base: str, stamp: str) -> None:
+        super().__init__(folder, base, stamp)  # type: ignore[no-untyped-call]  # as are all of Numba's
+        self.folder = Path(folder)
+
+    def _load_index(self) -> Any:
+        """Raises NotOursError, also before anything is written."""
+        for place in (getattr(config, "CACHE_DIR", ""), self.folder, self.folder / self._index_name):
+            with suppress(FileNotFoundError):
+                believe(place or self.folder)
+        return super()._load_index()  # type: ignore[no-untyped-call]
+
+    def _load_data(self, name: str) -> Any:
+        believe(self.folder / name)
+        return super()._load_data(name)  # type: ignore[no-untyped-call]
 
 
 @contextmanager
