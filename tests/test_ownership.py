@@ -7,6 +7,7 @@ import os
 import pickle
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
@@ -115,14 +116,21 @@ def test_kernels_below_a_folder_of_all_are_not_loaded(tmp_path: Path, monkeypatc
 def test_a_service_whose_kernels_others_may_write_has_a_folder_of_its_own(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    with kernels.own_folder():
-        assert kernels.folder() == tmp_path
-    tmp_path.chmod(0o777)
-    with kernels.own_folder():
-        assert kernels.folder() != tmp_path
-        believe(kernels.folder())
-    assert not kernels.folder().exists()
+    given, caches = tmp_path / "kernels", tmp_path / "caches"
+    given.mkdir()
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(given))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(caches))
+    kernels.take_own_folder()
+    assert kernels.folder() == given
+    given.chmod(0o777)
+    kernels.take_own_folder()
+    assert kernels.folder() == caches / "deltaq" / "kernels"
+    believe(kernels.folder())
+    kernels.folder().chmod(0o777)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    kernels.take_own_folder()
+    assert kernels.folder().parent == tmp_path
+    believe(kernels.folder())
 
 
 def test_every_kernel_is_kept_in_files_that_are_looked_at() -> None:

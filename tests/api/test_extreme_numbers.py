@@ -108,6 +108,30 @@ async def test_numbers_that_were_too_much(quick: httpx.AsyncClient, path: str, b
             200,
             id="the square of a frequency",
         ),
+        pytest.param(
+            "simulations",
+            {
+                "scene": "double-pendulum",
+                "parameters": {"m2": 6.859554133520522e42},
+                "initial": {"phi1": {"value": 0.1, "rate": 0.0}},
+                "t_end": 1.0,
+                "method": "dop853",
+                "step": 0.01,
+            },
+            200,
+            id="an error that is no number",
+        ),
+        pytest.param(
+            "variations",
+            {
+                "functions": ["x"],
+                "expression": "x",
+                "include": ["quotient"],
+                "numeric": {"functions": {"x": "t"}, "direction": {"x": "1"}, "t": 1.7e308},
+            },
+            200,
+            id="twice an instant",
+        ),
     ],
 )
 async def test_numbers_whose_answers_are_known(

@@ -9,6 +9,8 @@ import pytest
 from deltaq.api.jobs import experiment
 from deltaq.errors import RequestError
 
+pytestmark = pytest.mark.filterwarnings("ignore::RuntimeWarning")  # of NumPy: overflows are what this is about
+
 
 @pytest.mark.parametrize(
     ("name", "scene", "parameters"),

@@ -41,9 +41,7 @@ def run(options: argparse.Namespace) -> None:
         listener = _listen(options.host, options.port)
     except OSError as error:
         raise CommandError(_cannot_listen(options.host, options.port, error)) from None
-    from ..api.workers.kernels import own_folder
-
-    with listener, suppress(KeyboardInterrupt), own_folder():
+    with listener, suppress(KeyboardInterrupt):
         settings = _settings(listener)
         address = _address(options.host, listener.getsockname()[1])
         print(f"δq is at {address}  (Ctrl-C ends it)", flush=True)
@@ -77,8 +75,10 @@ def _port(text: str) -> int:
 
 
 def _run(listener: socket.socket, settings: Settings) -> None:
+    from ..api.workers.kernels import take_own_folder
     from ..api.workers.worker import start_fork_server
 
+    take_own_folder()
     start_fork_server()  # first of all: it loads SymPy and the kernels while the web server is loaded here
     import uvicorn
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -32,7 +33,7 @@ def curves_of(functional: Functional, motion: Motion, time: float) -> Curves:
     """Over the interval of an integral, else over a span that has the instant inside."""
     with ctx.workprec(BITS):
         (lower, upper), at = _span(functional, motion, time)
-        times = tuple(lower + (upper - lower) * k / (SAMPLES - 1) for k in range(SAMPLES))
+        times = tuple(lower + (upper - lower) * (k / (SAMPLES - 1)) for k in range(SAMPLES))
         functions, directions = (
             _sampled(part, functional, motion, times) for part in (motion.functions, motion.directions)
         )
@@ -47,7 +48,8 @@ def _span(functional: Functional, motion: Motion, time: float) -> tuple[tuple[fl
             return (float(number(bounds.lower, point)), float(number(bounds.upper, point))), None
         case Instant(node):
             time = float(number(functional.expression(node), point))
-    return ((min(0.0, 2 * time), max(0.0, 2 * time)) if time else (0.0, 1.0)), time
+    far = math.copysign(min(2 * abs(time), sys.float_info.max), time)
+    return ((min(0.0, far), max(0.0, far)) if time else (0.0, 1.0)), time
 
 
 def _sampled(

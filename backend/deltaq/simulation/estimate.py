@@ -30,6 +30,7 @@ CLOSE, ROOM = 2e-13, 1.4  # below, a difference is one of rounding errors; what 
 MATTERS = 0.02  # of the estimate: rounding that could be more is looked at
 LINEAR = 0.1  # of the size of a coordinate: differences up to that are proportional to errors
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
+UNKNOWN = 1e300  # for an error that is no number; with room for sums
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     spread = _near_rounding(_spread(factors * np.vstack([together, difference[n : 2 * n]])))
     grain, sizes = _grain(problem, times, fine), np.abs(states[:n])
     ones = np.maximum(1.0, sizes)
-    errors = np.maximum(spread[:n], grain * ones)
+    errors = _known(np.maximum(spread[:n], grain * ones))
     horizon = _horizon(problem, times, errors, sizes)
     if horizon is not None:
         # Beyond the horizon both runs are wrong, and their difference may shrink by chance.
@@ -102,7 +103,7 @@ def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> E
     """The estimate, not below what rounding does: that is what the disturbance of the model did, scaled down."""
     count = min(len(found.errors), len(other.times), len(fine.times))
     moved = np.abs(other.states[:count, : problem.degrees] - fine.states[:count, : problem.degrees]).T
-    floor = 6.0 * EPSILON / DISTURBANCE * _spread(moved)
+    floor = _known(6.0 * EPSILON / DISTURBANCE * _spread(moved))
     errors = found.errors.copy()
     errors[:count] = np.maximum(errors[:count], floor.max(axis=0))
     ones = np.maximum(1.0, np.abs(fine.states[:count, : problem.degrees].T))
@@ -130,6 +131,11 @@ def _factors(problem: Problem, factor: float, difference: Floats, sizes: Floats)
     """The factor at each sample; 1 at least from where the coarser run is so far off that it tells nothing more."""
     is_off = (difference > LINEAR * _sizes(problem, sizes)).any(axis=0)
     return np.asarray(np.where(np.logical_or.accumulate(is_off), max(factor, 1.0), factor))
+
+
+def _known(errors: Floats) -> Floats:
+    """Errors that are numbers: what is none, of states near the end of all numbers, is larger than any of them."""
+    return np.nan_to_num(errors, nan=UNKNOWN, posinf=UNKNOWN)
 
 
 def _near_rounding(errors: Floats) -> Floats:

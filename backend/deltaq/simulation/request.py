@@ -38,9 +38,12 @@ class Request:
 def read_request(document: Mapping[str, object]) -> Request:
     """The request in a document. Raises InputError with all problems of the fields, or of the scene."""
     fields = Fields(document)
-    t_end = fields.number("t_end", SHORTEST, LARGEST_SPAN, required=True)
-    step = fields.number("step", SHORTEST, t_end or LARGEST_SPAN)
+    t_end = fields.number("t_end", 0.0, LARGEST_SPAN, required=True)
+    step = fields.number("step", 0.0, max(t_end or 0.0, 0.0) or LARGEST_SPAN)
     tolerance = fields.number("tolerance", *TOLERANCES, closed=True)
+    for key, value in {"t_end": t_end, "step": step}.items():
+        if value is not None and value < SHORTEST:
+            fields.complain("request-outside", f"/{key}", value=value, min=SHORTEST, max=LARGEST_SPAN)
     if step is not None and tolerance is not None:
         fields.complain("request-step-and-tolerance", "/tolerance")
     samples, method = fields.whole("samples", *SAMPLES, DEFAULT_SAMPLES), fields.text("method", AUTO)

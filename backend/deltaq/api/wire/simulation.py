@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from ...simulation.choice import AUTO
-from ...simulation.request import DEFAULT_SAMPLES, LARGEST_SPAN, PARTS, SAMPLES, SHORTEST, TOLERANCES
+from ...simulation.request import DEFAULT_SAMPLES, LARGEST_SPAN, PARTS, SAMPLES, TOLERANCES
 from .base import Answer, AskedLanguage, InitialValues, Name, Names, SceneWithChanges, examples
 
 
@@ -16,7 +16,7 @@ class SimulationRequest(SceneWithChanges):
     """What to simulate, how long, and how accurately."""
 
     initial: InitialValues = Field({})
-    t_end: float = Field(gt=SHORTEST, le=LARGEST_SPAN, description="seconds", examples=[10.0])
+    t_end: float = Field(gt=0, le=LARGEST_SPAN, description="seconds", examples=[10.0])
     samples: int = Field(
         DEFAULT_SAMPLES,
         ge=SAMPLES[0],
@@ -30,7 +30,7 @@ class SimulationRequest(SceneWithChanges):
         le=TOLERANCES[1],
         description="wanted error of the coordinates: absolute below 1, relative above",
     )
-    step: float | None = Field(None, gt=SHORTEST, description="fixed step in seconds, instead of a tolerance")
+    step: float | None = Field(None, gt=0, description="fixed step in seconds, instead of a tolerance")
     include: Names = Field((), description=f"the parts wanted, of {', '.join(PARTS)}; all if empty", examples=[[]])
     columns: Literal["numbers", "base64"] = Field(
         "numbers", description="how arrays are written; base64: little-endian doubles, components of a vector together"

@@ -5,10 +5,9 @@ from __future__ import annotations
 import hashlib
 import os
 import platform
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import mkdtemp
 
 from ...ownership import NotOursError, believe
 
@@ -22,18 +21,19 @@ def folder() -> Path:
     return Path(os.environ.get(VARIABLE) or KERNELS / "__pycache__")
 
 
-@contextmanager
-def own_folder() -> Iterator[None]:
-    """A folder for kernels that nobody else writes: where others may, an empty one for as long as the service runs.
+def take_own_folder() -> None:
+    """See that nobody else writes the folder of kernels: where others may, another one of this user is taken.
 
     In theirs Numba would believe nothing, and every worker compile for itself.
     """
     if _is_believed(folder()):
-        yield
         return
-    with TemporaryDirectory(prefix="deltaq-kernels-") as own:
-        os.environ[VARIABLE] = own
-        yield
+    caches = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser()
+    own = caches / "deltaq" / "kernels"
+    with suppress(OSError):
+        own.mkdir(mode=0o700, parents=True, exist_ok=True)
+    is_usable = own.is_dir() and _is_believed(own) and os.access(own, os.W_OK)
+    os.environ[VARIABLE] = str(own) if is_usable else mkdtemp(prefix="deltaq-kernels-")
 
 
 def _is_believed(place: Path) -> bool:
