@@ -114,7 +114,7 @@ def test_fixed_steps_know_their_error(identifier: str) -> None:
         found, reference = simulated(sought, identifier, 5.0, step=0.005), trusted(sought, 5.0)
         true, told = true_errors(found, reference), found.estimate.errors
         assert np.all(true <= told + 1e-13), name
-        assert np.median(told[1:] / np.maximum(true[1:], 1e-16)) <= 100, name
+        assert np.median(told[1:] / np.maximum(true[1:], np.finfo(float).eps)) <= 100, name
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])

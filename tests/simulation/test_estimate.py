@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.simulation.scenes import oscillator
 
-from deltaq.simulation.estimate import CLOSE, ROOM, estimate
+from deltaq.simulation.estimate import CLOSE, estimate
 from deltaq.simulation.kernels.loop import Result
 from deltaq.simulation.problem import Problem
 from deltaq.simulation.run import Run
@@ -37,7 +37,7 @@ def test_turning_points_do_not_hide_a_wrong_phase(problem: Problem) -> None:
 
 def test_factor_scales_the_estimate(problem: Problem) -> None:
     one, two = (estimate(problem, run_of(1e-6), run_of(), factor) for factor in (1.0, 2.0))
-    rounding = ROOM * CLOSE  # which comes to both alike
+    rounding = CLOSE  # which comes to both alike
     np.testing.assert_allclose(two.errors - rounding, 2 * (one.errors - rounding), rtol=1e-9)
 
 

@@ -65,7 +65,7 @@ def test_every_method_finds_when_the_string_goes_slack(method: str, start: tuple
         if found.outcome.code not in TIMED:  # so coarse that it cannot be told
             assert (method in {"explicit-euler", "symplectic-euler"}, accuracy) == (True, ACCURACIES[0])
             continue
-        assert abs(found.event.time - time) <= found.event.error <= 1e-1
+        assert abs(found.event.time - time) <= found.event.error <= 0.2
         assert abs(found.values[-1, 0] - angle) <= found.estimate.errors[-1] + found.event.error * abs(
             found.rates[-1, 0]
         )
@@ -88,7 +88,7 @@ def test_the_error_of_the_time_is_rarely_a_hundred_times_too_large() -> None:
 GRAZING = [
     pytest.param(1e-6, "dop853", {"tolerance": 1e-3}, "event", id="just slack"),
     pytest.param(1e-9, "dormand-prince-54", {"tolerance": 1e-6}, "event", id="slack for 20 microseconds"),
-    pytest.param(1e-9, "radau-5", {"tolerance": 1e-6}, "event", id="slack for 20 microseconds, implicitly"),
+    pytest.param(1e-9, "radau-5", {"tolerance": 1e-7}, "event", id="slack for 20 microseconds, implicitly"),
     pytest.param(1e-9, "rk4", {"step": 0.01}, "event_doubtful", id="too coarse to tell"),
     pytest.param(-1e-9, "rk4", {"step": 0.01}, "event_doubtful", id="too coarse to tell that nothing happens"),
     pytest.param(1e-4, "heun", {"step": 0.01}, "event_doubtful", id="far too coarse to tell"),

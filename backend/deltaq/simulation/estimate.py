@@ -26,8 +26,8 @@ ANYWHERE = 0.1  # what counts of the largest before and behind, wherever it is
 TURNING = 4.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
 ROUNDING, EPSILON = 4e-16, 2.0**-52
 STOPS = 1.5  # times the difference of two stops
-CLOSE, ROOM = 2e-13, 1.4  # below, a difference is one of rounding errors; what comes to it
-MATTERS = 0.02  # of the estimate: rounding that could be more is looked at
+CLOSE = 3e-14  # so much of a difference may be one of rounding errors, which are no smaller in the finer run
+MATTERS = 0.05  # of the estimate: rounding that could be more is looked at
 LINEAR = 0.1  # of the size of a coordinate: differences up to that are proportional to errors
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 UNKNOWN = 1e300  # for an error that is no number; with room for sums
@@ -58,7 +58,8 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     together = np.hypot(difference[:n], _time_scales(problem, times, states) * difference[n : 2 * n])
     together = np.minimum(together, TURNING * _largest_within(difference[:n], max(2, len(times) // FAR)))
     factors = _factors(problem, factor, difference[:n], np.abs(states[:n]))
-    spread = _near_rounding(_spread(factors * np.vstack([together, difference[n : 2 * n]])))
+    differences = np.vstack([together, difference[n : 2 * n]])
+    spread = _spread(factors * differences + np.minimum(differences, CLOSE))
     grain, sizes = _grain(problem, times, fine), np.abs(states[:n])
     ones = np.maximum(1.0, sizes)
     errors = _known(np.maximum(spread[:n], grain * ones))
@@ -138,11 +139,6 @@ def _known(errors: Floats) -> Floats:
     return np.nan_to_num(errors, nan=UNKNOWN, posinf=UNKNOWN)
 
 
-def _near_rounding(errors: Floats) -> Floats:
-    """Errors with room where they are about rounding: there the difference of two runs is one draw at random."""
-    return errors + ROOM * np.minimum(errors, CLOSE)
-
-
 def _of_stop(problem: Problem, coarse: Run, fine: Run, factor: float) -> float:
     """The error of where friction holds the motion, by the two runs; no stop is better than of order 2."""
     if coarse.held is None or fine.held is None:
@@ -161,7 +157,8 @@ def _of_event(problem: Problem, coarse: Run, fine: Run, factor: float, doubts: F
     event = fine.event
     doubt = _doubt(problem, event.index, event.time, event.state, doubts)
     apart = factor * abs(event.time - coarse.event.time)
-    return max(apart, event.late_by(doubt)) + float(np.spacing(event.time))
+    rounding = ROUNDING * float(np.sqrt(1.0 + fine.result.steps)) * event.time
+    return max(apart, event.late_by(doubt)) + rounding
 
 
 def _doubtful(problem: Problem, coarse: Run, fine: Run, times: Floats, doubts: Floats) -> Happening | None:

@@ -14,14 +14,15 @@ FINEST_TOLERANCE = 1e-14  # of the coarser run of a pair; below, rounding rules
 COARSEST_TOLERANCE = 3e-4  # of the coarser run; with more, its error says little of that of the finer one
 FIRST_STEPS, USUAL_TOLERANCE = 200, 1e-3  # in the first try with a fixed step
 UNFINISHED = 0.25  # the step over that of a run that did not come to the end
-RATIO: float = 2.5 + 0.5**0.5  # of the steps of a pair
+RATIO: float = 3.0 + 0.5**0.5  # of the steps of a pair
 FINER: float = 1.5 + 1.0 / 3.0**0.5  # the ratio where the coarser steps are given, and the finer run tells their error
 NEAREST: float = 4.0 / 3.0**0.5 - 0.25
 FARTHEST = 6.0  # what the ratio may be where a run is compared with one before
-SHRINK = 2.25  # of adaptive steps from the coarser run of a pair to the finer
+SHRINK = 2.3  # of adaptive steps from the coarser run of a pair to the finer
 OFTEN = 3.0  # times as many steps as the longest would be: then they are rarely the longest
-CLOSEST, FARTHEST_TOLERANCE = 10.0, 200.0  # between these the tolerances of a pair are apart
-MARGIN = 13.5  # how far errors may fall short of shrinking as the theory says
+CLOSEST, FARTHEST_TOLERANCE = 10.0, 220.0  # between these the tolerances of a pair are apart
+MARGIN = 14.0  # how far errors may fall short of shrinking as the theory says
+LEAST_PART = 0.3  # of how far tolerances are apart, where a run is compared with one before
 GRAIN = 1e-13  # below, rounding has its part in what a tolerance does
 LARGEST_STEP = 0.01  # of the span, so that a motion that begins at rest does not jump over what comes later
 
@@ -87,7 +88,7 @@ class ByTolerance:
             return False
         is_free = coarse.result.steps * steps.size > OFTEN * self.t_end
         apart = self._apart(fine.tolerance)
-        return is_free and 0.3 * apart <= steps.tolerance / fine.tolerance <= 10.0 * apart
+        return is_free and LEAST_PART * apart <= steps.tolerance / fine.tolerance <= 10.0 * apart
 
     def of_fine(self, pieces: Pieces) -> Pieces:
         return pieces.scaled(1.0 / SHRINK)
@@ -108,7 +109,9 @@ class ByTolerance:
         return Steps(largest, apart * fine), Steps(float(largest / apart ** (1.0 / self.error_order)), fine)
 
     def next(self, resolution: float, excess: float) -> float:
-        return max(resolution * min(max(0.3 / excess, 1e-4), 0.3), FINEST_TOLERANCE)
+        # Far enough for the finer run of this pair to be the coarser one of the next, which saves a run.
+        far = resolution / (1.01 * LEAST_PART * self._apart(0.1 * resolution))
+        return max(min(resolution * max(0.3 / excess, 1e-4), far), FINEST_TOLERANCE)
 
     def is_finest(self, resolution: float) -> bool:
         return resolution <= FINEST_TOLERANCE
@@ -130,10 +133,10 @@ class ByStep:
 
     @property
     def factor_of_coarse(self) -> float:
-        return float(4.0 * FINER**self.sure / (FINER**self.sure - 1))
+        return float(2.5 * FINER**self.sure / (FINER**self.sure - 1))
 
     def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
-        return float(max(0.03, 3.5 / (_ratio(coarse, fine) ** self.sure - 1)))
+        return float(max(0.02, 3.5 / (_ratio(coarse, fine) ** self.sure - 1)))
 
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
         steps = coarse.steps
