@@ -18,9 +18,9 @@ RATIO: float = 3.0 + 0.5**0.5  # of the steps of a pair
 FINER: float = 1.5 + 1.0 / 3.0**0.5  # the ratio where the coarser steps are given, and the finer run tells their error
 NEAREST: float = 4.0 / 3.0**0.5 - 0.25
 FARTHEST = 6.0  # what the ratio may be where a run is compared with one before
-SHRINK = 2.3  # of adaptive steps from the coarser run of a pair to the finer
+SHRINK = 2.15  # of adaptive steps from the coarser run of a pair to the finer
 OFTEN = 3.0  # times as many steps as the longest would be: then they are rarely the longest
-CLOSEST, FARTHEST_TOLERANCE = 10.0, 220.0  # between these the tolerances of a pair are apart
+CLOSEST, FARTHEST_TOLERANCE = 10.0, 110.0  # between these the tolerances of a pair are apart
 MARGIN = 14.0  # how far errors may fall short of shrinking as the theory says
 LEAST_PART = 0.3  # of how far tolerances are apart, where a run is compared with one before
 GRAIN = 1e-13  # below, rounding has its part in what a tolerance does
@@ -136,7 +136,7 @@ class ByStep:
         return float(2.5 * FINER**self.sure / (FINER**self.sure - 1))
 
     def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
-        return float(max(0.02, 3.5 / (_ratio(coarse, fine) ** self.sure - 1)))
+        return float(max(0.03, 4.5 / (_ratio(coarse, fine) ** self.sure - 1)))
 
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
         steps = coarse.steps
