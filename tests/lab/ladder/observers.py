@@ -187,7 +187,8 @@ class Verdict:
     """What a ladder says of a scene, without what depends on the observer's words."""
 
     rungs: frozenset[str]
-    least: str
+    least: str | None
+    until: float  # for how much of the span that is said
     survive: Mapping[str, bool | None]
     errors: Mapping[str, float | None]
 
@@ -197,6 +198,7 @@ class Verdict:
         return cls(
             frozenset(rung.id for rung in found.ladder.rungs),
             found.least.rung,
+            found.least.until / found.ladder.span,
             {name: each.survives for name, each in found.measured.items()},
             {name: each.deviation.relative for name, each in sound.items() if each.deviation is not None},
         )
@@ -213,7 +215,12 @@ class Verdict:
         return found
 
     def misleads(self, nudged: Verdict) -> list[str]:
-        """Rungs said to do here that do not from a start that is really nudged, and another least one."""
+        """Rungs said to do here that do not from a start that is really nudged, and another least one.
+
+        Where it is said that nothing can be said, nothing can mislead.
+        """
+        if self.least is None:
+            return []
         found = [f"least {self.least} {nudged.least}"] if self.least != nudged.least else []
         good = {name for name, survives in self.survive.items() if survives and name != FULL}
         return found + [f"{name} only seems to do" for name in sorted(good) if not nudged.survive.get(name)]

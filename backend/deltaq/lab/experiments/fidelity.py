@@ -64,7 +64,7 @@ def _with(result: Document, finding: Finding) -> Document:
         case Growth():
             return appended(result, "growth", _growth(finding))
         case Least():
-            return result | {"least": finding.rung}
+            return result | {"least": finding.rung or "", "until": significant(finding.until), "ending": finding.ending}
 
 
 def _rung(rung: Rung) -> Document:

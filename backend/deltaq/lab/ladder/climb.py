@@ -16,10 +16,11 @@ from ...simulation.outcome import Outcome
 from .building import Chain, chains, rung_of, simplified
 from .centre import Centre, centre_of
 from .distance import Yardstick
+from .ending import DIGITS, known
 from .findings import Deviation, Finding, Growth, Ladder, Least, Measured, Rung
 from .footing import Footing
 from .mean import Mean
-from .measurement import CERTAIN, Ride, cost, deviation, full_ride, ride, yardstick
+from .measurement import CERTAIN, Ride, cost, deviation, full_ride, ride_along, yardstick
 from .nudge import WAYS, allowed, nudged
 from .verdict import is_within, lasts, least
 
@@ -45,7 +46,7 @@ def climb(
     """
     _check(span, amplitudes, tolerance, repeats)
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    full = yardstick(full_ride(scene, span, flag))
+    full, ending = known(full_ride(scene, span, flag, tolerance), tolerance)
     centre = centre_of(scene, full)
     footing = Footing(scene, centre.values if centre else {}, Mean.of(scene, span))
     found = [rung_of(footing, chain) for chain in ((), *chains(footing))]
@@ -53,7 +54,7 @@ def climb(
     sound = [rung for rung in found if rung.scene is not None]
     count = len(sound) + (len(sound) - 1) * (len(factors) > 1) + 1
     yield Ladder(tuple(found), dict(centre.values) if centre else {}, span, factors, count)
-    yield from _Climb(footing, centre, full, tolerance, factors, repeats, flag).findings(sound)
+    yield from _Climb(footing, centre, full, ending, tolerance, factors, repeats, flag).findings(sound)
 
 
 def _check(span: float, amplitudes: Sequence[float], tolerance: float, repeats: int) -> None:
@@ -79,6 +80,7 @@ class _Climb:
     footing: Footing
     centre: Centre | None
     full: Yardstick
+    ending: str
     tolerance: float
     amplitudes: tuple[float, ...]
     repeats: int
@@ -97,13 +99,32 @@ class _Climb:
             if rung.parts and not self.cancelled[0]:
                 yield self._growth(rung, full)
         if not self.cancelled[0]:
-            yield Least(self.tolerance, least(rungs, measured, self.tolerance))
+            yield self._least(rungs, measured)
+
+    def _least(self, rungs: list[Rung], measured: list[Measured]) -> Least:
+        """The verdict, for as long as the full motion is known: its own, and those after the nudges that were tried."""
+        found = least(rungs, measured, self.tolerance)
+        if found is None or not self.full.end > 0.0:
+            return Least(self.tolerance, None, 0.0, self.ending or DIGITS)
+        was_nudged = any(each.survives is not None for each in measured[1:])
+        end = min((full.end for _, full in self._nudged), default=0.0) if was_nudged else self.full.end
+        if lasts(end, self.full.end):
+            return Least(self.tolerance, found, self.full.end, self.ending)
+        return Least(self.tolerance, found, end, self.ending or DIGITS)
 
     def _full(self, footing: Footing) -> Yardstick:
-        return yardstick(full_ride(footing.scene, self.full.problem.t_end, self.cancelled))
+        """The full motion from other initial values."""
+        return known(self._ridden(footing, math.inf), self.tolerance)[0]
+
+    def _full_beside(self, footing: Footing) -> Yardstick:
+        """The full motion from values close to its own, for no longer than from those."""
+        return yardstick(self._ridden(footing, self.full.end), self.tolerance, self.full.end)
+
+    def _ridden(self, footing: Footing, needed: float) -> Ride:
+        return full_ride(footing.scene, self.full.problem.t_end, self.cancelled, self.tolerance, needed)
 
     def _ride(self, scene: Scene, full: Yardstick) -> Ride:
-        return ride(scene, full.problem.t_end, self.cancelled, full.accuracy)
+        return ride_along(scene, full, self.cancelled)
 
     def _footing(self, amplitude: float) -> Footing:
         return self.footing if self.centre is None else self.footing.with_scene(self.centre.at(amplitude))
@@ -116,11 +137,7 @@ class _Climb:
             return Measured(rung.id, _refusal(error), None, None)
         price = cost(found, self.repeats, self.cancelled) if found.is_complete else None
         apart = deviation(self.full, found, below.back)
-        if (
-            price is None
-            or not found.is_sound(self.full, self.tolerance)
-            or not is_within(apart, self.tolerance, self.full)
-        ):
+        if not found.is_sound(self.full, self.tolerance) or not is_within(apart, self.tolerance, self.full):
             return Measured(rung.id, found.outcome, price, apart)
         after = self._after_nudges(rung.parts) if rung.parts else 0.0
         return Measured(rung.id, found.outcome, price, apart, after, self._survives(apart, after))
@@ -144,17 +161,17 @@ class _Climb:
         except InputError:
             return math.inf
         apart = deviation(full, found, below.back)
-        if apart is None or not lasts(apart, full.end):
+        if apart is None or not lasts(apart.until, full.end):
             return math.inf
         error = max(apart.largest, CERTAIN * apart.floor * full.size)
         return error / (self.full.extent or full.size)
 
     @cached_property
     def _nudged(self) -> tuple[tuple[Footing, Yardstick], ...]:
-        """The full model from nudged values."""
+        """The full model from nudged values, for no longer than from its own."""
         scenes = (nudged(self.footing.scene, self.full, way) for way in range(WAYS))
         footings = tuple(self.footing.with_scene(scene) for scene in scenes)
-        return tuple((footing, self._full(footing)) for footing in footings)
+        return tuple((footing, self._full_beside(footing)) for footing in footings)
 
     def _growth(self, rung: Rung, full: dict[float, Yardstick]) -> Growth:
         found = [self._deviation(rung.parts, factor, full[factor]) for factor in self.amplitudes]
@@ -169,7 +186,7 @@ class _Climb:
         except InputError:
             return None
         apart = deviation(full, found, below.back) if found.is_sound(full, self.tolerance) else None
-        return apart if apart and lasts(apart, full.end) else None
+        return apart if apart and lasts(apart.until, full.end) else None
 
 
 def _refusal(error: InputError) -> Outcome:

@@ -16,7 +16,7 @@ Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §8.6 (the metric
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -59,8 +59,27 @@ class Yardstick:
         """d at each sample that a rung, its values by coordinate, has in common with the full motion, in metres."""
         count = min(len(self.times), *(len(each) for each in values.values()))
         rung = np.column_stack([values[name][:count] for name in self.problem.model.layout.free])
-        found = self._lengths(rung - self._values[:count])
-        return np.minimum(found, IN_SPACE * self._in_space(rung)) if self.particles else found
+        return self.distances(rung)
+
+    def distances(self, rung: Floats) -> Floats:
+        """d at each of the first samples, from values of the coordinates: shape (samples, degrees)."""
+        found = self.lengths(rung - self.values[: len(rung)])
+        return np.asarray(np.minimum(found, IN_SPACE * self._in_space(rung))) if self.particles else found
+
+    def until(self, end: float, floor: float) -> Yardstick:
+        """The motion up to a time, with the error that the integration makes up to there."""
+        kept = self.times <= end
+        return replace(self, times=self.times[kept], states=self.states[kept], floor=floor)
+
+    def at(self, places: np.ndarray) -> Yardstick:
+        """The motion at some of its samples."""
+        return replace(self, times=self.times[places], states=self.states[places])
+
+    def steps(self, lengths: Floats, places: np.ndarray) -> Floats:
+        """Changes of each coordinate that move the mass that far at these samples; no more than a radian."""
+        arms = np.sqrt(np.maximum(np.einsum("tii->ti", self.masses[places]), 0.0) / self.mass)
+        wide = np.broadcast_to(self.wide_units, arms.shape)
+        return np.minimum(wide, np.divide(lengths[:, None], arms, out=wide.copy(), where=arms > 0.0))
 
     def _in_space(self, values: Floats) -> Floats:
         """The root mean square distance, over all mass, between the particles and where other values put them."""
@@ -87,12 +106,12 @@ class Yardstick:
         Uniform motion that a moving observer would not see, and the even drift of coordinates on whose values nothing
         depends, is taken away (`drift.py`): it would grow with the span and make every error small beside it.
         """
-        found = self._reach(self._values - np.outer(self.times, self._drift))
+        found = self._reach(self.values - np.outer(self.times, self._drift))
         return found if found > max(self.uncertainty(self.floor), self._noise) else 0.0
 
     def uncertainty(self, worst: float) -> float:
         """An error in the measure of the integration's tolerance, in metres: no less than it can be."""
-        sizes = np.maximum(1.0, np.abs(self._values).max(axis=0, initial=0.0))
+        sizes = np.maximum(1.0, np.abs(self.values).max(axis=0, initial=0.0))
         return worst * float(self._arms @ sizes)
 
     @cached_property
@@ -103,8 +122,8 @@ class Yardstick:
         if self.extent > 0.0:
             return self.extent
         turns = self._arms * self._in_radians
-        values = np.abs(self._values).max(axis=0, initial=0.0)
-        candidates = (turns.max(initial=0.0), self._reach(self._values), (self._arms * values).max(initial=0.0), 1.0)
+        values = np.abs(self.values).max(axis=0, initial=0.0)
+        candidates = (turns.max(initial=0.0), self._reach(self.values), (self._arms * values).max(initial=0.0), 1.0)
         return float(next((each for each in candidates if each > self._noise), self._noise))
 
     @cached_property
@@ -115,11 +134,11 @@ class Yardstick:
     def apart(self, one: Floats, other: Floats) -> float:
         """√(Δqᵀ M Δq / m) of two places, M that of the start; angles count in full."""
         step = one - other
-        return float(np.sqrt(max(0.0, step @ self._masses[0] @ step) / self.mass))
+        return float(np.sqrt(max(0.0, step @ self.masses[0] @ step) / self.mass))
 
     def tolerance(self, usual: float, enough: float) -> float:
         """The tolerance at which each coordinate is right to `enough` of its unit; the usual one if that will do."""
-        sizes = np.maximum(1.0, np.abs(self._values).max(axis=0, initial=0.0))
+        sizes = np.maximum(1.0, np.abs(self.values).max(axis=0, initial=0.0))
         return float(min(usual, enough * np.min(self.units / sizes, initial=1.0)))
 
     @cached_property
@@ -141,27 +160,27 @@ class Yardstick:
     @cached_property
     def _raw_units(self) -> Floats:
         """By all of the motion, its drift included."""
-        wide = self._reach(self._values)
+        wide = self._reach(self.values)
         return self._units(wide if wide > self._noise else 1.0)
 
     @cached_property
     def _drift(self) -> Floats:
         """The rates of the uniform motion that is no extent."""
         along = self._raw_units[:, None] * self._directions.both
-        return drift(self.times, self.states, self._masses, along)
+        return drift(self.times, self.states, self.masses, along)
 
     @property
-    def _values(self) -> Floats:
+    def values(self) -> Floats:
         return self.states[:, : self.problem.degrees]
 
     @cached_property
-    def _masses(self) -> Floats:
+    def masses(self) -> Floats:
         return mass_matrices(self.problem, self.times, self.states)
 
     @cached_property
     def _arms(self) -> Floats:
         """Metres for each unit of a coordinate: √(Mᵢᵢ/m), the largest of the motion."""
-        diagonals = np.einsum("tii->ti", self._masses)
+        diagonals = np.einsum("tii->ti", self.masses)
         return np.asarray(np.sqrt(np.maximum(diagonals, 0.0).max(axis=0, initial=0.0) / self.mass))
 
     @property
@@ -178,16 +197,17 @@ class Yardstick:
     @property
     def _noise(self) -> float:
         """What rounding alone makes of the coordinates, in metres."""
-        return NOISE * float(self._arms @ np.abs(self._values).max(axis=0, initial=0.0))
+        return NOISE * float(self._arms @ np.abs(self.values).max(axis=0, initial=0.0))
 
     def _reach(self, values: Floats) -> float:
         """How far values get from the first of them."""
-        return float(self._lengths(values - values[:1]).max(initial=0.0))
+        return float(self.lengths(values - values[:1]).max(initial=0.0))
 
-    def _lengths(self, steps: Floats) -> Floats:
-        """The lengths of differences from the full motion, sample by sample."""
+    def lengths(self, steps: Floats, places: np.ndarray | None = None) -> Floats:
+        """The lengths of differences from the full motion, sample by sample: the first ones, or those at `places`."""
+        masses = self.masses[: len(steps)] if places is None else self.masses[places]
         radians = np.array(self.radians)
         turn = np.where(radians > 0.0, radians, 1.0)
         apart = np.where(radians > 0.0, 2.0 / turn * np.sin(steps * turn / 2.0), steps)
-        squares = np.einsum("ti,tij,tj->t", apart, self._masses[: len(steps)], apart)
+        squares = np.einsum("ti,tij,tj->t", apart, masses, apart)
         return np.asarray(np.sqrt(np.maximum(squares, 0.0) / self.mass))

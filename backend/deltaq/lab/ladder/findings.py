@@ -132,11 +132,15 @@ class Growth:
 class Least:
     """Of the rungs within the tolerance that survive a nudge, the one with the fewest degrees of freedom.
 
-    Of several with as many, one with linear equations, one that leaves something out, the most accurate one.
+    Of several with as many, one with linear equations, one that leaves something out, the most accurate one. None where
+    the full motion is not known, so that there is nothing to judge by. The verdict is for times up to `until`;
+    `ending` says why that is not the whole span (`ending.py`), empty where it is.
     """
 
     tolerance: float
-    rung: str
+    rung: str | None
+    until: float
+    ending: str
 
 
 Finding = Ladder | Measured | Growth | Least

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -33,6 +34,8 @@ STEP_LIMIT = 200_000  # of one run
 CERTAIN = 10.0  # times as large as the error of the integration: what it cannot explain
 ROUGH = 1e-4  # of the size: an error of the integration that asks for the least tolerance
 USUAL = Accuracy(TOLERANCE, SAMPLES)
+MOST_CUTS = 8
+COARSER = (1e-7, 1e-6, 1e-5)  # tried where rounding lets no finer integration come to the end
 
 
 @dataclass(frozen=True)
@@ -56,14 +59,37 @@ class Ride:
         """Whether it came to the end, or to an event that ended it."""
         return self.trajectory.event is not None or self.trajectory.reached >= self.problem.t_end
 
-    def is_sound(self, full: Yardstick, tolerance: float) -> bool:
-        """Whether its own integration errs by far less than the error that is allowed of it.
+    @property
+    def gives_out(self) -> bool:
+        """Whether it ends for reasons of the computation, which a coarser one may not meet."""
+        return self.outcome.code in ("step_limit", "step_underflow", "newton_failed", "stiff")
 
-        It may have missed a tolerance far below that, over thousands of turns.
+    def is_sound(self, full: Yardstick, tolerance: float) -> bool:
+        """Whether its own integration errs by far less than is allowed of it, as long as the full motion is known.
+
+        It may have missed a tolerance far below that, over thousands of turns; and what becomes of it later is no
+        matter.
         """
-        errs = full.uncertainty(self.floor) / full.size
-        within = self.outcome.status == "tolerance_missed" and CERTAIN * errs <= tolerance
-        return self.is_complete and (self.outcome.is_ok or self.trajectory.event is not None or within)
+        return CERTAIN * full.uncertainty(self.floor_until(full.end)) <= tolerance * full.size
+
+    def floor_until(self, end: float) -> float:
+        """The error of the integration as far as a time, in the measure of its tolerance."""
+        found = self.trajectory.estimate
+        if found is None:
+            return self.floor
+        errors, times = found.errors, self.trajectory.times[: len(found.errors)]
+        largest = float(errors.max(initial=0.0))
+        part = float(errors[times <= end].max(initial=0.0)) / largest if largest > 0.0 else 1.0
+        return found.worst * min(1.0, part)
+
+    def sure_until(self, limit: float) -> float:
+        """Up to when its error stays within a limit, in the measure of its tolerance."""
+        found = self.trajectory.estimate
+        if found is None or found.worst <= limit:
+            return self.trajectory.trusted_until
+        errors = np.maximum.accumulate(found.errors)
+        first = int(np.argmax(errors * found.worst > limit * errors[-1]))
+        return min(self.trajectory.trusted_until, float(self.trajectory.times[max(0, first - 1)]))
 
     @cached_property
     def sampled(self) -> tuple[Floats, Floats]:
@@ -87,11 +113,33 @@ def ride(scene: Scene, span: float, cancelled: Flag, accuracy: Accuracy = USUAL)
     return Ride(scene, problem, choice, found, accuracy)
 
 
-def full_ride(scene: Scene, span: float, cancelled: Flag) -> Ride:
-    """The motion that others are measured against.
+def ride_along(scene: Scene, full: Yardstick, cancelled: Flag) -> Ride:
+    """The motion of a rung beside the full one: as finely as that, or else as finely as it can be had to its end."""
+    wanted = (replace(full.accuracy, tolerance=each) for each in _tolerances(full.accuracy.tolerance))
+    rides = (ride(scene, full.problem.t_end, cancelled, each) for each in wanted)
+    return _longest(rides, full.end, lambda each: each.trajectory.trusted_until)
 
-    It is computed anew where it is small in its units or has many turns, and where small errors grow in it. Raises
-    RequestError if it cannot be followed at all.
+
+def _tolerances(finest: float) -> tuple[float, ...]:
+    return (finest, *(each for each in (TOLERANCE, *COARSER) if each > finest))
+
+
+def _longest(rides: Iterator[Ride], end: float, known: Callable[[Ride], float]) -> Ride:
+    """The first that is known to the end, or ends for another reason than the steps; else the one known for longest."""
+    found: list[tuple[float, Ride]] = []
+    for each in rides:
+        found.append((min(end, known(each)), each))
+        if found[-1][0] >= end or not each.gives_out:
+            break
+    return max(found, key=lambda one: one[0])[1]
+
+
+def full_ride(scene: Scene, span: float, cancelled: Flag, allowed: float = np.inf, needed: float = np.inf) -> Ride:
+    """The motion that others are measured against, with an error `allowed` of these, as far as it is `needed`.
+
+    It is computed anew where it is small in its units or has many turns, and where small errors grow in it; and more
+    coarsely where rounding lets no finer one get far.
+    Raises RequestError if it cannot be followed at all.
     """
     found = ride(scene, span, cancelled)
     seen = yardstick(found)
@@ -99,17 +147,31 @@ def full_ride(scene: Scene, span: float, cancelled: Flag) -> Ride:
     is_rough = seen.uncertainty(seen.floor) > ROUGH * seen.size
     tolerance = LEAST_TOLERANCE if is_rough else max(LEAST_TOLERANCE, seen.tolerance(TOLERANCE, ENOUGH))
     samples = min(MOST_SAMPLES, max(SAMPLES, PER_STEP * found.trajectory.cost.steps + 1))
-    wanted = Accuracy(tolerance, samples)
-    return found if wanted == found.accuracy else ride(scene, span, cancelled, wanted)
+    wanted = (Accuracy(each, samples) for each in _tolerances(tolerance))
+    rides = (found if each == found.accuracy else ride(scene, span, cancelled, each) for each in wanted)
+    return _longest(rides, min(span, needed), lambda each: yardstick(each, allowed).end)
 
 
-def yardstick(full: Ride) -> Yardstick:
-    """The full motion, as long as its digits can be trusted."""
+def yardstick(full: Ride, tolerance: float = np.inf, limit: float = np.inf) -> Yardstick:
+    """The full motion up to a limit, as long as its digits can be trusted and are far finer than `tolerance`."""
     (times, states), problem = full.sampled, full.problem
-    count = int(np.count_nonzero(times <= full.trajectory.trusted_until))
+    end = min(limit, full.trajectory.trusted_until)
+    count, floor = int(np.count_nonzero(times <= end)), full.floor_until(end)
     turns = radians(full.scene, problem)
     mass, bodies = total_mass(full.scene), particles(full.scene)
-    return Yardstick(problem, mass, times[:count], states[:count], full.floor, turns, full.accuracy, bodies)
+    found = Yardstick(problem, mass, times[:count], states[:count], floor, turns, full.accuracy, bodies)
+    return _sure(full, found, tolerance) if count and np.isfinite(tolerance) else found
+
+
+def _sure(full: Ride, found: Yardstick, tolerance: float) -> Yardstick:
+    """The part that is known so well, by the size of that part."""
+    for _ in range(MOST_CUTS):
+        errs = CERTAIN * found.uncertainty(found.floor)
+        if errs <= tolerance * found.size:
+            return found
+        end = full.sure_until(tolerance * found.size / errs * found.floor)
+        found = found.until(end, full.floor_until(end))
+    return found.until(0.0, found.floor)
 
 
 def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
@@ -122,7 +184,7 @@ def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
     if good == 0:
         return None
     errors, largest = errors[:good], float(errors[:good].max())
-    floor = full.uncertainty(max(full.floor, rung.floor))
+    floor = full.uncertainty(max(full.floor, rung.floor_until(full.end)))
     relative = largest / full.extent if full.extent > 0.0 else None
     shown = slice(0, good, max(1, full.accuracy.samples // SHOWN))
     times, curve = full.times[shown].tolist(), errors[shown].tolist()

@@ -5,20 +5,20 @@ from __future__ import annotations
 from ...mechanics.document import read_scene
 from ...model.linear_laws import is_linear
 from .distance import Yardstick
-from .findings import FULL, Deviation, Measured, Rung
+from .findings import Deviation, Measured, Rung
 
 WHOLE = 0.99  # of the full motion, which a rung must last for
 ALIKE = 1e-2  # of the tolerance: errors below that are none
 
 
-def least(rungs: list[Rung], measured: list[Measured], tolerance: float) -> str:
-    """The simplest of the rungs that survive; the full model where there is none, or the motion cannot be had."""
+def least(rungs: list[Rung], measured: list[Measured], tolerance: float) -> str | None:
+    """The simplest of the rungs that survive, the full model among them; None where its motion is not known."""
     good = [
         (_complexity(rung, each.deviation, tolerance), place)
         for place, (rung, each) in enumerate(zip(rungs, measured, strict=True))
         if each.survives and each.deviation is not None
     ]
-    return rungs[min(good)[1]].id if good and measured[0].cost is not None else FULL
+    return rungs[min(good)[1]].id if good and measured[0].survives else None
 
 
 def _complexity(rung: Rung, deviation: Deviation, tolerance: float) -> tuple[int, bool, bool, float]:
@@ -31,14 +31,14 @@ def _complexity(rung: Rung, deviation: Deviation, tolerance: float) -> tuple[int
     return rung.degrees, is_nonlinear, not rung.parts, max(deviation.relative or 0.0, ALIKE * tolerance)
 
 
-def lasts(deviation: Deviation, end: float) -> bool:
-    """Whether the rung goes on as long as the full motion, which an event may end."""
-    return deviation.until >= WHOLE * end
+def lasts(until: float, end: float) -> bool:
+    """Whether a comparison goes on as long as the full motion, which an event may end."""
+    return until >= WHOLE * end
 
 
 def is_within(deviation: Deviation | None, tolerance: float, full: Yardstick) -> bool:
     """Where the full motion stands still, only what stands still with it is."""
-    if deviation is None or not lasts(deviation, full.end):
+    if deviation is None or not full.end > 0.0 or not lasts(deviation.until, full.end):
         return False
     if deviation.relative is None:
         return deviation.largest <= deviation.floor * full.size

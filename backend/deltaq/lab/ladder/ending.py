@@ -1,0 +1,40 @@
+"""How far the full motion is known, and why no further: verdicts are given for that part alone.
+
+The words are told to programs; `labs.fidelity.ending` in the catalogs has the sentences.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .distance import Yardstick
+from .measurement import Ride, yardstick
+from .passages import determined_until
+from .verdict import lasts
+
+WHOLE = ""
+START = "start"  # it cannot begin: the coordinates fail in the initial state, or a law has no value there
+PASSAGE = "passage"  # it comes to a state behind which it is not determined
+DIGITS = "digits"  # the error of the computation is no longer far below the one that is allowed
+EVENT = "event"
+ENDED = "ended"  # in another way, as its outcome says: it grows beyond bounds, or comes to rest
+ENDINGS = (START, PASSAGE, DIGITS, EVENT, ENDED)
+
+
+def known(ride: Ride, tolerance: float) -> tuple[Yardstick, str]:
+    """The full motion as long as it is determined and far more accurate than `tolerance`, and why no longer."""
+    full = yardstick(ride, tolerance)
+    passage = determined_until(full)
+    if passage < np.inf:
+        return yardstick(ride, tolerance, passage), PASSAGE
+    return full, _ending(ride, full)
+
+
+def _ending(ride: Ride, full: Yardstick) -> str:
+    if not full.end > 0.0:
+        return DIGITS if ride.trajectory.reached > 0.0 else START
+    if lasts(full.end, ride.problem.t_end):
+        return WHOLE
+    if ride.gives_out or not lasts(full.end, ride.trajectory.reached):
+        return DIGITS
+    return EVENT if ride.trajectory.event is not None else ENDED
