@@ -118,13 +118,6 @@ def starting(theta: float, rate: float) -> list[dict[str, object]]:
     return [first | {"value": theta, "min": None}, second | {"rate": rate}]
 
 
-def test_where_the_full_motion_cannot_begin_no_rung_is_least() -> None:
-    """At its pole the spherical pendulum has no azimuth."""
-    found = climbed(spherical(coordinates=starting(0.0, 1.0)), 2.0)
-    assert found.measured[FULL].outcome.status == "singular_mass_matrix"
-    assert found.least.rung == FULL
-
-
 def test_without_angular_momentum_the_plane_pendulum_is_enough() -> None:
     assert climbed(spherical(coordinates=starting(0.9, 0.0)), 4.0).least.rung == "frozen:psi"
 

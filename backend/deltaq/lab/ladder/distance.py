@@ -79,7 +79,7 @@ class Yardstick:
         """Changes of each coordinate that move the mass that far at these samples; no more than a radian."""
         arms = np.sqrt(np.maximum(np.einsum("tii->ti", self.masses[places]), 0.0) / self.mass)
         wide = np.broadcast_to(self.wide_units, arms.shape)
-        return np.minimum(wide, np.divide(lengths[:, None], arms, out=wide.copy(), where=arms > 0.0))
+        return np.asarray(np.minimum(wide, np.divide(lengths[:, None], arms, out=wide.copy(), where=arms > 0.0)))
 
     def _in_space(self, values: Floats) -> Floats:
         """The root mean square distance, over all mass, between the particles and where other values put them."""
