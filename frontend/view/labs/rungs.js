@@ -36,13 +36,13 @@ function outcome(status, t) {
   return words === `labs.status.${status}` ? t("status.incomplete") : words;
 }
 
-/** How far the comparison goes, where that is not all of it. @param {import("./page.js").View} view */
+/** That there is no verdict, or how far it goes, and why no further. @param {import("./page.js").View} view */
 function until({ bench, t, state }) {
   const { result } = bench;
-  if (!result) return nothing;
-  const full = result.measured.find((/** @type {any} */ each) => each.rung === "full");
-  if (!full || full.until === undefined || full.until >= 0.99 * result.t_end) return nothing;
-  return html`<p class="purpose">${t("labs.fidelity.until", { time: significant(full.until, 3, state.place.lang) })}</p>`;
+  if (!result?.ending) return nothing;
+  const why = t(`labs.fidelity.ending.${result.ending}`);
+  if (!result.least) return html`<p class="verdict">${t("labs.fidelity.none")}</p><p class="purpose">${why}</p>`;
+  return html`<p class="purpose">${t("labs.fidelity.until", { time: significant(result.until, 3, state.place.lang) })} ${why}</p>`;
 }
 
 /** @param {import("./page.js").View} view @param {any} rung */

@@ -142,3 +142,11 @@ def test_the_lab_tells_how_long_and_why() -> None:
     *_, last = fidelity.run({"scene": write_scene(scene), "t_end": 2.0 * meets})
     assert (last.result["least"], last.result["ending"]) == ("frozen:theta", PASSAGE)
     assert last.result["until"] == pytest.approx(meets, rel=0.01)
+
+
+def test_the_lab_comes_to_an_end_where_the_motion_cannot_begin() -> None:
+    *_, last = fidelity.run(
+        {"scene": write_scene(starting(load_scene("heavy-top"), {"theta": (0.0, 0.0)})), "t_end": 1.0}
+    )
+    assert (last.result["least"], last.result["ending"], last.result["points"]) == ("", START, [])
+    assert last.done == last.total

@@ -22,8 +22,9 @@ from ..charts.fidelity import charts
 from ..experiment import Experiment
 from ..ladder.climb import climb
 from ..ladder.distance import Yardstick
+from ..ladder.ending import known
 from ..ladder.findings import Finding, Growth, Ladder, Least, Measured, Rung
-from ..ladder.measurement import full_ride, yardstick
+from ..ladder.measurement import full_ride
 from ..measurement import Point, Setting, too_slow, warm
 from ..report import Document, Report, appended, machine, measured, rounded, significant
 from ..subject import Subject, subject_of
@@ -48,7 +49,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
             total = 1 + finding.count + len(METHODS)
         done, result = done + 1, _with(result, finding)
         yield Report(min(done, total), total, result)
-    for points in _methods(subject):
+    for points in _methods(subject, tolerance):
         done, result = done + 1, appended(result, "points", *points)
         yield Report(min(done, total), total, result)
 
@@ -100,10 +101,13 @@ def _growth(found: Growth) -> Document:
     return {"rung": found.rung, "relative": relative, "slope": None if found.slope is None else round(found.slope, 2)}
 
 
-def _methods(subject: Subject) -> Iterator[list[Document]]:
-    """The full model by several methods, roughly and finely, in the same measure as the rungs."""
+def _methods(subject: Subject, tolerance: float) -> Iterator[list[Document]]:
+    """The full model by several methods, roughly and finely, in the same measure as the rungs, for as long."""
     flag = np.zeros(1, dtype=np.int64)
-    full = yardstick(full_ride(subject.scene, subject.problem.t_end, flag))
+    full, _ = known(full_ride(subject.scene, subject.problem.t_end, flag, tolerance), tolerance)
+    if not full.end > 0.0:
+        yield from ([] for _ in METHODS)
+        return
     methods = [get_method(name) for name in METHODS]
     warm(full.problem, *methods)
     for method in methods:
