@@ -150,3 +150,4 @@ def test_the_lab_comes_to_an_end_where_the_motion_cannot_begin() -> None:
     )
     assert (last.result["least"], last.result["ending"], last.result["points"]) == ("", START, [])
     assert last.done == last.total
+    assert fidelity.EXPERIMENT.charts(last.result, lambda key, **_: key) == []

@@ -12,9 +12,11 @@ RANGE = [-10.5, 1.0]
 
 
 def charts(result: Result, say: Say) -> list[Chart]:
-    """Cost against error; error against amplitude, where there are several."""
+    """Cost against error, where any is known; error against amplitude, where there are several."""
     titles = {rung["id"]: title_of(rung, result, say) for rung in result["rungs"]}
-    found = [_cost(result, titles, say)] if result["measured"] else []
+    found = (
+        [_cost(result, titles, say)] if result["points"] or any("error" in one for one in result["measured"]) else []
+    )
     return [*found, _amplitude(result, titles, say)] if result["growth"] else found
 
 
