@@ -109,7 +109,7 @@ def test_the_full_motion_is_known_only_as_long_as_it_is_far_finer_than_what_is_a
     """Chaos: the error of a rough run grows to all of the motion, and at the end told it is still below the allowed."""
     scene, span = starting(load_scene("double-pendulum"), {"phi1": (2.5, 0.0), "phi2": (2.0, 0.0)}), 12.0
     fine = ride(scene, span, FLAG, Accuracy(1e-11, 1601))
-    rough = replace(fine, trajectory=simulate(fine.problem, get_method("rk4"), step=0.01))
+    rough = replace(fine, trajectory=simulate(fine.problem, get_method("rk4"), step=0.005))
     full, ending = known(rough, tolerance)
     truth = yardstick(fine)
     assert ending == DIGITS
