@@ -17,7 +17,6 @@ from ...simulation.driver import simulate
 from ...simulation.integration import Flag
 from ...simulation.outcome import OK, Outcome
 from ...simulation.problem import Floats, Problem
-from ...simulation.reference import demand_motion
 from ...simulation.service import problem_of
 from ...simulation.trajectory import Trajectory
 from .distance import Accuracy, Yardstick
@@ -139,11 +138,9 @@ def full_ride(scene: Scene, span: float, cancelled: Flag, allowed: float = np.in
 
     It is computed anew where it is small in its units or has many turns, and where small errors grow in it; and more
     coarsely where rounding lets no finer one get far.
-    Raises RequestError if it cannot be followed at all.
     """
     found = ride(scene, span, cancelled)
     seen = yardstick(found)
-    demand_motion(seen.times, seen.size)
     is_rough = seen.uncertainty(seen.floor) > ROUGH * seen.size
     tolerance = LEAST_TOLERANCE if is_rough else max(LEAST_TOLERANCE, seen.tolerance(TOLERANCE, ENOUGH))
     samples = min(MOST_SAMPLES, max(SAMPLES, PER_STEP * found.trajectory.cost.steps + 1))
