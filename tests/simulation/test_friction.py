@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from random import Random
 
 import pytest
 from tests.simulation.scenes import scene
@@ -41,6 +42,21 @@ def test_a_block_on_a_spring_turns_until_friction_holds_it(method: str) -> None:
     assert found.outcome.status == "stopped"
     assert found.reached == pytest.approx(3.0 * math.pi, abs=1e-3)
     assert found.values[-1, 0] == pytest.approx(-0.2, abs=2e-3)
+
+
+def test_whatever_step_is_given_the_stop_is_told_with_its_error() -> None:
+    """Runs that are compared may be held one after the other; half swings lose 2F each, whatever the step."""
+    source = Random(8)
+    for _ in range(60):
+        friction, method = source.uniform(0.1, 0.9), source.choice(["rk4", "heun", "dop853", "explicit-euler"])
+        problem = problem_of(sliding("-x - F*sign(dot(x))", 2.0, 0.0, F=friction), 40.0, source.choice([21, 501]))
+        found = simulate(problem, get_method(method), step=10.0 ** source.uniform(-3.0, -1.0))
+        rest, sign = 2.0, 1.0
+        while rest > friction:
+            rest, sign = abs(rest - 2.0 * friction), math.copysign(1.0, 2.0 * friction - rest) * sign
+        assert found.outcome.status == "stopped"
+        assert len(found.times) == len(found.values) == len(found.estimate.errors)
+        assert abs(abs(found.values[-1, 0]) - rest) <= found.estimate.errors[-1], (friction, method)
 
 
 def test_what_is_held_from_the_start_is_told_at_once() -> None:

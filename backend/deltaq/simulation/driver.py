@@ -103,8 +103,8 @@ def _shown(best: Attempt, every: int) -> tuple[Floats, Floats, Floats]:
     count = min(len(run.times) for run in best.runs)
     if best.doubtful is not None:
         count = min(count, int(np.searchsorted(chosen.times, best.reached, side="right")))
-    shown = slice(0, count, every)
     errors = np.zeros(count) if found is None else found.errors
+    shown = slice(0, min(count, len(errors)), every)  # a third run may have been held earlier
     if chosen.held is not None and best.is_complete:
         return _with_stop(chosen.held, found, chosen.times[shown], chosen.states[shown], errors[shown])
     if chosen.event is None or not best.is_complete:
