@@ -71,6 +71,31 @@ def imports_of(file: Path) -> Iterator[str]:
                 yield name
 
 
+def module_of(file: Path) -> str:
+    """The name by which a file is imported."""
+    return ".".join(("deltaq", *file.relative_to(PACKAGE).with_suffix("").parts)).removesuffix(".__init__")
+
+
+def import_graph(imports: dict[str, set[str]]) -> dict[str, set[str]]:
+    """The modules that each module imports, also inside functions; a name is that of a module or stands in one."""
+    graph = {}
+    for module, names in imports.items():
+        whole = {name if name in imports else name.rpartition(".")[0] for name in names}
+        graph[module] = whole & imports.keys() - {module}
+    return graph
+
+
+def circles(graph: dict[str, set[str]]) -> list[str]:
+    """What is left when all modules are taken away that import none of the rest, or that none of the rest imports."""
+    left = set(graph)
+    while True:
+        imported = set().union(*(graph[module] for module in left))
+        free = {module for module in left if not graph[module] & left or module not in imported}
+        if not free:
+            return sorted(left)
+        left -= free
+
+
 def known_packages(file: Path) -> set[str]:
     """The packages and modules of deltaq that a file imports from."""
     names = [name.split(".") for name in imports_of(file)]
@@ -118,6 +143,25 @@ def test_rules_have_no_cycle() -> None:
         return any(one == goal or reaches(one, goal) for one in MAY_KNOW[start])
 
     assert [one for one in MAY_KNOW if reaches(one, one)] == []
+
+
+def test_no_module_imports_itself_by_way_of_others() -> None:
+    """Modules that import each other are one concern: one file."""
+    imports = {module_of(file): set(imports_of(file)) for file in FILES}
+    assert circles(import_graph(imports)) == []
+
+
+@pytest.mark.parametrize(
+    ("imports", "expected"),
+    [
+        pytest.param({"a": {"b.x"}, "b": {"a"}, "c": {"a"}}, ["a", "b"], id="two"),
+        pytest.param({"a": {"b"}, "b": {"c.f"}, "c": {"a.g", "d"}, "d": set()}, ["a", "b", "c"], id="three"),
+        pytest.param({"p": set(), "p.a": {"p.b"}, "p.b": {"p.c"}, "p.c": set()}, [], id="none"),
+        pytest.param({"p": {"p.a.f"}, "p.a": {"p.CONSTANT"}}, ["p", "p.a"], id="a package and its module"),
+    ],
+)
+def test_circles_are_found(imports: dict[str, set[str]], expected: list[str]) -> None:
+    assert circles(import_graph(imports)) == expected
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,7 @@ import sympy as sp
 
 from deltaq.derivation.abstract_motion import AbstractMotion, P, arbitrary, each, q, rate, sample, summed, total_rate
 from deltaq.derivation.carrying_out import GeneralAlgebra
-from deltaq.derivation.formula import Dot, Explicit, Formula, Partial, Rate, Times
-from deltaq.derivation.function_formula import FunctionFormula, Over, Ratio
+from deltaq.derivation.formula import Dot, Explicit, Formula, FunctionFormula, Over, Partial, Rate, Ratio, Times
 from deltaq.derivation.proof import CHAPTERS, prove
 from deltaq.derivation.rules import general_cancellation, general_exchange, general_product_rule
 from deltaq.derivation.rules._general import by_mass, for_each, half_square, lever, velocity

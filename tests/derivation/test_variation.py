@@ -7,9 +7,18 @@ import sympy as sp
 
 from deltaq.derivation.differential_expression import direction
 from deltaq.derivation.domain import Instant, Interval
-from deltaq.derivation.formula import Bounds, Explicit, Formula, Integral
+from deltaq.derivation.formula import (
+    AtTime,
+    Boundary,
+    Bounds,
+    Directional,
+    Explicit,
+    Formula,
+    FunctionFormula,
+    Integral,
+    LimitOfQuotient,
+)
 from deltaq.derivation.function_evaluation import evaluate_functions
-from deltaq.derivation.function_formula import AtTime, Boundary, Directional, FunctionFormula, LimitOfQuotient
 from deltaq.derivation.function_points import function_points
 from deltaq.derivation.functional import Functional
 from deltaq.derivation.rules import functional as functional_rule

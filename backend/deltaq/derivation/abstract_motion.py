@@ -15,8 +15,7 @@ import sympy as sp
 from ..language.memory import kept
 from ..language.spelling import spell_rate
 from .calculus import column
-from .formula import Bounds, Formula, Value
-from .function_formula import Each, Summed
+from .formula import Bounds, Each, Formula, Summed, Value
 
 FREEDOM = 2
 COMPONENTS = 2

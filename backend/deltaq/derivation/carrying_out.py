@@ -17,7 +17,7 @@ import sympy as sp
 from ..language.memory import kept
 from . import formula as f
 from .abstract_motion import total_rate
-from .function_formula import AtTime, Called, Directional, Each, FunctionFormula, LimitOfQuotient, Over, Ratio, Summed
+from .formula import AtTime, Called, Directional, Each, FunctionFormula, LimitOfQuotient, Over, Ratio, Summed
 from .step import Relation
 
 AT = " at "  # in the symbol of a function's value at an instant

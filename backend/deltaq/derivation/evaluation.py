@@ -9,25 +9,32 @@ import sympy as sp
 from flint import arb, arb_mat
 
 from .formula import (
+    AtEquilibrium,
+    Determinant,
     Dot,
     Equation,
     Explicit,
     Formula,
+    FunctionFormula,
     Gateaux,
     Given,
+    Inserted,
     Integral,
+    Jacobian,
+    MatrixTimes,
     Named,
     Partial,
     Plus,
+    Power,
     Rate,
+    Rounded,
     Shifted,
+    Stack,
     Substituted,
     Times,
     Value,
 )
 from .function_evaluation import evaluate_functions
-from .function_formula import FunctionFormula
-from .matrix_formula import AtEquilibrium, Determinant, Inserted, Jacobian, MatrixTimes, Power, Rounded, Stack
 from .points import STEP, Point, along_motion, moved, pair, shifted, varied
 from .program import number
 from .quadrature import integral

@@ -14,8 +14,6 @@ from typing import TypeAlias
 import sympy as sp
 
 from ..language.tree import Node
-from .function_formula import FunctionFormula
-from .matrix_formula import AtEquilibrium, Determinant, Inserted, Jacobian, MatrixTimes, Power, Rounded, Stack
 
 Value: TypeAlias = sp.Expr | sp.ImmutableMatrix
 
@@ -156,6 +154,166 @@ class Equation:
 
     left: Formula
     right: Formula
+
+
+@dataclass(frozen=True)
+class FunctionFormula:
+    """Formulas about functions: directional derivatives, values at an instant, boundary terms, sums over an index."""
+
+
+@dataclass(frozen=True)
+class Called(FunctionFormula):
+    """A formula under a name: I(x), δI. `arguments` are what it is said to depend on."""
+
+    quantity: Quantity
+    of: Formula
+    arguments: tuple[sp.Expr, ...] = ()
+
+
+@dataclass(frozen=True)
+class Directional(FunctionFormula):
+    """∂/∂h of(x + h v) at h = 0: the derivative in a direction, for functions the Gâteaux differential.
+
+    `along` gives each symbol its direction: x ↦ δx, ẋ ↦ δẋ.
+    """
+
+    of: Formula
+    along: Mapping[sp.Symbol, sp.Expr] = field(hash=False)
+    h: sp.Symbol
+
+
+@dataclass(frozen=True)
+class LimitOfQuotient(FunctionFormula):
+    """The limit of (of(x + h v) − of(x))/h as h → 0."""
+
+    of: Formula
+    along: Mapping[sp.Symbol, sp.Expr] = field(hash=False)
+    h: sp.Symbol
+
+
+@dataclass(frozen=True)
+class AtTime(FunctionFormula):
+    """The value of `of` at the instant `time`."""
+
+    of: Formula
+    time: sp.Expr
+
+
+@dataclass(frozen=True)
+class Boundary(FunctionFormula):
+    """[of] from `lower` to `upper`: the value at the end less the value at the start."""
+
+    of: Formula
+    lower: sp.Expr
+    upper: sp.Expr
+
+
+@dataclass(frozen=True)
+class Over(FunctionFormula):
+    """∫ of over a region of material, written with the element `element`: dm, dS, dV.
+
+    One material coordinate stands for all, `weight` is the density of the element.
+    """
+
+    of: Formula
+    region: str
+    element: str
+    bounds: Bounds
+    weight: sp.Expr
+
+
+@dataclass(frozen=True)
+class Ratio(FunctionFormula):
+    """numerator/denominator, written as a fraction; both are scalars."""
+
+    numerator: Formula
+    denominator: Formula
+
+
+@dataclass(frozen=True)
+class Summed(FunctionFormula):
+    """A sum over a repeated index (Einstein's convention).
+
+    `shown` is the term with the index, `terms` are those for each of its values.
+    """
+
+    shown: Formula
+    terms: tuple[Formula, ...]
+
+
+@dataclass(frozen=True)
+class Each(FunctionFormula):
+    """A formula with a free index: `shown` with the index, `instances` for each of its values."""
+
+    shown: Formula
+    instances: tuple[Formula, ...]
+
+
+class MatrixFormula:
+    """Formulas of the model: vectors and matrices, values in an equilibrium, numbers."""
+
+
+@dataclass(frozen=True)
+class Stack(MatrixFormula):
+    """Formulas one below the other: a column vector."""
+
+    rows: tuple[Formula, ...]
+
+
+@dataclass(frozen=True)
+class MatrixTimes(MatrixFormula):
+    """A square matrix times a vector."""
+
+    matrix: Formula
+    vector: Formula
+
+
+@dataclass(frozen=True)
+class Jacobian(MatrixFormula):
+    """The matrix of ∂(of)ᵢ/∂(by)ₖ; `name` is how the vector of the variables is called."""
+
+    of: Formula
+    by: tuple[sp.Symbol, ...]
+    name: Quantity
+
+
+@dataclass(frozen=True)
+class Determinant(MatrixFormula):
+    """det(of)"""
+
+    of: Formula
+
+
+@dataclass(frozen=True)
+class Power(MatrixFormula):
+    """(of) to a whole power."""
+
+    of: Formula
+    exponent: int
+
+
+@dataclass(frozen=True)
+class AtEquilibrium(MatrixFormula):
+    """`of` in an equilibrium: the coordinates have these values, all rates are zero. Written with the index 0."""
+
+    of: Formula
+    values: Mapping[sp.Symbol, sp.Expr] = field(hash=False)
+
+
+@dataclass(frozen=True)
+class Inserted(MatrixFormula):
+    """`of` with symbols standing for these values, which are not written: numbers of parameters, a momentum for p."""
+
+    of: Formula
+    values: Mapping[sp.Symbol, sp.Expr] = field(hash=False)
+
+
+@dataclass(frozen=True)
+class Rounded(MatrixFormula):
+    """An exact value that is written with a few digits and its unit."""
+
+    value: Value
+    unit: str = ""
 
 
 Formula = (

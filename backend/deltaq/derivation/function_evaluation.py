@@ -8,17 +8,17 @@ function: `along_motion` gives its value at any other time. So a point is a jet 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
 
 import sympy as sp
 from flint import arb
 
-from .function_formula import (
+from .formula import (
     AtTime,
     Boundary,
     Called,
     Directional,
     Each,
+    Formula,
     FunctionFormula,
     LimitOfQuotient,
     Over,
@@ -28,12 +28,9 @@ from .function_formula import (
 from .points import STEP, Point, along_motion, moved
 from .quadrature import integral
 
-if TYPE_CHECKING:
-    from .formula import Formula
-
 FEW = 3  # nodes for a body of which only the linearity of the integral is used: sums have it, however few the terms
 Numbers = tuple[arb, ...]
-Evaluate = Callable[["Formula", Point], Numbers]
+Evaluate = Callable[[Formula, Point], Numbers]
 Number = Callable[[sp.Expr, Point], arb]
 
 

@@ -9,8 +9,7 @@ import sympy as sp
 from ..language.sympy_algebra import time_derivative
 from .differential_expression import DifferentialExpression
 from .domain import FIXED, Instant, Interval
-from .formula import Bounds, Explicit, Formula, Given, Integral, Named, Quantity
-from .function_formula import AtTime
+from .formula import AtTime, Bounds, Explicit, Formula, Given, Integral, Named, Quantity
 
 
 @dataclass(frozen=True, eq=False)

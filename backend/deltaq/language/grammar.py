@@ -6,16 +6,16 @@ Binding, loosest first: `=`, sums, sign, products (written or implied), powers, 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NoReturn
 
-from .arguments import Arguments
 from .bounds import MAX_DEPTH, shape_of
-from .brackets import Brackets
 from .cursor import Cursor
+from .differentiation import Differentiation
+from .functions import FUNCTIONS
 from .names import Names
-from .operators import Operators
 from .tokens import Token, between, fail
-from .tree import Equation, Negation, Node, Number, Power, Product, Quotient, Span, Sum, Vector
+from .tree import Call, Equation, Name, Negation, Node, Number, Power, Product, Quotient, Rate, Span, Sum, Vector, walk
 
 _SUM, _SIGN, _PRODUCT, _POWER = 10, 20, 20, 40
 _STARTS = frozenset({"name", "function", "dot", "variation", "differential", "partial", "derivative", "diff", "open"})
@@ -26,9 +26,10 @@ class Grammar:
 
     def __init__(self, text: str, tokens: list[Token], names: Names) -> None:
         self.cursor = Cursor(text, tokens, names)
+        self.differentiation = Differentiation(self.cursor)
         self.operators = Operators(self)
         self.arguments = Arguments(self)
-        self.brackets = Brackets(self)
+        self._inside_bars = 0
 
     def whole(self) -> Node:
         """All of the text: an expression, an equation, or several of them separated by `;`."""
@@ -88,13 +89,13 @@ class Grammar:
             case "name":
                 return self.operators.name()
             case "open":
-                return self.brackets.bracket()
+                return self._bracket()
             case "function":
                 return self.arguments.call()
             case "operator":
                 return self._sign(binding)
             case "end" | "close":
-                return self.unexpected()
+                return self.cursor.unexpected()
             case _:
                 return self.operators.operator()
 
@@ -106,8 +107,8 @@ class Grammar:
         if self.cursor.takes("+"):
             return self.expression(max(_SIGN, binding))
         if self.cursor.takes("|"):
-            return self.brackets.absolute(token)
-        return self.unexpected()
+            return self._absolute(token)
+        return self.cursor.unexpected()
 
     def _follow(self, left: Node, binding: int) -> Node | None:
         """`left` with one more operator and operand, or None if nothing binds tightly enough."""
@@ -121,7 +122,7 @@ class Grammar:
         if token.is_operator("+", "-") and binding < _SUM:
             return self._sum(left)
         if binding < _PRODUCT and self.starts_factor():
-            return self._implied_product(left)
+            return self._times(left, self.expression(_PRODUCT))
         return None
 
     def starts_factor(self) -> bool:
@@ -129,7 +130,7 @@ class Grammar:
         token = self.cursor.token
         if token.kind == "number":
             fail("missing-operator", token.span, symbol=self.cursor.slice(token.span))
-        return token.kind in _STARTS or (token.is_operator("|") and not self.brackets.inside_bars)
+        return token.kind in _STARTS or (token.is_operator("|") and not self._inside_bars)
 
     def _power(self, base: Node) -> Node:
         self.cursor.take()
@@ -159,7 +160,7 @@ class Grammar:
             fail("cross-product", sign.span)
         if sign.text != "/":
             return self._times(left, right)
-        rate = self.operators.quotient_of_differentials(left, right)
+        rate = self.differentiation.quotient_of_differentials(left, right)
         if rate is not None:
             return rate
         quotient = self.cursor.made(Quotient(left, right, between(left.span, right.span)))
@@ -175,9 +176,6 @@ class Grammar:
         first, second = f"({upper}/{lower})*{then}", f"{upper}/({lower}*{then})"
         fail("ambiguous", between(left.span, between(start, after.span)), first=first, second=second)
 
-    def _implied_product(self, left: Node) -> Node:
-        return self._times(left, self.expression(_PRODUCT))
-
     def _times(self, left: Node, right: Node) -> Node:
         span = between(left.span, right.span)
         if isinstance(left, Product):
@@ -186,10 +184,315 @@ class Grammar:
 
     def _trailing(self) -> NoReturn:
         if self.cursor.token.is_operator(","):
-            self.brackets.decimal_comma()
+            self._decimal_comma()
             fail("separating-comma", self.cursor.token.span)
-        self.unexpected()
-
-    def unexpected(self) -> NoReturn:
-        """Report the token ahead, which cannot stand here."""
         self.cursor.unexpected()
+
+    def _absolute(self, opening: Token) -> Node:
+        self._inside_bars += 1
+        content = self.expression()
+        self._inside_bars -= 1
+        if not self.cursor.token.is_operator("|"):
+            fail("unclosed-bracket", opening.span, bracket="|", wanted="|")
+        return self.arguments.made("abs", (content,), between(opening.span, self.cursor.take().span))
+
+    def _bracket(self) -> Node:
+        opening = self.cursor.take()
+        bars, self._inside_bars = self._inside_bars, 0
+        if opening.text == "[":
+            node = self._vector(opening)
+        else:
+            node = self.expression()
+            self._refuse_comma(opening)
+            self.cursor.close(opening)
+        self._inside_bars = bars
+        return replace(node, span=between(opening.span, self.cursor.previous.span))
+
+    def _refuse_comma(self, opening: Token) -> None:
+        """`(9,81)` is a decimal comma, `(a, b)` a vector in the wrong brackets."""
+        if self.cursor.token.is_operator(","):
+            self._decimal_comma()
+            fail("vector-brackets", between(opening.span, self.cursor.token.span))
+        if self.cursor.token.is_operator("=", ";"):
+            self.cursor.unexpected()
+
+    def _vector(self, opening: Token) -> Node:
+        parts = [self.equation()]
+        while self.cursor.takes(",", ";"):
+            parts.append(self.equation())
+        span = self.cursor.close(opening)
+        if len(parts) == 1:
+            return parts[0]
+        if self.cursor.takes("T"):
+            span = between(span, self.cursor.previous.span)
+        return self.cursor.made(Vector(tuple(parts), span))
+
+    def _decimal_comma(self) -> None:
+        before, after = self.cursor.previous, self.cursor.ahead()
+        if before.kind == "number" and after.kind == "number":
+            number = f"{self.cursor.slice(before.span)}.{self.cursor.slice(after.span)}"
+            fail("decimal-comma", between(before.span, after.span), suggestion=number)
+
+
+class Arguments:
+    """Reads a function of the allow-list and what it is applied to.
+
+    An argument without brackets is one product of numbers and parameters that ends with the first coordinate or
+    time: `sin 2 phi`, `sin omega t`. It ends before another function, δ, a rate or a bracket. If a further name follows
+    (`sin phi l`), both readings are shown.
+    """
+
+    def __init__(self, grammar: Grammar) -> None:
+        self._grammar = grammar
+        self._cursor = grammar.cursor
+
+    def call(self) -> Node:
+        """The call ahead, with the power that may stand after the function's name."""
+        token = self._cursor.take()
+        power = self._power_after_name(token)
+        opening = self._cursor.token
+        if opening.kind == "open" and opening.text in ("(", "|"):
+            arguments = self._bracketed(token)
+            span = between(token.span, self._cursor.previous.span)
+        else:
+            arguments = (self._bare(token),)
+            span = between(token.span, arguments[0].span)
+        node = self.made(token.text, arguments, span)
+        return node if power is None else self._cursor.made(Power(node, power, span))
+
+    def made(self, function: str, arguments: tuple[Node, ...], span: Span) -> Node:
+        """The call, if the number of arguments is right."""
+        wanted = FUNCTIONS[function].arguments
+        if len(arguments) != wanted:
+            fail("argument-count", span, function=function, wanted=wanted, found=len(arguments))
+        return self._cursor.made(Call(function, arguments, span))
+
+    def _power_after_name(self, token: Token) -> Node | None:
+        if not self._cursor.token.is_operator("^"):
+            return None
+        self._cursor.take()
+        power = self._grammar.atom()
+        span = between(token.span, power.span)
+        if not isinstance(power, Number):
+            fail("inverse-function" if _is_minus_one(power) else "function-power", span, function=token.text)
+        if power.value.denominator > 1 or not FUNCTIONS[token.text].power_after_name:
+            fail("function-power", span, function=token.text)
+        return power
+
+    def _bracketed(self, token: Token) -> tuple[Node, ...]:
+        opening = self._cursor.take()
+        if self._cursor.token.kind == "close":
+            fail("argument-count", between(token.span, self._cursor.token.span), function=token.text,
+                 wanted=FUNCTIONS[token.text].arguments, found=0)  # fmt: skip
+        arguments = [self._grammar.expression()]
+        while self._cursor.takes(","):
+            arguments.append(self._grammar.expression())
+        self._cursor.close(opening)
+        return tuple(arguments)
+
+    def _bare(self, token: Token) -> Node:
+        if self._cursor.token.kind not in ("name", "number", "dot", "open") or self._cursor.token.text == "[":
+            fail("argument-expected", token.span, function=token.text)
+        if token.text == "sqrt":
+            return self._grammar.atom()
+        factors = [self._grammar.atom()]
+        while not self._ends(factors) and self._cursor.token.kind in ("name", "open", "dot"):
+            if self._cursor.token.kind == "open" and self._cursor.token.text:
+                break
+            factors.append(self._grammar.atom())
+        argument = factors[0]
+        if len(factors) > 1:
+            argument = self._cursor.made(Product(tuple(factors), between(factors[0].span, factors[-1].span)))
+        self._check_end(token, argument)
+        return argument
+
+    def _ends(self, factors: list[Node]) -> bool:
+        """Whether the argument is complete: it has a quantity that moves, or a rate follows a parameter."""
+        used = {n.name for f in factors for n in walk(f) if isinstance(n, Name)}
+        moving = any(isinstance(n, Rate) for f in factors for n in walk(f))
+        kinds = {symbol.kind for name in used if (symbol := self._cursor.names.get(name))}
+        return moving or bool(kinds & {"coordinate", "time", "material"}) or (
+            self._cursor.token.kind == "dot" and bool(used)
+        )  # fmt: skip
+
+    def _check_end(self, function: Token, argument: Node) -> None:
+        """Refuse what could belong to the argument or to the call: a further name, a bracket, `^`, `/`, a prime."""
+        ahead = self._cursor.token
+        if ahead.kind in ("name", "open") and not (ahead.kind == "open" and ahead.text == "["):
+            rest = self._grammar.factor()
+            self._ambiguous(function, argument, f"*{self._cursor.reading(rest.span)}",
+                            between(argument.span, rest.span))  # fmt: skip
+        if ahead.is_operator("^", "/"):
+            self._cursor.take()
+            rest = self._grammar.factor()
+            self._ambiguous(function, argument, f"{ahead.text}{self._cursor.reading(rest.span)}",
+                            between(argument.span, rest.span))  # fmt: skip
+        parameters = [n.name for n in walk(argument) if isinstance(n, Name)]
+        several = len(set(parameters)) > 1 and not self._ends([argument])
+        if several and isinstance(argument, Product):
+            near = self._cursor.reading(argument.factors[0].span)
+            far = self._cursor.reading(between(argument.factors[1].span, argument.span))
+            first, second = f"{function.text}({near})*{far}", f"{function.text}({self._cursor.reading(argument.span)})"
+            fail("ambiguous", between(function.span, argument.span), first=first, second=second)
+
+    def _ambiguous(self, function: Token, argument: Node, outside: str, inside: Span) -> NoReturn:
+        near = self._cursor.reading(argument.span)
+        first, second = f"{function.text}({near}){outside}", f"{function.text}({self._cursor.reading(inside)})"
+        fail("ambiguous", between(function.span, inside), first=first, second=second)
+
+
+def _is_minus_one(node: Node) -> bool:
+    return isinstance(node, Negation) and isinstance(node.operand, Number) and node.operand.value == 1
+
+
+class Operators:
+    """Reads what starts with a name or with a differential operator."""
+
+    def __init__(self, grammar: Grammar) -> None:
+        self._grammar = grammar
+        self._cursor = grammar.cursor
+        self._differentiation = grammar.differentiation
+
+    def name(self) -> Node:
+        """A symbol. `phi(t)` is the coordinate φ as a function of time, not φ·t."""
+        token = self._cursor.take()
+        node = self._cursor.made(Name(token.text, token.span))
+        if self._differentiation.kind(token.text) == "coordinate":
+            self._of_time()
+        return node
+
+    def prime(self, operand: Node, span: Span) -> Node:
+        """φ′, or φ′(t), which is the rate as a function of time."""
+        node = self._differentiation.time_derivative(operand, span)
+        if isinstance(node, Rate):
+            self._of_time()
+        return node
+
+    def _of_time(self) -> None:
+        """Step over `(t)` after what depends on time anyway."""
+        ahead = [self._cursor.ahead(i) for i in range(3)]
+        if ahead[0].kind == "open" and ahead[0].text == "(" and ahead[1].text == "t" and ahead[2].kind == "close":
+            for _ in ahead:
+                self._cursor.take()
+
+    def operator(self) -> Node:
+        """The operator ahead, applied."""
+        token = self._cursor.take()
+        match token.kind:
+            case "dot":
+                return self._dot(token)
+            case "variation":
+                return self._differentiation.variation(*self._operand(token))
+            case "differential":
+                return self._differentiation.differential(*self._operand(token))
+            case "diff":
+                return self._diff(token)
+            case "partial":
+                return self._partial(token)
+            case _:
+                return self._derivative(token)
+
+    def _dot(self, token: Token) -> Node:
+        node, span = self._operand(token)
+        for _ in range(int(token.text)):
+            node = self._differentiation.time_derivative(node, span)
+        return node
+
+    def _operand(self, token: Token) -> tuple[Node, Span]:
+        """What an operator applies to, and where operator and operand stand."""
+        ahead = self._cursor.token
+        if ahead.kind not in ("name", "open", "dot", "function"):
+            fail("operand-expected", token.span, operator=self._cursor.slice(token.span))
+        operand = self._grammar.atom()
+        return operand, between(token.span, self._cursor.previous.span)
+
+    def _diff(self, token: Token) -> Node:
+        """diff(f, x), diff(f, x, y), diff(f, t, 2)."""
+        opening = self._cursor.token
+        if opening.kind != "open" or opening.text != "(":
+            fail("brackets-expected", token.span, name="diff")
+        self._cursor.take()
+        node = self._grammar.expression()
+        if not self._cursor.takes(","):
+            fail("argument-count", between(token.span, self._cursor.token.span), function="diff", wanted=2, found=1)
+        while True:
+            variable = self._grammar.expression()
+            repeat = self._repeat()
+            for _ in range(repeat):
+                node = self._derived(node, variable, between(token.span, variable.span))
+            if not self._cursor.takes(","):
+                break
+        self._cursor.close(opening)
+        return node
+
+    def _repeat(self) -> int:
+        if not (self._cursor.token.is_operator(",") and self._cursor.ahead().kind == "number"):
+            return 1
+        self._cursor.take()
+        token = self._cursor.take()
+        if token.value not in (1, 2):
+            fail("derivative-order", token.span, order=self._cursor.slice(token.span))
+        return int(token.value)
+
+    def _derived(self, node: Node, variable: Node, span: Span) -> Node:
+        """The derivative with respect to t is taken along the motion, any other is partial."""
+        if variable == Name("t"):
+            return self._differentiation.time_derivative(node, span)
+        return self._differentiation.partial(node, variable, span)
+
+    def _partial(self, token: Token) -> Node:
+        """∂/∂x (…), or ∂(…)/∂x with the function on top."""
+        on_top = None if self._cursor.token.is_operator("/") else self._grammar.atom()
+        if not self._cursor.takes("/") or self._cursor.token.kind != "partial":
+            fail("partial-derivative", token.span)
+        self._cursor.take()
+        variable = self._grammar.atom()
+        return self._applied(token, "partial", variable, on_top)
+
+    def _derivative(self, token: Token) -> Node:
+        """Operator form from a fraction: (variable), perhaps a power of the operator, then the operand."""
+        variable = self._grammar.atom()
+        order = self._order()
+        node = self._applied(token, token.text, variable, None)
+        for _ in range(order - 1):
+            node = self._once(token.text, node, variable, node.span)
+        return node
+
+    def _order(self) -> int:
+        if not self._cursor.takes("^"):
+            return 1
+        power = self._grammar.atom()
+        if not isinstance(power, Number) or power.value not in (1, 2):
+            fail("derivative-order", power.span, order=self._cursor.slice(power.span))
+        return int(power.value)
+
+    def _applied(self, token: Token, kind: str, variable: Node, operand: Node | None) -> Node:
+        if operand is None:
+            operand = self._derived_operand(token)
+        return self._once(kind, operand, variable, between(token.span, self._cursor.previous.span))
+
+    def _once(self, kind: str, operand: Node, variable: Node, span: Span) -> Node:
+        if kind == "d":
+            if variable != Name("t"):
+                fail("total-derivative", variable.span, text=self._cursor.slice(variable.span))
+            return self._differentiation.time_derivative(operand, span)
+        return self._differentiation.partial(operand, variable, span)
+
+    def _derived_operand(self, token: Token) -> Node:
+        """What d/dt applies to: brackets, or one factor if nothing follows that it could apply to as well."""
+        opening = self._cursor.token
+        self._cursor.takes("*")
+        bracketed = opening.kind == "open" and opening.text != ""
+        operand = self._grammar.atom() if bracketed else self._grammar.factor()
+        following = self._cursor.token
+        divided = following.is_operator("^") if bracketed else following.is_operator("*", "/")
+        if divided or (not bracketed and self._grammar.starts_factor()):
+            if following.kind == "operator":
+                self._cursor.take()
+            rest = self._grammar.factor().span
+            sign = self._cursor.reading(Span(token.span.offset, operand.span.offset - token.span.offset))
+            near, all_ = self._cursor.reading(operand.span), between(operand.span, rest)
+            after = self._cursor.reading(between(following.span, rest))
+            first, second = f"({sign} {near}) {after}", f"{sign} ({self._cursor.reading(all_)})"
+            fail("ambiguous", between(token.span, rest), first=first, second=second)
+        return operand

@@ -3,21 +3,38 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Callable, Iterator, Mapping
+from fractions import Fraction
 from types import MappingProxyType
 
-from . import latex_structures as structures
 from .bounds import MAX_DEPTH
 from .functions import SPELLINGS
-from .latex_delimiters import close_bracket, read_sized, separate
-from .latex_source import Range, Source
-from .latex_symbols import dotted, read_accent, read_letters, read_symbol, read_upright
-from .latex_tables import DIFFERENTIAL, LETTER, NUMBER, OPERATORS, PREFIX, PRIMES, QUANTITIES, SIZES, TRANSPOSE, UPRIGHT
+from .latex_source import ONLY_VARIABLES, Range, Source, cells, differential_head, differential_variables
+from .latex_tables import (
+    DIFFERENTIAL,
+    INDEX,
+    LETTER,
+    LETTERS,
+    MARKS,
+    MATRICES,
+    NUMBER,
+    OPERATORS,
+    PREFIX,
+    PRIMES,
+    QUANTITIES,
+    SINGLE,
+    SIZES,
+    SYSTEMS,
+    TRANSPOSE,
+    UPRIGHT,
+)
 from .names import Names
 from .plain_lexer import number_token, operator_tokens
-from .spelling import GREEK, GREEK_NAMES, SUPERSCRIPTS
-from .tokens import Token, fail
+from .spelling import GREEK, GREEK_NAMES, SUPERSCRIPTS, dotted, key
+from .tokens import Token, fail, has_comma, vector_tokens
 from .tree import Span
+from .words import UNITS, word_tokens
 
 FENCES = (("$$", "$$"), ("$", "$"), (r"\[", r"\]"), (r"\(", r"\)"))
 
@@ -185,14 +202,295 @@ class LatexLexer:
         fail("unknown-command", span, name="\\" + name)
 
 
+def close_bracket(lexer: LatexLexer, opening: int) -> None:
+    """Square brackets without a comma are parentheses."""
+    first, last = lexer.found[opening], lexer.found[-1]
+    if (first.text, last.text) == ("[", "]") and not has_comma(lexer.found[opening + 1 : -1]):
+        lexer.found[opening] = Token("open", "(", first.span)
+        lexer.found[-1] = Token("close", ")", last.span)
+
+
+def separate(lexer: LatexLexer) -> None:
+    """A wide space separates the components of a row in square brackets: [F_x \\quad F_y]^T."""
+    if lexer.brackets and lexer.found[lexer.brackets[-1]].text == "[" and not lexer.found[-1].is_operator(","):
+        lexer.found.append(Token("operator", ",", Span(lexer.source.at, 0)))
+
+
+def read_sized(lexer: LatexLexer, size: str, start: int) -> None:
+    """\\left, \\right and the like: what they enlarge follows."""
+    character = lexer.source.next()
+    right = size in ("right", "mright")
+    if character == ".":
+        lexer.source.at += 1
+        if right and lexer.brackets:
+            _end_system(lexer)
+    elif character == "|" or lexer.source.peek_command() in ("vert", "lvert", "rvert"):
+        lexer.source.at += 1 if character == "|" else len(lexer.source.peek_command()) + 1
+        _bar(lexer, size, lexer.since(start))
+    elif character == "" or character not in "()[]\\":
+        fail("missing-argument", Span(start, len(size) + 1), name="\\" + size)
+
+
+def _end_system(lexer: LatexLexer) -> None:
+    """A brace before the lines of a system needs no other; a parenthesis without the other is a slip that is told."""
+    span = lexer.found[lexer.brackets[-1]].span
+    if lexer.source.text[span.offset : span.offset + span.length] in ("\\{", "\\lbrace"):
+        del lexer.found[lexer.brackets.pop()]
+
+
+def _bar(lexer: LatexLexer, size: str, span: Span) -> None:
+    if size in ("left", "mleft"):
+        lexer.found += [Token("function", "abs", span), Token("open", "|", span)]
+    elif size in ("right", "mright"):
+        lexer.found.append(Token("close", "|", span))
+    else:
+        lexer.found.append(Token("operator", "|", span))
+
+
+def read_letters(lexer: LatexLexer) -> None:
+    """A run of letters: one symbol for each letter, or one word if only that makes sense."""
+    start = lexer.source.at
+    match = lexer.source.match(LETTERS)
+    run = match[0] if match else ""
+    if len(run) == 1 and lexer.source.rest and lexer.source.text[lexer.source.at] in "\u0307\u0308":
+        read_symbol(lexer, run, start)
+        return
+    if run == "e" and lexer.source.next() == "^" and lexer.names.get("e") is None:
+        read_exponential_power(lexer, start)
+        return
+    letters_end = lexer.source.at
+    index, power, span = _index_and_power(lexer, start)
+    if len(run) > 1:
+        single = [lexer.names.resolve(letter) for letter in run[:-1]] + [lexer.names.resolve(run[-1] + index)]
+        whole = lexer.names.candidates(run + index) or (run in SPELLINGS and not index)
+        if all(single):
+            if whole:
+                product = "*".join(symbol.name for symbol in single if symbol)
+                fail("ambiguous-product", span, text=run + index, first=product, second=run + index)
+            _check_unit(lexer, run, span)
+            for i, symbol in enumerate(single):
+                last = Span(letters_end - 1, span.offset + span.length - letters_end + 1)
+                where = Span(start + i, 1) if i < len(run) - 1 else last
+                lexer.found.append(Token("name", symbol.name if symbol else "", where))
+            lexer.found += power
+            return
+    lexer.found += word_tokens(run + index, span, lexer.names, after_number=lexer.after_number())
+    lexer.found += power
+
+
+def _check_unit(lexer: LatexLexer, run: str, span: Span) -> None:
+    if lexer.after_number() and run in UNITS:
+        fail("unit", span, name=run)
+
+
+def read_symbol(lexer: LatexLexer, base: str, start: int, before: tuple[Token, ...] = ()) -> None:
+    """A single letter or Greek name with its index and power; `before` are the tokens of an accent."""
+    simple = SINGLE.match(base if base.startswith("\\") or len(base) == 1 else "\\" + base)
+    if simple is None or (simple[1] and simple[1] not in GREEK_NAMES):
+        fail("indexed-operator", lexer.since(start), name=base.strip()[:40])
+    dots = lexer.source.match(MARKS)
+    if dots:
+        order = sum(1 if mark == "\u0307" else 2 for mark in dots[0])
+        if order > 2:
+            fail("derivative-order", lexer.since(start), order=order)
+        before = (*before, Token("dot", str(order), lexer.since(start)))
+    index, power, span = _index_and_power(lexer, start)
+    word = key(base.strip().removeprefix("\\")) + index
+    lexer.found += [*before, *word_tokens(word, span, lexer.names), *power]
+
+
+def _index_and_power(lexer: LatexLexer, begin: int) -> tuple[str, list[Token], Span]:
+    """The index and the power after a symbol, in either order; where the symbol stands without its power."""
+    index = _index(lexer)
+    span = lexer.since(begin)
+    if lexer.source.next() != "^":
+        return index, [], span
+    mark = len(lexer.found)
+    start = lexer.source.at
+    lexer.source.at += 1
+    lexer.superscript(start)
+    power = lexer.found[mark:]
+    del lexer.found[mark:]
+    return index or _index(lexer), power, span
+
+
+def _index(lexer: LatexLexer) -> str:
+    if lexer.source.next() != "_":
+        return ""
+    start = lexer.source.at
+    lexer.source.at += 1
+    inside = lexer.source.argument(Span(start, 1), "_")
+    content = lexer.source.text[slice(*inside)]
+    if not INDEX.match(content):
+        fail("unexpected-symbol", Span(inside[0], inside[1] - inside[0]), symbol=content.strip()[:40])
+    return "_" + key(content).replace(",", "")
+
+
+def read_accent(lexer: LatexLexer, name: str, start: int) -> None:
+    """\\dot and \\ddot over a symbol, whose index stands outside or inside, or over an expression."""
+    inside = lexer.source.argument(lexer.since(start), "\\" + name)
+    span = lexer.since(start)
+    if name == "dddot":
+        fail("derivative-order", span, order=3)
+    accent = Token("dot", "1" if name == "dot" else "2", span)
+    content = lexer.source.text[slice(*inside)]
+    simple = SINGLE.match(content)
+    if simple and (simple[2] or simple[3] or simple[1] in GREEK_NAMES):
+        read_symbol(lexer, content.strip(), start, (accent,))
+    else:
+        lexer.found += [accent, *lexer.grouped(inside)]
+
+
+def read_upright(lexer: LatexLexer, start: int) -> None:
+    """\\mathrm{…}, \\text{…}, \\operatorname{…}: d, e, a function, a symbol; a unit is refused."""
+    inside = lexer.source.argument(lexer.since(start), "\\mathrm")
+    word = lexer.source.text[slice(*inside)].strip()
+    span = lexer.since(start)
+    if word == "d":
+        lexer.found.append(Token("differential", "d", span))
+    elif word == "e" and lexer.source.next() == "^":
+        read_exponential_power(lexer, start)
+    elif word in SPELLINGS:
+        lexer.found.append(Token("function", SPELLINGS[word].name, span))
+    elif word in UNITS and lexer.source.next() != "_" and not _is_typeset_upright(lexer, word):
+        fail("unit", span, name=word)
+    else:
+        _read_upright_symbol(lexer, word, inside, start)
+
+
+def _is_typeset_upright(lexer: LatexLexer, word: str) -> bool:
+    """Whether the scene itself writes this symbol upright; else upright letters are units."""
+    return any("rm" in s.typeset for s in lexer.names.candidates(word))
+
+
+def _read_upright_symbol(lexer: LatexLexer, word: str, inside: Range, start: int) -> None:
+    if not re.fullmatch(r"\\?[A-Za-z][A-Za-z0-9]*", word):
+        units = re.findall(r"(?<![A-Za-z\\])[A-Za-z]+", word)
+        if units and UNITS.issuperset(units):
+            fail("unit", Span(inside[0], inside[1] - inside[0]), name=units[0])
+        fail("unexpected-symbol", Span(inside[0], max(inside[1] - inside[0], 1)), symbol=word[:40])
+    index, power, span = _index_and_power(lexer, start)
+    lexer.found += [*word_tokens(key(word) + index, span, lexer.names), *power]
+
+
+def read_exponential_power(lexer: LatexLexer, start: int) -> None:
+    """e^{…}: the exponential function."""
+    lexer.source.skip_space()
+    lexer.source.at += 1
+    inside = lexer.source.argument(lexer.since(start), "e^")
+    lexer.found += [Token("function", "exp", Span(start, inside[0] - start)), *lexer.grouped(inside, "(")]
+
+
+def read_fraction(lexer: LatexLexer, name: str, start: int) -> None:
+    """\\frac{a}{b}, \\frac12 and the derivatives \\frac{d}{dt}, \\frac{d x}{dt}, \\frac{\\partial f}{\\partial q}."""
+    owner = lexer.since(start)
+    upper = lexer.source.argument(owner, "\\" + name)
+    lower = lexer.source.argument(owner, "\\" + name)
+    if _read_derivative(lexer, upper, lower, lexer.since(start)):
+        return
+    span = lexer.since(start)
+    lexer.found += [
+        Token("open", "", Span(start, 0)),
+        *lexer.grouped(upper),
+        Token("operator", "/", Span(lower[0], 0)),
+        *lexer.grouped(lower),
+        Token("close", "", Span(span.offset + span.length, 0)),
+    ]
+
+
+def _read_derivative(lexer: LatexLexer, upper: Range, lower: Range, span: Span) -> bool:
+    text = lexer.source.text
+    above, below = differential_head(text, upper), differential_head(text, lower)
+    if above is None or below is None:
+        return False
+    kind, order, rest = above
+    if kind != below[0] or not ONLY_VARIABLES.match(text, *below[2]):
+        return False
+    variables = differential_variables(text, below[2], span)
+    if sum(times for _, times in variables) != order or order > 2:
+        fail("derivative-order", span, order=max(order, sum(times for _, times in variables)))
+    function = lexer.grouped(rest, "(") if lexer.source.text[slice(*rest)].strip() else []
+    tokens = function
+    for inside, times in reversed(variables):
+        for _ in range(times):
+            tokens = [Token("derivative", kind, span), *lexer.grouped(inside), *tokens]
+            if function and (inside, times) != variables[0]:
+                tokens = [Token("open", "(", span), *tokens, Token("close", ")", span)]
+    lexer.found += tokens
+    return True
+
+
+def read_root(lexer: LatexLexer, name: str, start: int) -> None:
+    """\\sqrt{x} and \\sqrt[3]{x}."""
+    index = lexer.source.optional()
+    inside = lexer.source.argument(lexer.since(start), "\\" + name)
+    span = lexer.since(start)
+    if index is None:
+        lexer.found += [Token("function", "sqrt", Span(start, inside[0] - start)), *lexer.grouped(inside, "(")]
+        return
+    one = lexer.grouped(index)
+    lexer.found += [
+        *(Token("open", "", Span(start, 0)), *lexer.grouped(inside, "("), Token("operator", "^", span)),
+        *(Token("open", "", span), Token("number", "1", span, Fraction(1)), Token("operator", "/", span), *one),
+        *(Token("close", "", span), Token("close", "", Span(lexer.source.at, 0))),
+    ]
+
+
+def read_exponential(lexer: LatexLexer, _name: str, start: int) -> None:
+    """\\exponentialE^{…}"""
+    if lexer.source.next() != "^":
+        fail("euler-number", lexer.since(start), name="e")
+    read_exponential_power(lexer, start)
+
+
+def read_boxed(lexer: LatexLexer, name: str, start: int) -> None:
+    """\\boxed{…}: a frame around a result says nothing about it."""
+    lexer.found += lexer.within(lexer.source.argument(lexer.since(start), "\\" + name))
+
+
+def read_environment(lexer: LatexLexer, _name: str, start: int) -> None:
+    """Matrices become vectors; aligned equations and cases a system."""
+    name, inside = lexer.source.environment(start)
+    span = lexer.since(start)
+    if name in SYSTEMS:
+        _read_system(lexer, inside)
+    elif name in MATRICES:
+        _read_matrix(lexer, name, inside, span)
+    else:
+        fail("unknown-environment", span, name=name)
+
+
+def _read_system(lexer: LatexLexer, inside: Range) -> None:
+    rows = [(row[0][0], row[-1][1]) for row in cells(lexer.source.text, inside)]
+    filled = [row for row in rows if lexer.source.text[slice(*row)].strip()]
+    for position, row in enumerate(filled):
+        if position:
+            lexer.found.append(Token("operator", ";", Span(row[0], 0)))
+        lexer.found += lexer.within(row)
+
+
+def _read_matrix(lexer: LatexLexer, name: str, inside: Range, span: Span) -> None:
+    if name == "array":
+        source = Source(lexer.source.text, *inside)
+        source.argument(span, "array")
+        inside = source.at, inside[1]
+    rows = [row for row in cells(lexer.source.text, inside) if lexer.source.text[row[0][0] : row[-1][1]].strip()]
+    if not rows:
+        fail("empty", span)
+    if len(rows) == 1 or all(len(row) == 1 for row in rows):
+        lexer.found += vector_tokens([lexer.within(cell) for row in rows for cell in row], span)
+    else:
+        lexer.found += vector_tokens([vector_tokens([lexer.within(cell) for cell in row], span) for row in rows], span)
+
+
 _HANDLERS: Mapping[str, Callable[[LatexLexer, str, int], None]] = MappingProxyType(
     {
-        **dict.fromkeys(("frac", "tfrac", "dfrac", "cfrac"), structures.read_fraction),
-        "sqrt": structures.read_root,
+        **dict.fromkeys(("frac", "tfrac", "dfrac", "cfrac"), read_fraction),
+        "sqrt": read_root,
         **dict.fromkeys(("dot", "ddot", "dddot"), read_accent),
-        "begin": structures.read_environment,
-        "exponentialE": structures.read_exponential,
-        "boxed": structures.read_boxed,
+        "begin": read_environment,
+        "exponentialE": read_exponential,
+        "boxed": read_boxed,
         **dict.fromkeys(("quad", "qquad"), lambda lexer, _name, _start: separate(lexer)),
     }
 )

@@ -1,4 +1,4 @@
-"""A stretch of LaTeX text and the reading position in it: spaces, arguments, groups, environments."""
+"""A stretch of LaTeX text and the reading position in it: spaces, arguments, groups, environments, cells, d and ∂."""
 
 from __future__ import annotations
 
@@ -14,6 +14,13 @@ _SPACE = re.compile(
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+\*?|.)", re.DOTALL)
 # Two backslashes end a row, also before the letters "end".
 _ENVIRONMENT = re.compile(r"\\\\|\\(begin|end)\s*\{([A-Za-z*]{1,20})\}")
+
+_D = re.compile(
+    r"\s*(?:(?P<total>d|\\(?:mathrm|text|operatorname|mathit)\s*(?:\{\s*d\s*\}|d)|\\differentialD(?![A-Za-z])|\\dd(?![A-Za-z]))"
+    r"|(?P<partial>\\partial(?![A-Za-z])|∂))\s*(?:\^\s*(?P<order>\{\s*\d\s*\}|\d))?(?:\\[,;!: ]|\s)*"
+)
+ONLY_VARIABLES = re.compile(r"[^+\-*/=]*\Z|\s*[({].*\Z", re.DOTALL)
+_ORDER = re.compile(r"\s*\^\s*(?:\{\s*(\d)\s*\}|(\d))\s*\Z")
 
 Range = tuple[int, int]
 
@@ -122,3 +129,56 @@ class Source:
                 self.at = found.end()
                 return name, (opening.end(), found.start())
         fail("unclosed-environment", Span(start, opening.end() - start), name=name)
+
+
+def cells(text: str, inside: Range) -> list[list[Range]]:
+    """Rows and cells between & and \\\\, not looking into groups and inner environments."""
+    source = Source(text, *inside)
+    rows: list[list[Range]] = [[]]
+    start = source.at
+    while source.rest:
+        character = source.text[source.at]
+        if character == "{":
+            source.group()
+        elif character == "&":
+            rows[-1].append((start, source.at))
+            source.at += 1
+            start = source.at
+        elif character == "\\":
+            at = source.at
+            command = source.command()
+            if command == "begin":
+                source.environment(at)
+            elif command == "\\":
+                rows[-1].append((start, at))
+                rows.append([])
+                start = source.at
+        else:
+            source.at += 1
+    rows[-1].append((start, source.end))
+    return rows
+
+
+def differential_head(text: str, inside: Range) -> tuple[str, int, Range] | None:
+    """Kind and order of the d or ∂ that starts a stretch, and what follows it."""
+    match = _D.match(text, *inside)
+    if match is None:
+        return None
+    order = int((match["order"] or "1").strip("{} "))
+    return ("d" if match["total"] else "partial"), order, (match.end(), inside[1])
+
+
+def differential_variables(text: str, inside: Range, span: Span) -> list[tuple[Range, int]]:
+    """The variables below the line: x, x^2, or x ∂y."""
+    found: list[tuple[Range, int]] = []
+    start, end = inside
+    while start < end:
+        following = next((m for m in _D.finditer(text, start, end) if m["partial"]), None)
+        stop = following.start() if following else end
+        order = _ORDER.search(text[start:stop])
+        times = int(order[1] or order[2]) if order else 1
+        found.append(((start, start + order.start() if order else stop), times))
+        start = following.end() if following else end
+    if not found or not 1 <= sum(times for _, times in found) <= 3:
+        fail("derivative-variable", span, text=text[slice(*inside)])
+    return found

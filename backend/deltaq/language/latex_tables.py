@@ -11,6 +11,10 @@ PREFIX = re.compile(r"0[xXbBoO][0-9A-Fa-f]+")
 LETTER = re.compile(r"[A-Za-z]")
 TRANSPOSE = re.compile(r"\s*(?:T|\\top|\\intercal|\\(?:mathrm|mathsf|text)\s*(?:\{\s*T\s*\}|T))\s*\Z")
 PRIMES = re.compile(r"\s*((?:\\prime|')\s*)+\Z")
+LETTERS = re.compile(r"[A-Za-z]+")
+SINGLE = re.compile(r"\s*(?:\\([A-Za-z]+)|([A-Za-z])|([^\x00-\x7f]))\s*\Z")
+MARKS = re.compile(r"[\u0307\u0308]+")
+INDEX = re.compile(r"(?:[A-Za-z0-9,\s]|\\(?:mathrm|text|mathit)\b|\\[A-Za-z]+|[{}])*\Z")
 
 OPERATORS: Mapping[str, str] = MappingProxyType(
     {
@@ -76,3 +80,7 @@ UPRIGHT = frozenset(
 # Commands of the packages that typeset quantities with units.
 QUANTITIES = frozenset({"SI", "si", "qty", "unit", "pu"})
 DIFFERENTIAL = frozenset({"differentialD", "dd"})
+MATRICES = frozenset({"matrix", "pmatrix", "bmatrix", "Bmatrix", "smallmatrix", "array"})
+SYSTEMS = frozenset(
+    {"aligned", "align", "align*", "gathered", "gather", "gather*", "cases", "equation", "equation*", "split"}
+)

@@ -86,3 +86,12 @@ def in_unicode(latex: str) -> str:
     lettered = re.sub(r"\\([A-Za-z]+) ?", lambda found: _LETTERS.get(found[1], ""), latex)
     lowered = re.sub(r"_\{?(\d+)\}?", lambda found: found[1].translate(_LOWERED), lettered)
     return re.sub(r"[{}]", "", lowered)
+
+
+def dotted(character: str) -> tuple[str, int]:
+    """Base and number of dots of a letter such as ẋ; ä, ö and ü are letters of their own."""
+    parts = unicodedata.normalize("NFD", character)
+    base, marks = parts[0], parts[1:]
+    if marks == "\u0307":
+        return base, 1
+    return (base, 2) if marks == "\u0308" and base in DOTTED_TWICE else (character, 0)

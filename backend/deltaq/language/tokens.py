@@ -47,3 +47,23 @@ def between(first: Span, last: Span) -> Span:
 def fail(code: str, span: Span, **parameters: Parameter) -> NoReturn:
     """Stop reading: the text is wrong at `span`."""
     raise ExpressionError(Problem(code, "", span.offset, span.length, parameters))
+
+
+def has_comma(tokens: list[Token]) -> bool:
+    """Whether a comma or semicolon stands outside all brackets."""
+    depth = 0
+    for token in tokens:
+        depth += (token.kind == "open") - (token.kind == "close")
+        if depth == 0 and token.is_operator(",", ";"):
+            return True
+    return False
+
+
+def vector_tokens(parts: list[list[Token]], span: Span) -> list[Token]:
+    """[a, b, …] of the tokens of its components."""
+    tokens = [Token("open", "[", Span(span.offset, 1))]
+    for position, part in enumerate(parts):
+        if position:
+            tokens.append(Token("operator", ",", Span(span.offset, 0)))
+        tokens += part
+    return [*tokens, Token("close", "]", Span(span.offset + span.length - 1, 1))]

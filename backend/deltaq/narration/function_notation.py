@@ -8,13 +8,11 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 
 from ..derivation.differential_expression import direction
-from ..derivation.formula import Explicit, Formula, Given, Partial, Quantity, Rate, Times
-from ..derivation.function_formula import Over
+from ..derivation.formula import Explicit, Formula, Given, Over, Partial, Quantity, Rate, Times
 from ..language.latex_printer import Typography
 from ..language.order import split_symbol
 from ..language.spelling import latex_of
-from .function_writing import NEIGHBOUR
-from .notation import Notation
+from .notation import NEIGHBOUR, Notation
 from .prose import CatalogText, words
 
 SYMBOLS: Mapping[str, str] = {

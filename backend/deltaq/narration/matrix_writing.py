@@ -7,17 +7,19 @@ from typing import Protocol
 
 import sympy as sp
 
-from ..derivation.formula import Formula, Named, Value
-from ..derivation.matrix_formula import (
+from ..derivation.formula import (
     AtEquilibrium,
     Determinant,
+    Formula,
     Inserted,
     Jacobian,
     MatrixFormula,
     MatrixTimes,
+    Named,
     Power,
     Rounded,
     Stack,
+    Value,
 )
 from .symbols import SymbolTable
 

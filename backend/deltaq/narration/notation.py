@@ -3,37 +3,48 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 
 import sympy as sp
 
 from ..derivation.formula import (
+    AtTime,
+    Boundary,
     Bounds,
+    Called,
+    Directional,
     Dot,
+    Each,
     Equation,
     Explicit,
     Formula,
+    FunctionFormula,
     Gateaux,
     Given,
     Integral,
+    LimitOfQuotient,
+    MatrixFormula,
     Named,
+    Over,
     Partial,
     Plus,
     Quantity,
     Rate,
+    Ratio,
     Shifted,
     Substituted,
+    Summed,
     Term,
     Times,
     Value,
 )
-from ..derivation.function_formula import Called, FunctionFormula
-from ..derivation.matrix_formula import MatrixFormula
 from ..language.latex_printer import Typography, latex
-from .function_writing import write
 from .matrix_writing import write_matrix
 from .symbols import SymbolTable
+
+NEIGHBOUR = "ʰ"
+REGIONS: Mapping[str, str] = {"B": r"\mathcal{B}", "S": "S", "V": "V"}
 
 
 @dataclass(frozen=True)
@@ -72,7 +83,7 @@ class Notation:
             case Integral(of, material):
                 return self._integral(of, material)
             case FunctionFormula():
-                return write(self, formula)
+                return write_function(self, formula)
             case MatrixFormula():
                 return write_matrix(self, formula)
             case Equation(left, right):
@@ -172,3 +183,46 @@ class Notation:
 def _counts(term: Term) -> bool:
     """Whether a summand is worth writing: a zero is not."""
     return not (isinstance(term.formula, Explicit) and term.formula.value == 0)
+
+
+def write_function(notation: Notation, formula: FunctionFormula) -> str:
+    """The formula in this notation."""
+    match formula:
+        case Called(quantity, _, arguments):
+            return notation.applied(quantity, arguments)
+        case Directional(of, along, h):
+            return notation.at_zero(notation.factor(moved(of, along)), h)
+        case LimitOfQuotient(of, along, h):
+            difference = f"{notation.formula(moved(of, along))} - {notation.formula(of)}"
+            return rf"\lim_{{{notation.value(h)} \to 0}} \frac{{{difference}}}{{{notation.value(h)}}}"
+        case AtTime(of, time):
+            return notation.at_time(of, time)
+        case Boundary(of, lower, upper):
+            ends = rf"_{{{notation.value(lower)}}}^{{{notation.value(upper)}}}"
+            return rf"\left[{notation.formula(of)}\right]{ends}"
+        case Over(of, region, element):
+            return rf"\int_{{{REGIONS[region]}}} {notation.factor(of)} \,\mathrm{{d}}{element}"
+        case Ratio(numerator, denominator):
+            return rf"\frac{{{notation.formula(numerator)}}}{{{notation.formula(denominator)}}}"
+        case Summed(shown) | Each(shown):
+            return notation.formula(shown)
+    raise TypeError(f"no LaTeX for {type(formula).__name__}")
+
+
+def neighbour(symbol: sp.Symbol) -> sp.Symbol:
+    """A symbol that is written as x + h v, so that neither the algebra nor the printer takes it apart."""
+    head, bracket, tail = symbol.name.partition(")")
+    return sp.Symbol(f"{head}{NEIGHBOUR}{bracket}{tail}", real=True)
+
+
+def moved(of: Formula, along: Mapping[sp.Symbol, sp.Expr]) -> Formula:
+    """The formula at x + h v, as it is written: in the arguments of what has a name, else put in."""
+    steps = {symbol: neighbour(symbol) for symbol in along}
+    match of:
+        case Named(_, _, arguments) | Called(_, _, arguments):
+            return replace(of, arguments=tuple(steps.get(argument, argument) for argument in arguments))
+        case Explicit(value):
+            return Explicit(value.xreplace(steps))
+        case Integral(inside) | AtTime(inside):
+            return replace(of, of=moved(inside, along))
+    return of

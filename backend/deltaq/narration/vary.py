@@ -21,9 +21,9 @@ from ..language.plain_printer import plain
 from ..language.spelling import latex_of, spell_rate
 from .catalog import language_in
 from .function_notation import FunctionNotation, FunctionSymbols, FunctionTypography
-from .function_writing import NEIGHBOUR
 from .marks import Wrap, in_class, unmarked
 from .narrator import Narrator
+from .notation import NEIGHBOUR
 from .quotient_answer import quotient_answer
 from .variation_request import Question, read_question
 

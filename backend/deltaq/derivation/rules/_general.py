@@ -7,8 +7,22 @@ from collections.abc import Callable
 import sympy as sp
 
 from ..abstract_motion import BODY, VARIABLES, AbstractMotion, H, P, T, each, q, rate, symbol, variation
-from ..formula import Dot, Explicit, Formula, Named, Partial, Plus, Quantity, Rate, Term, Times, minus
-from ..function_formula import Called, Over, Ratio
+from ..formula import (
+    Called,
+    Dot,
+    Explicit,
+    Formula,
+    Named,
+    Over,
+    Partial,
+    Plus,
+    Quantity,
+    Rate,
+    Ratio,
+    Term,
+    Times,
+    minus,
+)
 from ..step import Relation
 
 X, V = symbol("x"), symbol("v")

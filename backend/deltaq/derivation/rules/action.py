@@ -6,8 +6,7 @@ Source: Hamilton, On a General Method in Dynamics (1834); Landau, Lifshitz, Mech
 from __future__ import annotations
 
 from ..action import Action
-from ..formula import Quantity
-from ..function_formula import Called
+from ..formula import Called, Quantity
 from ..step import Relation, Step
 
 RULE = "action"

@@ -11,8 +11,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ..differential_expression import direction
-from ..formula import Equation, Explicit, Partial
-from ..function_formula import AtTime
+from ..formula import AtTime, Equation, Explicit, Partial
 from ..functional import Functional
 from ..step import Relation, Step
 from .integration_by_parts import boundary

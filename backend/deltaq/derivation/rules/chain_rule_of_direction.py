@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from ..abstract_motion import AbstractMotion
 from ..calculus import column
-from ..formula import Dot, Named, Quantity
-from ..function_formula import Directional
+from ..formula import Directional, Dot, Named, Quantity
 from ..step import Relation, Step
 from ._general import ALONG, VECTOR, H
 from .directional_derivative import by_chain_rule, derivative, field_of

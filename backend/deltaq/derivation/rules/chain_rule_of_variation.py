@@ -7,8 +7,7 @@ Source: the lecture; Lanczos, The Variational Principles of Mechanics, ch. II.
 from __future__ import annotations
 
 from ..abstract_motion import AbstractMotion, each, summed, symbol
-from ..formula import Named, Partial, Quantity, Times
-from ..function_formula import Called, Directional, Summed
+from ..formula import Called, Directional, Named, Partial, Quantity, Summed, Times
 from ..step import Relation, Step
 from ._general import ALONG, VECTOR, H
 

@@ -11,8 +11,7 @@ from collections.abc import Callable, Iterator
 import sympy as sp
 
 from ..differential_expression import direction
-from ..formula import Explicit, Formula, Partial, Plus, Rate, Term, Times, minus
-from ..function_formula import AtTime
+from ..formula import AtTime, Explicit, Formula, Partial, Plus, Rate, Term, Times, minus
 from ..functional import Functional
 from ..step import Relation, Step
 from .functional import variation

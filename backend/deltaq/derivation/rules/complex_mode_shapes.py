@@ -11,9 +11,8 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from ..formula import Explicit, Formula, Named, Plus, Quantity, Term, Times, minus
+from ..formula import Explicit, Formula, Inserted, MatrixTimes, Named, Plus, Quantity, Rounded, Term, Times, minus
 from ..linearization import Linearization
-from ..matrix_formula import Inserted, MatrixTimes, Rounded
 from ..spectrum import ComplexMode, Spectrum
 from ..step import Relation, Step
 from ..system import System

@@ -7,8 +7,7 @@ Source: the lecture; Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., eq. 
 from __future__ import annotations
 
 from ..abstract_motion import AbstractMotion, summed, variation
-from ..formula import Dot, Equation, Partial, Plus, Quantity, Term
-from ..function_formula import Called, Summed
+from ..formula import Called, Dot, Equation, Partial, Plus, Quantity, Summed, Term
 from ..step import Relation, Step
 from ._general import ZERO, acceleration, by_mass, for_each, generalized_force, inertia, times_variation
 from .variation_of_position import displacement

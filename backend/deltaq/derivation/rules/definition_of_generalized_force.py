@@ -6,8 +6,7 @@ Source: the lecture's definition of Qᵢ.
 from __future__ import annotations
 
 from ..abstract_motion import AbstractMotion, summed, variation
-from ..formula import Partial, Quantity
-from ..function_formula import Called
+from ..formula import Called, Partial, Quantity
 from ..step import Relation, Step
 from ._general import for_each, lever, times_variation, work_by_region
 from .variation_of_position import displacement

@@ -9,8 +9,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ..abstract_motion import AbstractMotion
-from ..formula import Named, Partial, Quantity
-from ..function_formula import Called, LimitOfQuotient
+from ..formula import Called, LimitOfQuotient, Named, Partial, Quantity
 from ..step import Relation, Step
 from ._general import VECTOR, H, X
 

@@ -6,8 +6,7 @@ Source: the lecture; Forster, Analysis 2, §6.
 from __future__ import annotations
 
 from ..abstract_motion import AbstractMotion, summed, symbol
-from ..formula import Explicit, Named, Partial, Quantity, Times
-from ..function_formula import Called, Directional, LimitOfQuotient, Summed
+from ..formula import Called, Directional, Explicit, LimitOfQuotient, Named, Partial, Quantity, Summed, Times
 from ..step import Relation, Step
 from ._general import ALONG, VECTOR, H
 

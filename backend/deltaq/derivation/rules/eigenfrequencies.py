@@ -11,9 +11,21 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from ..formula import Explicit, Formula, Named, Plus, Quantity, Term, Times, minus
+from ..formula import (
+    Determinant,
+    Explicit,
+    Formula,
+    Inserted,
+    MatrixTimes,
+    Named,
+    Plus,
+    Quantity,
+    Rounded,
+    Term,
+    Times,
+    minus,
+)
 from ..linearization import Linearization
-from ..matrix_formula import Determinant, Inserted, MatrixTimes, Rounded
 from ..modes import SymbolicModes, damped_root, symbolic_modes
 from ..spectrum import Spectrum
 from ..step import Relation, Step

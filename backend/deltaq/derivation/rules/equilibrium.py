@@ -9,10 +9,9 @@ from __future__ import annotations
 import sympy as sp
 
 from ..equilibria import free_coordinates
-from ..formula import Explicit, Named, Quantity
+from ..formula import AtEquilibrium, Explicit, Inserted, Named, Quantity, Rounded
 from ..linearization import Linearization
 from ..matrix_form import forcing
-from ..matrix_formula import AtEquilibrium, Inserted, Rounded
 from ..step import Relation, Step
 from ..system import System
 from ._shape import at_rest, numbers, shaped, zero

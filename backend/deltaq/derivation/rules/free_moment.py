@@ -9,8 +9,7 @@ import sympy as sp
 
 from ..abstract_motion import AbstractMotion, symbol
 from ..calculus import column
-from ..formula import Dot, Explicit, Named, Partial, Quantity, Times
-from ..function_formula import Called
+from ..formula import Called, Dot, Explicit, Named, Partial, Quantity, Times
 from ..step import Relation, Step
 
 RULE = "free-moment"

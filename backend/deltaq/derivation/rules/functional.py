@@ -6,8 +6,7 @@ Source: Gelfand, Fomin, Calculus of Variations, §1; the lecture's identity func
 from __future__ import annotations
 
 from ..domain import Instant, Interval
-from ..formula import Explicit, Formula, Quantity
-from ..function_formula import Called
+from ..formula import Called, Explicit, Formula, Quantity
 from ..functional import Functional
 from ..step import Relation, Step
 

@@ -7,8 +7,7 @@ Source: the lecture; Gelfand, Fomin, Calculus of Variations, §3.
 from __future__ import annotations
 
 from ..abstract_motion import AbstractMotion
-from ..formula import Explicit, Named, Partial, Quantity, Times
-from ..function_formula import Called, Directional
+from ..formula import Called, Directional, Explicit, Named, Partial, Quantity, Times
 from ..step import Relation, Step
 from ._general import H, V, X
 

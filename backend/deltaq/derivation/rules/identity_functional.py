@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from ...language.spelling import spell_rate
 from ..abstract_motion import T0, AbstractMotion, symbol
-from ..formula import Explicit, Quantity
-from ..function_formula import AtTime, Called, Directional
+from ..formula import AtTime, Called, Directional, Explicit, Quantity
 from ..step import Relation, Step
 from ._general import H, V, X
 

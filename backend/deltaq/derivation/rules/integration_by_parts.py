@@ -6,8 +6,7 @@ Source: Gelfand, Fomin, Calculus of Variations, §4; Lanczos, The Variational Pr
 from __future__ import annotations
 
 from ..differential_expression import direction
-from ..formula import Explicit, Formula, Partial, Plus, Rate, Term, Times, minus
-from ..function_formula import Boundary
+from ..formula import Boundary, Explicit, Formula, Partial, Plus, Rate, Term, Times, minus
 from ..functional import Functional
 from ..step import Relation, Step
 

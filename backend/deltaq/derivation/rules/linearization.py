@@ -9,10 +9,24 @@ from itertools import compress
 
 import sympy as sp
 
-from ..formula import Equation, Explicit, Formula, Named, Partial, Plus, Quantity, Term, minus
+from ..formula import (
+    AtEquilibrium,
+    Equation,
+    Explicit,
+    Formula,
+    Inserted,
+    Jacobian,
+    MatrixTimes,
+    Named,
+    Partial,
+    Plus,
+    Quantity,
+    Rounded,
+    Term,
+    minus,
+)
 from ..linearization import Linearization
 from ..matrix_form import forcing, mass_matrix
-from ..matrix_formula import AtEquilibrium, Inserted, Jacobian, MatrixTimes, Rounded
 from ..step import Relation, Step
 from ..system import System
 from ._shape import at_rest, is_scalar, matrices, motions, numbers, shaped, zero

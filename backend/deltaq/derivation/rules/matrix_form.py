@@ -7,9 +7,8 @@ Mechanics, 2nd ed., §19.
 from __future__ import annotations
 
 from ..calculus import column
-from ..formula import Equation, Explicit, Formula, Named, Partial, Plus, Quantity, Rate, Term, minus
+from ..formula import Equation, Explicit, Formula, MatrixTimes, Named, Partial, Plus, Quantity, Rate, Stack, Term, minus
 from ..matrix_form import forcing, mass_matrix
-from ..matrix_formula import MatrixTimes, Stack
 from ..step import Relation, Step
 from ..system import System
 from ._shape import is_scalar, plain_value, shaped

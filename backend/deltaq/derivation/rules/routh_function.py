@@ -10,8 +10,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ..conservation import Reduction
-from ..formula import Explicit, Named, Plus, Quantity, Term, Times, minus
-from ..matrix_formula import Inserted
+from ..formula import Explicit, Inserted, Named, Plus, Quantity, Term, Times, minus
 from ..step import Relation, Step
 from ..system import System
 

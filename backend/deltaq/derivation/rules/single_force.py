@@ -9,8 +9,7 @@ import sympy as sp
 
 from ..abstract_motion import AbstractMotion, symbol
 from ..calculus import column
-from ..formula import Dot, Explicit, Named, Partial, Plus, Quantity, Term, Times
-from ..function_formula import Called
+from ..formula import Called, Dot, Explicit, Named, Partial, Plus, Quantity, Term, Times
 from ..step import Relation, Step
 
 RULE = "single-force"

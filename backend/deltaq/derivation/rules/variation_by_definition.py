@@ -7,8 +7,7 @@ Source: Gelfand, Fomin, Calculus of Variations, §3; the lecture's definition.
 from __future__ import annotations
 
 from ..domain import Interval
-from ..formula import Explicit, Formula
-from ..function_formula import Directional
+from ..formula import Directional, Explicit, Formula
 from ..functional import Functional
 from ..step import Relation, Step
 from .functional import named, variation

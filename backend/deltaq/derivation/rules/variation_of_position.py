@@ -6,8 +6,7 @@ Source: the lecture; Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., eq. 
 from __future__ import annotations
 
 from ..abstract_motion import FREEDOM, AbstractMotion, q, summed, variation
-from ..formula import Quantity
-from ..function_formula import Called, Directional, Summed
+from ..formula import Called, Directional, Quantity, Summed
 from ..step import Relation, Step
 from ._general import H, lever, position, times_variation
 

@@ -1,12 +1,11 @@
-"""The differential operators of the language: dots and primes, δ, d, d/dt and ∂/∂x."""
+"""What the differential operators make of a tree: rates, δ, d, d/dt and ∂/∂x, and which of them are refused."""
 
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
-from .derivatives import Derivatives
-from .tokens import Token, between, fail
+from .cursor import Cursor
+from .tokens import between, fail
 from .tree import (
     Differential,
     Name,
@@ -24,70 +23,19 @@ from .tree import (
     walk,
 )
 
-if TYPE_CHECKING:
-    from .grammar import Grammar
-
 MAX_ORDER = 2
 
 
-class Operators:
-    """Reads what starts with a name or with a differential operator."""
+class Differentiation:
+    """Differentiates operands that have been read; the cursor counts the nodes and knows the names."""
 
-    def __init__(self, grammar: Grammar) -> None:
-        self._grammar = grammar
-        self._cursor = grammar.cursor
-        self._derivatives = Derivatives(grammar)
+    def __init__(self, cursor: Cursor) -> None:
+        self._cursor = cursor
 
-    def name(self) -> Node:
-        """A symbol. `phi(t)` is the coordinate φ as a function of time, not φ·t."""
-        token = self._cursor.take()
-        node = self._cursor.made(Name(token.text, token.span))
-        if self._kind(token.text) == "coordinate":
-            self._of_time()
-        return node
-
-    def prime(self, operand: Node, span: Span) -> Node:
-        """φ′, or φ′(t), which is the rate as a function of time."""
-        node = self.time_derivative(operand, span)
-        if isinstance(node, Rate):
-            self._of_time()
-        return node
-
-    def _of_time(self) -> None:
-        """Step over `(t)` after what depends on time anyway."""
-        ahead = [self._cursor.ahead(i) for i in range(3)]
-        if ahead[0].kind == "open" and ahead[0].text == "(" and ahead[1].text == "t" and ahead[2].kind == "close":
-            for _ in ahead:
-                self._cursor.take()
-
-    def _kind(self, name: str) -> str:
+    def kind(self, name: str) -> str:
+        """What a name stands for (coordinate, time, parameter …), "" if it is not known."""
         symbol = self._cursor.names.get(name)
         return symbol.kind if symbol else ""
-
-    def operator(self) -> Node:
-        """The operator ahead, applied."""
-        token = self._cursor.take()
-        match token.kind:
-            case "dot":
-                return self._dot(token)
-            case "variation":
-                return self._variation(token)
-            case "differential":
-                return self._differential(token)
-            case "diff":
-                return self._derivatives.diff(token)
-            case "partial":
-                return self._derivatives.partial(token)
-            case _:
-                return self._derivatives.derivative(token)
-
-    def _dot(self, token: Token) -> Node:
-        self._expect_operand(token)
-        operand = self._grammar.atom()
-        node = operand
-        for _ in range(int(token.text)):
-            node = self.time_derivative(node, between(token.span, self._cursor.previous.span))
-        return node
 
     def time_derivative(self, operand: Node, span: Span) -> Node:
         """d/dt: a coordinate becomes its rate; anything else is kept for the chain rule, which an algebra carries out.
@@ -95,7 +43,7 @@ class Operators:
         Orders above two do not occur in the equations of motion and are refused.
         """
         match operand:
-            case Name(name) if self._kind(name) == "coordinate":
+            case Name(name) if self.kind(name) == "coordinate":
                 return self._cursor.made(Rate(name, 1, span))
             case Rate(name, order) if order < MAX_ORDER:
                 return self._cursor.made(Rate(name, order + 1, span))
@@ -120,20 +68,10 @@ class Operators:
                 return rate and Product((*others, rate), span)
         return None
 
-    def _check_order(self, operand: Node, span: Span) -> None:
-        order = _order(operand) + 1
-        if order > MAX_ORDER:
-            fail("derivative-order", span, order=order)
-        if any(isinstance(n, Differential) for n in walk(operand)):
-            fail("derivative-of-differential", span)
-
-    def _variation(self, token: Token) -> Node:
+    def variation(self, operand: Node, span: Span) -> Node:
         """δq and δq̇, and δ of an expression by the chain rule: Σ ∂f/∂q δq + ∂f/∂q̇ δq̇."""
-        self._expect_operand(token)
-        operand = self._grammar.atom()
-        span = between(token.span, self._cursor.previous.span)
         match operand:
-            case Name(name) if self._kind(name) == "coordinate":
+            case Name(name) if self.kind(name) == "coordinate":
                 return self._cursor.made(Variation(name, span=span))
             case Name(name):
                 fail("variation-of-constant", span, name=name)
@@ -141,25 +79,28 @@ class Operators:
                 return self._cursor.made(Variation(name, order, span))
         if any(isinstance(n, (Variation, Differential)) for n in walk(operand)):
             fail("variation-of-variation", span)
-        moving = [(name, order) for name, order in sorted(_arguments(operand)) if self._kind(name) == "coordinate"]
+        moving = [(name, order) for name, order in sorted(_arguments(operand)) if self.kind(name) == "coordinate"]
         return self._chain(
             operand, span, [(_jet(name, order, span), Variation(name, order, span)) for name, order in moving]
         )
 
-    def _differential(self, token: Token) -> Node:
+    def differential(self, operand: Node, span: Span) -> Node:
         """dq and dt, and d of an expression by the chain rule: Σ ∂f/∂q dq + ∂f/∂t dt."""
-        self._expect_operand(token)
-        operand = self._grammar.atom()
-        span = between(token.span, self._cursor.previous.span)
         match operand:
-            case Name(name) if self._kind(name) in ("coordinate", "time"):
+            case Name(name) if self.kind(name) in ("coordinate", "time"):
                 return self._cursor.made(Differential(name, span))
             case Name(name):
                 fail("differential-of-constant", span, name=name)
         if any(isinstance(n, (Rate, Variation, Differential, TimeDerivative)) for n in walk(operand)):
             fail("differential-of-rate", span)
-        moving = [name for name, _ in sorted(_arguments(operand)) if self._kind(name) in ("coordinate", "time")]
+        moving = [name for name, _ in sorted(_arguments(operand)) if self.kind(name) in ("coordinate", "time")]
         return self._chain(operand, span, [(Name(name, span), Differential(name, span)) for name in moving])
+
+    def partial(self, operand: Node, variable: Node, span: Span) -> Node:
+        """∂/∂x for whatever may vary: π may not."""
+        if not isinstance(variable, (Name, Rate)) or variable == Name("pi"):
+            fail("derivative-variable", variable.span, text=self._cursor.slice(variable.span))
+        return self._cursor.made(PartialDerivative(operand, variable, span))
 
     def _chain(self, operand: Node, span: Span, pairs: list[tuple[Node, Node]]) -> Node:
         """Σ ∂(operand)/∂(variable) · change over all pairs of a variable and its change."""
@@ -171,10 +112,12 @@ class Operators:
             return self._cursor.made(Product((Number(Fraction(0), span), operand), span))
         return self._cursor.made(Sum(tuple(terms), span)) if len(terms) > 1 else terms[0]
 
-    def _expect_operand(self, token: Token) -> None:
-        ahead = self._cursor.token
-        if ahead.kind not in ("name", "open", "dot", "function"):
-            fail("operand-expected", token.span, operator=self._cursor.slice(token.span))
+    def _check_order(self, operand: Node, span: Span) -> None:
+        order = _order(operand) + 1
+        if order > MAX_ORDER:
+            fail("derivative-order", span, order=order)
+        if any(isinstance(n, Differential) for n in walk(operand)):
+            fail("derivative-of-differential", span)
 
 
 def _jet(name: str, order: int, span: Span) -> Name | Rate:
