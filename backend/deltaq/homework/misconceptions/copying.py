@@ -1,4 +1,4 @@
-"""Two names of the same kind are mixed up."""
+"""Mistakes in copying: the law is right, and a name or a coordinate is exchanged."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ from ..road import Road
 
 @dataclass(frozen=True, eq=False)
 class NamesMixedUp(Detour):
-    """m₁ and m₂, l₁ and l₂ or φ₁ and φ₂ are exchanged while copying from the drawing."""
+    """Two names of the same kind are mixed up.
+
+    m₁ and m₂, l₁ and l₂ or φ₁ and φ₂ are exchanged while copying from the drawing.
+    """
 
     id: ClassVar[str] = "names-mixed-up"
     likely: ClassVar[int] = 4
@@ -44,3 +47,31 @@ class NamesMixedUp(Detour):
     def _exchanged(self, value: V) -> V:
         first, second = map(self.q, self.about.split("/"))
         return value.xreplace({first: second, second: first})
+
+
+@dataclass(frozen=True, eq=False)
+class OtherCoordinate(Detour):
+    """The answer belongs to another coordinate.
+
+    Several equations are derived at once, and one ends up in the field of the other.
+    """
+
+    id: ClassVar[str] = "other-coordinate"
+    likely: ClassVar[int] = 1
+
+    @classmethod
+    def variants(cls, true: Road) -> Iterator[Self]:
+        if len(true.free) > 1:
+            yield from (cls(true.scene, true, q) for q in true.free)
+
+    def generalized_force(self, _coordinate: str, /) -> sp.Expr:
+        return self.true.generalized_force(self.about)
+
+    def momentum(self, _coordinate: str, /) -> sp.Expr:
+        return self.true.momentum(self.about)
+
+    def equation(self, _coordinate: str, /) -> sp.Expr:
+        return self.true.equation(self.about)
+
+    def linear_equation(self, _coordinate: str, /) -> sp.Expr:
+        return self.true.linear_equation(self.about)
