@@ -8,9 +8,9 @@ import sympy as sp
 from deltaq.derivation.abstract_motion import AbstractMotion, P, arbitrary, each, q, rate, sample, summed, total_rate
 from deltaq.derivation.carrying_out import GeneralAlgebra
 from deltaq.derivation.formula import Dot, Explicit, Formula, FunctionFormula, Over, Partial, Rate, Ratio, Times
+from deltaq.derivation.general_lagrange import cancellation, exchange, product_rule
+from deltaq.derivation.general_quantities import by_mass, for_each, half_square, lever, velocity
 from deltaq.derivation.proof import CHAPTERS, prove
-from deltaq.derivation.rules import general_cancellation, general_exchange, general_product_rule
-from deltaq.derivation.rules._general import by_mass, for_each, half_square, lever, velocity
 from deltaq.derivation.step import Relation, Step
 
 
@@ -22,7 +22,7 @@ def test_every_line_is_verified() -> None:
 
 def without_time(motion: AbstractMotion) -> Step:
     """v = ∂r/∂q q̇: wrong where the position depends on time."""
-    step = general_cancellation.apply(motion)
+    step = cancellation(motion)
     along = step.relations[0].members[2].terms[0].formula  # type: ignore[union-attr]
     return Step("wrong", "", (Relation((velocity(motion), along)),))
 
@@ -34,7 +34,7 @@ def other_index(motion: AbstractMotion) -> Step:
 
 def forgotten_term(motion: AbstractMotion) -> Step:
     """The product rule without its second term."""
-    (line,) = general_product_rule.apply(motion).relations
+    (line,) = product_rule(motion).relations
     return Step("wrong", "", (for_each(lambda i: Rate(lever(motion, i)), lambda i: lever(motion, i)), line))
 
 
@@ -58,7 +58,7 @@ def test_algebra_alone_catches_it(rule: object) -> None:
 
 def test_numbers_alone_catch_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(GeneralAlgebra, "holds", lambda *_: True)
-    (right, wrong) = prove({"both": (general_exchange.apply, other_index)}).steps()
+    (right, wrong) = prove({"both": (exchange, other_index)}).steps()
     assert (right.verified, wrong.verified) == (True, False)
 
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from importlib.resources import files
+from itertools import chain
 from pathlib import Path
 from string import Formatter
 
 import pytest
 
+from deltaq.derivation.abstract_motion import sample
 from deltaq.derivation.engine import derive
+from deltaq.derivation.proof import CHAPTERS
 from deltaq.errors import Problem
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.narration.catalog import LANGUAGES, catalog, filled, language_of, message, template, text
@@ -91,6 +94,13 @@ def test_every_rule_states_its_law_and_source() -> None:
         assert module.__doc__ is not None
         assert "Source:" in module.__doc__, f"{module.__name__} names no source"
         text("en", f"rules.steps.{module.RULE}.title")
+
+
+def test_every_step_of_the_general_proof_states_its_law_and_source() -> None:
+    for rule in chain.from_iterable(CHAPTERS.values()):
+        assert rule.__doc__ is not None
+        assert "Source:" in rule.__doc__, f"{rule.__name__} names no source"
+        text("en", f"rules.steps.{rule(sample()).rule}.title")
 
 
 def test_placeholders_are_filled_and_user_text_is_never_a_template() -> None:

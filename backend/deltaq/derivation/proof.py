@@ -14,55 +14,39 @@ from itertools import starmap
 from flint import arb
 
 from ..language.spelling import spell_rate
+from . import general_lagrange as lagrange
+from . import general_variations as variations
 from .abstract_motion import MOVING, AbstractMotion, arbitrary, sample
 from .carrying_out import GeneralAlgebra
 from .points import Point
-from .rules import (
-    chain_rule_of_direction,
-    chain_rule_of_variation,
-    dalembert_principle,
-    definition_of_generalized_force,
-    difference_quotient,
-    directional_derivative,
-    free_moment,
-    gateaux_definition,
-    general_cancellation,
-    general_decomposition,
-    general_exchange,
-    general_integral,
-    general_integrand,
-    general_lagrange_equation,
-    general_lagrange_function,
-    general_motion,
-    general_product_rule,
-    identity_functional,
-    single_force,
-    variation_of_position,
-)
 from .step import Chapter, Derivation, Step
 from .verification import POINTS, verified_step
 
 PROOF = "dalembert-lagrange"
 Rule = Callable[[AbstractMotion], Step]
 CHAPTERS: Mapping[str, tuple[Rule, ...]] = {
-    "directional-derivative": (general_motion.apply, difference_quotient.apply, directional_derivative.apply),
+    "directional-derivative": (
+        variations.configuration,
+        variations.difference_quotient,
+        variations.directional_derivative,
+    ),
     "first-variation": (
-        gateaux_definition.apply,
-        identity_functional.apply,
-        chain_rule_of_direction.apply,
-        chain_rule_of_variation.apply,
-        variation_of_position.apply,
+        variations.gateaux_definition,
+        variations.identity_functional,
+        variations.chain_rule_of_direction,
+        variations.chain_rule_of_variation,
+        variations.variation_of_position,
     ),
-    "generalized-forces": (definition_of_generalized_force.apply, single_force.apply, free_moment.apply),
-    "dalembert-principle": (dalembert_principle.apply,),
+    "generalized-forces": (variations.definition_of_generalized_force, variations.single_force, variations.free_moment),
+    "dalembert-principle": (lagrange.dalembert_principle,),
     "integrand": (
-        general_product_rule.apply,
-        general_cancellation.apply,
-        general_exchange.apply,
-        general_integrand.apply,
+        lagrange.product_rule,
+        lagrange.cancellation,
+        lagrange.exchange,
+        lagrange.integrand,
     ),
-    "lagrange-second-kind": (general_integral.apply, general_lagrange_equation.apply),
-    "lagrange-function": (general_decomposition.apply, general_lagrange_function.apply),
+    "lagrange-second-kind": (lagrange.integral, lagrange.lagrange_equation),
+    "lagrange-function": (lagrange.decomposition, lagrange.lagrange_function),
 }
 
 

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import sympy as sp
 
-from ..abstract_motion import BODY, VARIABLES, AbstractMotion, H, P, T, each, q, rate, symbol, variation
-from ..formula import (
+from .abstract_motion import BODY, VARIABLES, AbstractMotion, H, P, T, each, q, rate, summed, symbol, variation
+from .formula import (
     Called,
     Dot,
     Explicit,
@@ -19,11 +19,12 @@ from ..formula import (
     Quantity,
     Rate,
     Ratio,
+    Summed,
     Term,
     Times,
     minus,
 )
-from ..step import Relation
+from .step import Relation
 
 X, V = symbol("x"), symbol("v")
 VECTOR = {symbol(f"x_{n}"): symbol(f"v_{n}") for n in range(1, VARIABLES + 1)}
@@ -45,6 +46,7 @@ def position(motion: AbstractMotion) -> Named:
 
 
 def velocity(motion: AbstractMotion) -> Named:
+    """v"""
     return Named(Quantity("velocity"), motion.velocity)
 
 
@@ -121,3 +123,13 @@ def work_by_region(motion: AbstractMotion, arm: Formula) -> Plus:
             for region in ("S", "V")
         )
     )
+
+
+def displacement_by_coordinates(motion: AbstractMotion) -> Summed:
+    """∂r/∂qᵢ δqᵢ"""
+    return summed(lambda i: times_variation(lever(motion, i), i), "i")
+
+
+def displacement(motion: AbstractMotion) -> Called:
+    """δr"""
+    return Called(Quantity("virtual-displacement"), displacement_by_coordinates(motion))
