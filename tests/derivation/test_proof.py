@@ -7,7 +7,7 @@ import sympy as sp
 
 from deltaq.derivation.abstract_motion import AbstractMotion, P, arbitrary, each, q, rate, sample, summed, total_rate
 from deltaq.derivation.carrying_out import GeneralAlgebra
-from deltaq.derivation.formula import Dot, Explicit, Formula, FunctionFormula, Over, Partial, Rate, Ratio, Times
+from deltaq.derivation.formula import Dot, Explicit, Formula, FunctionFormula, MassIntegral, Partial, Rate, Ratio, Times
 from deltaq.derivation.general_lagrange import cancellation, exchange, product_rule
 from deltaq.derivation.general_quantities import by_mass, for_each, half_square, lever, velocity
 from deltaq.derivation.proof import CHAPTERS, prove
@@ -78,9 +78,9 @@ def test_integrals_are_compared_term_by_term() -> None:
     assert not algebra.holds(Relation((twice, once)))
 
 
-def scaled(integral: Over) -> Over:
+def scaled(integral: MassIntegral) -> MassIntegral:
     """q₁ ∫ … with the factor inside"""
-    return Over(Explicit(q("1")), integral.region, integral.element, integral.bounds, integral.weight)
+    return MassIntegral(Explicit(q("1")), integral.region, integral.element, integral.bounds, integral.weight)
 
 
 def test_what_stands_before_an_integral_is_not_integrated() -> None:

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from deltaq.language.memory import kept
+from deltaq.language.memory import cached_method
 
 
 class Above:
     def __init__(self) -> None:
         self.computed: list[str] = []
 
-    @kept
+    @cached_method
     def f(self, number: int = 0) -> str:
         self.computed.append(f"above {number}")
         return f"above {number}"
 
 
 class Below(Above):
-    @kept
+    @cached_method
     def f(self, number: int = 0) -> str:
         self.computed.append(f"below {number}")
         return f"below {number} and {super().f(number)}"
@@ -53,7 +53,7 @@ def test_a_class_above_answers_for_itself_whoever_was_asked_first() -> None:
 
 def test_functions_of_one_name_in_two_modules_keep_apart() -> None:
     """Functions that take the object are kept with it, too."""
-    functions = [kept(_named("f", module, module)) for module in ("one", "other")]
+    functions = [cached_method(_named("f", module, module)) for module in ("one", "other")]
     subject = Above()
     assert [function(subject) for function in functions * 2] == ["one", "other"] * 2
 

@@ -26,33 +26,33 @@ def ignore(_said: object) -> None:
     """Hear nothing of what comes before the answer."""
 
 
-class Audience:
+class Subscribers:
     """Those who wait for a computation, and hear what is said of it.
 
     Whatever is said replaces what was said before, so who comes late hears the newest and has missed nothing.
     """
 
     def __init__(self) -> None:
-        self._members: list[Hear] = []
+        self._subscribed: list[Hear] = []
         self._newest: Said | None = None
 
     def __len__(self) -> int:
-        return len(self._members)
+        return len(self._subscribed)
 
-    def enter(self, hear: Hear) -> None:
+    def add(self, hear: Hear) -> None:
         """Somebody waits, too."""
         if self._newest is not None:
             hear(self._newest)
-        self._members.append(hear)
+        self._subscribed.append(hear)
 
-    def leave(self, hear: Hear) -> None:
+    def remove(self, hear: Hear) -> None:
         """Somebody waits no more."""
-        self._members.remove(hear)
+        self._subscribed.remove(hear)
 
     def tell(self, said: Said) -> None:
         """Let all hear it."""
         self._newest = said
-        for hear in self._members:
+        for hear in self._subscribed:
             hear(said)
 
 
@@ -61,7 +61,7 @@ class Flight:
     """A computation under way, and who waits for it."""
 
     task: asyncio.Task[bytes]
-    audience: Audience
+    subscribers: Subscribers
 
 
 class Flights:
@@ -73,23 +73,23 @@ class Flights:
     async def join(self, key: str, compute: Compute, hear: Hear = ignore) -> bytes:
         """What `compute` gives; errors reach all who wait. Whoever asked first may go away; the others still wait."""
         flight = self._flights.get(key) or self._begin(key, compute)
-        flight.audience.enter(hear)
+        flight.subscribers.add(hear)
         try:
             return await asyncio.shield(flight.task)
         finally:
-            flight.audience.leave(hear)
-            if not flight.audience and not flight.task.done():
+            flight.subscribers.remove(hear)
+            if not flight.subscribers and not flight.task.done():
                 asyncio.get_running_loop().call_later(GRACE, self._give_up, key, flight)
 
     def _begin(self, key: str, compute: Compute) -> Flight:
-        audience = Audience()
-        flight = self._flights[key] = Flight(asyncio.ensure_future(_awaited(compute, audience.tell)), audience)
+        subscribers = Subscribers()
+        flight = self._flights[key] = Flight(asyncio.ensure_future(_awaited(compute, subscribers.tell)), subscribers)
         flight.task.add_done_callback(lambda _: self._end(key, flight))
         return flight
 
     def _give_up(self, key: str, flight: Flight) -> None:
         """End it if still nobody waits. It takes a moment to end, and who asks meanwhile must get another one."""
-        if not flight.audience:
+        if not flight.subscribers:
             self._forget(key, flight)
             flight.task.cancel()
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..language.spelling import spell_rate
 from .calculus import column
 from .formula import Bounds, Each, Formula, Summed, Value
@@ -72,13 +72,13 @@ class AbstractMotion:
         return column(self.make(f"r{k}", (P, T, *_coordinates())) for k in range(1, COMPONENTS + 1))
 
     @property
-    @kept
+    @cached_method
     def velocity(self) -> sp.ImmutableMatrix:
         """v = dr/dt"""
         return total_rate(self.position)
 
     @property
-    @kept
+    @cached_method
     def acceleration(self) -> sp.ImmutableMatrix:
         """a = dv/dt"""
         return total_rate(self.velocity)

@@ -13,7 +13,7 @@ import sympy as sp
 from ..language import canonical
 from ..language.form_calculus import PlainForm, plain_form
 from ..language.fourier import TooLargeError
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..language.sympy_algebra import rates_of, time_derivative, to_sympy
 from ..language.tree import Node
 from .formula import Given, Value
@@ -63,7 +63,7 @@ class Calculus(SceneSymbols):
         form = self._form(value)
         return value.diff(by) if form is None else form.derivative(by).expression
 
-    @kept
+    @cached_method
     def _form(self, value: sp.Expr) -> PlainForm | None:
         return plain_form(value)
 
@@ -71,7 +71,7 @@ class Calculus(SceneSymbols):
         """The shortest of a few equivalent forms."""
         return by_component(value, self._shown)
 
-    @kept
+    @cached_method
     def _shown(self, value: sp.Expr) -> sp.Expr:
         shown: sp.Expr = canonical.display(value, self.symbols)
         return shown
@@ -80,7 +80,7 @@ class Calculus(SceneSymbols):
         """∂value/∂by, in its display form."""
         return by_component(value, lambda component: self._shown_slope(component, by))
 
-    @kept
+    @cached_method
     def _shown_slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
         form = self._form(value)
         with suppress(TooLargeError):

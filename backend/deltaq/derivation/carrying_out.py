@@ -14,10 +14,10 @@ from functools import reduce
 
 import sympy as sp
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from . import formula as f
 from .abstract_motion import total_rate
-from .formula import AtTime, Called, Directional, Each, FunctionFormula, LimitOfQuotient, Over, Ratio, Summed
+from .formula import AtTime, Called, Directional, Each, FunctionFormula, LimitOfQuotient, MassIntegral, Ratio, Summed
 from .step import Relation
 
 AT = " at "  # in the symbol of a function's value at an instant
@@ -37,7 +37,7 @@ class GeneralAlgebra:
             return any(other != first for other in others)
         return all(other == first for other in others)
 
-    @kept
+    @cached_method
     def carried_out(self, formula: f.Formula) -> Values:  # noqa: PLR0911 - one case for each kind
         """The components of a formula with every operation done."""
         match formula:
@@ -68,7 +68,7 @@ class GeneralAlgebra:
                 return tuple(_directional(value, along, h) for value in self.carried_out(of))
             case AtTime(of, time):
                 return tuple(_at(value, time) for value in self.carried_out(of))
-            case Over(of, _, _, bounds, weight):
+            case MassIntegral(of, _, _, bounds, weight):
                 return tuple(_integral(weight * value, bounds) for value in self.carried_out(of))
             case Ratio(numerator, denominator):
                 return (_times(self.carried_out(numerator)[0], 1 / self.carried_out(denominator)[0]),)
@@ -78,7 +78,7 @@ class GeneralAlgebra:
                 return tuple(value for instance in instances for value in self.carried_out(instance))
         raise TypeError(f"{type(formula).__name__} is no part of a general proof")
 
-    @kept
+    @cached_method
     def normal(self, value: sp.Expr) -> sp.Expr:
         """Multiplied out."""
         return value.expand()

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from .system import System
 
 MOST_CYCLIC = 2
 
 
-@kept
+@cached_method
 def is_cyclic(system: System, coordinate: str) -> bool:
     """Whether neither L nor a force without potential acts on the coordinate: its momentum is conserved."""
     passive = system.is_zero(system.nonconservative_force(coordinate))
@@ -24,7 +24,7 @@ def cyclic(system: System) -> tuple[str, ...]:
     return tuple(q for q in system.free if is_cyclic(system, q))
 
 
-@kept
+@cached_method
 def jacobi_energy(system: System) -> sp.Expr:
     """h = Σ q̇ᵢ ∂L/∂q̇ᵢ − L"""
     work = sp.Add(*(system.rate(q) * system.momentum(q) for q in system.free))
@@ -32,19 +32,19 @@ def jacobi_energy(system: System) -> sp.Expr:
     return energy if system.is_zero(work - system.lagrangian - energy) else system.display(work - system.lagrangian)
 
 
-@kept
+@cached_method
 def power(system: System) -> sp.Expr:
     """Σ Qᵢᵈ q̇ᵢ: what the forces without potential feed in."""
     return system.display(sp.Add(*(system.nonconservative_force(q) * system.rate(q) for q in system.free)))
 
 
-@kept
+@cached_method
 def jacobi_energy_rate(system: System) -> sp.Expr:
     """dh/dt along the motion: Σ Qᵢᵈ q̇ᵢ − ∂L/∂t."""
     return system.display(power(system) - system.slope(system.lagrangian, system.t))
 
 
-@kept
+@cached_method
 def is_energy(system: System) -> bool:
     """Whether h = E + V."""
     return system.is_zero(jacobi_energy(system) - system.kinetic_energy - system.potential_energy)
@@ -59,7 +59,7 @@ class Reduction:
     function: sp.Expr
 
 
-@kept
+@cached_method
 def reduction(system: System) -> Reduction | None:
     """R(q, q̇, p) = L − Σ pᵢ q̇ᵢ of the cyclic coordinates; None where there is none, or nothing else that moves."""
     names = cyclic(system)

@@ -13,7 +13,7 @@ from ..errors import ExpressionError, Problem
 from ..language import canonical
 from ..language.form_calculus import PlainForm, plain_form
 from ..language.fourier import TooLargeError
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..language.names import Names
 from ..language.spelling import spell_rate
 from ..language.symbols import Symbols
@@ -93,7 +93,7 @@ class DifferentialExpression:
             raise ExpressionError(Problem("not-differentiable"))
         return self.display(found)
 
-    @kept
+    @cached_method
     def _form(self, value: sp.Expr) -> PlainForm | None:
         return plain_form(value)
 

@@ -11,12 +11,12 @@ from itertools import combinations
 import sympy as sp
 from flint import acb_mat, arb
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from .spectrum import ZERO
 from .system import System
 
 
-@kept
+@cached_method
 def dissipation_function(system: System, load: str) -> sp.Expr | None:
     """R of a load, if its forces are linear in the rates with a symmetric matrix."""
     rates = [system.rate(q) for q in system.free]
@@ -33,14 +33,14 @@ def dissipation_function(system: System, load: str) -> sp.Expr | None:
     return None if system.is_zero(function) else system.display(function)
 
 
-@kept
+@cached_method
 def dissipative_loads(system: System) -> tuple[str, ...]:
     """The loads without potential that have a dissipation function."""
     loads = (load for load in system.load_names if not system.is_conservative(load))
     return tuple(load for load in loads if dissipation_function(system, load) is not None)
 
 
-@kept
+@cached_method
 def remaining_loads(system: System) -> tuple[str, ...]:
     """The loads with neither potential nor dissipation function."""
     known = dissipative_loads(system)

@@ -15,7 +15,7 @@ from itertools import islice, product
 
 import sympy as sp
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..mechanics.coordinate import Coordinate
 from .closed_form import Known, Sought, closed_form
 from .compiled import compiled
@@ -50,7 +50,7 @@ class _Part:
     unknowns: tuple[Coordinate, ...]
 
 
-@kept
+@cached_method
 def equilibria(system: System) -> tuple[Equilibrium, ...] | None:
     """Those that were found; none where forces never vanish. None: there is no such thing, as time is in the laws."""
     if not is_autonomous(system):
@@ -176,7 +176,7 @@ def is_angle(system: System, q: sp.Symbol) -> bool:
     return bool(around) and q not in outside and all(slope.is_Integer for slope in around)
 
 
-@kept
+@cached_method
 def _waves(system: System) -> tuple[frozenset[sp.Expr], frozenset[sp.Symbol]]:
     """The sines and cosines in the equations of motion, and the symbols that stand outside them."""
     laws = sp.Tuple(*mass_matrix(system), *forcing(system))

@@ -209,7 +209,7 @@ class Boundary(FunctionFormula):
 
 
 @dataclass(frozen=True)
-class Over(FunctionFormula):
+class MassIntegral(FunctionFormula):
     """∫ of over a region of material, written with the element `element`: dm, dS, dV.
 
     One material coordinate stands for all, `weight` is the density of the element.

@@ -21,7 +21,7 @@ from .formula import (
     Formula,
     FunctionFormula,
     LimitOfQuotient,
-    Over,
+    MassIntegral,
     Ratio,
     Summed,
 )
@@ -51,7 +51,7 @@ def evaluate_functions(  # noqa: PLR0911 - one case for each kind
         case Boundary(of, lower, upper):
             end, start = (evaluate(of, _at(point, number(time, point))) for time in (upper, lower))
             return _quotient(end, start, arb(1))
-        case Over(of, _, _, bounds, weight):
+        case MassIntegral(of, _, _, bounds, weight):
             return integral(
                 lambda at: tuple(number(weight, at) * v for v in evaluate(of, at)), (bounds,), point, number, FEW
             )

@@ -12,8 +12,8 @@ from .formula import (
     Dot,
     Explicit,
     Formula,
+    MassIntegral,
     Named,
-    Over,
     Partial,
     Plus,
     Quantity,
@@ -65,12 +65,12 @@ def half_square(motion: AbstractMotion) -> Ratio:
     return Ratio(Dot(velocity(motion), velocity(motion)), Explicit(sp.Integer(2)))
 
 
-def by_mass(motion: AbstractMotion, of: Formula) -> Over:
+def by_mass(motion: AbstractMotion, of: Formula) -> MassIntegral:
     """∫ of dm over the body"""
-    return Over(of, "B", "m", BODY, motion.density)
+    return MassIntegral(of, "B", "m", BODY, motion.density)
 
 
-def inertia(motion: AbstractMotion, index: str) -> Over:
+def inertia(motion: AbstractMotion, index: str) -> MassIntegral:
     """∫ ∂r/∂qᵢ · dv/dt dm"""
     return by_mass(motion, Dot(lever(motion, index), acceleration(motion)))
 
@@ -112,7 +112,7 @@ def work_by_region(motion: AbstractMotion, arm: Formula) -> Plus:
     return Plus(
         tuple(
             Term(
-                Over(
+                MassIntegral(
                     Dot(arm, Named(Quantity("force-density", region), motion.force_density(region))),
                     region,
                     region,

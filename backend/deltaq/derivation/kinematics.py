@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..errors import InputError, SceneError
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..language.tree import Node
 from ..mechanics.contributions import DistributedForce
 from ..mechanics.material import Material
@@ -33,7 +33,7 @@ class Kinematics(Calculus):
                 return load.position
         return tuple(component.tree for component in self.scene.place(place))
 
-    @kept
+    @cached_method
     def position(self, place: str) -> sp.ImmutableMatrix:
         """r(P, t, q) with the guides put in."""
         return self.guided(self.vector(self.trees(place)))
@@ -73,12 +73,12 @@ class Kinematics(Calculus):
         """∂r/∂q"""
         return self.derivative(self.position(place), self.q(coordinate))
 
-    @kept
+    @cached_method
     def virtual_displacement(self, place: str) -> sp.ImmutableMatrix:
         """δr = ∂r/∂qᵢ δqᵢ"""
         return column(self.collected(self.vary(component)) for component in self.position(place))
 
-    @kept
+    @cached_method
     def velocity(self, place: str) -> sp.ImmutableMatrix:
         """v = dr/dt"""
         return self.display(column(self.time_derivative(component) for component in self.position(place)))

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import sympy as sp
 from flint import arb, ctx
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from .calculus import column
 from .equilibria import Equilibrium, equilibria, free_coordinates
 from .evaluation import components
@@ -47,7 +47,7 @@ class Linearization:
         return any(entry != 0 for entry in self.damping)
 
 
-@kept
+@cached_method
 def damping_at_rest(system: System) -> sp.ImmutableMatrix:
     """−∂f/∂q̇ at q̇ = 0, as a function of q."""
     at_rest = {system.rate(q): system.zero for q in system.free}
@@ -55,13 +55,13 @@ def damping_at_rest(system: System) -> sp.ImmutableMatrix:
     return system.display(sp.ImmutableMatrix(slopes))
 
 
-@kept
+@cached_method
 def stiffness_at_rest(system: System) -> sp.ImmutableMatrix:
     """−∂f/∂q at q̇ = 0, as a function of q."""
     return sp.ImmutableMatrix([[-f.diff(system.q(q)) for q in system.free] for f in forces_at_rest(system)])
 
 
-@kept
+@cached_method
 def linearizations(system: System) -> tuple[Linearization, ...]:
     """One for each equilibrium, stable ones first; of equilibria that are not isolated only one."""
     found = [_about(system, each) for each in equilibria(system) or ()]

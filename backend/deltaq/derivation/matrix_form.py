@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from .calculus import column
 from .system import System
 from .terms import terms_by_source
 
 
-@kept
+@cached_method
 def left_side(system: System, coordinate: str) -> sp.Expr:
     """d/dt ∂L/∂q̇ − ∂L/∂q − Qᵈ, written out."""
     terms = terms_by_source(system, coordinate)
     return sp.Add(*(term.sign * term.written_out for term in terms))
 
 
-@kept
+@cached_method
 def mass_matrix(system: System) -> sp.ImmutableMatrix:
     """M(q, t), symmetric."""
     accelerations = [system.acceleration(q) for q in system.free]
@@ -26,14 +26,14 @@ def mass_matrix(system: System) -> sp.ImmutableMatrix:
     )
 
 
-@kept
+@cached_method
 def forcing(system: System) -> sp.ImmutableMatrix:
     """f(q, q̇, t): what does not hang on accelerations, on the right."""
     at_rest = {system.acceleration(q): system.zero for q in system.free}
     return system.display(column(-left_side(system, q).xreplace(at_rest) for q in system.free))
 
 
-@kept
+@cached_method
 def forces_at_rest(system: System) -> sp.ImmutableMatrix:
     """f(q, 0, t): what acts while nothing moves."""
     at_rest = {system.rate(q): system.zero for q in system.free}

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import sympy as sp
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..language.tree import Node
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import PotentialEnergy
@@ -38,7 +38,7 @@ class System(Work):
         quantities = (Quantity("angular-velocity", part.body, axis) for axis in axes)
         return tuple(Named(quantity, value) for quantity, value in zip(quantities, values, strict=True))
 
-    @kept
+    @cached_method
     def inertia_work(self, coordinate: str) -> sp.Expr:
         """d/dt ∂E/∂q̇ᵢ − ∂E/∂qᵢ"""
         return self.display(self.euler_expression(self.kinetic_energy, coordinate))
@@ -53,7 +53,7 @@ class System(Work):
         """Every body, as a source of terms."""
         return tuple(f"body:{body.name}" for body in self.scene.bodies)
 
-    @kept
+    @cached_method
     def kinetic_energy_of(self, body: Body) -> sp.Expr:
         """The sum over what the body's kinetic energy comes down to."""
         return self.display(sp.Add(*(self._kinetic_energy(body, part) for part in body.kinetics)))
@@ -80,7 +80,7 @@ class System(Work):
         """E = Σ ∫ ½ v·v dm over all bodies."""
         return self.display(sp.Add(*(self.kinetic_energy_of(body) for body in self.scene.bodies)))
 
-    @kept
+    @cached_method
     def has_potential(self, load: str) -> bool:
         """Whether the load's forces have a potential: no rates in them, and a symmetric Jacobian."""
         forces = {self.q(q): self.load_force(load, q) for q in self.free}
@@ -106,7 +106,7 @@ class System(Work):
             raise ValueError(f"{load} has no potential in closed form")
         return found
 
-    @kept
+    @cached_method
     def _potential(self, load: str) -> sp.Expr | None:
         """V as given, or by line integral along the axes; up to a function of time. None: it has no closed form."""
         parts = [part for part in self.scene.contributions if part.source == load]
@@ -140,7 +140,7 @@ class System(Work):
         loads = (load for load in self.load_names if self.is_conservative(load))
         return self.display(sp.Add(*map(self.load_potential, loads)))
 
-    @kept
+    @cached_method
     def nonconservative_force(self, coordinate: str) -> sp.Expr:
         """Qᵢᵈ: what is left of Qᵢ when every load with a potential is taken out."""
         loads = (load for load in self.load_names if not self.is_conservative(load))
@@ -151,7 +151,7 @@ class System(Work):
         """L = E − V"""
         return self.kinetic_energy - self.potential_energy
 
-    @kept
+    @cached_method
     def momentum(self, coordinate: str) -> sp.Expr:
         """∂L/∂q̇"""
         return self.derivative(self.lagrangian, self.rate(coordinate))

@@ -12,7 +12,7 @@ from ..language.canonical import canonical
 from ..language.display import display_form
 from ..language.form_calculus import plain_forms
 from ..language.fourier import TooLargeError
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..language.normal_form import Reader
 from .formula import Explicit, Term
 from .provenance import Share, of_equation
@@ -23,7 +23,7 @@ K = TypeVar("K")
 V = TypeVar("V", bound=Any)
 
 
-@kept
+@cached_method
 def terms_by_source(system: System, coordinate: str) -> tuple[Term, ...]:
     """d/dt ∂L/∂q̇ − ∂L/∂q − Qᵈ written out, ordered from accelerations to forces."""
     return terms_of(system, of_equation(system, coordinate))

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..mechanics.contributions import (
     Contribution,
     DissipationFunction,
@@ -52,7 +52,7 @@ class Work(Kinematics):
         """M(q, q̇, t) with the guides put in."""
         return self.display(self.guided(self.expression(load.moment)))
 
-    @kept
+    @cached_method
     def virtual_work(self, load: Contribution) -> sp.Expr:
         """δW of one contribution, collected by the δq."""
         match load:
@@ -77,13 +77,13 @@ class Work(Kinematics):
         """What the load contributes to Qᵢ: the coefficient of δqᵢ."""
         return self.virtual_work(load).coeff(self.variation(coordinate))
 
-    @kept
+    @cached_method
     def load_force(self, load: str, coordinate: str) -> sp.Expr:
         """Qᵢ of all contributions of one load."""
         shares = [self.share(part, coordinate) for part in self.scene.contributions if part.source == load]
         return self.display(sp.Add(*shares)) if len(shares) > 1 else shares[0]
 
-    @kept
+    @cached_method
     def generalized_force(self, coordinate: str) -> sp.Expr:
         """Qᵢ of all loads."""
         return self.display(sp.Add(*(self.load_force(load, coordinate) for load in self.load_names)))

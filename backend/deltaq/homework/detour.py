@@ -11,7 +11,7 @@ from typing import ClassVar, Self
 
 import sympy as sp
 
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import Contribution
 from ..packages import classes_of
@@ -39,7 +39,7 @@ class Detour(Road):
         """Every way to make the mistake on a scene."""
         yield cls(true.scene, true)
 
-    @kept
+    @cached_method
     def _comes_before(self, law: str) -> bool:
         """Whether this road states everything that a law follows from as everybody does."""
         return self.scene is self.true.scene and not mistaken(type(self)) & premises(law)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..derivation.calculus import column
-from ..language.memory import kept
+from ..language.memory import cached_method
 from .equality import Parts
 from .road import Road
 
@@ -68,7 +68,7 @@ class OwnRoad(Road):
         own = self._own(f"equation:{coordinate}")
         return self._derived_equation(coordinate) if own is None else own
 
-    @kept
+    @cached_method
     def _derived_equation(self, coordinate: str) -> sp.Expr:
         """From their momentum and Lagrange function; from their forces where they wrote those and no potential."""
         q = self.q(coordinate)

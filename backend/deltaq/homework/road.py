@@ -12,7 +12,7 @@ from ..derivation.conservation import cyclic, jacobi_energy, jacobi_energy_rate
 from ..derivation.linearization import linearizations
 from ..derivation.system import System
 from ..language.canonical import display
-from ..language.memory import kept
+from ..language.memory import cached_method
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +22,7 @@ class Road(System):
     def display(self, value: V) -> V:
         return value
 
-    @kept
+    @cached_method
     def momentum_rate(self, coordinate: str) -> sp.Expr:
         """d/dt ∂E/∂q̇"""
         return self.time_derivative(self.kinetic_energy.diff(self.rate(coordinate)))
@@ -35,7 +35,7 @@ class Road(System):
         """∂V/∂q"""
         return self.potential_energy.diff(self.q(coordinate))
 
-    @kept
+    @cached_method
     def equation(self, coordinate: str) -> sp.Expr:
         """d/dt ∂E/∂q̇ − ∂E/∂q + ∂V/∂q − Qᵈ, the left side of `… = 0`."""
         inertia = self.momentum_rate(coordinate) - self.energy_slope(coordinate)
@@ -54,7 +54,7 @@ class Road(System):
         still = {symbol: self.zero for q in self.free for symbol in (self.rate(q), self.acceleration(q))}
         return value.xreplace(still).xreplace(self.rest or {})
 
-    @kept
+    @cached_method
     def linear_row(self, coordinate: str) -> tuple[tuple[sp.Expr, ...], ...]:
         """The rows of M₀, D₀ and K₀ that belong to a coordinate."""
         equation = self.equation(coordinate)
@@ -62,7 +62,7 @@ class Road(System):
         rows = [[self._at_rest(self.slope(equation, kind(q))) for q in self.free] for kind in kinds]
         return tuple(tuple(display(entry, self.symbols) for entry in row) for row in rows)
 
-    @kept
+    @cached_method
     def linear_equation(self, coordinate: str) -> sp.Expr:
         """M₀ẍ + D₀ẋ + K₀x about the equilibrium; the deviation x goes by the name of its coordinate."""
         kinds = (self.acceleration, self.rate, self.q)

@@ -15,7 +15,7 @@ from functools import cached_property
 import sympy as sp
 
 from ..derivation.compiled import Function, compiled
-from ..language.memory import kept
+from ..language.memory import cached_method
 from .road import Road
 
 POINTS = 6
@@ -61,13 +61,13 @@ class Sampler:
         except (TypeError, KeyError):
             return lambda _: math.nan
 
-    @kept
+    @cached_method
     def values(self, expression: sp.Expr) -> Values:
         """The value at every point; NaN where it is not defined."""
         function = self._function(expression)
         return tuple(function(point) for point in self.points)
 
-    @kept
+    @cached_method
     def rows(self, residual: sp.Expr) -> tuple[Values, ...]:
         """The row (a₁ … a_f, b) of a residual Σ aᵢ q̈ᵢ + b at every point; NaN where it is not of this form."""
         function = self._function(residual)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..language.canonical import display
-from ..language.memory import kept
+from ..language.memory import cached_method
 from .equality import Parts
 from .sampling import Sampler, Values, close
 
@@ -33,7 +33,7 @@ class Slips:
     form: str
     up_to_constant: bool = False
 
-    @kept
+    @cached_method
     def _terms(self, base: Parts) -> tuple[tuple[int, sp.Expr, Values], ...]:
         """Every term of every part, with its values."""
         symbols = self.sampler.road.symbols

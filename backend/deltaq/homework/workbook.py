@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 
 from ..errors import InputError
 from ..language.canonical import display
-from ..language.memory import kept
+from ..language.memory import cached_method
 from ..mechanics.requests import changed_scene
 from ..mechanics.scene import Scene
 from .detour import Detour, misconceptions
@@ -53,17 +53,17 @@ class Workbook:
         """All that can be asked about the scene."""
         return tuple(tasks_of(self.road))
 
-    @kept
+    @cached_method
     def task(self, identifier: str) -> Task:
         """The task of this id. Raises UnknownNameError."""
         return task_of(self.road, identifier)
 
-    @kept
+    @cached_method
     def right(self, task: Task) -> Parts:
         """The right answer to a task."""
         return task.value(self.road)
 
-    @kept
+    @cached_method
     def shown(self, task: Task) -> Parts:
         """The right answer in its display form."""
         return self.short(self.right(task))
@@ -72,7 +72,7 @@ class Workbook:
         """Any answer in its display form."""
         return tuple(display(part.expand(), self.road.symbols) for part in parts)
 
-    @kept
+    @cached_method
     def fingerprint(self, task: Task) -> Fingerprint | None:
         """Numbers that every right answer to the task shares; None where numbers cannot tell."""
         return task.quantity.equality.fingerprint(self.right(task), self.sampler)
@@ -82,7 +82,7 @@ class Workbook:
         """Every misconception in every way it can be made on this scene."""
         return tuple(detour for kind in misconceptions() for detour in kind.variants(self.road))
 
-    @kept
+    @cached_method
     def candidates(self, task: Task) -> tuple[Candidate, ...]:
         """The wrong answers to a task, each road that changes the answer once, the likely ones first."""
         size = sum(part.count_ops() for part in self.right(task))

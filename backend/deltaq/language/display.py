@@ -12,7 +12,7 @@ import sympy
 from ..errors import ExpressionError, Problem
 from .arrangement import Arrangement
 from .fourier import Form, TooLargeError
-from .memory import kept
+from .memory import cached_method
 from .normal_form import Reader
 from .order import Order, split_symbol
 from .symbols import Symbols
@@ -45,7 +45,7 @@ def display_form(form: Form, reader: Reader, symbols: Symbols) -> Any:
     return arranged if moves else min(arranged, reader.expression(form), key=size)
 
 
-@kept
+@cached_method
 def _order(symbols: Symbols) -> Order:
     return Order(symbols.names)
 

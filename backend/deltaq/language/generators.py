@@ -9,7 +9,7 @@ from flint import fmpq
 
 from . import fourier
 from .fourier import ONE, Form, Monomial, Phase, TooLargeError
-from .memory import kept
+from .memory import cached_method
 
 _MAX_WORK = 60_000
 
@@ -90,7 +90,7 @@ class Generators:
         number = sympy.Rational(int(coefficient.p), int(coefficient.q))
         return sympy.Mul(number, self.monomial(mono), self.wave(phase, sine=sine))
 
-    @kept
+    @cached_method
     def wave(self, phase: Phase, *, sine: bool) -> Any:
         """cos(phase) or sin(phase) in SymPy."""
         if not phase:
@@ -98,7 +98,7 @@ class Generators:
         angle = sympy.Add(*(rational(c) * self.monomial(mono) for mono, c in phase))
         return sympy.sin(angle) if sine else sympy.cos(angle)
 
-    @kept
+    @cached_method
     def monomial(self, mono: Monomial) -> Any:
         """A monomial in SymPy."""
         return sympy.Mul(*(self.generator(name) ** rational(e) for name, e in mono))

@@ -9,7 +9,7 @@ from typing import Any
 import sympy
 
 from .functions import FUNCTIONS
-from .memory import kept
+from .memory import cached_method
 from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, decimal, exact, fraction_parts, is_decimal, signed_sum
 from .order import split_symbol
 from .typography import Mark, Typography, unmarked
@@ -33,7 +33,7 @@ def latex(expr: Any, typography: Typography) -> str:
     return _printer(typography).text(sympy.sympify(expr, strict=True), 0)
 
 
-@kept
+@cached_method
 def _printer(typography: Typography) -> _Latex:
     return _Latex(typography)
 
@@ -47,7 +47,7 @@ class _Latex:
         text, own = self._with_binding(expr)
         return _bracketed(text) if own < binding else text
 
-    @kept
+    @cached_method
     def _with_binding(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
         if expr.is_Symbol:
             return self._typography.symbol(expr.name), ATOM if split_symbol(expr.name)[0] < 4 else PRODUCT
@@ -104,7 +104,7 @@ class _Latex:
             following = factor
         return text or "1"
 
-    @kept
+    @cached_method
     def _factor(self, factor: sympy.Expr, *, closed: bool, alone: bool) -> str:
         base, exponent = base_exponent(factor)
         if _takes_power(base, exponent):

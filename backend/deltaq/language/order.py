@@ -15,7 +15,7 @@ from typing import Any
 
 import sympy
 
-from .memory import kept
+from .memory import cached_method
 from .names import Names
 from .numerals import base_exponent
 from .spelling import GREEK_NAMES
@@ -64,7 +64,7 @@ class Order:
         coordinates = self.names.coordinates if self.names else ()
         object.__setattr__(self, "_places", {name: i for i, name in enumerate(coordinates)})
 
-    @kept
+    @cached_method
     def is_moving(self, symbol: sympy.Symbol) -> bool:
         """Whether a symbol is a coordinate, time, a rate, dq or δq, and not a parameter."""
         kind, base = split_symbol(symbol.name)
@@ -77,7 +77,7 @@ class Order:
         """Of a coordinate among the coordinates; time comes last."""
         return (base == "t", self._places.get(base, len(self._places)), natural(base))
 
-    @kept
+    @cached_method
     def factor(self, factor: sympy.Expr) -> Key:
         """Sort key of a factor inside a product."""
         base, exponent = base_exponent(factor)
@@ -105,7 +105,7 @@ class Order:
             return (5, (self.place(base),), ())
         return (3, (_head_rank(base),), natural(base))
 
-    @kept
+    @cached_method
     def term(self, term: sympy.Expr) -> Key:
         """Sort key of a term inside a sum."""
         powers: dict[int, dict[Key, float]] = {}

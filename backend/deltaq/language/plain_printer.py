@@ -12,7 +12,7 @@ from typing import Any
 
 import sympy
 
-from .memory import kept
+from .memory import cached_method
 from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, fraction_parts, plain_number, signed_sum
 from .order import Order
 
@@ -30,7 +30,7 @@ def plain(expr: Any, order: Order | None = None) -> str:
     return _printer(order or Order()).text(sympy.sympify(expr, strict=True), 0)
 
 
-@kept
+@cached_method
 def _printer(order: Order) -> _Plain:
     return _Plain(order)
 
@@ -51,7 +51,7 @@ class _Plain:
         text, own = self._with_binding(expr)
         return f"({text})" if own < binding else text
 
-    @kept
+    @cached_method
     def _with_binding(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
         if expr.is_Symbol:
             return expr.name, ATOM

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy
 
-from .memory import kept
+from .memory import cached_method
 from .names import Names
 from .spelling import spell_rate
 
@@ -17,7 +17,7 @@ class Symbols:
 
     names: Names
 
-    @kept
+    @cached_method
     def name(self, name: str) -> sympy.Expr:
         """The symbol of a parameter, coordinate, material coordinate or `t`; the number π for `pi`."""
         if name == "pi":
@@ -27,12 +27,12 @@ class Symbols:
             return sympy.Symbol(name, real=True, positive=True)
         return sympy.Symbol(name, real=True)
 
-    @kept
+    @cached_method
     def rate(self, name: str, order: int = 1) -> sympy.Symbol:
         """q̇ (order 1), q̈ (order 2)."""
         return sympy.Symbol(spell_rate(name, order), real=True)
 
-    @kept
+    @cached_method
     def variation(self, name: str, order: int = 0) -> sympy.Symbol:
         """δq, δq̇ (order 1), δq̈ (order 2)."""
         return sympy.Symbol(spell_rate(f"delta({name})", order), real=True)

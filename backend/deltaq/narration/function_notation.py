@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 
 from ..derivation.differential_expression import direction
-from ..derivation.formula import Explicit, Formula, Given, Over, Partial, Quantity, Rate, Times
+from ..derivation.formula import Explicit, Formula, Given, MassIntegral, Partial, Quantity, Rate, Times
 from ..language.latex_printer import Typography
 from ..language.order import split_symbol
 from ..language.spelling import latex_of
@@ -87,7 +87,7 @@ class FunctionNotation(Notation):
     def _bracketed(self, factor: Formula) -> str:
         """An integral over a region ends with its element, so that a factor behind it needs brackets before it."""
         text = self.factor(factor)
-        return rf"\left({text}\right)" if isinstance(factor, Over) else text
+        return rf"\left({text}\right)" if isinstance(factor, MassIntegral) else text
 
     def applied(self, quantity: Quantity, arguments: tuple[sp.Expr, ...]) -> str:
         """f(x(t) + h v(t)); the neighbour needs no brackets of its own as an argument."""

@@ -24,9 +24,9 @@ from ..derivation.formula import (
     Given,
     Integral,
     LimitOfQuotient,
+    MassIntegral,
     MatrixFormula,
     Named,
-    Over,
     Partial,
     Plus,
     Quantity,
@@ -200,7 +200,7 @@ def write_function(notation: Notation, formula: FunctionFormula) -> str:
         case Boundary(of, lower, upper):
             ends = rf"_{{{notation.value(lower)}}}^{{{notation.value(upper)}}}"
             return rf"\left[{notation.formula(of)}\right]{ends}"
-        case Over(of, region, element):
+        case MassIntegral(of, region, element):
             return rf"\int_{{{REGIONS[region]}}} {notation.factor(of)} \,\mathrm{{d}}{element}"
         case Ratio(numerator, denominator):
             return rf"\frac{{{notation.formula(numerator)}}}{{{notation.formula(denominator)}}}"

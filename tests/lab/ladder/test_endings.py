@@ -15,7 +15,7 @@ from deltaq.lab.experiments import fidelity
 from deltaq.lab.ladder.centre import starting
 from deltaq.lab.ladder.ending import DIGITS, EVENT, PASSAGE, START, WHOLE, known
 from deltaq.lab.ladder.findings import FULL
-from deltaq.lab.ladder.measurement import Accuracy, ride, yardstick
+from deltaq.lab.ladder.measurement import Accuracy, run_rung, yardstick
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
@@ -108,7 +108,7 @@ def test_no_rung_is_lost_because_it_is_asked_to_be_finer_than_its_own_rounding()
 def test_the_full_motion_is_known_only_as_long_as_it_is_far_finer_than_what_is_allowed(tolerance: float) -> None:
     """Chaos: the error of a rough run grows to all of the motion, and at the end told it is still below the allowed."""
     scene, span = starting(load_scene("double-pendulum"), {"phi1": (2.5, 0.0), "phi2": (2.0, 0.0)}), 12.0
-    fine = ride(scene, span, FLAG, Accuracy(1e-11, 1601))
+    fine = run_rung(scene, span, FLAG, Accuracy(1e-11, 1601))
     rough = replace(fine, trajectory=simulate(fine.problem, get_method("rk4"), step=0.005))
     full, ending = known(rough, tolerance)
     truth = yardstick(fine)

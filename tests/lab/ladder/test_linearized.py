@@ -11,9 +11,9 @@ from deltaq.lab.ladder.building import simplified
 from deltaq.lab.ladder.centre import centre_of
 from deltaq.lab.ladder.distance import Yardstick
 from deltaq.lab.ladder.findings import Part
-from deltaq.lab.ladder.footing import Footing
 from deltaq.lab.ladder.mean import Mean
-from deltaq.lab.ladder.measurement import deviation, full_ride, ride, yardstick
+from deltaq.lab.ladder.measurement import deviation, full_run, run_rung, yardstick
+from deltaq.lab.ladder.simplification import SimplificationContext
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.scene import Scene
@@ -26,35 +26,35 @@ SPAN, SMALL = 3.0, 1e-3
 
 
 def motion(scene: Scene) -> Yardstick:
-    return yardstick(full_ride(scene, SPAN, np.zeros(1, dtype=np.int64)))
+    return yardstick(full_run(scene, SPAN, np.zeros(1, dtype=np.int64)))
 
 
-def footing(scene: Scene) -> Footing:
+def context(scene: Scene) -> SimplificationContext:
     centre = centre_of(scene, motion(scene))
-    return Footing(scene, centre.values if centre else {}, Mean.of(scene, SPAN))
+    return SimplificationContext(scene, centre.values if centre else {}, Mean.of(scene, SPAN))
 
 
-def has_rest(found: Footing) -> bool:
+def has_rest(found: SimplificationContext) -> bool:
     return all(each.name in found.centre for each in found.scene.free) and not found.scene.guides
 
 
 @pytest.fixture(scope="module")
-def resting() -> dict[str, Footing]:
+def resting() -> dict[str, SimplificationContext]:
     """Every scene with a position of rest."""
-    every = {identifier: footing(load_scene(identifier)) for identifier in scene_ids()}
+    every = {identifier: context(load_scene(identifier)) for identifier in scene_ids()}
     return {identifier: found for identifier, found in every.items() if has_rest(found)}
 
 
-def test_most_scenes_have_rest(resting: dict[str, Footing]) -> None:
+def test_most_scenes_have_rest(resting: dict[str, SimplificationContext]) -> None:
     assert len(resting) >= 12
 
 
-def test_eigenvalues_are_those_of_the_full_scene_at_rest(resting: dict[str, Footing]) -> None:
+def test_eigenvalues_are_those_of_the_full_scene_at_rest(resting: dict[str, SimplificationContext]) -> None:
     wrong = {identifier: pair for identifier, full in resting.items() for pair in _eigenvalues(full)}
     assert wrong == {}
 
 
-def _eigenvalues(full: Footing) -> Iterator[tuple[list[complex], list[complex]]]:
+def _eigenvalues(full: SimplificationContext) -> Iterator[tuple[list[complex], list[complex]]]:
     """Those of the full scene at rest and of the linearized one, if they differ."""
     rest = np.array([full.centre[each.name] for each in full.scene.free])
     state = np.concatenate([rest, np.zeros(len(rest))])
@@ -74,10 +74,10 @@ def test_driven_scenes_too_are_right_for_small_amplitudes(identifier: str) -> No
     scene = load_scene(identifier)
     centre = centre_of(scene, motion(scene))
     assert centre is not None
-    small = footing(scene).with_scene(centre.at(SMALL))
+    small = context(scene).with_scene(centre.at(SMALL))
     flag = np.zeros(1, dtype=np.int64)
     below = simplified(small, LINEARIZED)
-    found = deviation(yardstick(ride(small.scene, SPAN, flag)), ride(below.scene, SPAN, flag), below.back)
+    found = deviation(yardstick(run_rung(small.scene, SPAN, flag)), run_rung(below.scene, SPAN, flag), below.back)
     assert found is not None
     assert found.relative is not None
     assert found.relative < 2 * SMALL
@@ -108,7 +108,7 @@ def test_follower_and_gyroscopic_forces_become_forces_along_the_coordinates() ->
             ],
         }
     )
-    found = simplified(footing(scene), LINEARIZED).scene
+    found = simplified(context(scene), LINEARIZED).scene
     forces = {load.name: tuple(part.text for part in load.force) for load in found.loads if load.kind == "force"}
     assert {load.name for load in found.loads} == {"restoring", "along_x", "along_y"}
     assert forces == {"along_x": ("c*y + b*dot(y)", "0"), "along_y": ("(-c)*x + (-b)*dot(x)", "0")}

@@ -13,7 +13,7 @@ from tests.lab.ladder.climbing import climbed
 from tests.lab.ladder.observers import Observer, Verdict
 
 from deltaq.lab.ladder.distance import Yardstick
-from deltaq.lab.ladder.measurement import full_ride, yardstick
+from deltaq.lab.ladder.measurement import full_run, yardstick
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
@@ -22,7 +22,7 @@ SPRING = {"kind": "potential", "name": "spring", "energy": "k*(x2 - x1 - 1)^2/2"
 
 
 def measured(scene: Scene, span: float) -> Yardstick:
-    return yardstick(full_ride(scene, span, np.zeros(1, dtype=np.int64)))
+    return yardstick(full_run(scene, span, np.zeros(1, dtype=np.int64)))
 
 
 def moving(scene: Scene, **rates: float) -> Scene:

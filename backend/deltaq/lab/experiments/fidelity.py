@@ -24,7 +24,7 @@ from ..ladder.climb import climb
 from ..ladder.distance import Yardstick
 from ..ladder.ending import known
 from ..ladder.findings import Finding, Growth, Ladder, Least, Measured, Rung
-from ..ladder.measurement import full_ride
+from ..ladder.measurement import full_run
 from ..measurement import Point, Setting, too_slow, warm
 from ..report import Document, Report, appended, machine, measured, rounded, significant
 from ..subject import Subject, subject_of
@@ -104,7 +104,7 @@ def _growth(found: Growth) -> Document:
 def _methods(subject: Subject, tolerance: float) -> Iterator[list[Document]]:
     """The full model by several methods, roughly and finely, in the same measure as the rungs, for as long."""
     flag = np.zeros(1, dtype=np.int64)
-    full, _ = known(full_ride(subject.scene, subject.problem.t_end, flag, tolerance), tolerance)
+    full, _ = known(full_run(subject.scene, subject.problem.t_end, flag, tolerance), tolerance)
     if not full.end > 0.0:
         yield from ([] for _ in METHODS)
         return

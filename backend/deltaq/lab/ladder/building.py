@@ -13,7 +13,7 @@ from ...mechanics.scene import Scene
 from ...mechanics.writing import write_scene
 from ...packages import modules_of
 from .findings import FULL, Part, Rung
-from .footing import Back, Footing, Kind, Motion, Simplified
+from .simplification import Back, Kind, Motion, SimplificationContext, Simplified
 
 MOST_RUNGS, MOST_OF_KIND = 20, 6
 LONGEST_CHAIN = 3
@@ -27,34 +27,34 @@ def kinds() -> dict[str, Kind]:
     return {kind.id: kind for kind in found}
 
 
-def chains(footing: Footing) -> tuple[Chain, ...]:
+def chains(context: SimplificationContext) -> tuple[Chain, ...]:
     """The simplifications to try, the shortest chains first, no more than a ladder needs."""
-    found = sorted(_chains(footing, tuple(kinds())), key=len)
+    found = sorted(_chains(context, tuple(kinds())), key=len)
     return tuple(islice(found, MOST_RUNGS - 1))
 
 
-def _chains(footing: Footing, allowed: tuple[str, ...], depth: int = 1) -> Iterator[Chain]:
+def _chains(context: SimplificationContext, allowed: tuple[str, ...], depth: int = 1) -> Iterator[Chain]:
     for kind in (kinds()[name] for name in allowed):
-        for part in islice(kind.offered(footing), MOST_OF_KIND):
+        for part in islice(kind.offered(context), MOST_OF_KIND):
             yield (part,)
             if depth < LONGEST_CHAIN and kind.followers:
-                yield from ((part, *rest) for rest in _after(footing, part, depth))
+                yield from ((part, *rest) for rest in _after(context, part, depth))
 
 
-def _after(footing: Footing, part: Part, depth: int) -> Iterator[Chain]:
+def _after(context: SimplificationContext, part: Part, depth: int) -> Iterator[Chain]:
     kind = kinds()[part.kind]
     try:
-        below = footing.with_scene(kind.simplify(footing, part).scene)
+        below = context.with_scene(kind.simplify(context, part).scene)
     except InputError:  # the rung itself will say so
         return
     yield from _chains(below, kind.followers, depth + 1)
 
 
-def simplified(footing: Footing, chain: Chain) -> Simplified:
+def simplified(context: SimplificationContext, chain: Chain) -> Simplified:
     """The scene at the end of a chain, and the way back from it. Raises InputError where there is none."""
-    scene, back = footing.scene, Simplified(footing.scene).back
+    scene, back = context.scene, Simplified(context.scene).back
     for part in chain:
-        step = kinds()[part.kind].simplify(footing.with_scene(scene), part)
+        step = kinds()[part.kind].simplify(context.with_scene(scene), part)
         scene, back = step.scene, _both(step.back, back)
     return Simplified(_renamed(scene, chain), back)
 
@@ -72,11 +72,11 @@ def _renamed(scene: Scene, chain: Chain) -> Scene:
     return replace(scene, id=name if IDENTIFIER.fullmatch(name) else scene.id)
 
 
-def rung_of(footing: Footing, chain: Chain) -> Rung:
+def rung_of(context: SimplificationContext, chain: Chain) -> Rung:
     """The rung of a chain; its scene is read back from its document, so that it is one that anyone could send."""
     name = "+".join(part.id for part in chain) or FULL
     try:
-        document = write_scene(simplified(footing, chain).scene)
+        document = write_scene(simplified(context, chain).scene)
         return Rung(name, chain, len(read_scene(document).free), document)
     except InputError as error:
         return Rung(name, chain, 0, None, error.problems)

@@ -18,10 +18,10 @@ from .centre import Centre, centre_of
 from .distance import Yardstick
 from .ending import DIGITS, known
 from .findings import Deviation, Finding, Growth, Ladder, Least, Measured, Rung
-from .footing import Footing
 from .mean import Mean
-from .measurement import CERTAIN, Ride, cost, deviation, full_ride, ride_along, yardstick
+from .measurement import CERTAIN, RungRun, cost, deviation, full_run, ride_along, yardstick
 from .nudge import WAYS, allowed, nudged
+from .simplification import SimplificationContext
 from .verdict import is_within, lasts, least
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0)
@@ -46,15 +46,15 @@ def climb(
     """
     _check(span, amplitudes, tolerance, repeats)
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    full, ending = known(full_ride(scene, span, flag, tolerance), tolerance)
+    full, ending = known(full_run(scene, span, flag, tolerance), tolerance)
     centre = centre_of(scene, full)
-    footing = Footing(scene, centre.values if centre else {}, Mean.of(scene, span))
-    found = [rung_of(footing, chain) for chain in ((), *chains(footing))]
+    context = SimplificationContext(scene, centre.values if centre else {}, Mean.of(scene, span))
+    found = [rung_of(context, chain) for chain in ((), *chains(context))]
     factors = tuple(sorted({1.0, *amplitudes})) if centre else (1.0,)
     sound = [rung for rung in found if rung.scene is not None]
     count = len(sound) + (len(sound) - 1) * (len(factors) > 1) + 1
     yield Ladder(tuple(found), dict(centre.values) if centre else {}, span, factors, count)
-    yield from _Climb(footing, centre, full, ending, tolerance, factors, repeats, flag).findings(sound)
+    yield from _Climb(context, centre, full, ending, tolerance, factors, repeats, flag).findings(sound)
 
 
 def _check(span: float, amplitudes: Sequence[float], tolerance: float, repeats: int) -> None:
@@ -77,7 +77,7 @@ def _check(span: float, amplitudes: Sequence[float], tolerance: float, repeats: 
 
 @dataclass(frozen=True)
 class _Climb:
-    footing: Footing
+    context: SimplificationContext
     centre: Centre | None
     full: Yardstick
     ending: str
@@ -93,7 +93,7 @@ class _Climb:
             if self.cancelled[0]:
                 return
             yield measured[-1]
-        others = {factor: self._full(self._footing(factor)) for factor in self.amplitudes if factor != 1.0}
+        others = {factor: self._full(self._context(factor)) for factor in self.amplitudes if factor != 1.0}
         full = {1.0: self.full} | others
         for rung in rungs if others else ():
             if rung.parts and not self.cancelled[0]:
@@ -112,27 +112,27 @@ class _Climb:
             return Least(self.tolerance, found, self.full.end, self.ending)
         return Least(self.tolerance, found, end, self.ending or DIGITS)
 
-    def _full(self, footing: Footing) -> Yardstick:
+    def _full(self, context: SimplificationContext) -> Yardstick:
         """The full motion from other initial values."""
-        return known(self._ridden(footing, math.inf), self.tolerance)[0]
+        return known(self._ridden(context, math.inf), self.tolerance)[0]
 
-    def _full_beside(self, footing: Footing) -> Yardstick:
+    def _full_beside(self, context: SimplificationContext) -> Yardstick:
         """The full motion from values close to its own, for no longer than from those."""
-        return yardstick(self._ridden(footing, self.full.end), self.tolerance, self.full.end)
+        return yardstick(self._ridden(context, self.full.end), self.tolerance, self.full.end)
 
-    def _ridden(self, footing: Footing, needed: float) -> Ride:
-        return full_ride(footing.scene, self.full.problem.t_end, self.cancelled, self.tolerance, needed)
+    def _ridden(self, context: SimplificationContext, needed: float) -> RungRun:
+        return full_run(context.scene, self.full.problem.t_end, self.cancelled, self.tolerance, needed)
 
-    def _ride(self, scene: Scene, full: Yardstick) -> Ride:
+    def _run(self, scene: Scene, full: Yardstick) -> RungRun:
         return ride_along(scene, full, self.cancelled)
 
-    def _footing(self, amplitude: float) -> Footing:
-        return self.footing if self.centre is None else self.footing.with_scene(self.centre.at(amplitude))
+    def _context(self, amplitude: float) -> SimplificationContext:
+        return self.context if self.centre is None else self.context.with_scene(self.centre.at(amplitude))
 
     def _measured(self, rung: Rung) -> Measured:
         try:
-            below = simplified(self.footing, rung.parts)
-            found = self._ride(below.scene, self.full)
+            below = simplified(self.context, rung.parts)
+            found = self._run(below.scene, self.full)
         except InputError as error:
             return Measured(rung.id, _refusal(error), None, None)
         price = cost(found, self.repeats, self.cancelled) if found.is_complete else None
@@ -151,13 +151,13 @@ class _Climb:
 
         Infinite where one of the two now ends, and the other does not.
         """
-        return max(self._after(chain, footing, full) for footing, full in self._nudged)
+        return max(self._after(chain, context, full) for context, full in self._nudged)
 
-    def _after(self, chain: Chain, footing: Footing, full: Yardstick) -> float:
+    def _after(self, chain: Chain, context: SimplificationContext, full: Yardstick) -> float:
         """No less than integration may err by; at rest it is measured by what motion the nudge makes."""
         try:
-            below = simplified(footing, chain)
-            found = self._ride(below.scene, full)
+            below = simplified(context, chain)
+            found = self._run(below.scene, full)
         except InputError:
             return math.inf
         apart = deviation(full, found, below.back)
@@ -167,11 +167,11 @@ class _Climb:
         return error / (self.full.extent or full.size)
 
     @cached_property
-    def _nudged(self) -> tuple[tuple[Footing, Yardstick], ...]:
+    def _nudged(self) -> tuple[tuple[SimplificationContext, Yardstick], ...]:
         """The full model from nudged values, for no longer than from its own."""
-        scenes = (nudged(self.footing.scene, self.full, way) for way in range(WAYS))
-        footings = tuple(self.footing.with_scene(scene) for scene in scenes)
-        return tuple((footing, self._full_beside(footing)) for footing in footings)
+        scenes = (nudged(self.context.scene, self.full, way) for way in range(WAYS))
+        contexts = tuple(self.context.with_scene(scene) for scene in scenes)
+        return tuple((context, self._full_beside(context)) for context in contexts)
 
     def _growth(self, rung: Rung, full: dict[float, Yardstick]) -> Growth:
         found = [self._deviation(rung.parts, factor, full[factor]) for factor in self.amplitudes]
@@ -181,8 +181,8 @@ class _Climb:
 
     def _deviation(self, chain: Chain, amplitude: float, full: Yardstick) -> Deviation | None:
         try:
-            below = simplified(self._footing(amplitude), chain)
-            found = self._ride(below.scene, full)
+            below = simplified(self._context(amplitude), chain)
+            found = self._run(below.scene, full)
         except InputError:
             return None
         apart = deviation(full, found, below.back) if found.is_sound(full, self.tolerance) else None

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from .distance import Yardstick
-from .measurement import Ride, yardstick
+from .measurement import RungRun, yardstick
 from .passages import determined_until
 from .verdict import lasts
 
@@ -21,20 +21,20 @@ ENDED = "ended"  # in another way, as its outcome says: it grows beyond bounds, 
 ENDINGS = (START, PASSAGE, DIGITS, EVENT, ENDED)
 
 
-def known(ride: Ride, tolerance: float) -> tuple[Yardstick, str]:
+def known(run: RungRun, tolerance: float) -> tuple[Yardstick, str]:
     """The full motion as long as it is determined and far more accurate than `tolerance`, and why no longer."""
-    full = yardstick(ride, tolerance)
+    full = yardstick(run, tolerance)
     passage = determined_until(full)
     if passage < np.inf:
-        return yardstick(ride, tolerance, passage), PASSAGE
-    return full, _ending(ride, full)
+        return yardstick(run, tolerance, passage), PASSAGE
+    return full, _ending(run, full)
 
 
-def _ending(ride: Ride, full: Yardstick) -> str:
+def _ending(run: RungRun, full: Yardstick) -> str:
     if not full.end > 0.0:
-        return DIGITS if ride.trajectory.reached > 0.0 else START
-    if lasts(full.end, ride.problem.t_end):
+        return DIGITS if run.trajectory.reached > 0.0 else START
+    if lasts(full.end, run.problem.t_end):
         return WHOLE
-    if ride.gives_out or not lasts(full.end, ride.trajectory.reached):
+    if run.gives_out or not lasts(full.end, run.trajectory.reached):
         return DIGITS
-    return EVENT if ride.trajectory.event is not None else ENDED
+    return EVENT if run.trajectory.event is not None else ENDED

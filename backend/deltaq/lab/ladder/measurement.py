@@ -21,8 +21,8 @@ from ...simulation.service import problem_of
 from ...simulation.trajectory import Trajectory
 from .distance import Accuracy, Yardstick
 from .findings import Cost, Deviation, Timing
-from .footing import Back, Motion
 from .metric import particles, radians
+from .simplification import Back, Motion
 
 TOLERANCE, LEAST_TOLERANCE = 1e-8, 1e-11  # of the integration: what is left is the error of the rung
 ENOUGH = 1e-6  # of the size of the motion: its error, which asks for a tighter tolerance where that is small
@@ -38,7 +38,7 @@ COARSER = (1e-7, 1e-6, 1e-5)  # tried where rounding lets no finer integration c
 
 
 @dataclass(frozen=True)
-class Ride:
+class RungRun:
     """A scene's motion as computed: the problem, the method chosen for it, and the trajectory."""
 
     scene: Scene
@@ -103,53 +103,53 @@ class Ride:
         return self.trajectory.estimate.worst if self.trajectory.estimate else self.accuracy.tolerance
 
 
-def ride(scene: Scene, span: float, cancelled: Flag, accuracy: Accuracy = USUAL) -> Ride:
+def run_rung(scene: Scene, span: float, cancelled: Flag, accuracy: Accuracy = USUAL) -> RungRun:
     """The motion of a scene by the method that suits it."""
     problem = replace(problem_of(scene, span, accuracy.samples), step_limit=STEP_LIMIT)
     problem.model.settle()
     choice = choose(AUTO, scene, problem, None, accuracy.tolerance)
     found = simulate(problem, choice.method, tolerance=accuracy.tolerance, cancelled=cancelled)
-    return Ride(scene, problem, choice, found, accuracy)
+    return RungRun(scene, problem, choice, found, accuracy)
 
 
-def ride_along(scene: Scene, full: Yardstick, cancelled: Flag) -> Ride:
+def ride_along(scene: Scene, full: Yardstick, cancelled: Flag) -> RungRun:
     """The motion of a rung beside the full one: as finely as that, or else as finely as it can be had to its end."""
     wanted = (replace(full.accuracy, tolerance=each) for each in _tolerances(full.accuracy.tolerance))
-    rides = (ride(scene, full.problem.t_end, cancelled, each) for each in wanted)
-    return _longest(rides, full.end, lambda each: each.trajectory.trusted_until)
+    runs = (run_rung(scene, full.problem.t_end, cancelled, each) for each in wanted)
+    return _longest(runs, full.end, lambda each: each.trajectory.trusted_until)
 
 
 def _tolerances(finest: float) -> tuple[float, ...]:
     return (finest, *(each for each in (TOLERANCE, *COARSER) if each > finest))
 
 
-def _longest(rides: Iterator[Ride], end: float, known: Callable[[Ride], float]) -> Ride:
+def _longest(runs: Iterator[RungRun], end: float, known: Callable[[RungRun], float]) -> RungRun:
     """The first that is known to the end, or ends for another reason than the steps; else the one known for longest."""
-    found: list[tuple[float, Ride]] = []
-    for each in rides:
+    found: list[tuple[float, RungRun]] = []
+    for each in runs:
         found.append((min(end, known(each)), each))
         if found[-1][0] >= end or not each.gives_out:
             break
     return max(found, key=lambda one: one[0])[1]
 
 
-def full_ride(scene: Scene, span: float, cancelled: Flag, allowed: float = np.inf, needed: float = np.inf) -> Ride:
+def full_run(scene: Scene, span: float, cancelled: Flag, allowed: float = np.inf, needed: float = np.inf) -> RungRun:
     """The motion that others are measured against, with an error `allowed` of these, as far as it is `needed`.
 
     It is computed anew where it is small in its units or has many turns, and where small errors grow in it; and more
     coarsely where rounding lets no finer one get far.
     """
-    found = ride(scene, span, cancelled)
+    found = run_rung(scene, span, cancelled)
     seen = yardstick(found)
     is_rough = seen.uncertainty(seen.floor) > ROUGH * seen.size
     tolerance = LEAST_TOLERANCE if is_rough else max(LEAST_TOLERANCE, seen.tolerance(TOLERANCE, ENOUGH))
     samples = min(MOST_SAMPLES, max(SAMPLES, PER_STEP * found.trajectory.cost.steps + 1))
     wanted = (Accuracy(each, samples) for each in _tolerances(tolerance))
-    rides = (found if each == found.accuracy else ride(scene, span, cancelled, each) for each in wanted)
-    return _longest(rides, min(span, needed), lambda each: yardstick(each, allowed).end)
+    runs = (found if each == found.accuracy else run_rung(scene, span, cancelled, each) for each in wanted)
+    return _longest(runs, min(span, needed), lambda each: yardstick(each, allowed).end)
 
 
-def yardstick(full: Ride, tolerance: float = np.inf, limit: float = np.inf) -> Yardstick:
+def yardstick(full: RungRun, tolerance: float = np.inf, limit: float = np.inf) -> Yardstick:
     """The full motion up to a limit, as long as its digits can be trusted and are far finer than `tolerance`."""
     (times, states), problem = full.sampled, full.problem
     end = min(limit, full.trajectory.trusted_until)
@@ -160,7 +160,7 @@ def yardstick(full: Ride, tolerance: float = np.inf, limit: float = np.inf) -> Y
     return _sure(full, found, tolerance) if count and np.isfinite(tolerance) else found
 
 
-def _sure(full: Ride, found: Yardstick, tolerance: float) -> Yardstick:
+def _sure(full: RungRun, found: Yardstick, tolerance: float) -> Yardstick:
     """The part that is known so well, by the size of that part."""
     for _ in range(MOST_CUTS):
         errs = CERTAIN * found.uncertainty(found.floor)
@@ -171,7 +171,7 @@ def _sure(full: Ride, found: Yardstick, tolerance: float) -> Yardstick:
     return found.until(0.0, found.floor)
 
 
-def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
+def deviation(full: Yardstick, rung: RungRun, back: Back) -> Deviation | None:
     """How far the rung is from the full motion; None if not even one sample can be compared."""
     if not len(full.times) or not len(rung.sampled[0]):
         return None
@@ -188,7 +188,7 @@ def deviation(full: Yardstick, rung: Ride, back: Back) -> Deviation | None:
     return Deviation(tuple(times), tuple(curve), largest, relative, floor / full.size, float(full.times[good - 1]))
 
 
-def seen(rung: Ride) -> Motion:
+def seen(rung: RungRun) -> Motion:
     """Values and rates of all coordinates of the rung's own scene."""
     (times, states), n, free = rung.sampled, rung.problem.degrees, rung.problem.model.layout.free
     observed = rung.problem.model.observe(rung.problem.inputs(times, states))
@@ -201,7 +201,7 @@ def _named(names: tuple[str, ...], columns: Floats) -> dict[str, Floats]:
     return dict(zip(names, columns.T, strict=True))
 
 
-def cost(rung: Ride, repeats: int, cancelled: Flag) -> Cost:
+def cost(rung: RungRun, repeats: int, cancelled: Flag) -> Cost:
     """What the rung takes: the run that meets the tolerance, repeated; medians and quartiles."""
     method = rung.choice.method
     runs = [

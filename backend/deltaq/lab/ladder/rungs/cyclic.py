@@ -24,21 +24,21 @@ from ....model.elimination import eliminated
 from ....model.routh import reduction
 from ....simulation.problem import Floats
 from ..findings import Part
-from ..footing import Back, Footing, Kind, Motion, Simplified
 from ..momenta import Conserved
 from ..names import fresh, tidied, with_parameters
 from ..quadrature import running_integral
 from ..rest_frame import in_rest_frame
+from ..simplification import Back, Kind, Motion, SimplificationContext, Simplified
 
 
-def _offered(footing: Footing) -> Iterator[Part]:
-    names = cyclic_coordinates(in_rest_frame(footing.scene))
-    if 0 < len(names) < len(footing.scene.free):
+def _offered(context: SimplificationContext) -> Iterator[Part]:
+    names = cyclic_coordinates(in_rest_frame(context.scene))
+    if 0 < len(names) < len(context.scene.free):
         yield Part("cyclic", {"coordinate": ", ".join(names)})
 
 
-def _simplify(footing: Footing, _part: Part) -> Simplified:
-    scene = in_rest_frame(footing.scene)
+def _simplify(context: SimplificationContext, _part: Part) -> Simplified:
+    scene = in_rest_frame(context.scene)
     conserved = Conserved.of(scene)
     coordinates = tuple(each for each in scene.free if each.name in conserved.names)
     momenta = {each.name: fresh(scene, f"p_{each.name}") for each in coordinates}

@@ -9,16 +9,16 @@ from collections.abc import Iterator
 
 from ....mechanics.changes import change
 from ..findings import Part
-from ..footing import Footing, Kind, Simplified
+from ..simplification import Kind, SimplificationContext, Simplified
 
 
-def _offered(footing: Footing) -> Iterator[Part]:
-    free = footing.scene.free
+def _offered(context: SimplificationContext) -> Iterator[Part]:
+    free = context.scene.free
     yield from (Part("frozen", {"coordinate": each.name}) for each in free if len(free) > 1)
 
 
-def _simplify(footing: Footing, part: Part) -> Simplified:
-    return Simplified(change(footing.scene, freeze=(part.parameters["coordinate"],)))
+def _simplify(context: SimplificationContext, part: Part) -> Simplified:
+    return Simplified(change(context.scene, freeze=(part.parameters["coordinate"],)))
 
 
 KIND = Kind("frozen", _offered, _simplify)

@@ -13,17 +13,17 @@ from ....language.parser import parse
 from ....mechanics.guide import Guide
 from ....mechanics.parameter import Parameter
 from ..findings import Part
-from ..footing import Footing, Kind, Simplified
 from ..names import fresh, with_parameters
+from ..simplification import Kind, SimplificationContext, Simplified
 
 
-def _offered(footing: Footing) -> Iterator[Part]:
-    free = footing.scene.free
+def _offered(context: SimplificationContext) -> Iterator[Part]:
+    free = context.scene.free
     yield from (Part("guided", {"coordinate": each.name}) for each in free if len(free) > 1 and each.rate != 0.0)
 
 
-def _simplify(footing: Footing, part: Part) -> Simplified:
-    scene, name = footing.scene, part.parameters["coordinate"]
+def _simplify(context: SimplificationContext, part: Part) -> Simplified:
+    scene, name = context.scene, part.parameters["coordinate"]
     coordinate = next(each for each in scene.free if each.name == name)
     start, speed = fresh(scene, f"{name}_0"), fresh(scene, f"rate_{name}")
     unit = f"{coordinate.unit}/s" if coordinate.unit else ""

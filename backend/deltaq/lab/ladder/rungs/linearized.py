@@ -13,22 +13,22 @@ from ....mechanics.coordinate import Coordinate
 from ....mechanics.parameter import Parameter
 from ....model.linear_laws import is_linear, linear_laws
 from ..findings import Part
-from ..footing import Footing, Kind, Simplified
 from ..linear_loads import with_linear_loads
 from ..names import fresh, tidied, with_parameters
+from ..simplification import Kind, SimplificationContext, Simplified
 
 
-def _offered(footing: Footing) -> Iterator[Part]:
-    scene = footing.scene
-    if all(each.name in footing.centre for each in scene.free) and not is_linear(scene):
+def _offered(context: SimplificationContext) -> Iterator[Part]:
+    scene = context.scene
+    if all(each.name in context.centre for each in scene.free) and not is_linear(scene):
         yield Part("linearized", {})
 
 
-def _simplify(footing: Footing, _part: Part) -> Simplified:
-    scene = footing.scene
-    away = tuple(each for each in scene.free if footing.centre[each.name] != 0.0)
+def _simplify(context: SimplificationContext, _part: Part) -> Simplified:
+    scene = context.scene
+    away = tuple(each for each in scene.free if context.centre[each.name] != 0.0)
     rest = {each.name: fresh(scene, f"{each.name}_rest") for each in away}
-    values = tuple(_at_rest(each, rest[each.name], footing.centre[each.name]) for each in away)
+    values = tuple(_at_rest(each, rest[each.name], context.centre[each.name]) for each in away)
     laws = linear_laws(with_parameters(scene, values), rest)
     return Simplified(tidied(with_linear_loads(laws, rest), scene.labels))
 

@@ -17,17 +17,17 @@ from ....mechanics.bodies.rigid import RigidBody
 from ....mechanics.scene import Scene
 from ....model.mass_centre import mass_centre
 from ..findings import Part
-from ..footing import Footing, Kind, Simplified
 from ..names import tidied
+from ..simplification import Kind, SimplificationContext, Simplified
 
 
-def _offered(footing: Footing) -> Iterator[Part]:
-    if any(body.kind != Particle.kind for body in footing.scene.bodies):
+def _offered(context: SimplificationContext) -> Iterator[Part]:
+    if any(body.kind != Particle.kind for body in context.scene.bodies):
         yield Part("point-mass", {})
 
 
-def _simplify(footing: Footing, _part: Part) -> Simplified:
-    scene = footing.scene
+def _simplify(context: SimplificationContext, _part: Part) -> Simplified:
+    scene = context.scene
     particles = tuple(_particle(body, scene) for body in scene.bodies)
     return Simplified(tidied(replace(scene, bodies=particles), scene.labels))
 

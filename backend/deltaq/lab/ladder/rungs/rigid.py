@@ -28,26 +28,26 @@ from ....model.symbols import Symbols
 from ....model.symengine_algebra import to_symengine
 from ....simulation.problem import Floats
 from ..findings import Part
-from ..footing import Back, Footing, Kind, Motion, Simplified
 from ..names import fresh, tidied, with_parameters
+from ..simplification import Back, Kind, Motion, SimplificationContext, Simplified
 from ..stretch import length
 
 AHEAD = 1e-3  # of the time between two samples
 
 
-def _offered(footing: Footing) -> Iterator[Part]:
-    if footing.centre and len(footing.scene.free) > 1:
-        names = (load.name for load in footing.scene.loads if next(_ways(load, footing), None))
+def _offered(context: SimplificationContext) -> Iterator[Part]:
+    if context.centre and len(context.scene.free) > 1:
+        names = (load.name for load in context.scene.loads if next(_ways(load, context), None))
         yield from (Part("rigid", {"load": name}) for name in names)
 
 
-def _simplify(footing: Footing, part: Part) -> Simplified:
-    load = next(load for load in footing.scene.loads if load.name == part.parameters["load"])
-    return next(_ways(load, footing)).simplified(footing)
+def _simplify(context: SimplificationContext, part: Part) -> Simplified:
+    load = next(load for load in context.scene.loads if load.name == part.parameters["load"])
+    return next(_ways(load, context)).simplified(context)
 
 
 class _Way(Protocol):
-    def simplified(self, footing: Footing, /) -> Simplified: ...
+    def simplified(self, context: SimplificationContext, /) -> Simplified: ...
 
 
 @dataclass(frozen=True)
@@ -56,15 +56,15 @@ class _Held:
 
     coordinate: str
 
-    def simplified(self, footing: Footing) -> Simplified:
-        scene, name = footing.scene, self.coordinate
-        at_rest = tuple(_at(footing, each) if each.name == name else each for each in scene.coordinates)
+    def simplified(self, context: SimplificationContext) -> Simplified:
+        scene, name = context.scene, self.coordinate
+        at_rest = tuple(_at(context, each) if each.name == name else each for each in scene.coordinates)
         return Simplified(change(replace(scene, coordinates=at_rest), freeze=(name,)))
 
 
-def _at(footing: Footing, coordinate: Coordinate) -> Coordinate:
+def _at(context: SimplificationContext, coordinate: Coordinate) -> Coordinate:
     """The coordinate at rest from the start."""
-    return replace(coordinate, value=footing.centre[coordinate.name], rate=0.0, min=None, max=None)
+    return replace(coordinate, value=context.centre[coordinate.name], rate=0.0, min=None, max=None)
 
 
 @dataclass(frozen=True)
@@ -76,11 +76,11 @@ class _GivenUp:
     target: str
     value: Expression
 
-    def simplified(self, footing: Footing) -> Simplified:
+    def simplified(self, context: SimplificationContext) -> Simplified:
         """A guide where the time alone is left, else the coordinate is put in everywhere."""
-        scene, name = footing.scene, self.coordinate
+        scene, name = context.scene, self.coordinate
         unit = next(each.unit for each in scene.coordinates if each.name == name)
-        rest = Parameter(self.target, unit=unit, value=_at_rest(footing, self.length), positive=False)
+        rest = Parameter(self.target, unit=unit, value=_at_rest(context, self.length), positive=False)
         wider = with_parameters(scene, (rest,))
         if not dependencies(wider, self.value.tree) & {each.name for each in scene.free}:
             return Simplified(replace(wider, guides=(*wider.guides, Guide(name, self.value))))
@@ -88,15 +88,15 @@ class _GivenUp:
         return Simplified(tidied(found, wider.labels), _back(wider, name, self.value))
 
 
-def _ways(load: Load, footing: Footing) -> Iterator[_Way]:
+def _ways(load: Load, context: SimplificationContext) -> Iterator[_Way]:
     """How the spring of a load can be made rigid."""
-    scene = footing.scene
+    scene = context.scene
     found = length(load, scene)
     if found is None:
         return
     depends = dependencies(scene, found)
     free = [each.name for each in scene.free if each.name in depends]
-    if depends == set(free) and len(free) == 1 and free[0] in footing.centre:
+    if depends == set(free) and len(free) == 1 and free[0] in context.centre:
         yield _Held(free[0])
     target = fresh(scene, "s_rest")
     wider = with_parameters(scene, (Parameter(target),))
@@ -106,10 +106,10 @@ def _ways(load: Load, footing: Footing) -> Iterator[_Way]:
             yield _GivenUp(found, name, target, value)
 
 
-def _at_rest(footing: Footing, length: Node) -> float:
+def _at_rest(context: SimplificationContext, length: Node) -> float:
     """The length at rest, the mean where guides move its ends."""
-    scene, mean = footing.scene, footing.mean
-    known = {each.name: footing.centre.get(each.name, each.value) for each in scene.coordinates}
+    scene, mean = context.scene, context.mean
+    known = {each.name: context.centre.get(each.name, each.value) for each in scene.coordinates}
     values = {each.name: each.value for each in scene.parameters} | known | {"t": mean.times}
     guided = {each.coordinate: _sampled(each.value.tree, values) for each in scene.guides}
     return float(mean.weights @ _sampled(length, values | guided))

@@ -17,8 +17,8 @@ from ....mechanics.contributions import DissipationFunction, DistributedForce, M
 from ....mechanics.loads import Load
 from ....mechanics.scene import Scene
 from ..findings import Part
-from ..footing import Footing, Kind, Simplified
 from ..names import with_loads
+from ..simplification import Kind, SimplificationContext, Simplified
 
 POINTS, STEP, ROUNDING = 12, 1e-5, 1e-7
 
@@ -31,13 +31,13 @@ class _Push:
     position: tuple[Node, ...]
 
 
-def _offered(footing: Footing) -> Iterator[Part]:
-    if any(_is_damping(load, footing.scene) for load in footing.scene.loads):
+def _offered(context: SimplificationContext) -> Iterator[Part]:
+    if any(_is_damping(load, context.scene) for load in context.scene.loads):
         yield Part("undamped", {})
 
 
-def _simplify(footing: Footing, _part: Part) -> Simplified:
-    scene = footing.scene
+def _simplify(context: SimplificationContext, _part: Part) -> Simplified:
+    scene = context.scene
     kept = tuple(load for load in scene.loads if not _is_damping(load, scene))
     return Simplified(with_loads(scene, kept))
 

@@ -12,7 +12,7 @@ from .mean import Mean
 
 
 @dataclass(frozen=True)
-class Footing:
+class SimplificationContext:
     """A scene with its initial values, and what is known of rest nearby.
 
     `centre` holds the values of its coordinates at rest; in steady motion, of those that are not cyclic; it is empty
@@ -23,7 +23,7 @@ class Footing:
     centre: Mapping[str, float]
     mean: Mean
 
-    def with_scene(self, scene: Scene) -> Footing:
+    def with_scene(self, scene: Scene) -> SimplificationContext:
         return replace(self, scene=scene)
 
 
@@ -60,6 +60,6 @@ class Kind:
     """
 
     id: str
-    offered: Callable[[Footing], Iterator[Part]]
-    simplify: Callable[[Footing, Part], Simplified]
+    offered: Callable[[SimplificationContext], Iterator[Part]]
+    simplify: Callable[[SimplificationContext, Part], Simplified]
     followers: tuple[str, ...] = ()
