@@ -105,7 +105,7 @@ def _factored(part: sp.Expr, _source: random.Random, _book: Workbook) -> sp.Expr
 
 def _pythagoras(part: sp.Expr, source: random.Random, book: Workbook) -> sp.Expr:
     """One term times sin² + cos² of a coordinate."""
-    q = book.road.q(source.choice(book.road.free))
+    q = book.solution.q(source.choice(book.solution.free))
     terms = list(sp.Add.make_args(part))
     index = source.randrange(len(terms))
     one = sp.sin(q, evaluate=False) ** 2 + sp.cos(q, evaluate=False) ** 2
@@ -142,7 +142,7 @@ REWRITES: tuple[tuple[str, Callable[[sp.Expr, random.Random, Workbook], sp.Expr]
 
 def _factor(source: random.Random, book: Workbook) -> sp.Expr:
     """A factor that cannot vanish: a number and powers of positive parameters."""
-    positive = [book.road.q(p.name) for p in book.scene.parameters if p.positive]
+    positive = [book.solution.q(p.name) for p in book.scene.parameters if p.positive]
     number = source.choice((1, -1, 2, sp.Rational(1, 2), sp.Rational(-3, 2)))
     return number * sp.Mul(*(p ** source.choice((-2, -1, 0, 0, 1)) for p in positive))
 
@@ -172,7 +172,7 @@ def _mutated(parts: Parts, task: Task, source: random.Random, book: Workbook) ->
     index = source.randrange(len(parts))
     terms = list(sp.Add.make_args(sp.expand(parts[index])))
     at = source.randrange(len(terms))
-    moving = {book.road.q(p.name) for p in book.scene.parameters} | {book.road.t}
+    moving = {book.solution.q(p.name) for p in book.scene.parameters} | {book.solution.t}
     if terms[at] == 0 or (
         task.quantity.form != "set" and not terms[at].free_symbols - moving and _up_to_constant(task)
     ):
@@ -195,12 +195,12 @@ def _is_gauge(term: sp.Expr, book: Workbook) -> bool:
     """A constant times a rate is a total time derivative: changing it changes nothing."""
     used = term.free_symbols
     return (
-        not used & {book.road.q(q) for q in book.road.free}
+        not used & {book.solution.q(q) for q in book.solution.free}
         and any(
-            not term.coeff(book.road.rate(q)).has(book.road.rate(q)) and term.coeff(book.road.rate(q)) != 0
-            for q in book.road.free
+            not term.coeff(book.solution.rate(q)).has(book.solution.rate(q)) and term.coeff(book.solution.rate(q)) != 0
+            for q in book.solution.free
         )
-        and not used & {book.road.t}
+        and not used & {book.solution.t}
     )
 
 
@@ -217,7 +217,7 @@ def _unchanged(parts: Parts, changed: Parts, source: random.Random, book: Workbo
 
 
 def _other_parameter(term: sp.Expr, source: random.Random, book: Workbook) -> sp.Expr:
-    return term * book.road.q(source.choice(book.scene.parameters).name)
+    return term * book.solution.q(source.choice(book.scene.parameters).name)
 
 
 def _swapped(term: sp.Expr, _source: random.Random, _book: Workbook) -> sp.Expr:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from deltaq.homework.checking import check
-from deltaq.homework.detour import misconceptions
 from deltaq.homework.diagnosis import MOST_NAMED
+from deltaq.homework.faulty_solution import misconceptions
 from deltaq.homework.workbook import Workbook, workbook_of
 from deltaq.language.plain_printer import plain
 from deltaq.narration.catalog import catalog
@@ -42,8 +42,8 @@ def found_again(workbook: Workbook) -> tuple[int, list[str]]:
             verdict = check(workbook, task, text, "plain")
             assert verdict.outcome == "wrong", (task.id, text)
             crowded = len(verdict.misconceptions) == MOST_NAMED
-            if candidate.road.id not in verdict.misconceptions and not crowded and verdict.remark != "degenerate":
-                missed.append(f"{task.id}: {candidate.road.id} ({candidate.road.about})")
+            if candidate.solution.id not in verdict.misconceptions and not crowded and verdict.remark != "degenerate":
+                missed.append(f"{task.id}: {candidate.solution.id} ({candidate.solution.about})")
     return count, missed
 
 
@@ -56,7 +56,7 @@ def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str) -> None:
 
 def test_every_misconception_occurs() -> None:
     seen = {
-        candidate.road.id
+        candidate.solution.id
         for scene in [*SCENES, "rolling-disc", "coupled-pendulums"]
         for workbook in [workbook_of({"scene": scene})]
         for task in workbook.tasks
@@ -69,7 +69,7 @@ def test_every_misconception_occurs() -> None:
 def test_a_hint_names_only_what_the_mistake_is_about(scene: str) -> None:
     """A text with a placeholder that nothing fills would have a hole."""
     workbook = workbook_of({"scene": scene})
-    nameless = {c.road.id for task in workbook.tasks for c in workbook.candidates(task) if not c.road.about}
+    nameless = {c.solution.id for task in workbook.tasks for c in workbook.candidates(task) if not c.solution.about}
     for language in ("de", "en"):
         told: dict = catalog(language)["homework"]["misconceptions"]  # type: ignore[index, assignment]
         assert {kind for kind in nameless if "{about}" in "".join(told[kind].values())} == set()

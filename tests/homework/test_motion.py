@@ -40,10 +40,10 @@ CASES = [
 def test_the_scene_moves_as_the_answer_says(scene: str, task: str, answer: str, expected: list[str]) -> None:
     workbook = workbook_of({"scene": scene})
     moved = Workbook(read_scene(moved_scene(workbook, workbook.task(task), answer, "plain")))
-    road = moved.road
-    own = moved.task(f"equation:{road.free[0]}")
-    given = tuple(part for text in expected for part in read(own, road, f"{text} = 0", "plain").parts)
-    assert equations.same(given, tuple(map(road.equation, road.free)), road).equal
+    solution = moved.solution
+    own = moved.task(f"equation:{solution.free[0]}")
+    given = tuple(part for text in expected for part in read(own, solution, f"{text} = 0", "plain").parts)
+    assert equations.same(given, tuple(map(solution.equation, solution.free)), solution).equal
 
 
 def test_a_wrong_force_needs_no_elimination_however_many_freedoms_there_are() -> None:

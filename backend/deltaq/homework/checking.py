@@ -22,7 +22,7 @@ from .workbook import Workbook
 def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
     """The verdict on one answer to one task."""
     try:
-        reading = read(task, workbook.road, text, syntax)
+        reading = read(task, workbook.solution, text, syntax)
     except ExpressionError as error:
         return Verdict("invalid", problems=error.problems)
     typography = Typography(workbook.scene.names)
@@ -46,17 +46,17 @@ def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
     if task.quantity.form == "set":
         differs = False  # numbers at the scene's values are answers, too
     if not differs:
-        return task.quantity.equality.same(given, workbook.right(task), workbook.road)
+        return task.quantity.equality.same(given, workbook.right(task), workbook.solution)
     return _solved(workbook, task, given)
 
 
 def _solved(workbook: Workbook, task: Task, given: Parts) -> Match:
     """An equation solved for its own acceleration is another combination of the set, and right as well."""
-    others = {workbook.road.acceleration(q) for q in workbook.road.free if q != task.subject}
-    own = workbook.road.acceleration(task.subject) if task.subject else None
+    others = {workbook.solution.acceleration(q) for q in workbook.solution.free if q != task.subject}
+    own = workbook.solution.acceleration(task.subject) if task.subject else None
     symbols = given[0].free_symbols if given else set()
-    if task.quantity.kind == "equation" and len(workbook.road.free) > 1 and own in symbols and not symbols & others:
-        match = equation.same_solved(given, workbook.road)
+    if task.quantity.kind == "equation" and len(workbook.solution.free) > 1 and own in symbols and not symbols & others:
+        match = equation.same_solved(given, workbook.solution)
         return match if match.equal else Match(equal=False)
     return Match(equal=False)
 
@@ -65,7 +65,7 @@ def _wrong(workbook: Workbook, task: Task, reading: Reading, match: Match, shown
     given, right = reading.parts, workbook.right(task)
     if match.remark == "degenerate":
         return Verdict("wrong", shown, match.remark)
-    example = counterexample(task, given, right, workbook.road)
+    example = counterexample(task, given, right, workbook.solution)
     found = Diagnosis() if match.remark else diagnose(workbook, task, given)
     units = None if found.misconceptions else _units(workbook, task, reading, syntax, alone=found.slip is None)
     if units:

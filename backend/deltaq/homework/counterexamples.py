@@ -9,8 +9,8 @@ import sympy as sp
 
 from ..derivation.compiled import compiled
 from .equality import Parts
-from .road import Road
 from .sampling import Sampler, echelon
+from .solution import Solution
 from .task import Task
 from .verdict import Counterexample
 
@@ -18,35 +18,35 @@ SHIFTS = (0.3, 0.5, 0.8)
 RELATIVE = 1e-6
 
 
-def counterexample(task: Task, given: Parts, right: Parts, road: Road) -> Counterexample | None:
+def counterexample(task: Task, given: Parts, right: Parts, solution: Solution) -> Counterexample | None:
     """The first state at which the two differ; None where none was found or nothing can be evaluated."""
-    for state in _states(road):
-        for of, yours, true in _values(task, given, right, road, state):
+    for state in _states(solution):
+        for of, yours, true in _values(task, given, right, solution, state):
             finite = math.isfinite(yours) and math.isfinite(true)
             if finite and abs(yours - true) > RELATIVE * max(abs(yours), abs(true), 1e-3):
-                shown = _shown(state, (*given, *right), _unknown(task, of, road))
+                shown = _shown(state, (*given, *right), _unknown(task, of, solution))
                 return Counterexample(shown, _rounded(yours), _rounded(true), of)
     return None
 
 
-def _states(road: Road) -> Iterator[dict[str, float]]:
+def _states(solution: Solution) -> Iterator[dict[str, float]]:
     """Parameters as the scene states them; coordinates near where it starts, with rates of their own."""
-    stated = {p.name: p.value for p in road.scene.parameters}
+    stated = {p.name: p.value for p in solution.scene.parameters}
     # A parameter that is 1 hides its power: the last states have other values.
-    other = {p.name: round(p.value * (1.3 + 0.1 * k), 3) for k, p in enumerate(road.scene.parameters)}
-    sampler = Sampler(road)
+    other = {p.name: round(p.value * (1.3 + 0.1 * k), 3) for k, p in enumerate(solution.scene.parameters)}
+    sampler = Sampler(solution)
     for values, shift in ((v, s) for v in (stated, other) for s in SHIFTS):
         moving = [name.name for name in sampler.slots if name.name not in values]
         state = {name: round(shift + 0.1 * index, 2) for index, name in enumerate(moving)}
-        starts = {c.name: round(c.value + shift, 2) for c in road.scene.coordinates}
+        starts = {c.name: round(c.value + shift, 2) for c in solution.scene.coordinates}
         yield values | state | starts
 
 
 def _values(
-    task: Task, given: Parts, right: Parts, road: Road, state: dict[str, float]
+    task: Task, given: Parts, right: Parts, solution: Solution, state: dict[str, float]
 ) -> Iterator[tuple[str, float, float]]:
     if task.quantity.form in ("equation", "equations"):
-        yield from _accelerations(given, right, road, state)
+        yield from _accelerations(given, right, solution, state)
         return
     numbered = task.quantity.form == "vector"
     for index, (a, b) in enumerate(zip(given, right, strict=False), 1):
@@ -54,12 +54,12 @@ def _values(
 
 
 def _accelerations(
-    given: Parts, right: Parts, road: Road, state: dict[str, float]
+    given: Parts, right: Parts, solution: Solution, state: dict[str, float]
 ) -> Iterator[tuple[str, float, float]]:
     """Solved for the accelerations: one equation for its first one, the others given."""
-    slots = [f"ddot({q})" for q in road.free]
+    slots = [f"ddot({q})" for q in solution.free]
     left, other = (echelon([_row(part, slots, state) for part in parts]) for parts in (given, right))
-    for index, q in enumerate(road.free):
+    for index, q in enumerate(solution.free):
         if index < len(left) and index < len(other):
             yield f"ddot({q})", _solved(left[index], slots, state), _solved(other[index], slots, state)
 
@@ -85,9 +85,9 @@ def _at(part: sp.Expr, state: dict[str, float]) -> float:
         return math.nan
 
 
-def _unknown(task: Task, of: str, road: Road) -> set[str]:
+def _unknown(task: Task, of: str, solution: Solution) -> set[str]:
     """What is solved for, and so not given: one acceleration, or all of a whole set."""
-    return {f"ddot({q})" for q in road.free} if task.quantity.form == "equations" else {of}
+    return {f"ddot({q})" for q in solution.free} if task.quantity.form == "equations" else {of}
 
 
 def _shown(state: dict[str, float], parts: Parts, unknown: set[str]) -> dict[str, float]:

@@ -9,9 +9,9 @@ from itertools import islice
 import sympy as sp
 
 from .equality import Fingerprint, Parts
-from .road import Road
 from .sampling import close
 from .slips import SlippedParts, Slips
+from .solution import Solution
 from .task import Task
 from .workbook import Candidate, Workbook
 
@@ -28,18 +28,18 @@ class Diagnosis:
 
 
 def diagnose(workbook: Workbook, task: Task, given: Parts) -> Diagnosis:
-    """A misconception alone, else one slip on the right road, else a misconception with one slip elsewhere."""
+    """A misconception alone, else one slip on the right solution, else a misconception with one slip elsewhere."""
     found = list(islice(_direct(workbook, task, given), MOST_NAMED))
     if found:
-        return Diagnosis(tuple(c.road.id for c in found), tuple(c.road.about for c in found))
+        return Diagnosis(tuple(c.solution.id for c in found), tuple(c.solution.about for c in found))
     slips = Slips(workbook.sampler, task.quantity.form, up_to_constant=task.quantity.up_to_constant)
-    right = _slip(slips, given, workbook.right(task), task, workbook.road)
+    right = _slip(slips, given, workbook.right(task), task, workbook.solution)
     if right is not None:
         return Diagnosis(slip=right)
     for candidate in workbook.candidates(task) if any(part != 0 for part in given) else ():
-        besides = _slip(slips, given, candidate.parts, task, candidate.road)
+        besides = _slip(slips, given, candidate.parts, task, candidate.solution)
         if besides is not None:
-            return Diagnosis((candidate.road.id,), (candidate.road.about,), besides)
+            return Diagnosis((candidate.solution.id,), (candidate.solution.about,), besides)
     return Diagnosis()
 
 
@@ -48,9 +48,9 @@ def _direct(workbook: Workbook, task: Task, given: Parts) -> Iterator[Candidate]
     own = task.quantity.equality.fingerprint(given, workbook.sampler)
     seen: set[str] = set()
     for candidate in workbook.candidates(task) if own else ():
-        new = candidate.road.id not in seen and _alike(own, candidate.fingerprint)
-        if new and task.quantity.equality.same(given, candidate.parts, candidate.road).equal:
-            seen.add(candidate.road.id)
+        new = candidate.solution.id not in seen and _alike(own, candidate.fingerprint)
+        if new and task.quantity.equality.same(given, candidate.parts, candidate.solution).equal:
+            seen.add(candidate.solution.id)
             yield candidate
 
 
@@ -58,9 +58,9 @@ def _alike(own: Fingerprint | None, other: Fingerprint) -> bool:
     return own is not None and len(own) == len(other) and close(own, other)
 
 
-def _slip(slips: Slips, given: Parts, base: Parts, task: Task, road: Road) -> SlippedParts | None:
+def _slip(slips: Slips, given: Parts, base: Parts, task: Task, solution: Solution) -> SlippedParts | None:
     for slipped in slips.between(given, base):
-        if task.quantity.equality.same(given, slipped.parts, road).equal:
+        if task.quantity.equality.same(given, slipped.parts, solution).equal:
             return slipped
     return None
 

@@ -236,7 +236,9 @@ def row_verdict(question: Mapping[str, object]) -> Document:
         workbook = workbook_of(question)
         line = line_of(question)
         standing = [line_of(one) for one in cast("Sequence[Mapping[str, object]]", question["standing"])]
-        wrong = {one.task: read(workbook.task(one.task), workbook.road, one.text, one.syntax).parts for one in standing}
+        wrong = {
+            one.task: read(workbook.task(one.task), workbook.solution, one.text, one.syntax).parts for one in standing
+        }
         verdict = check_following(workbook, workbook.task(line.task), line, wrong)
     except InputError as error:
         return refusal(_told(error, language))

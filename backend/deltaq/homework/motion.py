@@ -20,9 +20,9 @@ from ..mechanics.document import read_scene
 from ..mechanics.writing import write_scene
 from .equality import Parts
 from .equality.equations import system_of
-from .own import OwnRoad
+from .own import OwnSolution
 from .reading import read
-from .road import Road
+from .solution import Solution
 from .task import Task
 from .workbook import Workbook
 
@@ -37,9 +37,9 @@ def moved_scene(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> di
     """The document of the scene that moves as the answer says. Raises ExpressionError where none can be given."""
     if task.quantity.kind not in MOVING:
         raise ExpressionError(Problem("motion-not-asked", "/task", parameters={"task": task.id}))
-    given = read(task, workbook.road, text, syntax).parts
+    given = read(task, workbook.solution, text, syntax).parts
     forces = _forces(workbook, _equations(workbook, task, given))
-    document = _with_forces(write_scene(workbook.scene), dict(zip(workbook.road.free, forces, strict=True)))
+    document = _with_forces(write_scene(workbook.scene), dict(zip(workbook.solution.free, forces, strict=True)))
     try:
         read_scene(document)
     except InputError:
@@ -55,49 +55,51 @@ def _equations(workbook: Workbook, task: Task, given: Parts) -> Parts:
     """All equations of motion that the answer leads to; what it does not say is taken as it is."""
     if task.quantity.form == "equations":
         return given
-    own = OwnRoad(workbook.scene, workbook.road, {task.id: given})
+    own = OwnSolution(workbook.scene, workbook.solution, {task.id: given})
     return tuple(own.equation(q) for q in own.free)
 
 
 def _forces(workbook: Workbook, own: Parts) -> Parts:
     """Q of every equation, in display form."""
-    road = workbook.road
-    if len(own) != len(road.free):
+    solution = workbook.solution
+    if len(own) != len(solution.free):
         raise _unsolvable()
-    mass, rest = system_of(tuple(road.equation(q) for q in road.free), road)
-    matrix, own_rest = system_of(own, road)
-    if matrix.free_symbols & {road.acceleration(q) for q in road.free}:
+    mass, rest = system_of(tuple(solution.equation(q) for q in solution.free), solution)
+    matrix, own_rest = system_of(own, solution)
+    if matrix.free_symbols & {solution.acceleration(q) for q in solution.free}:
         raise _unsolvable()
-    factors = [_factor(matrix[i, :], mass[i, :], road) for i in range(mass.rows)]
+    factors = [_factor(matrix[i, :], mass[i, :], solution) for i in range(mass.rows)]
     if None not in factors:
-        return tuple(_short(b - c / k, road) for b, c, k in zip(rest, own_rest, factors, strict=True))
-    return _by_elimination(mass, rest, matrix, own_rest, road)
+        return tuple(_short(b - c / k, solution) for b, c, k in zip(rest, own_rest, factors, strict=True))
+    return _by_elimination(mass, rest, matrix, own_rest, solution)
 
 
-def _factor(row: sp.Matrix, right: sp.Matrix, road: Road) -> sp.Expr | None:
+def _factor(row: sp.Matrix, right: sp.Matrix, solution: Solution) -> sp.Expr | None:
     """k where the row is k times the right one: then Q = b − c/k, and no other equation is needed."""
-    pivot = next((j for j in range(right.cols) if is_zero(right[j], road.symbols) is False), None)
-    if pivot is None or is_zero(row[pivot], road.symbols) is not False:
+    pivot = next((j for j in range(right.cols) if is_zero(right[j], solution.symbols) is False), None)
+    if pivot is None or is_zero(row[pivot], solution.symbols) is not False:
         return None
-    if not all(is_zero(row[j] * right[pivot] - right[j] * row[pivot], road.symbols) for j in range(right.cols)):
+    if not all(is_zero(row[j] * right[pivot] - right[j] * row[pivot], solution.symbols) for j in range(right.cols)):
         return None
-    return display(row[pivot].expand(), road.symbols) / display(right[pivot].expand(), road.symbols)
+    return display(row[pivot].expand(), solution.symbols) / display(right[pivot].expand(), solution.symbols)
 
 
-def _by_elimination(mass: sp.Matrix, rest: sp.Matrix, matrix: sp.Matrix, own_rest: sp.Matrix, road: Road) -> Parts:
+def _by_elimination(
+    mass: sp.Matrix, rest: sp.Matrix, matrix: sp.Matrix, own_rest: sp.Matrix, solution: Solution
+) -> Parts:
     """Q = b − M A⁻¹ c, by Cramer's rule."""
     size = sum(entry.count_ops() for entry in (*mass, *rest, *matrix, *own_rest))
     if mass.rows > MOST_ELIMINATED or size > MOST_OPERATIONS:
         raise ExpressionError(Problem("motion-too-large", "/answer/value"))
-    determinant = _short(matrix.det(method="berkowitz"), road)
-    if is_zero(determinant, road.symbols) is not False:
+    determinant = _short(matrix.det(method="berkowitz"), solution)
+    if is_zero(determinant, solution.symbols) is not False:
         raise _unsolvable()
     above = rest * determinant - mass * matrix.adjugate() * own_rest
-    return tuple(_short(entry, road) / determinant for entry in above)
+    return tuple(_short(entry, solution) / determinant for entry in above)
 
 
-def _short(value: sp.Expr, road: Road) -> sp.Expr:
-    return cast("sp.Expr", display(value.expand(), road.symbols))
+def _short(value: sp.Expr, solution: Solution) -> sp.Expr:
+    return cast("sp.Expr", display(value.expand(), solution.symbols))
 
 
 def _with_forces(document: dict[str, object], forces: Mapping[str, sp.Expr]) -> dict[str, object]:

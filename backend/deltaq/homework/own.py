@@ -1,4 +1,4 @@
-"""The road as a student's own lines lay it: what they found earlier takes the place of the law."""
+"""The solution that follows from a student's own lines: what they found earlier takes the place of the law."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import sympy as sp
 from ..derivation.calculus import column
 from ..language.memory import cached_method
 from .equality import Parts
-from .road import Road
+from .solution import Solution
 
 
 @dataclass(frozen=True, eq=False)
-class OwnRoad(Road):
+class OwnSolution(Solution):
     """Everything that was not answered before is derived rightly from what was: right consequences of wrong lines."""
 
-    true: Road
+    true: Solution
     answers: Mapping[str, Parts]
 
     def is_conservative(self, load: str) -> bool:

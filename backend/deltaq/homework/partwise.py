@@ -52,8 +52,8 @@ def _implied(workbook: Workbook, part: sp.Expr, right: list[tuple[tuple[float, .
 
 
 def _frequencies(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOutcome, ...]:
-    right = [number_of(part, workbook.road) for part in workbook.right(task)]
-    own = (number_of(part, workbook.road) for part in given)
+    right = [number_of(part, workbook.solution) for part in workbook.right(task)]
+    own = (number_of(part, workbook.solution) for part in given)
     return tuple("correct" if any(abs(a - b) <= ROUNDED * abs(b) for b in right) else "wrong" for a in own)
 
 

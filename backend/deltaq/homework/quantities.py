@@ -1,4 +1,4 @@
-"""What can be asked for: each quantity with the form of its answer, its kind of equality and its value on a road."""
+"""What can be asked for: each quantity with the form of its answer, its kind of equality and its value."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .equality import (
     up_to_constant,
 )
 from .quantity import Quantity
-from .road import Road
+from .solution import Solution
 from .subjects import bodies, coordinates, coupled, loaded, numbered, oscillating, resting, whole, with_potential
 
 
@@ -26,13 +26,13 @@ def _vector(value: sp.ImmutableMatrix) -> Parts:
     return tuple(value)
 
 
-def _virtual_work(road: Road, _: str) -> Parts:
-    return (sum(map(road.virtual_work, road.scene.contributions), road.zero),)
+def _virtual_work(solution: Solution, _: str) -> Parts:
+    return (sum(map(solution.virtual_work, solution.scene.contributions), solution.zero),)
 
 
-def _conserved_value(road: Road, number: str) -> Parts:
-    true = getattr(road, "true", road)
-    return (road.conserved(true.conserved_of[int(number) - 1]),)
+def _conserved_value(solution: Solution, number: str) -> Parts:
+    true = getattr(solution, "true", solution)
+    return (solution.conserved(true.conserved_of[int(number) - 1]),)
 
 
 EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE = (
@@ -45,7 +45,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "position",
         "vector",
         EXACT,
-        lambda road, body: _vector(road.position(body)),
+        lambda solution, body: _vector(solution.position(body)),
         bodies,
         "configuration",
         ("r", "x"),
@@ -55,7 +55,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "virtual-displacement",
         "vector",
         EXACT,
-        lambda road, body: _vector(road.virtual_displacement(body)),
+        lambda solution, body: _vector(solution.virtual_displacement(body)),
         bodies,
         "variation",
         ("deltar", "δr"),
@@ -78,8 +78,8 @@ QUANTITIES: tuple[Quantity, ...] = (
         "generalized-force",
         "expression",
         EXACT,
-        lambda road, q: (road.generalized_force(q),),
-        lambda road: road.free if road.load_names else (),
+        lambda solution, q: (solution.generalized_force(q),),
+        lambda solution: solution.free if solution.load_names else (),
         "virtual-work",
         ("Q",),
         ("virtual-work",),
@@ -89,7 +89,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "kinetic-energy",
         "expression",
         EXACT,
-        lambda road, _: (road.kinetic_energy,),
+        lambda solution, _: (solution.kinetic_energy,),
         whole,
         "kinetic-energy",
         ("E", "T", "K", "Ekin", "E_kin"),
@@ -101,7 +101,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "potential-energy",
         "expression",
         CONSTANT,
-        lambda road, _: (road.potential_energy,),
+        lambda solution, _: (solution.potential_energy,),
         with_potential,
         "decomposition",
         ("V", "U", "E_pot", "Epot"),
@@ -112,7 +112,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "lagrangian",
         "expression",
         GAUGE,
-        lambda road, _: (road.lagrangian,),
+        lambda solution, _: (solution.lagrangian,),
         whole,
         "lagrange",
         ("L",),
@@ -123,7 +123,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "momentum",
         "expression",
         EXACT,
-        lambda road, q: (road.momentum(q),),
+        lambda solution, q: (solution.momentum(q),),
         coordinates,
         "lagrange",
         ("p",),
@@ -134,7 +134,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "equation",
         "equation",
         ONE,
-        lambda road, q: (road.equation(q),),
+        lambda solution, q: (solution.equation(q),),
         coordinates,
         "lagrange",
         (),
@@ -146,7 +146,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "equations",
         "equations",
         SET,
-        lambda road, _: tuple(map(road.equation, road.free)),
+        lambda solution, _: tuple(map(solution.equation, solution.free)),
         coupled,
         "lagrange",
         (),
@@ -158,7 +158,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "linearized",
         "equation",
         ONE,
-        lambda road, q: (road.linear_equation(q),),
+        lambda solution, q: (solution.linear_equation(q),),
         resting,
         "model",
         (),
@@ -170,7 +170,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "eigenfrequencies",
         "set",
         NUMBERS,
-        lambda road, _: road.frequencies,
+        lambda solution, _: solution.frequencies,
         oscillating,
         "model",
         (),

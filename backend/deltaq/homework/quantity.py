@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 from .equality import Equality, Parts, conserved, lagrangian, up_to_constant
-from .road import Road
+from .solution import Solution
 
 Form = Literal["expression", "vector", "equation", "equations", "set"]
-Subjects = Callable[[Road], Iterable[str]]
+Subjects = Callable[[Solution], Iterable[str]]
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Quantity:
     kind: str
     form: Form
     equality: Equality
-    value: Callable[[Road, str], Parts]
+    value: Callable[[Solution, str], Parts]
     subjects: Subjects
     chapter: str
     labels: tuple[str, ...] = ()

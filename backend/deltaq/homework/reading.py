@@ -16,7 +16,7 @@ from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..language.tree import Node
 from .equality import Parts
-from .road import Road
+from .solution import Solution
 from .task import Task
 
 LABEL = re.compile(r"[^=+*/^≠<>]{1,48}=(?!=)")
@@ -37,15 +37,15 @@ class Reading:
     trees: tuple[tuple[str, Node], ...]
 
 
-def read(task: Task, road: Road, text: str, syntax: Syntax) -> Reading:
+def read(task: Task, solution: Solution, text: str, syntax: Syntax) -> Reading:
     """The answer to a task. Raises ExpressionError with the offset in the text."""
-    names = _names(task, road)
+    names = _names(task, solution)
     pieces = list(_pieces(task, text, names, syntax))
     values = [(piece, *_parsed(text, piece, names, syntax)) for piece in pieces]
     trees = tuple((source, tree) for _, source, tree, _ in values)
     shown = values[0][3] if len(values) == 1 else _together([value for *_, value in values])
-    found = tuple(part for _, _, _, value in values for part in _parts(task, road, value))
-    _check_count(task, road, found)
+    found = tuple(part for _, _, _, value in values for part in _parts(task, solution, value))
+    _check_count(task, solution, found)
     return Reading(found, shown, trees)
 
 
@@ -53,12 +53,12 @@ def _together(values: list[Any]) -> Any:
     return sp.Tuple(*(value if isinstance(value, sp.Eq) else sp.Eq(value, 0, evaluate=False) for value in values))
 
 
-def _names(task: Task, road: Road) -> Names:
+def _names(task: Task, solution: Solution) -> Names:
     """The scene's names; ω, ω₁ … besides where frequencies are asked for."""
-    own = road.scene.names.symbols[:-2]
+    own = solution.scene.names.symbols[:-2]
     if task.quantity.form != "set":
-        return road.scene.names
-    wanted = ("omega", *(f"omega_{n}" for n in range(1, len(road.free) + 1)))
+        return solution.scene.names
+    wanted = ("omega", *(f"omega_{n}" for n in range(1, len(solution.free) + 1)))
     taken = {symbol.name for symbol in own}
     return Names((*own, *(Symbol(name, "parameter", positive=True) for name in wanted if name not in taken)))
 
@@ -127,11 +127,11 @@ def _moved(problem: Problem, start: int) -> Problem:
     return Problem(problem.code, problem.pointer, offset, problem.length, problem.parameters, problem.severity)
 
 
-def _parts(task: Task, road: Road, value: Any) -> Iterator[sp.Expr]:
+def _parts(task: Task, solution: Solution, value: Any) -> Iterator[sp.Expr]:
     match task.quantity.form:
         case "vector":
             if not isinstance(value, sp.MatrixBase):
-                raise ExpressionError(Problem("answer-not-vector", parameters={"count": road.scene.dimension}))
+                raise ExpressionError(Problem("answer-not-vector", parameters={"count": solution.scene.dimension}))
             yield from value
         case "expression":
             yield _scalar(value)
@@ -174,8 +174,8 @@ def _frequency(value: Any) -> sp.Expr:
     raise ExpressionError(Problem("answer-not-frequency"))
 
 
-def _check_count(task: Task, road: Road, parts: Parts) -> None:
-    expected = {"vector": road.scene.dimension, "equation": 1}.get(task.quantity.form)
+def _check_count(task: Task, solution: Solution, parts: Parts) -> None:
+    expected = {"vector": solution.scene.dimension, "equation": 1}.get(task.quantity.form)
     if expected is not None and len(parts) != expected:
         code = "answer-components" if task.quantity.form == "vector" else "answer-one-equation"
         raise ExpressionError(Problem(code, parameters={"count": expected, "found": len(parts)}))

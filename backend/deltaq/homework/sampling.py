@@ -16,7 +16,7 @@ import sympy as sp
 
 from ..derivation.compiled import Function, compiled
 from ..language.memory import cached_method
-from .road import Road
+from .solution import Solution
 
 POINTS = 6
 CLOSE = 1e-7
@@ -26,9 +26,9 @@ Values = tuple[float, ...]
 
 @dataclass(frozen=True, eq=False)
 class Sampler:
-    """Values of expressions in the symbols of a road."""
+    """Values of expressions in the symbols of a solution."""
 
-    road: Road
+    solution: Solution
 
     @cached_property
     def slots(self) -> dict[sp.Symbol, int]:
@@ -36,17 +36,17 @@ class Sampler:
 
     @property
     def _constant(self) -> list[sp.Symbol]:
-        names = [symbol.name for symbol in self.road.scene.names.symbols if symbol.kind == "parameter"]
-        return [self.road.t, *map(self.road.q, names)]
+        names = [symbol.name for symbol in self.solution.scene.names.symbols if symbol.kind == "parameter"]
+        return [self.solution.t, *map(self.solution.q, names)]
 
     @property
     def _moving(self) -> list[sp.Symbol]:
-        road = self.road
-        jets = [road.symbols.rate(q, order) for q in road.coordinates for order in (1, 2, 3)]
-        virtual = [road.symbols.variation(q, order) for q in road.coordinates for order in (0, 1, 2)]
-        differentials = [road.symbols.differential(name) for name in (*road.coordinates, "t")]
-        materials = [road.q(m.name) for m in road.scene.material]
-        return [*map(road.q, road.coordinates), *jets, *virtual, *differentials, *materials]
+        solution = self.solution
+        jets = [solution.symbols.rate(q, order) for q in solution.coordinates for order in (1, 2, 3)]
+        virtual = [solution.symbols.variation(q, order) for q in solution.coordinates for order in (0, 1, 2)]
+        differentials = [solution.symbols.differential(name) for name in (*solution.coordinates, "t")]
+        materials = [solution.q(m.name) for m in solution.scene.material]
+        return [*map(solution.q, solution.coordinates), *jets, *virtual, *differentials, *materials]
 
     @cached_property
     def points(self) -> tuple[list[float], ...]:
@@ -71,7 +71,7 @@ class Sampler:
     def rows(self, residual: sp.Expr) -> tuple[Values, ...]:
         """The row (a₁ … a_f, b) of a residual Σ aᵢ q̈ᵢ + b at every point; NaN where it is not of this form."""
         function = self._function(residual)
-        accelerations = [self.slots[self.road.acceleration(q)] for q in self.road.free]
+        accelerations = [self.slots[self.solution.acceleration(q)] for q in self.solution.free]
         return tuple(_row(function, point, accelerations) for point in self.points)
 
 

@@ -61,7 +61,7 @@ def reading_request(document: Mapping[str, object]) -> Document:
     workbook = workbook_of(document)
     line = line_of(document)
     try:
-        shown = read(workbook.task(line.task), workbook.road, line.text, line.syntax).shown
+        shown = read(workbook.task(line.task), workbook.solution, line.text, line.syntax).shown
     except ExpressionError as error:
         problems = problem_documents(error.problems, language_in(document))
         return {"latex": "", "plain": "", "problems": problems}

@@ -36,7 +36,7 @@ class Slips:
     @cached_method
     def _terms(self, base: Parts) -> tuple[tuple[int, sp.Expr, Values], ...]:
         """Every term of every part, with its values."""
-        symbols = self.sampler.road.symbols
+        symbols = self.sampler.solution.symbols
         shown = [sp.expand(display(part, symbols)) for part in base]
         split = [(index, term) for index, part in enumerate(shown) for term in sp.Add.make_args(part)]
         return tuple((index, term, self.sampler.values(term)) for index, term in split[:MOST_TERMS])

@@ -34,7 +34,7 @@ def task_document(task: Task, workbook: Workbook, language: str) -> Document:
 
 def _steps(task: Task, workbook: Workbook) -> list[str]:
     """Ids of the steps that may show the answer, the likeliest first."""
-    conserved = task.quantity.kind == "conserved" and workbook.road.conserved_of[int(task.subject) - 1]
+    conserved = task.quantity.kind == "conserved" and workbook.solution.conserved_of[int(task.subject) - 1]
     return [step.format(subject=task.subject, cyclic=conserved or "") for step in task.quantity.steps]
 
 
@@ -51,11 +51,11 @@ def _subject(task: Task, workbook: Workbook, language: str) -> dict[str, object]
         values["axes"] = axes_text(scene, language)
     if task.quantity.kind in ("linearized", "eigenfrequencies"):
         typography = Typography(scene.names)
-        rest = workbook.road.rest or {}
+        rest = workbook.solution.rest or {}
         equations = (f"{latex(q, typography)} = {latex(v, typography)}" for q, v in rest.items())
         values["rest"] = joined(", ", map(formula, equations))
     if task.quantity.kind == "conserved":
-        coordinate = workbook.road.conserved_of[int(task.subject) - 1]
+        coordinate = workbook.solution.conserved_of[int(task.subject) - 1]
         kind = "momentum" if coordinate else "energy"
         values["number"] = task.subject
         named = label(coordinate, scene, language)

@@ -3,53 +3,55 @@
 from __future__ import annotations
 
 from .equality import frequencies
-from .road import Road
+from .solution import Solution
 
 
-def bodies(road: Road) -> list[str]:
+def bodies(solution: Solution) -> list[str]:
     """Each body."""
-    return [body.name for body in road.scene.bodies]
+    return [body.name for body in solution.scene.bodies]
 
 
-def coordinates(road: Road) -> tuple[str, ...]:
+def coordinates(solution: Solution) -> tuple[str, ...]:
     """Each free coordinate."""
-    return road.free
+    return solution.free
 
 
-def whole(_road: Road) -> tuple[str, ...]:
+def whole(_road: Solution) -> tuple[str, ...]:
     """The scene as a whole."""
     return ("",)
 
 
-def loaded(road: Road) -> tuple[str, ...]:
+def loaded(solution: Solution) -> tuple[str, ...]:
     """The scene, if loads act on it."""
-    return ("",) if road.load_names else ()
+    return ("",) if solution.load_names else ()
 
 
-def with_potential(road: Road) -> tuple[str, ...]:
+def with_potential(solution: Solution) -> tuple[str, ...]:
     """The scene, if a load has a potential."""
-    return ("",) if any(map(road.is_conservative, road.load_names)) else ()
+    return ("",) if any(map(solution.is_conservative, solution.load_names)) else ()
 
 
-def coupled(road: Road) -> tuple[str, ...]:
+def coupled(solution: Solution) -> tuple[str, ...]:
     """The scene, if it has several degrees of freedom."""
-    return ("",) if len(road.free) > 1 else ()
+    return ("",) if len(solution.free) > 1 else ()
 
 
-def resting(road: Road) -> tuple[str, ...]:
+def resting(solution: Solution) -> tuple[str, ...]:
     """Each free coordinate, if the scene has a position of rest."""
-    return road.free if road.rest is not None else ()
+    return solution.free if solution.rest is not None else ()
 
 
-def oscillating(road: Road) -> tuple[str, ...]:
+def oscillating(solution: Solution) -> tuple[str, ...]:
     """The scene, if it oscillates about a position of rest."""
-    return ("",) if road.rest is not None and _positive(road) else ()
+    return ("",) if solution.rest is not None and _positive(solution) else ()
 
 
-def _positive(road: Road) -> bool:
-    return bool(road.frequencies) and all(frequencies.number_of(each, road) > 1e-9 for each in road.frequencies)
+def _positive(solution: Solution) -> bool:
+    return bool(solution.frequencies) and all(
+        frequencies.number_of(each, solution) > 1e-9 for each in solution.frequencies
+    )
 
 
-def numbered(road: Road) -> list[str]:
+def numbered(solution: Solution) -> list[str]:
     """Each conserved quantity, by its number."""
-    return [str(n) for n, _ in enumerate(road.conserved_of, 1)]
+    return [str(n) for n, _ in enumerate(solution.conserved_of, 1)]

@@ -10,7 +10,7 @@ from ..errors import Problem, UnknownNameError
 from .equality import Parts
 from .quantities import QUANTITIES, quantity_of
 from .quantity import Quantity
-from .road import Road
+from .solution import Solution
 
 
 @dataclass(frozen=True)
@@ -25,25 +25,25 @@ class Task:
         """`kinetic-energy`, `equation:phi`"""
         return f"{self.quantity.kind}:{self.subject}" if self.subject else self.quantity.kind
 
-    def value(self, road: Road) -> Parts:
-        """The parts of the answer that a road leads to; none where it leads nowhere."""
-        return self.quantity.value(road, self.subject)
+    def value(self, solution: Solution) -> Parts:
+        """The parts of the answer that a solution leads to; none where it leads nowhere."""
+        return self.quantity.value(solution, self.subject)
 
 
-def tasks_of(road: Road) -> Iterator[Task]:
+def tasks_of(solution: Solution) -> Iterator[Task]:
     """All tasks of a scene, in the order in which a derivation answers them."""
     for quantity in QUANTITIES:
-        for subject in quantity.subjects(road):
+        for subject in quantity.subjects(solution):
             yield Task(quantity, subject)
 
 
-def task_of(road: Road, identifier: str) -> Task:
+def task_of(solution: Solution, identifier: str) -> Task:
     """The task of this id. Raises UnknownNameError with the nearest one."""
     kind, _, subject = identifier.partition(":")
     quantity = quantity_of(kind)
-    if quantity is not None and subject in quantity.subjects(road):
+    if quantity is not None and subject in quantity.subjects(solution):
         return Task(quantity, subject)
-    known = [task.id for task in tasks_of(road)]
+    known = [task.id for task in tasks_of(solution)]
     near = get_close_matches(identifier, known, n=1)
     parameters = {"name": identifier[:64], "known": ", ".join(known), "suggestion": near[0] if near else ""}
     raise UnknownNameError(Problem("unknown-task", "/task", parameters=parameters))

@@ -1,4 +1,4 @@
-"""A scene ready to be asked about: its true road, the points at which answers are evaluated, and the wrong answers."""
+"""A scene ready to be asked about: its solution, the points at which answers are evaluated, and the wrong answers."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from ..language.canonical import display
 from ..language.memory import cached_method
 from ..mechanics.requests import changed_scene
 from ..mechanics.scene import Scene
-from .detour import Detour, misconceptions
 from .equality import Fingerprint, Parts
-from .road import Road
+from .faulty_solution import FaultySolution, misconceptions
 from .sampling import Sampler, close
 from .seeds import seeded
+from .solution import Solution
 from .task import Task, task_of, tasks_of
 
 KEPT = 48
@@ -25,9 +25,9 @@ MOST_OPERATIONS = 6000  # of a right answer: beyond it the wrong ones take secon
 
 @dataclass(frozen=True)
 class Candidate:
-    """A wrong answer: the road that leads to it, its parts, and the numbers by which it is found."""
+    """A wrong answer: the solution that leads to it, its parts, and the numbers by which it is found."""
 
-    road: Detour
+    solution: FaultySolution
     parts: Parts
     fingerprint: Fingerprint
 
@@ -39,29 +39,29 @@ class Workbook:
     scene: Scene
 
     @cached_property
-    def road(self) -> Road:
+    def solution(self) -> Solution:
         """The way from the scene to every right answer."""
-        return Road(self.scene)
+        return Solution(self.scene)
 
     @cached_property
     def sampler(self) -> Sampler:
         """Numbers that tell answers apart."""
-        return Sampler(self.road)
+        return Sampler(self.solution)
 
     @cached_property
     def tasks(self) -> tuple[Task, ...]:
         """All that can be asked about the scene."""
-        return tuple(tasks_of(self.road))
+        return tuple(tasks_of(self.solution))
 
     @cached_method
     def task(self, identifier: str) -> Task:
         """The task of this id. Raises UnknownNameError."""
-        return task_of(self.road, identifier)
+        return task_of(self.solution, identifier)
 
     @cached_method
     def right(self, task: Task) -> Parts:
         """The right answer to a task."""
-        return task.value(self.road)
+        return task.value(self.solution)
 
     @cached_method
     def shown(self, task: Task) -> Parts:
@@ -70,7 +70,7 @@ class Workbook:
 
     def short(self, parts: Parts) -> Parts:
         """Any answer in its display form."""
-        return tuple(display(part.expand(), self.road.symbols) for part in parts)
+        return tuple(display(part.expand(), self.solution.symbols) for part in parts)
 
     @cached_method
     def fingerprint(self, task: Task) -> Fingerprint | None:
@@ -78,29 +78,29 @@ class Workbook:
         return task.quantity.equality.fingerprint(self.right(task), self.sampler)
 
     @cached_property
-    def detours(self) -> tuple[Detour, ...]:
+    def faulty_solutions(self) -> tuple[FaultySolution, ...]:
         """Every misconception in every way it can be made on this scene."""
-        return tuple(detour for kind in misconceptions() for detour in kind.variants(self.road))
+        return tuple(faulty for kind in misconceptions() for faulty in kind.variants(self.solution))
 
     @cached_method
     def candidates(self, task: Task) -> tuple[Candidate, ...]:
-        """The wrong answers to a task, each road that changes the answer once, the likely ones first."""
+        """The wrong answers to a task, each solution that changes the answer once, the likely ones first."""
         size = sum(part.count_ops() for part in self.right(task))
         return tuple(self._candidates(task)) if size <= MOST_OPERATIONS else ()
 
     def _candidates(self, task: Task) -> Iterator[Candidate]:
         right = self.fingerprint(task)
-        for road in self.detours:
-            parts = _attempt(task, road)
+        for solution in self.faulty_solutions:
+            parts = _attempt(task, solution)
             found = task.quantity.equality.fingerprint(parts, self.sampler) if parts else None
             if found and (right is None or len(found) != len(right) or not close(found, right)):
-                yield Candidate(road, parts, found)
+                yield Candidate(solution, parts, found)
 
 
-def _attempt(task: Task, road: Detour) -> Parts:
-    """The answer that a wrong road leads to; none where it leads nowhere (an integral without a closed form)."""
+def _attempt(task: Task, solution: FaultySolution) -> Parts:
+    """The answer that a wrong solution leads to; none where it leads nowhere (an integral without a closed form)."""
     try:
-        return task.value(road)
+        return task.value(solution)
     except (InputError, ValueError, ZeroDivisionError):
         return ()
 

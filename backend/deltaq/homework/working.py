@@ -16,9 +16,9 @@ from ..language.parser import Syntax
 from .checking import check
 from .equality import Parts
 from .gradebook import FOLLOW_THROUGH, earned_share, standing_after
-from .own import OwnRoad
+from .own import OwnSolution
 from .reading import read
-from .road import Road
+from .solution import Solution
 from .task import Task
 from .verdict import Verdict
 from .workbook import Workbook
@@ -86,7 +86,7 @@ def _judged(
     verdict = check_following(workbook, task, line, wrong)
 
     def parts() -> Parts:
-        return read(task, workbook.road, line.text, line.syntax).parts
+        return read(task, workbook.solution, line.text, line.syntax).parts
 
     return verdict, standing_after(wrong, task.id, verdict.outcome, parts)
 
@@ -96,38 +96,38 @@ def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[s
     verdict = check(workbook, task, line.text, line.syntax)
     if verdict.outcome != "wrong" or not wrong or verdict.remark == "degenerate":
         return verdict
-    given = read(task, workbook.road, line.text, line.syntax).parts
-    if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.road).equal:
+    given = read(task, workbook.solution, line.text, line.syntax).parts
+    if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.solution).equal:
         return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slip=None)
-    if any(_follows(workbook, task, given, road) for road in _roads(workbook, task, wrong)):
+    if any(_follows(workbook, task, given, solution) for solution in _roads(workbook, task, wrong)):
         return replace(verdict, outcome="follow_through", remark="", misconceptions=(), slip=None, counterexample=None)
     return verdict
 
 
-def _roads(workbook: Workbook, task: Task, wrong: Mapping[str, Parts]) -> Iterator[Road]:
+def _roads(workbook: Workbook, task: Task, wrong: Mapping[str, Parts]) -> Iterator[Solution]:
     """From all wrong lines, then from each of them alone; never from an earlier answer to the same task."""
     others = {name: parts for name, parts in wrong.items() if name != task.id}
     if not others:
         return
-    yield OwnRoad(workbook.scene, workbook.road, others)
+    yield OwnSolution(workbook.scene, workbook.solution, others)
     for name in list(others)[-MOST_WRONG:] if len(others) > 1 else ():
-        yield OwnRoad(workbook.scene, workbook.road, {name: others[name]})
+        yield OwnSolution(workbook.scene, workbook.solution, {name: others[name]})
 
 
-def _follows(workbook: Workbook, task: Task, given: Parts, road: Road) -> bool:
+def _follows(workbook: Workbook, task: Task, given: Parts, solution: Solution) -> bool:
     """Whether the line is what their own lines lead to, and that is no triviality."""
     try:
-        expected = task.value(road)
+        expected = task.value(solution)
     except (ValueError, ZeroDivisionError):
         return False
-    if not expected or not task.quantity.equality.same(given, expected, road).equal:
+    if not expected or not task.quantity.equality.same(given, expected, solution).equal:
         return False
     return _substantial(expected, workbook.shown(task), workbook)
 
 
 def _substantial(expected: Parts, right: Parts, workbook: Workbook) -> bool:
     """Every coordinate, rate and acceleration of the right answer, and most of its terms."""
-    parameters = {workbook.road.q(p.name) for p in workbook.scene.parameters}
+    parameters = {workbook.solution.q(p.name) for p in workbook.scene.parameters}
     own, true = (_content(parts, workbook) for parts in (expected, right))
     needed = {symbol for part in right for symbol in part.free_symbols} - parameters
     held = {symbol for part in expected for symbol in part.free_symbols}
@@ -136,5 +136,5 @@ def _substantial(expected: Parts, right: Parts, workbook: Workbook) -> bool:
 
 def _content(parts: Parts, workbook: Workbook) -> int:
     """The number of terms in display form."""
-    shown = (display(sp.expand(part), workbook.road.symbols).expand() for part in parts)
+    shown = (display(sp.expand(part), workbook.solution.symbols).expand() for part in parts)
     return sum(len(sp.Add.make_args(part)) for part in shown if part != 0)

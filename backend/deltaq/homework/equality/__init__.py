@@ -1,8 +1,8 @@
 """When two answers say the same: one kind of equality, one module.
 
 A module has `fingerprint(parts, sampler)`, numbers that equal answers share (None: it cannot be told from numbers, ():
-the answer says nothing), and `same(given, right, road)`, the exact decision. Parts are the components of a vector, the
-residuals of equations, or one expression.
+the answer says nothing), and `same(given, right, solution)`, the exact decision. Parts are the components of a vector,
+the residuals of equations, or one expression.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Protocol
 
 import sympy as sp
 
-from ..road import Road
 from ..sampling import Sampler
+from ..solution import Solution
 
 Parts = tuple[sp.Expr, ...]
 Fingerprint = tuple[float, ...]
@@ -32,7 +32,7 @@ class Equality(Protocol):
     """What every module here offers."""
 
     def fingerprint(self, parts: Parts, sampler: Sampler, /) -> Fingerprint | None: ...
-    def same(self, given: Parts, right: Parts, road: Road, /) -> Match: ...
+    def same(self, given: Parts, right: Parts, solution: Solution, /) -> Match: ...
 
 
 def weakest(outcomes: Sequence[bool | None]) -> bool | None:

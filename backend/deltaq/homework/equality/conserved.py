@@ -5,8 +5,8 @@ from __future__ import annotations
 import sympy as sp
 
 from ...language.canonical import is_zero
-from ..road import Road
 from ..sampling import Sampler, defined
+from ..solution import Solution
 from . import Fingerprint, Match, Parts, weakest
 
 
@@ -20,25 +20,25 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     return () if abs(steps[0]) <= 1e-9 * largest else tuple(step / steps[0] for step in steps[1:])
 
 
-def same(given: Parts, right: Parts, road: Road) -> Match:
-    factor = _factor(given[0], right[0], road)
+def same(given: Parts, right: Parts, solution: Solution) -> Match:
+    factor = _factor(given[0], right[0], solution)
     if factor is None:
         return Match(equal=False)
     difference = given[0] - factor * right[0]
-    equal = weakest([is_zero(difference.diff(symbol), road.symbols) for symbol in _moving(difference, road)])
-    literal = equal is True and is_zero(given[0] - right[0], road.symbols) is True
+    equal = weakest([is_zero(difference.diff(symbol), solution.symbols) for symbol in _moving(difference, solution)])
+    literal = equal is True and is_zero(given[0] - right[0], solution.symbols) is True
     return Match(equal, "multiple" if equal and not literal else "")
 
 
-def _moving(value: sp.Expr, road: Road) -> list[sp.Symbol]:
-    return sorted(value.free_symbols - {road.q(p.name) for p in road.scene.parameters}, key=str)
+def _moving(value: sp.Expr, solution: Solution) -> list[sp.Symbol]:
+    return sorted(value.free_symbols - {solution.q(p.name) for p in solution.scene.parameters}, key=str)
 
 
-def _factor(given: sp.Expr, right: sp.Expr, road: Road) -> sp.Expr | None:
+def _factor(given: sp.Expr, right: sp.Expr, solution: Solution) -> sp.Expr | None:
     """given = factor · right + constant: the ratio of slopes at one state, an expression in the parameters."""
-    for symbol in _moving(right, road):
-        state = {s: sp.Rational(7 + k, 11) for k, s in enumerate(_moving(given * right, road))}
+    for symbol in _moving(right, solution):
+        state = {s: sp.Rational(7 + k, 11) for k, s in enumerate(_moving(given * right, solution))}
         above, below = (value.diff(symbol).xreplace(state) for value in (given, right))
-        if is_zero(below, road.symbols) is False:
-            return None if is_zero(above, road.symbols) is not False else above / below
+        if is_zero(below, solution.symbols) is False:
+            return None if is_zero(above, solution.symbols) is not False else above / below
     return None

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 from ...language.canonical import is_zero
-from ..road import Road
+from ..solution import Solution
 from . import Match, Parts, equations, weakest
 from .equations import fingerprint
 
 __all__ = ["fingerprint", "same", "same_solved"]
 
 
-def same(given: Parts, right: Parts, road: Road) -> Match:
+def same(given: Parts, right: Parts, solution: Solution) -> Match:
     """Whether it is the equation up to a factor."""
-    return equations.same(given, right, road)
+    return equations.same(given, right, solution)
 
 
-def same_solved(given: Parts, road: Road) -> Match:
+def same_solved(given: Parts, solution: Solution) -> Match:
     """Whether the equation follows from the whole set: with q̈ = −M⁻¹b put in, nothing is left."""
-    matrix, rest = equations.system_of(tuple(road.equation(q) for q in road.free), road)
-    row, own = equations.system_of(given, road)
+    matrix, rest = equations.system_of(tuple(solution.equation(q) for q in solution.free), solution)
+    row, own = equations.system_of(given, solution)
     determinant = matrix.det(method="berkowitz")
     left = own[0, 0] * determinant - (row * matrix.adjugate() * rest)[0, 0]
-    equal = weakest([is_zero(left, road.symbols)])
+    equal = weakest([is_zero(left, solution.symbols)])
     return Match(equal, "solved" if equal else "")

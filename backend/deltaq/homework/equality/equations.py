@@ -14,8 +14,8 @@ import sympy as sp
 
 from ...derivation.compiled import compiled
 from ...language.canonical import is_zero
-from ..road import Road
 from ..sampling import Sampler, defined, echelon
+from ..solution import Solution
 from . import Fingerprint, Match, Parts, weakest
 
 SPECIAL = (0.0, math.pi / 2, math.pi, -math.pi / 2, -0.7, 0.9)
@@ -34,54 +34,54 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     return tuple(entry for each in reduced for row in each for entry in row)
 
 
-def same(given: Parts, right: Parts, road: Road) -> Match:
+def same(given: Parts, right: Parts, solution: Solution) -> Match:
     if len(given) != len(right):
         return Match(equal=False)
-    matrix, rest = system_of(right, road)
-    own, own_rest = system_of(given, road)
-    if own.free_symbols & {road.acceleration(q) for q in road.free}:
+    matrix, rest = system_of(right, solution)
+    own, own_rest = system_of(given, solution)
+    if own.free_symbols & {solution.acceleration(q) for q in solution.free}:
         return Match(equal=False)
-    columns = _pivots(matrix, road)
+    columns = _pivots(matrix, solution)
     if columns is None:
         return Match(equal=None)
     square, given_square = matrix[:, columns], own[:, columns]
     determinant, factor = square.det(method="berkowitz"), given_square.det(method="berkowitz")
-    if is_zero(factor, road.symbols) is not False:
+    if is_zero(factor, solution.symbols) is not False:
         return Match(equal=False)
     # own = X · right with X = given_square · square⁻¹: cleared of the determinant, so that nothing is divided.
     combined = given_square * square.adjugate()
     whole, own_whole = matrix.row_join(rest), own.row_join(own_rest)
-    equal = weakest([is_zero(entry, road.symbols) for entry in determinant * own_whole - combined * whole])
-    if equal and _vanishes(factor, determinant, road):
+    equal = weakest([is_zero(entry, solution.symbols) for entry in determinant * own_whole - combined * whole])
+    if equal and _vanishes(factor, determinant, solution):
         return Match(equal=False, remark="factor-vanishes")
     return Match(equal)
 
 
-def system_of(parts: Parts, road: Road) -> tuple[sp.Matrix, sp.Matrix]:
+def system_of(parts: Parts, solution: Solution) -> tuple[sp.Matrix, sp.Matrix]:
     """A and b of residuals A q̈ + b."""
-    accelerations = [road.acceleration(q) for q in road.free]
-    still = dict.fromkeys(accelerations, road.zero)
+    accelerations = [solution.acceleration(q) for q in solution.free]
+    still = dict.fromkeys(accelerations, solution.zero)
     matrix = sp.Matrix([[part.diff(a) for a in accelerations] for part in parts])
     return matrix, sp.Matrix([part.xreplace(still) for part in parts])
 
 
-def _pivots(matrix: sp.Matrix, road: Road) -> list[int] | None:
+def _pivots(matrix: sp.Matrix, solution: Solution) -> list[int] | None:
     """Columns whose square block is regular; all of them for the complete set of equations."""
     rows, columns = matrix.shape
     if rows == columns:
         return list(range(columns))
     if rows == 1:
-        return next(([k] for k in range(columns) if is_zero(matrix[0, k], road.symbols) is False), None)
+        return next(([k] for k in range(columns) if is_zero(matrix[0, k], solution.symbols) is False), None)
     return None
 
 
-def _vanishes(above: sp.Expr, below: sp.Expr, road: Road) -> bool:
+def _vanishes(above: sp.Expr, below: sp.Expr, solution: Solution) -> bool:
     """Whether above/below is zero or undefined somewhere, by the states where such things happen; 0/0 tells nothing."""
-    fixed = {road.q(p.name) for p in road.scene.parameters if p.positive}
+    fixed = {solution.q(p.name) for p in solution.scene.parameters if p.positive}
     used = sorted(above.free_symbols | below.free_symbols, key=lambda symbol: (symbol in fixed, symbol.name))
     slots = {symbol: index for index, symbol in enumerate(used)}
     functions = [compiled(part, slots) for part in (above, below)]
-    choices = [_special(symbol, road) for symbol in used if symbol not in fixed]
+    choices = [_special(symbol, solution) for symbol in used if symbol not in fixed]
     rest = [1.3 + 0.1 * k for k in range(len(used) - len(choices))]
     pairs = [[function([*state, *rest]) for function in functions] for state in _states(choices)]
     signs = {_sign(a / b if abs(b) > NOTHING else math.inf) for a, b in pairs if max(abs(a), abs(b)) > NOTHING}
@@ -98,9 +98,9 @@ def _states(choices: Sequence[Sequence[float]]) -> Iterator[Sequence[float]]:
             yield [value if k == index else own[-1] - 0.01 * k for k, own in enumerate(choices)]
 
 
-def _special(symbol: sp.Symbol, road: Road) -> Sequence[float]:
+def _special(symbol: sp.Symbol, solution: Solution) -> Sequence[float]:
     """The values at which factors tend to vanish; of a coordinate only those in its range, where it makes sense."""
-    found = next((c for c in road.scene.coordinates if c.name == symbol.name), None)
+    found = next((c for c in solution.scene.coordinates if c.name == symbol.name), None)
     if found is None or found.min is None or found.max is None:
         return SPECIAL
     inside = [value for value in SPECIAL if found.min <= value <= found.max]

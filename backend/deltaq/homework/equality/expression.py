@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ...language.canonical import is_zero
-from ..road import Road
 from ..sampling import Sampler, defined
+from ..solution import Solution
 from . import Fingerprint, Match, Parts, weakest
 
 
@@ -14,8 +14,8 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     return values if defined(values) else None
 
 
-def same(given: Parts, right: Parts, road: Road) -> Match:
+def same(given: Parts, right: Parts, solution: Solution) -> Match:
     if len(given) != len(right):
         return Match(equal=False)
     pairs = zip(given, right, strict=True)
-    return Match(weakest([is_zero(a - b, road.symbols) for a, b in pairs]))
+    return Match(weakest([is_zero(a - b, solution.symbols) for a, b in pairs]))

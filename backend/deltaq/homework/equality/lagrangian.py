@@ -9,28 +9,30 @@ from __future__ import annotations
 import sympy as sp
 
 from ...language.canonical import is_zero
-from ..road import Road
 from ..sampling import Sampler
+from ..solution import Solution
 from . import Fingerprint, Match, Parts, up_to_constant, weakest
 
 
 def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     """The Euler–Lagrange expressions of every coordinate at all points."""
-    values = [v for q in sampler.road.free for v in sampler.values(_euler_lagrange(parts[0], q, sampler.road))]
+    values = [v for q in sampler.solution.free for v in sampler.values(_euler_lagrange(parts[0], q, sampler.solution))]
     return tuple(values) if all(abs(value) < 1e100 for value in values) else None
 
 
-def same(given: Parts, right: Parts, road: Road) -> Match:
-    constant = up_to_constant.same(given, right, road)
+def same(given: Parts, right: Parts, solution: Solution) -> Match:
+    constant = up_to_constant.same(given, right, solution)
     if constant.equal:
         return constant
     difference = given[0] - right[0]
-    if difference.free_symbols & {road.acceleration(q) for q in road.coordinates}:
+    if difference.free_symbols & {solution.acceleration(q) for q in solution.coordinates}:
         return Match(equal=False)
-    equal = weakest([is_zero(_euler_lagrange(difference, q, road), road.symbols) for q in road.free])
+    equal = weakest([is_zero(_euler_lagrange(difference, q, solution), solution.symbols) for q in solution.free])
     return Match(equal, "total-derivative" if equal else "")
 
 
-def _euler_lagrange(lagrangian: sp.Expr, coordinate: str, road: Road) -> sp.Expr:
+def _euler_lagrange(lagrangian: sp.Expr, coordinate: str, solution: Solution) -> sp.Expr:
     """d/dt ∂L/∂q̇ − ∂L/∂q"""
-    return road.time_derivative(lagrangian.diff(road.rate(coordinate))) - lagrangian.diff(road.q(coordinate))
+    return solution.time_derivative(lagrangian.diff(solution.rate(coordinate))) - lagrangian.diff(
+        solution.q(coordinate)
+    )

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ...language.canonical import is_zero
-from ..road import Road
 from ..sampling import Sampler, defined
+from ..solution import Solution
 from . import Fingerprint, Match, Parts, weakest
 
 
@@ -14,11 +14,13 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     return tuple(value - values[0] for value in values[1:]) if defined(values) else None
 
 
-def same(given: Parts, right: Parts, road: Road) -> Match:
+def same(given: Parts, right: Parts, solution: Solution) -> Match:
     difference = given[0] - right[0]
-    moving = sorted(difference.free_symbols - {road.q(p.name) for p in road.scene.parameters} - {road.t}, key=str)
-    equal = weakest([is_zero(difference.diff(symbol), road.symbols) for symbol in moving])
-    literal = equal is True and is_zero(difference, road.symbols) is True
+    moving = sorted(
+        difference.free_symbols - {solution.q(p.name) for p in solution.scene.parameters} - {solution.t}, key=str
+    )
+    equal = weakest([is_zero(difference.diff(symbol), solution.symbols) for symbol in moving])
+    literal = equal is True and is_zero(difference, solution.symbols) is True
     if not equal or literal:
         return Match(equal)
-    return Match(equal, "function-of-time" if difference.has(road.t) else "constant")
+    return Match(equal, "function-of-time" if difference.has(solution.t) else "constant")

@@ -12,12 +12,12 @@ import sympy as sp
 from ...derivation.calculus import V
 from ...mechanics.bodies import Body
 from ...mechanics.contributions import Contribution
-from ..detour import Detour
-from ..road import Road
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
 
 
 @dataclass(frozen=True, eq=False)
-class NamesMixedUp(Detour):
+class NamesMixedUp(FaultySolution):
     """Two names of the same kind are mixed up.
 
     m₁ and m₂, l₁ and l₂ or φ₁ and φ₂ are exchanged while copying from the drawing.
@@ -27,7 +27,7 @@ class NamesMixedUp(Detour):
     likely: ClassVar[int] = 4
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for one, other in combinations(true.scene.parameters, 2):
             if one.unit == other.unit and one.unit:
                 yield cls(true.scene, true, f"{one.name}/{other.name}")
@@ -50,7 +50,7 @@ class NamesMixedUp(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class OtherCoordinate(Detour):
+class OtherCoordinate(FaultySolution):
     """The answer belongs to another coordinate.
 
     Several equations are derived at once, and one ends up in the field of the other.
@@ -60,7 +60,7 @@ class OtherCoordinate(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if len(true.free) > 1:
             yield from (cls(true.scene, true, q) for q in true.free)
 

@@ -11,12 +11,12 @@ import sympy as sp
 from ...derivation.calculus import column
 from ...mechanics.bodies import Body
 from ...mechanics.kinetics import Distribution, Rotation, Translation
-from ..detour import Detour
-from ..road import Road
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
 
 
 @dataclass(frozen=True, eq=False)
-class HalfInKineticEnergy(Detour):
+class HalfInKineticEnergy(FaultySolution):
     """The ½ of the kinetic energy is missing: E = m v².
 
     The product m v·v is remembered, the half that comes from integrating m v dv is not.
@@ -30,7 +30,7 @@ class HalfInKineticEnergy(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class HalfOfOneBody(Detour):
+class HalfOfOneBody(FaultySolution):
     """The ½ is missing in the kinetic energy of one body.
 
     With several bodies the factor is written for the first and lost for the next.
@@ -40,7 +40,7 @@ class HalfOfOneBody(Detour):
     likely: ClassVar[int] = 3
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if len(true.scene.bodies) > 1:
             yield from (cls(true.scene, true, body.name) for body in true.scene.bodies)
 
@@ -50,7 +50,7 @@ class HalfOfOneBody(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class BodyMissing(Detour):
+class BodyMissing(FaultySolution):
     """One body has been left out of the kinetic energy.
 
     The drawing draws the eye to the body that swings; the one that carries it is overlooked.
@@ -60,7 +60,7 @@ class BodyMissing(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if len(true.scene.bodies) > 1:
             yield from (cls(true.scene, true, body.name) for body in true.scene.bodies)
 
@@ -69,7 +69,7 @@ class BodyMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class MixedTermMissing(Detour):
+class MixedTermMissing(FaultySolution):
     """The mixed term of v² is missing: (a + b)² = a² + b².
 
     Velocities are squared one by one, as if they were at right angles.
@@ -83,7 +83,7 @@ class MixedTermMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class MixedTermHalved(Detour):
+class MixedTermHalved(FaultySolution):
     """The mixed term of v² is half as large as it is: (a + b)² = a² + ab + b².
 
     The binomial formula is written from memory, and the 2 is lost.
@@ -97,7 +97,7 @@ class MixedTermHalved(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class SquareOfLength(Detour):
+class SquareOfLength(FaultySolution):
     """A length is not squared in the kinetic energy.
 
     In v = l φ̇ only the rate is squared: E = m l φ̇²/2.
@@ -107,7 +107,7 @@ class SquareOfLength(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         units = {p.name: p.unit for p in true.scene.parameters} | {c.name: c.unit for c in true.scene.free}
         for name, unit in units.items():
             if unit == "m" and true.kinetic_energy.expand().has(true.q(name) ** 2):
@@ -120,7 +120,7 @@ class SquareOfLength(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class SquareOfRate(Detour):
+class SquareOfRate(FaultySolution):
     """The rate is not squared in the kinetic energy.
 
     v² is written as l² φ̇: the square is carried to the length only.
@@ -130,7 +130,7 @@ class SquareOfRate(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         yield from (cls(true.scene, true, q) for q in true.free)
 
     @property
@@ -140,7 +140,7 @@ class SquareOfRate(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class RatesForCoordinates(Detour):
+class RatesForCoordinates(FaultySolution):
     """A coordinate is written where its rate belongs: the dots are missing.
 
     The kinetic energy is copied from the potential, or the dot is lost in writing.
@@ -155,7 +155,7 @@ class RatesForCoordinates(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class MassAtTheEnd(Detour):
+class MassAtTheEnd(FaultySolution):
     """The whole mass of a continuum is put at its end.
 
     The formula of the pendulum is taken over: m l² instead of the moment of inertia of the rod.
@@ -165,7 +165,7 @@ class MassAtTheEnd(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for body in true.scene.bodies:
             if body.material:
                 yield cls(true.scene, true, body.name)
@@ -181,7 +181,7 @@ class MassAtTheEnd(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class PointMassForBody(Detour):
+class PointMassForBody(FaultySolution):
     """A rod or disc is treated as a point mass at its centre.
 
     E = m v²/2 of the centre of mass is known from particles; the energy of the rotation about it is forgotten.
@@ -191,7 +191,7 @@ class PointMassForBody(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for body in true.scene.bodies:
             if any(not isinstance(part, Translation) for part in body.kinetics):
                 yield cls(true.scene, true, body.name)
@@ -213,7 +213,7 @@ class PointMassForBody(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class TranslationMissing(Detour):
+class TranslationMissing(FaultySolution):
     """Only the rotation of a rigid body is counted, not the motion of its centre of mass.
 
     J ω²/2 looks complete for a body that turns.
@@ -223,7 +223,7 @@ class TranslationMissing(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for body in true.scene.bodies:
             if any(isinstance(part, Rotation) for part in body.kinetics):
                 yield cls(true.scene, true, body.name)
@@ -237,19 +237,19 @@ class TranslationMissing(Detour):
         return right - self.expression(mass) * self.dot(v, v) / 2
 
 
-def _scaled_mixed(energy: sp.Expr, road: Road, factor: sp.Expr) -> sp.Expr:
+def _scaled_mixed(energy: sp.Expr, solution: Solution, factor: sp.Expr) -> sp.Expr:
     """The energy with its products of different rates (and of a rate with a guide's speed) times a factor."""
     terms = sp.Add.make_args(energy.expand())
-    return sp.Add(*(t * factor if _is_mixed(t, road) else t for t in terms))
+    return sp.Add(*(t * factor if _is_mixed(t, solution) else t for t in terms))
 
 
-def _is_mixed(term: sp.Expr, road: Road) -> bool:
-    degrees = [d for d in degrees_in_rates(term, road) if d]
-    return degrees == [1, 1] or (degrees == [1] and term.has(road.t))
+def _is_mixed(term: sp.Expr, solution: Solution) -> bool:
+    degrees = [d for d in degrees_in_rates(term, solution) if d]
+    return degrees == [1, 1] or (degrees == [1] and term.has(solution.t))
 
 
-def degrees_in_rates(term: sp.Expr, road: Road) -> list[int]:
+def degrees_in_rates(term: sp.Expr, solution: Solution) -> list[int]:
     """The powers of the rates in a term, in order."""
     powers = term.as_powers_dict()
-    found = (powers.get(road.rate(q), 0) for q in road.free)
+    found = (powers.get(solution.rate(q), 0) for q in solution.free)
     return sorted(int(power) for power in found if power == int(power))

@@ -8,13 +8,13 @@ from typing import ClassVar, Self
 
 import sympy as sp
 
-from ..detour import Detour
-from ..road import Road
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
 from .kinetic_energy import degrees_in_rates
 
 
 @dataclass(frozen=True, eq=False)
-class MomentumIsMassTimesRate(Detour):
+class MomentumIsMassTimesRate(FaultySolution):
     """The generalized momentum is taken as inertia times its own rate.
 
     p = m v holds for one particle along a line; coupled coordinates bring the rates of the others in.
@@ -29,7 +29,7 @@ class MomentumIsMassTimesRate(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class TotalDerivativePartial(Detour):
+class TotalDerivativePartial(FaultySolution):
     """In d/dt ∂E/∂q̇ only the rates are differentiated; the factors that move, too, are held constant.
 
     m r² φ̇ becomes m r² φ̈: the product rule, and with it the term 2 m r ṙ φ̇, is lost.
@@ -44,7 +44,7 @@ class TotalDerivativePartial(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class TotalDerivativeHalved(Detour):
+class TotalDerivativeHalved(FaultySolution):
     """The terms from differentiating a moving factor come out half as large as they are.
 
     d/dt r² is taken as r ṙ: the 2 of the inner square is lost.
@@ -60,7 +60,7 @@ class TotalDerivativeHalved(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class GuideAccelerationMissing(Detour):
+class GuideAccelerationMissing(FaultySolution):
     """The acceleration of the guided base is left out: d/dt does not reach the explicit time in ∂E/∂q̇.
 
     The momentum is differentiated by coordinates and rates alone.
@@ -70,7 +70,7 @@ class GuideAccelerationMissing(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if true.depends_on_time:
             yield cls(true.scene, true)
 
@@ -80,7 +80,7 @@ class GuideAccelerationMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class EnergySlopeDropped(Detour):
+class EnergySlopeDropped(FaultySolution):
     """∂E/∂q is left out of Lagrange's equation.
 
     The kinetic energy is thought of as depending on rates only, so the second term is not looked at.
@@ -94,7 +94,7 @@ class EnergySlopeDropped(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class EnergySlopeSign(Detour):
+class EnergySlopeSign(FaultySolution):
     """∂E/∂q is added instead of subtracted.
 
     The signs of d/dt ∂E/∂q̇ − ∂E/∂q are remembered as two plus signs.
@@ -108,7 +108,7 @@ class EnergySlopeSign(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class CoriolisMissing(Detour):
+class CoriolisMissing(FaultySolution):
     """The terms with products of two different rates are missing (Coriolis).
 
     They come from the product rule and from mixed terms of v², and both are easily passed over.
@@ -118,7 +118,7 @@ class CoriolisMissing(Detour):
     likely: ClassVar[int] = 3
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if len(true.free) > 1:
             yield cls(true.scene, true)
 
@@ -127,7 +127,7 @@ class CoriolisMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class CentrifugalMissing(Detour):
+class CentrifugalMissing(FaultySolution):
     """The terms with squares of rates are missing (centrifugal).
 
     They have no counterpart in the equations of motion along a line, where only forces and masses occur.
@@ -140,8 +140,8 @@ class CentrifugalMissing(Detour):
         return _without(super().equation(coordinate), self, mixed=False)
 
 
-def _without(equation: sp.Expr, road: Road, *, mixed: bool) -> sp.Expr:
+def _without(equation: sp.Expr, solution: Solution, *, mixed: bool) -> sp.Expr:
     """The equation without products of two rates (mixed), or without squares of one."""
     wanted = [1, 1] if mixed else [2]
     terms = sp.Add.make_args(equation.expand())
-    return sp.Add(*(t for t in terms if [d for d in degrees_in_rates(t, road) if d] != wanted))
+    return sp.Add(*(t for t in terms if [d for d in degrees_in_rates(t, solution) if d] != wanted))

@@ -10,12 +10,12 @@ from typing import ClassVar, Self
 import sympy as sp
 
 from ...derivation.calculus import V
-from ..detour import Detour
-from ..road import Road
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
 
 
 @dataclass(frozen=True, eq=False)
-class CoordinateDirection(Detour):
+class CoordinateDirection(FaultySolution):
     """A coordinate is counted in the opposite direction.
 
     The arrow of the coordinate in the drawing is not looked at: the angle is turned the other way, the length
@@ -26,7 +26,7 @@ class CoordinateDirection(Detour):
     likely: ClassVar[int] = 3
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         yield from (cls(true.scene, true, q) for q in true.free)
 
     def position(self, place: str) -> sp.ImmutableMatrix:
@@ -35,7 +35,7 @@ class CoordinateDirection(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class RelativeAngle(Detour):
+class RelativeAngle(FaultySolution):
     """An absolute angle is taken as an angle relative to the body before, so that angles add up.
 
     The drawing counts each angle from the vertical; joints suggest counting from the previous link.
@@ -45,7 +45,7 @@ class RelativeAngle(Detour):
     likely: ClassVar[int] = 3
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         angles = [c.name for c in true.scene.free if c.unit in ("rad", "deg")]
         yield from (cls(true.scene, true, f"{one}/{other}") for one, other in pairwise(angles))
 
@@ -55,7 +55,7 @@ class RelativeAngle(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class SineCosineSwapped(Detour):
+class SineCosineSwapped(FaultySolution):
     """Sine and cosine are swapped in the position.
 
     Polar coordinates are written down from memory, without looking at the axis from which the angle is counted.
@@ -65,7 +65,7 @@ class SineCosineSwapped(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         yield from (cls(true.scene, true, q) for q in true.free)
 
     def position(self, place: str) -> sp.ImmutableMatrix:

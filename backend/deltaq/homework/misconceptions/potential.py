@@ -9,12 +9,12 @@ from typing import ClassVar, Self
 import sympy as sp
 
 from ...mechanics.contributions import Contribution, PointForce, PotentialEnergy
-from ..detour import Detour
-from ..road import Road
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
 
 
 @dataclass(frozen=True, eq=False)
-class PotentialSign(Detour):
+class PotentialSign(FaultySolution):
     """The potential energy has the wrong sign.
 
     With the axis pointing down, height is not the coordinate: V = −m g y, though m g h is what one remembers.
@@ -29,7 +29,7 @@ class PotentialSign(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class HalfInSpringEnergy(Detour):
+class HalfInSpringEnergy(FaultySolution):
     """The ½ of the energy of a spring or potential is missing: V = k s².
 
     Force times way is taken for the work, though the force grows along the way.
@@ -39,7 +39,7 @@ class HalfInSpringEnergy(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for part in true.scene.contributions:
             if isinstance(part, PotentialEnergy):
                 yield cls(true.scene, true, part.source)
@@ -50,7 +50,7 @@ class HalfInSpringEnergy(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class ForceForEnergy(Detour):
+class ForceForEnergy(FaultySolution):
     """The spring's force is given as its energy: k s instead of k s²/2.
 
     Force and energy of the spring are both remembered as "k times elongation".
@@ -60,7 +60,7 @@ class ForceForEnergy(Detour):
     likely: ClassVar[int] = 4
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for part in true.scene.contributions:
             if isinstance(part, PotentialEnergy):
                 yield cls(true.scene, true, part.source)
@@ -74,7 +74,7 @@ class ForceForEnergy(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class RestLengthMissing(Detour):
+class RestLengthMissing(FaultySolution):
     """The rest length of a spring is left out.
 
     V = k s²/2 is written with the length s of the spring instead of its elongation s − s₀.
@@ -84,7 +84,7 @@ class RestLengthMissing(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for part in true.scene.contributions:
             if isinstance(part, PotentialEnergy):
                 energy = true.energy(part)
@@ -99,7 +99,7 @@ class RestLengthMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class FollowerForceAsPotential(Detour):
+class FollowerForceAsPotential(FaultySolution):
     """A force without potential is given the potential −F · r.
 
     That holds for a constant force. A force that turns along has no potential: differentiating −F · r
@@ -110,7 +110,7 @@ class FollowerForceAsPotential(Detour):
     likely: ClassVar[int] = 3
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for part in true.scene.contributions:
             if isinstance(part, PointForce) and not true.is_conservative(part.source):
                 yield cls(true.scene, true, part.source)
@@ -128,7 +128,7 @@ class FollowerForceAsPotential(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class PotentialForceSign(Detour):
+class PotentialForceSign(FaultySolution):
     """The force of a potential or spring is taken as +∂V/∂q.
 
     The minus sign of F = −grad V is forgotten when the force is read off the potential.
@@ -138,7 +138,7 @@ class PotentialForceSign(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for part in true.scene.contributions:
             if isinstance(part, PotentialEnergy):
                 yield cls(true.scene, true, part.source)
@@ -156,7 +156,7 @@ class PotentialForceSign(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class PotentialMissing(Detour):
+class PotentialMissing(FaultySolution):
     """The conservative forces are missing in the equation.
 
     Lagrange's equation is written with E instead of L, and without generalized forces.
@@ -170,7 +170,7 @@ class PotentialMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class PotentialCountedTwice(Detour):
+class PotentialCountedTwice(FaultySolution):
     """The conservative forces count twice: in the Lagrange function and again as generalized forces.
 
     V goes into L, and the weight is still listed among the forces on the right side.
@@ -184,7 +184,7 @@ class PotentialCountedTwice(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class PotentialOnTheWrongSide(Detour):
+class PotentialOnTheWrongSide(FaultySolution):
     """∂V/∂q stands on the wrong side: the equation has −∂V/∂q on the left.
 
     From L = E − V the minus is kept, though −∂L/∂q turns it into a plus.
@@ -198,7 +198,7 @@ class PotentialOnTheWrongSide(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class SumOfEnergies(Detour):
+class SumOfEnergies(FaultySolution):
     """L is taken as E + V.
 
     The total energy is the more familiar quantity; the difference looks like a mistake.

@@ -9,12 +9,12 @@ import sympy as sp
 
 from ...derivation.calculus import V
 from ...language.canonical import display
-from ..detour import Detour
-from ..road import Road
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
 
 
 @dataclass(frozen=True, eq=False)
-class LinearizedTooEarly(Detour):
+class LinearizedTooEarly(FaultySolution):
     """The position is linearized before the energies are formed.
 
     sin φ ≈ φ and cos φ ≈ 1 are put in at once; the potential needs the second order: its force is lost.
@@ -28,7 +28,7 @@ class LinearizedTooEarly(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class EquationLinearized(Detour):
+class EquationLinearized(FaultySolution):
     """The linearized equation is given where the full one is asked for.
 
     The small-angle form is the one remembered from school.
@@ -45,7 +45,7 @@ class EquationLinearized(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class NotLinearized(Detour):
+class NotLinearized(FaultySolution):
     """The full equation is given where the linearized one is asked for.
 
     The last step, sin φ ≈ φ and products of small quantities dropped, has not been taken.
@@ -59,7 +59,7 @@ class NotLinearized(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class FrequencyWithoutRoot(Detour):
+class FrequencyWithoutRoot(FaultySolution):
     """The eigenfrequency is given without the square root.
 
     k/m is what stands in the equation, and it is ω², not ω.
@@ -74,7 +74,7 @@ class FrequencyWithoutRoot(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class FrequencyInverted(Detour):
+class FrequencyInverted(FaultySolution):
     """The eigenfrequency is upside down: √(m/k) instead of √(k/m).
 
     The formula of the period, T = 2π √(m/k), is mixed up with that of the frequency.
@@ -89,7 +89,7 @@ class FrequencyInverted(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class FrequencyInHertz(Detour):
+class FrequencyInHertz(FaultySolution):
     """The frequency f = ω/2π is given where the circular frequency is asked for.
 
     Both are called frequency in everyday language.
@@ -104,7 +104,7 @@ class FrequencyInHertz(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class PeriodForFrequency(Detour):
+class PeriodForFrequency(FaultySolution):
     """The period T = 2π/ω is given where the circular frequency is asked for.
 
     The period is what one can see and count.
@@ -118,8 +118,8 @@ class PeriodForFrequency(Detour):
         return tuple(2 * sp.pi / omega for omega in self.true.frequencies)
 
 
-def _with_small_angles(value: V, road: Road) -> V:
+def _with_small_angles(value: V, solution: Solution) -> V:
     """sin φ ≈ φ and cos φ ≈ 1 for the coordinates; the sines and cosines of the time are not small."""
-    moving = {road.q(q) for q in road.free}
+    moving = {solution.q(q) for q in solution.free}
     waves = [f for f in value.atoms(sp.sin, sp.cos) if f.free_symbols & moving]
     return value.xreplace({f: f.args[0] if isinstance(f, sp.sin) else sp.Integer(1) for f in waves})

@@ -12,12 +12,12 @@ import sympy as sp
 from ...derivation.calculus import column
 from ...mechanics.bodies import Body
 from ...mechanics.contributions import Contribution
-from ..detour import Detour
-from ..road import Road
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
 
 
 @dataclass(frozen=True, eq=False)
-class GuideVelocityMissing(Detour):
+class GuideVelocityMissing(FaultySolution):
     """The velocity of the guided base is left out: v = ∂r/∂q q̇ without ∂r/∂t.
 
     The guide is not a coordinate, so it is forgotten that it moves the body all the same.
@@ -27,7 +27,7 @@ class GuideVelocityMissing(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if true.depends_on_time:
             yield cls(true.scene, true)
 
@@ -36,7 +36,7 @@ class GuideVelocityMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class BaseVelocityMissing(Detour):
+class BaseVelocityMissing(FaultySolution):
     """The velocity of the moving base is left out.
 
     The body is seen from the pivot: its velocity relative to the pivot is taken for its velocity.
@@ -46,7 +46,7 @@ class BaseVelocityMissing(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if len(true.free) > 1:
             yield from (cls(true.scene, true, q) for q in true.free)
 
@@ -59,7 +59,7 @@ class BaseVelocityMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class InnerFrequency(Detour):
+class InnerFrequency(FaultySolution):
     """The factor ω is missing when a guide such as y₀ sin ωt is differentiated.
 
     ωt looks like a variable of its own, so d/dt sin ωt becomes cos ωt.
@@ -69,7 +69,7 @@ class InnerFrequency(Detour):
     likely: ClassVar[int] = 3
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if true.scene.guides:
             yield cls(true.scene, true)
 
@@ -96,7 +96,7 @@ class InnerFrequency(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class ChainRuleFactor(Detour):
+class ChainRuleFactor(FaultySolution):
     """The inner derivative is missing: d/dt sin φ = cos φ, δ(sin φ) = cos φ.
 
     The function is differentiated by its argument, and that the argument itself moves is forgotten.
@@ -123,7 +123,7 @@ class ChainRuleFactor(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class DerivativeOfCosine(Detour):
+class DerivativeOfCosine(FaultySolution):
     """The derivative of the cosine is taken as + sin.
 
     The pair sin → cos is remembered as symmetric, and the sign of cos → −sin is lost.

@@ -10,12 +10,12 @@ from typing import ClassVar, Self
 import sympy as sp
 
 from ...mechanics.contributions import Contribution, PointForce
-from ..detour import Detour
-from ..road import Road
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
 
 
 @dataclass(frozen=True, eq=False)
-class Respelling(Detour):
+class Respelling(FaultySolution):
     """Virtual displacements and works in which something else is written for the variations."""
 
     @property
@@ -40,7 +40,7 @@ class Respelling(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class TimeTermKept(Detour):
+class TimeTermKept(FaultySolution):
     """dr is taken for δr: the term ∂r/∂t dt is kept.
 
     A virtual displacement happens at a frozen time; whoever takes the total differential moves the guide along.
@@ -50,7 +50,7 @@ class TimeTermKept(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if true.depends_on_time:
             yield cls(true.scene, true)
 
@@ -60,7 +60,7 @@ class TimeTermKept(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class TotalDifferentialForVariation(Detour):
+class TotalDifferentialForVariation(FaultySolution):
     """The total differential dr is given for δr, with dq and with dt.
 
     The formula of the total differential is known from calculus and is applied as it stands.
@@ -70,7 +70,7 @@ class TotalDifferentialForVariation(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if true.depends_on_time:
             yield cls(true.scene, true)
 
@@ -81,7 +81,7 @@ class TotalDifferentialForVariation(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class VelocityForVirtualDisplacement(Detour):
+class VelocityForVirtualDisplacement(FaultySolution):
     """The velocity is given where a virtual displacement is asked for.
 
     The derivative with respect to time has the same shape as the variation, with q̇ in the place of δq.
@@ -101,7 +101,7 @@ class VelocityForVirtualDisplacement(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class GuideVaried(Detour):
+class GuideVaried(FaultySolution):
     """A guided coordinate is varied.
 
     Its motion is given, so it has no virtual displacement of its own: δy = 0.
@@ -111,7 +111,7 @@ class GuideVaried(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         yield from (cls(true.scene, true, guide.coordinate) for guide in true.scene.guides)
 
     def virtual_displacement(self, place: str) -> sp.ImmutableMatrix:
@@ -126,7 +126,7 @@ class GuideVaried(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class CoordinateNotVaried(Detour):
+class CoordinateNotVaried(FaultySolution):
     """One degree of freedom has not been varied.
 
     The coordinate that moves the base is treated as given, though nothing prescribes it.
@@ -136,7 +136,7 @@ class CoordinateNotVaried(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if len(true.free) > 1:
             yield from (cls(true.scene, true, q) for q in true.free)
 

@@ -10,13 +10,13 @@ import sympy as sp
 
 from ...language.canonical import display
 from ...mechanics.contributions import Contribution, DissipationFunction, DistributedForce, PointForce
-from ..detour import Detour
-from ..road import Road
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
 from .position import swapped
 
 
 @dataclass(frozen=True, eq=False)
-class LoadMissing(Detour):
+class LoadMissing(FaultySolution):
     """One load has been left out.
 
     The loads are not listed before the work is written down, and the spring or the damper is forgotten.
@@ -26,7 +26,7 @@ class LoadMissing(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         yield from (cls(true.scene, true, load) for load in true.load_names)
 
     def virtual_work(self, load: Contribution) -> sp.Expr:
@@ -37,7 +37,7 @@ class LoadMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class WeightMissing(Detour):
+class WeightMissing(FaultySolution):
     """The weight of one of several bodies has been left out.
 
     Gravity acts on every mass, but only the weight of the lowest or the largest body is written down.
@@ -47,7 +47,7 @@ class WeightMissing(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         parts = [part for part in true.scene.contributions if isinstance(part, PointForce)]
         for part in parts:
             if sum(other.source == part.source for other in parts) > 1:
@@ -59,7 +59,7 @@ class WeightMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class GravitySign(Detour):
+class GravitySign(FaultySolution):
     """The weight points the wrong way.
 
     The axis points down, and the habit of writing −g stays (or the other way round).
@@ -69,7 +69,7 @@ class GravitySign(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for load in true.scene.loads:
             if load.kind == "gravity":
                 yield cls(true.scene, true, load.name)
@@ -80,7 +80,7 @@ class GravitySign(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class MassMissingInWeight(Detour):
+class MassMissingInWeight(FaultySolution):
     """The weight is written as g instead of m g.
 
     The acceleration is taken for the force.
@@ -90,7 +90,7 @@ class MassMissingInWeight(Detour):
     likely: ClassVar[int] = 3
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for load in true.scene.loads:
             if load.kind == "gravity":
                 yield cls(true.scene, true, load.name)
@@ -102,7 +102,7 @@ class MassMissingInWeight(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class ForceSign(Detour):
+class ForceSign(FaultySolution):
     """A force or moment counts with the wrong sign.
 
     Work is taken as negative where force and displacement point the same way, often from a reaction force in
@@ -113,7 +113,7 @@ class ForceSign(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for load in true.scene.loads:
             if load.kind in ("force", "moment", "distributed"):
                 yield cls(true.scene, true, load.name)
@@ -124,7 +124,7 @@ class ForceSign(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class ForceComponentsSwapped(Detour):
+class ForceComponentsSwapped(FaultySolution):
     """Sine and cosine are swapped in the components of a force.
 
     The force is resolved along the wrong axis: its direction is read off the rod instead of the normal of
@@ -135,7 +135,7 @@ class ForceComponentsSwapped(Detour):
     likely: ClassVar[int] = 3
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         for part in true.scene.contributions:
             if isinstance(part, PointForce) and any(node.has(sp.sin, sp.cos) for node in true.force(part)):
                 yield cls(true.scene, true, part.source)
@@ -148,7 +148,7 @@ class ForceComponentsSwapped(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class LeverArmMissing(Detour):
+class LeverArmMissing(FaultySolution):
     """The lever arm is missing: the generalized force of an angle is given as a force.
 
     Q is read off as the component of the force along the path, F instead of F l, for one load or for all.
@@ -158,7 +158,7 @@ class LeverArmMissing(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         forces = (part.source for part in true.scene.contributions if isinstance(part, PointForce))
         yield from (cls(true.scene, true, about) for about in ("", *dict.fromkeys(forces)))
 
@@ -181,7 +181,7 @@ class LeverArmMissing(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class PositionForDisplacement(Detour):
+class PositionForDisplacement(FaultySolution):
     """The work is taken with the position instead of its variation: δW = F · r.
 
     Force times way is remembered, and the way is taken from the origin.
@@ -202,7 +202,7 @@ class PositionForDisplacement(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class VirtualWorkForForce(Detour):
+class VirtualWorkForForce(FaultySolution):
     """The generalized force is given together with the δq of its coordinate.
 
     The coefficient is not separated from what it is the coefficient of: Q δq is taken for Q.
@@ -216,7 +216,7 @@ class VirtualWorkForForce(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class DissipationSign(Detour):
+class DissipationSign(FaultySolution):
     """The damping has the wrong sign and feeds energy in.
 
     −∂R/∂q̇ is moved to the left side without changing its sign, or the minus is forgotten.
@@ -226,7 +226,7 @@ class DissipationSign(Detour):
     likely: ClassVar[int] = 1
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if any(isinstance(part, DissipationFunction) for part in true.scene.contributions):
             yield cls(true.scene, true)
 
@@ -235,7 +235,7 @@ class DissipationSign(Detour):
 
 
 @dataclass(frozen=True, eq=False)
-class DissipationFactor(Detour):
+class DissipationFactor(FaultySolution):
     """The ½ of Rayleigh's function is kept: the damping force comes out half as large.
 
     R is read off as the force times the rate, or differentiated without the 2 of the square.
@@ -245,7 +245,7 @@ class DissipationFactor(Detour):
     likely: ClassVar[int] = 2
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         if any(isinstance(part, DissipationFunction) for part in true.scene.contributions):
             yield cls(true.scene, true)
 

@@ -154,24 +154,24 @@ def _input(parent: Element) -> None:
 
 def _nodes(workbook: Workbook, task: Task, language: str) -> Iterable[Node]:
     """What says nothing, what is right, then one misconception after the other."""
-    empty = degenerate(task, workbook.road)
+    empty = degenerate(task, workbook.solution)
     if empty is not None:
         yield Node(*empty, "degenerate", _html(text(language, "homework.remarks.degenerate")))
-    right = difference(task, workbook.shown(task), workbook.road)
+    right = difference(task, workbook.shown(task), workbook.solution)
     yield Node(*right, "correct", _html(text(language, "homework.outcomes.correct")), "1")
     for candidate in islice(_different(workbook, task), MOST_MISCONCEPTIONS):
-        wrong = difference(task, workbook.short(candidate.parts), workbook.road)
-        about = about_texts(candidate.road.about, workbook.scene, language)
-        hint = text(language, f"homework.misconceptions.{candidate.road.id}.hint", **about)
-        yield Node(*wrong, candidate.road.id, _html(hint))
+        wrong = difference(task, workbook.short(candidate.parts), workbook.solution)
+        about = about_texts(candidate.solution.about, workbook.scene, language)
+        hint = text(language, f"homework.misconceptions.{candidate.solution.id}.hint", **about)
+        yield Node(*wrong, candidate.solution.id, _html(hint))
 
 
 def _different(workbook: Workbook, task: Task) -> Iterable[Candidate]:
     """The candidates whose misconception was not there before."""
     seen: set[str] = set()
     for candidate in workbook.candidates(task):
-        if candidate.road.id not in seen:
-            seen.add(candidate.road.id)
+        if candidate.solution.id not in seen:
+            seen.add(candidate.solution.id)
             yield candidate
 
 

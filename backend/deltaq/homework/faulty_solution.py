@@ -1,4 +1,4 @@
-"""A road with one mistake in it: what a misconception is."""
+"""A solution with one law got wrong: what a misconception is."""
 
 from __future__ import annotations
 
@@ -15,33 +15,33 @@ from ..language.memory import cached_method
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import Contribution
 from ..packages import classes_of
-from .road import Road
+from .solution import Solution
 
 PACKAGE = "deltaq.homework.misconceptions"
 
 
 @dataclass(frozen=True, eq=False)
-class Detour(Road):
-    """The road as somebody walks it who gets one law wrong; everything after the mistake is derived rightly from it.
+class FaultySolution(Solution):
+    """The solution of somebody who gets one law wrong; everything after the mistake is derived rightly from it.
 
     `about` is what the mistake is made on (a load, a body, a coordinate), "" where there is nothing to choose.
     `likely` orders mistakes that lead to the same answer: the smaller comes first. What comes before the mistake is
-    taken from the true road.
+    taken from the true solution.
     """
 
-    true: Road
+    true: Solution
     about: str = ""
     id: ClassVar[str]
     likely: ClassVar[int] = 5
 
     @classmethod
-    def variants(cls, true: Road) -> Iterator[Self]:
+    def variants(cls, true: Solution) -> Iterator[Self]:
         """Every way to make the mistake on a scene."""
         yield cls(true.scene, true)
 
     @cached_method
     def _comes_before(self, law: str) -> bool:
-        """Whether this road states everything that a law follows from as everybody does."""
+        """Whether this solution states everything that a law follows from as everybody does."""
         return self.scene is self.true.scene and not mistaken(type(self)) & premises(law)
 
     def position(self, place: str) -> sp.ImmutableMatrix:
@@ -65,7 +65,7 @@ class Detour(Road):
         return self.true.load_potential(load) if self._comes_before("load_potential") else super().load_potential(load)
 
     def is_conservative(self, load: str) -> bool:
-        """What has a potential is known from the true road: it is the given force, not the one got wrong."""
+        """What has a potential is known from the true solution: it is the given force, not the one got wrong."""
         return self.true.is_conservative(load)
 
     @property
@@ -74,28 +74,28 @@ class Detour(Road):
         return self.true.rest
 
 
-def mistaken(kind: type[Detour]) -> frozenset[str]:
-    """The members of Road that a misconception states otherwise."""
-    classes = kind.__mro__[: kind.__mro__.index(Detour)]
-    return frozenset(name for one in classes for name in vars(one) if hasattr(Road, name))
+def mistaken(kind: type[FaultySolution]) -> frozenset[str]:
+    """The members of Solution that a misconception states otherwise."""
+    classes = kind.__mro__[: kind.__mro__.index(FaultySolution)]
+    return frozenset(name for one in classes for name in vars(one) if hasattr(Solution, name))
 
 
 @cache
 def premises(law: str) -> frozenset[str]:
-    """The members of Road that a law asks for, and that those ask for, as their code names them; not the law itself.
+    """The members of Solution that a law asks for, and those that they ask for, by the names in their code; not itself.
 
     A name that is only that of a field elsewhere counts, too: then something is computed twice, and nothing wrongly.
     """
     found, left = set[str](), {law}
     while left:
         found |= left
-        left = {name for member in left for name in _names(member) if hasattr(Road, name)} - found
+        left = {name for member in left for name in _names(member) if hasattr(Solution, name)} - found
     return frozenset(found - {law})
 
 
 def _names(member: str) -> Iterator[str]:
-    """The names in the code of a member of Road, be it a method or a property."""
-    stated = getattr_static(Road, member)
+    """The names in the code of a member of Solution, be it a method or a property."""
+    stated = getattr_static(Solution, member)
     function = stated.func if isinstance(stated, cached_property) else getattr(stated, "fget", stated)
     left = [getattr(unwrap(function), "__code__", None)]
     while left:
@@ -106,7 +106,7 @@ def _names(member: str) -> Iterator[str]:
 
 
 @cache
-def misconceptions() -> tuple[type[Detour], ...]:
+def misconceptions() -> tuple[type[FaultySolution], ...]:
     """All that stand in `misconceptions/`, the likely ones first."""
     found = classes_of(PACKAGE, "id").values()
     return tuple(sorted(found, key=lambda kind: (kind.likely, kind.id)))

@@ -1,4 +1,4 @@
-"""The road from a scene to every answer, one law per method, so that each law can be got wrong alone."""
+"""The way from a scene to every answer, one law per method, so that each law can be got wrong alone."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..language.memory import cached_method
 
 
 @dataclass(frozen=True, eq=False)
-class Road(System):
+class Solution(System):
     """A system whose expressions stay as they fall out: they are compared, not shown, so no form is the best one."""
 
     def display(self, value: V) -> V:
