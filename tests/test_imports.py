@@ -26,8 +26,8 @@ MAY_KNOW = {
 }
 # Who may know the modules beside the packages.
 BESIDE = {
-    "": {"errors", "packages", "ownership"},
-    "api": {"errors", "packages", "ownership", "settings"},
+    "": {"errors", "packages", "ownership", "vocabulary"},
+    "api": {"errors", "packages", "ownership", "settings", "vocabulary"},
     "commands": {"errors", "bench", "settings"},
 }
 FORBIDDEN = {

@@ -21,10 +21,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
-from typing import Literal
+
+from .vocabulary import Severity
 
 Parameter = str | int | float
-Severity = Literal["error", "warning"]
 
 MOST_PROBLEMS = 50  # that are told of one input: who has mended these asks again
 

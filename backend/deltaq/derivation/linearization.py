@@ -13,6 +13,7 @@ import sympy as sp
 from flint import arb, ctx
 
 from ..language.memory import cached_method
+from ..vocabulary import Stability
 from .calculus import column
 from .equilibria import Equilibrium, equilibria, free_coordinates
 from .evaluation import components
@@ -24,7 +25,7 @@ from .stability import stability
 from .system import System
 
 BITS = 512
-ORDER = ("stable", "undecided", "unstable")
+ORDER: tuple[Stability, ...] = ("stable", "undecided", "unstable")
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class Linearization:
     damping: sp.ImmutableMatrix
     stiffness: sp.ImmutableMatrix
     spectrum: Spectrum | None
-    stability: str
+    stability: Stability
 
     @property
     def is_damped(self) -> bool:

@@ -9,6 +9,7 @@ from itertools import combinations
 import sympy as sp
 
 from ..mechanics.scene import Scene
+from ..vocabulary import CurlOutcome
 from . import provenance
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
 from .formula import Explicit, Term
@@ -38,7 +39,7 @@ class LoadPotential:
     """
 
     load: str
-    outcome: str
+    outcome: CurlOutcome
     has_potential: bool
     potential: sp.Expr | None
     curl: Mapping[tuple[str, str], sp.Expr]

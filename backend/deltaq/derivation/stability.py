@@ -12,6 +12,7 @@ from itertools import combinations
 
 from flint import acb_mat, arb
 
+from ..vocabulary import Stability
 from .conservation import power
 from .dissipation import is_dissipative
 from .equilibria import free_coordinates
@@ -21,7 +22,7 @@ from .system import System
 GROWING = 1e-12  # real part, of the largest eigenvalue
 
 
-def stability(system: System, matrices: list[list[arb]], spectrum: Spectrum | None) -> str:
+def stability(system: System, matrices: list[list[arb]], spectrum: Spectrum | None) -> Stability:
     """`stable`, `unstable` or `undecided`."""
     free = {system.free.index(q) for q in free_coordinates(system)}
     kept = [i for i in range(len(system.free)) if i not in free]

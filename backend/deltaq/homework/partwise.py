@@ -10,11 +10,11 @@ from types import MappingProxyType
 
 import sympy as sp
 
+from ..vocabulary import PartOutcome
 from .equality import Parts
 from .equality.frequencies import ROUNDED, number_of
 from .sampling import close, defined, echelon
 from .task import Task
-from .verdict import PartOutcome
 from .workbook import Workbook
 
 

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
 
 from ..language.canonical import display
 from ..language.memory import cached_method
+from ..vocabulary import SlipKind
 from .equality import Parts
 from .sampling import Sampler, Values, close
 
-KINDS = {"sign": -2, "missing": -1, "half": sp.Rational(-1, 2), "double": 1}
+KINDS: Mapping[SlipKind, sp.Expr | int] = {"sign": -2, "missing": -1, "half": sp.Rational(-1, 2), "double": 1}
 MOST_TERMS = 40
 
 
@@ -20,7 +21,7 @@ MOST_TERMS = 40
 class SlippedParts:
     """An answer with one term changed: which kind of slip, the term, and the parts that result."""
 
-    kind: str
+    kind: SlipKind
     term: sp.Expr
     parts: Parts
 

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
 
 from ..errors import Problem
-
-Outcome = Literal["correct", "wrong", "undecided", "invalid", "follow_through"]
-PartOutcome = Literal["correct", "wrong", "undecided"]
+from ..vocabulary import Outcome, PartOutcome, SlipKind
 
 
 @dataclass(frozen=True)
@@ -26,7 +23,7 @@ class Counterexample:
 class Slip:
     """One term that differs from what it should be: by its sign, a factor 2 or ½, or it is missing (`slips.KINDS`)."""
 
-    kind: str
+    kind: SlipKind
     term: str
 
 

@@ -39,6 +39,7 @@ def answer(
         "event": _event(request, trajectory),
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
+        "columns": request.columns,
         "t": column(trajectory.times),
         **parts,
         "t_reached": trajectory.reached,

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
+from ..vocabulary import RungStatus, Status
 from .kernels.motion import (
     CANCELLED,
     EVENT,
@@ -27,7 +28,7 @@ Number = str | int | float
 class Outcome:
     """`status` is the machine word; `code` names the reason and the remedy in the catalogs, with `parameters`."""
 
-    status: str
+    status: RungStatus
     code: str
     parameters: Mapping[str, Number] = field(default_factory=dict)
 
@@ -39,7 +40,7 @@ class Outcome:
 OK = Outcome("ok", "ok")
 
 # What the kernels return: status and code.
-_WORDS: Mapping[int, tuple[str, str]] = MappingProxyType(
+_WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
     {
         FINE: ("ok", "ok"),
         STEP_LIMIT: ("step_limit", "step_limit"),

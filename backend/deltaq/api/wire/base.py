@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
-from pydantic_core import PydanticCustomError, PydanticKnownError
+from pydantic import BaseModel, ConfigDict, Field
 
 from ..languages import Language
-
-LONGEST_ID = 64  # characters of the name of a built-in scene
+from .document import SceneReference
 
 
 class Request(BaseModel):
@@ -34,27 +32,6 @@ def items(**bounds: Any) -> Any:
     return Field(strict=False, fail_fast=True, **bounds)
 
 
-def _scene(value: Any) -> Any:
-    if isinstance(value, str) and len(value) > LONGEST_ID:
-        raise PydanticKnownError("string_too_long", {"max_length": LONGEST_ID})
-    if isinstance(value, (str, dict)):
-        return value
-    raise PydanticCustomError("request-scene-type", "a scene is given by its id or as a document")
-
-
-SceneReference = Annotated[
-    Any,
-    AfterValidator(_scene),
-    WithJsonSchema(
-        {
-            "anyOf": [
-                {"type": "string", "description": "id of a built-in scene", "maxLength": LONGEST_ID},
-                {"type": "object", "description": "scene document, format 1"},
-            ]
-        }
-    ),
-    Field(description="a built-in scene by its id, or a scene document of format 1", examples=["elastic-pendulum"]),
-]
 Name = Annotated[str, Field(min_length=1, max_length=64)]
 ExpressionText = Annotated[str, Field(min_length=1, max_length=2000)]
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from .base import AskedLanguage, Request, SceneReference, Syntax, examples, items
+from .base import AskedLanguage, Request, Syntax, examples, items
+from .document import GivenAssignment, SceneReference
 from .task import TASK, SceneAskedAbout, TaskId
 
 ANSWER = Field(description="what was written")
@@ -128,7 +129,7 @@ class TableRequest(Request):
     encoding: Literal["text", "base64"] = Field(
         "text", description="base64: the bytes of a file as a spreadsheet wrote it, in UTF-8, UTF-16 or Windows-1252"
     )
-    assignment: dict[str, Any] | None = Field(None, description="whose tasks are answered, by number or by id")
+    assignment: GivenAssignment | None = Field(None, description="whose tasks are answered, by number or by id")
     scene: SceneReference | None = Field(None, description="of the rows that name none, where there is no assignment")
     lang: AskedLanguage = None
 

@@ -6,7 +6,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from .base import Answer, AskedLanguage, Names, Request, SceneReference, Syntax, examples, items
+from .base import Answer, AskedLanguage, Names, Request, Syntax, examples, items
+from .document import SceneReference
 from .problem import ProblemEntry
 
 Text = Annotated[str, Field(min_length=1, max_length=4000)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from ...vocabulary import Severity
 from .base import Answer
 
 
@@ -14,7 +15,7 @@ class ProblemEntry(Answer):
     offset: int | None = Field(None, description="character in the text of the field", examples=[2])
     length: int | None = Field(None, description="number of characters", examples=[3])
     code: str = Field(description="machine-readable name of the problem", examples=["unknown-name"])
-    severity: str = Field("error", description="error, or warning where the input can be used all the same")
+    severity: Severity = Field("error", description="warning where the input can be used all the same")
     message: str = Field(description="the problem in the language asked for")
 
 

@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from ...vocabulary import CurlOutcome, Stability
 from .base import Answer
 
 
@@ -88,7 +89,7 @@ class LoadPotential(Answer):
     """Whether a load has a potential, by the curl of its generalized forces."""
 
     load: str = Field(examples=["weight"])
-    outcome: str = Field(description="of the test, in a word", examples=["conservative"])
+    outcome: CurlOutcome = Field(description="of the test, in a word", examples=["conservative"])
     has_potential: bool
     potential: Formula | None = Field(description="null where there is none, or none that can be written down")
     curl: tuple[Curl, ...]
@@ -135,7 +136,7 @@ class Equilibrium(Answer):
 
     values: dict[str, EquilibriumValue] = Field(description="a coordinate that is missing may have any value")
     exact: bool = Field(description="whether the values are closed forms in the parameters")
-    stability: str
+    stability: Stability
     eigenvalues: tuple[tuple[float, float], ...] = Field(
         description="[real, imaginary] in 1/s; none, and no modes, where a number of them is beyond double precision"
     )

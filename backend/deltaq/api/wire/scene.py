@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
-
-from pydantic import Field, WithJsonSchema
+from pydantic import Field
 
 from .base import Answer
+from .document import GivenScene
 from .problem import ProblemEntry
 
 
@@ -45,25 +44,8 @@ class SceneValidity(Answer):
 class SceneText(Answer):
     """What a text in TOML says, as JSON."""
 
-    scene: dict[str, Any]
+    scene: GivenScene
 
-
-EXAMPLE = {
-    "format": 1,
-    "id": "my-pendulum",
-    "title": {"de": "Mein Pendel", "en": "My pendulum"},
-    "summary": {"de": "Ein ebenes Pendel.", "en": "A plane pendulum."},
-    "dimension": 2,
-    "coordinates": [{"name": "phi", "unit": "rad", "value": 0.5, "rate": 0.0}],
-    "parameters": [
-        {"name": "m", "unit": "kg", "value": 1.0},
-        {"name": "l", "latex": "\\ell", "unit": "m", "value": 1.0},
-        {"name": "g", "unit": "m/s^2", "value": 9.81},
-    ],
-    "points": [{"name": "pivot", "position": ["0", "0"]}],
-    "bodies": [{"name": "bob", "kind": "particle", "mass": "m", "position": ["l*sin(phi)", "l*cos(phi)"]}],
-    "loads": [{"name": "weight", "kind": "gravity", "acceleration": ["0", "g"]}],
-}
 
 TOML_EXAMPLE = """format = 1
 id = "slide"
@@ -75,8 +57,3 @@ parameters = [{ name = "m", unit = "kg" }, { name = "a" }, { name = "g", value =
 bodies = [{ name = "bead", kind = "particle", mass = "m", position = ["s*cos(a)", "-s*sin(a)"] }]
 loads = [{ kind = "gravity", acceleration = ["0", "-g"] }]
 """
-
-SceneDocument = Annotated[
-    dict[str, Any],
-    WithJsonSchema({"type": "object", "title": "Scene, format 1", "examples": [EXAMPLE]}),
-]

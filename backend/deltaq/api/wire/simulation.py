@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
+from typing_extensions import TypeAliasType
 
 from ...simulation.choice import AUTO
 from ...simulation.request import DEFAULT_SAMPLES, LARGEST_SPAN, PARTS, SAMPLES, TOLERANCES
+from ...vocabulary import Status
 from .base import Answer, AskedLanguage, InitialValues, Name, Names, SceneWithChanges, examples
+
+Written = Literal["numbers", "base64"]
+Base64 = Annotated[str, Field(json_schema_extra={"contentEncoding": "base64"})]
 
 
 class SimulationRequest(SceneWithChanges):
@@ -32,7 +37,7 @@ class SimulationRequest(SceneWithChanges):
     )
     step: float | None = Field(None, gt=0, description="fixed step in seconds, instead of a tolerance")
     include: Names = Field((), description=f"the parts wanted, of {', '.join(PARTS)}; all if empty", examples=[[]])
-    columns: Literal["numbers", "base64"] = Field(
+    columns: Written = Field(
         "numbers", description="how arrays are written; base64: little-endian doubles, components of a vector together"
     )
     lang: AskedLanguage = None
@@ -49,7 +54,9 @@ class SimulationRequest(SceneWithChanges):
         return self
 
 
-Column = tuple[float, ...] | str  # numbers, or base64 where it was asked for
+# As `columns` of the answer says: numbers, or little-endian doubles where base64 was asked for.
+Column = TypeAliasType("Column", tuple[float, ...] | Base64)
+VectorColumn = TypeAliasType("VectorColumn", tuple[tuple[float, ...], ...] | Base64)
 
 
 class Energy(Answer):
@@ -98,17 +105,18 @@ class Cost(Answer):
 class SimulationAnswer(Answer):
     """The trajectory at the samples that were reached; parts that were not asked for are missing."""
 
-    status: str = Field(description="ok, or why the run ended early", examples=["ok"])
+    status: Status = Field(description="ok, or why the run ended early", examples=["ok"])
     reason: str = Field(description="the status as a sentence")
     remedy: str = Field(description="what to do about it")
     event: EventAnswer | None = Field(None, description="the event that ended it; its time is the last of t")
     method: str = Field(examples=["dop853"])
     choice: str | None = Field(description="why this method, if it was left to be chosen")
+    columns: Written = Field("numbers", description="how all columns of this answer are written")
     t: Column
     coordinates: dict[str, Column] | None = None
     rates: dict[str, Column] | None = None
-    positions: dict[str, tuple[tuple[float, ...], ...] | str] | None = None
-    loads: dict[str, tuple[tuple[float, ...], ...] | str] | None = Field(None, description="force vectors")
+    positions: dict[str, VectorColumn] | None = None
+    loads: dict[str, VectorColumn] | None = Field(None, description="force vectors")
     energy: Energy | None = None
     error: ErrorEstimate | None = None
     t_reached: float = Field(description="when the run ended, in seconds")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from .base import Answer, AskedLanguage, Request, SceneWithChanges, examples, items
+from .document import GivenAssignment, GivenScene
 
 Seed = Annotated[str, Field(max_length=64)]
 SEED = Field(None, description="draws each student's own parameter values", examples=["student 7"])
@@ -47,6 +48,13 @@ class TaskSymbol(Answer):
     value: float | None
 
 
+class TaskSolution(Answer):
+    """Where the derivation answers a task."""
+
+    chapter: str = Field(description="its id", examples=["equations"])
+    steps: tuple[str, ...] = Field(description="ids of the steps that may show the answer, the likeliest first")
+
+
 class TaskEntry(Answer):
     """One task: what to answer, in which form, with hints in three levels."""
 
@@ -61,13 +69,13 @@ class TaskEntry(Answer):
     points: float
     needs: tuple[str, ...] = Field(description="the tasks whose answers this one is derived from")
     hints: tuple[str, ...]
-    solution: dict[str, Any] = Field(description="the chapter of the derivation that answers it")
+    solution: TaskSolution = Field(description="the chapter of the derivation that answers it")
 
 
 class TaskList(Answer):
     """The tasks of a scene, its document with the values asked about, and the symbols for a keyboard."""
 
-    scene: dict[str, Any]
+    scene: GivenScene
     symbols: tuple[TaskSymbol, ...]
     tasks: tuple[TaskEntry, ...]
 
@@ -91,7 +99,7 @@ class SolutionAnswer(Answer):
 class AssignmentRequest(Request):
     """An assignment, and the student who opens it."""
 
-    assignment: dict[str, Any] = Field(
+    assignment: GivenAssignment = Field(
         description="format 1: title, individual, follow_through, tasks with scene, task and points",
         examples=[{"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 3}]}],
     )
@@ -109,7 +117,7 @@ class AssignmentRequest(Request):
 class AssignedTaskEntry(Answer):
     """One task of an assignment, with its scene in the student's values."""
 
-    scene: dict[str, Any]
+    scene: GivenScene
     symbols: tuple[TaskSymbol, ...]
     task: TaskEntry
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
-
 from pydantic import Field
 
+from ...vocabulary import Outcome, PartOutcome, SlipKind
 from .base import Answer
-
-Outcome = Literal["correct", "wrong", "undecided", "invalid", "follow_through"]
+from .document import GivenScene
 
 
 class VerdictProblem(Answer):
@@ -46,8 +44,8 @@ class VerdictAnswer(Answer):
     remark: str | None = Field(description="in which sense a correct answer is equal, or why a wrong one is")
     misconception: str | None
     misconceptions: tuple[NamedMisconception, ...]
-    slip: str | None = Field(description="sign, missing, half or double: one term")
-    parts: tuple[Literal["correct", "wrong", "undecided"], ...] = Field(
+    slip: SlipKind | None = Field(description="what is wrong with one term")
+    parts: tuple[PartOutcome, ...] = Field(
         description="of a wrong answer of several parts: components, equations of a set, frequencies"
     )
     problems: tuple[VerdictProblem, ...]
@@ -66,7 +64,7 @@ class ReadingAnswer(Answer):
 class MotionAnswer(Answer):
     """A scene for POST /simulations: the one asked about with the generalized forces that the mistake amounts to."""
 
-    scene: dict[str, Any]
+    scene: GivenScene
 
 
 class MarkedLine(VerdictAnswer):

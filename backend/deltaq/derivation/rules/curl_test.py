@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from itertools import combinations
 
+from ...vocabulary import CurlOutcome
 from ..formula import Explicit, Named, Partial, Quantity
 from ..step import Relation, Step
 from ..system import System
@@ -23,14 +24,15 @@ def apply(system: System, load: str) -> Step:
     return Step(RULE, load, lines, (f"load:{load}",), {"load": load, "outcome": outcome(system, load)})
 
 
-def outcome(system: System, load: str) -> str:
+def outcome(system: System, load: str) -> CurlOutcome:
     """What the test says, in one word of the catalog."""
     if system.has_potential(load) and not system.is_conservative(load):
         return "no-closed-form"
     if system.is_conservative(load):
-        kind = "conservative" if len(system.free) > 1 else "single"
         timed = any(system.load_force(load, q).has(system.t) for q in system.free)
-        return f"{kind}-in-time" if timed else kind
+        if len(system.free) > 1:
+            return "conservative-in-time" if timed else "conservative"
+        return "single-in-time" if timed else "single"
     rates = {system.rate(q) for q in system.free}
     moving = any(system.load_force(load, q).free_symbols & rates for q in system.free)
     return "rates" if moving else "nonconservative"

@@ -1,0 +1,43 @@
+"""The words of answers that programs decide by, declared once for who says them and who describes them."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+# How a computation of a motion ended.
+Status = Literal[
+    "ok",
+    "event",
+    "stopped",
+    "cancelled",
+    "step_limit",
+    "singular_mass_matrix",
+    "diverged",
+    "newton_failed",
+    "stiff",
+    "unresolved",
+    "step_blind",
+    "horizon_reached",
+    "tolerance_missed",
+    "guide_jumps",
+]
+# The same of a simpler model in the ladder, whose derivation may be refused.
+RungStatus = Literal[Status, "refused"]
+# What the linearization says of a state of rest.
+Stability = Literal["stable", "undecided", "unstable"]
+# Whether a load has a potential, by the curl of its generalized forces.
+CurlOutcome = Literal[
+    "conservative",
+    "conservative-in-time",
+    "single",
+    "single-in-time",
+    "no-closed-form",
+    "rates",
+    "nonconservative",
+]
+# What one term of an answer has wrong.
+SlipKind = Literal["sign", "missing", "half", "double"]
+# What the checker says of an answer, and of one of its parts.
+PartOutcome = Literal["correct", "wrong", "undecided"]
+Outcome = Literal["correct", "wrong", "undecided", "invalid", "follow_through"]
+Severity = Literal["error", "warning"]
