@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import importlib
+import inspect
+import io
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -14,26 +18,32 @@ import pytest
 from tests.serving import PATIENT, served
 
 from deltaq.api.app import create_app
+from deltaq.api.wire.document import EXAMPLE
+from deltaq.api.wire.scene import TOML_EXAMPLE
 from deltaq.settings import Settings
 
 PACKAGE = "deltaq_client"
-# Kinds of text that the generator does not know by name.
-CONFIGURATION = {
-    "content_type_overrides": {"application/toml": "application/octet-stream", "application/xml": "text/plain"},
-    "post_hooks": [],
-}
+DOCUMENT = create_app(Settings(workers=1)).openapi()
+# What the generator does not know by name stands beside what it knows.
+KNOWN_GAPS = ("Unsupported content type application/toml",)
+
+
+def operations() -> dict[str, dict[str, Any]]:
+    """Each operation by its name."""
+    return {one["operationId"]: one for methods in DOCUMENT["paths"].values() for one in methods.values()}
 
 
 @pytest.fixture(scope="module")
 def generated(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """The package, written and importable; what the generator had to say."""
+    """The package, written with the generator's own defaults and importable; what the generator had to say."""
     folder = tmp_path_factory.mktemp("client")
-    document, configuration = folder / "openapi.json", folder / "configuration.json"
-    document.write_text(json.dumps(create_app(Settings(workers=1)).openapi()), encoding="utf-8")
-    configuration.write_text(json.dumps(CONFIGURATION), encoding="utf-8")
+    document = folder / "openapi.json"
+    document.write_text(json.dumps(DOCUMENT), encoding="utf-8")
     command = [sys.executable, "-m", "openapi_python_client", "generate", "--meta", "none"]
-    options = ["--path", document, "--config", configuration, "--output-path", folder / PACKAGE]
-    ended = subprocess.run([*command, *map(str, options)], capture_output=True, text=True, check=False)
+    options = map(str, ["--path", document, "--output-path", folder / PACKAGE])
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"  # where ruff is, which it formats with
+    settings = {**os.environ, "PATH": path}
+    ended = subprocess.run([*command, *options], capture_output=True, text=True, check=False, env=settings)
     assert ended.returncode == 0, ended.stdout + ended.stderr
     sys.path.insert(0, str(folder))
     yield ended.stdout + ended.stderr
@@ -55,9 +65,87 @@ def part(name: str) -> ModuleType:
     return importlib.import_module(f"{PACKAGE}.{name}")
 
 
-def test_generator_has_no_complaint(generated: str) -> None:
-    assert "WARNING" not in generated
-    assert "ERROR" not in generated
+def test_generator_has_no_complaint_but_of_what_stands_there_twice(generated: str) -> None:
+    told = generated
+    for gap in KNOWN_GAPS:
+        assert gap in told
+        told = told.replace(gap, "")
+    assert "Unsupported" not in told
+    assert "omitted" not in told
+    assert "will not be generated" not in told
+    assert "ERROR" not in told
+
+
+def test_no_operation_is_skipped_and_each_has_types(generated: str) -> None:
+    assert generated
+    for name, operation in operations().items():
+        module = part(f"api.{operation['tags'][0]}.{name}")
+        if "application/json" in operation["responses"]["200"]["content"]:
+            assert inspect.signature(module.sync).return_annotation not in ("Any", Any), name
+
+
+def examples() -> Iterator[Any]:
+    """Each documented body by its operation."""
+    for name, operation in operations().items():
+        for content in operation.get("requestBody", {}).get("content", {}).values():
+            model = content["schema"].get("$ref", "").rpartition("/")[2]
+            shown = DOCUMENT["components"]["schemas"][model] if model else {}
+            for number, body in enumerate(shown.get("examples", ())):
+                yield pytest.param(name, model, body, id=f"{name}-{number}")
+
+
+@pytest.mark.parametrize(("name", "model", "body"), [*examples()])
+def test_documented_examples_run(client: Any, name: str, model: str, body: dict[str, Any]) -> None:
+    asked = getattr(part("models"), model).from_dict(body)
+    assert asked.to_dict().items() >= body.items()
+    module = part(f"api.{operations()[name]['tags'][0]}.{name}")
+    form = inspect.signature(module.sync_detailed).parameters.get("form")
+    path = {"form": form.annotation("python")} if form else {}
+    answer = module.sync_detailed(**path, client=client, body=asked)
+    assert answer.status_code == 200, answer.content
+    assert answer.parsed is not None
+
+
+def readings() -> Iterator[Any]:
+    """Each operation that is asked by its address alone, with the examples of what stands in it."""
+    for path, methods in DOCUMENT["paths"].items():
+        operation = methods.get("get")
+        if operation and operation["operationId"] != "get_derivation":  # which is asked for below
+            inside = [one for one in operation.get("parameters", []) if one["in"] == "path"]
+            yield pytest.param(
+                operation["operationId"], {one["name"]: one["schema"]["examples"][0] for one in inside}, id=path
+            )
+
+
+@pytest.mark.parametrize(("name", "path"), [*readings()])
+def test_documented_addresses_answer(client: Any, name: str, path: dict[str, str]) -> None:
+    answer = part(f"api.{operations()[name]['tags'][0]}.{name}").sync_detailed(**path, client=client)
+    assert answer.status_code == 200, answer.content
+
+
+def test_a_derivation_is_read_by_its_id(client: Any) -> None:
+    derived = part("api.derivations.derive").sync(client=client, body=part("models").DerivationRequest(scene="atwood"))
+    assert part("api.derivations.get_derivation").sync(derived.id, client=client).result == derived.result
+
+
+OWN = {"derive": {}, "simulate": {"t_end": 1.0}, "list_tasks": {}, "solve_task": {"task": "equation:phi"}}
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_scenes_of_ones_own_are_typed_and_answered(client: Any, name: str) -> None:
+    models, operation = part("models"), operations()[name]
+    scene = models.SceneDocument.from_dict(EXAMPLE)
+    assert scene.to_dict() == EXAMPLE
+    model = operation["requestBody"]["content"]["application/json"]["schema"]["$ref"].rpartition("/")[2]
+    asked = getattr(models, model)(scene=scene, **OWN[name])
+    answer = part(f"api.{operation['tags'][0]}.{name}").sync(client=client, body=asked)
+    assert not isinstance(answer, models.ProblemDocument), answer
+
+
+def test_a_scene_in_toml_is_sent_as_bytes(client: Any) -> None:
+    body = part("types").File(payload=io.BytesIO(TOML_EXAMPLE.encode()))
+    answer = part("api.scenes.read_toml_scene").sync(client=client, body=body)
+    assert answer.scene.bodies[0].name == "bead"
 
 
 def test_scenes_are_listed(client: Any) -> None:

@@ -98,11 +98,14 @@ class StrictRequest(Request):
         return await large.read(work, ACCOUNT.get())
 
 
-def demand_kind(request: Request, kind: str) -> None:
-    """BodyError unless the body says it is JSON, or TOML. A page of another origin can say so only if it may call."""
+def demand_kind(request: Request, kind: str, *others: str) -> None:
+    """BodyError unless the body says it is JSON, or TOML. A page of another origin can say so only if it may call.
+
+    `others` are media types that are as good: none that a form of another origin may send unasked (text/plain).
+    """
     media = f"application/{kind.lower()}"
     told = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    if told != media and not told.endswith(f"+{kind.lower()}"):
+    if told not in (media, *others) and not told.endswith(f"+{kind.lower()}"):
         raise BodyError(415, syntax=kind, media=media)
 
 

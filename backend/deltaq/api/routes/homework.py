@@ -37,7 +37,8 @@ from ..workers.job import Job
 from .common import COMPUTING, LANGUAGE, SceneId, failures, question_of
 
 router = APIRouter(tags=["homework"], route_class=StrictRoute)
-XML: dict[int | str, dict[str, Any]] = {200: {"content": {"application/xml": {"schema": {"type": "string"}}}}}
+XMLS = ("application/xml", "text/xml")  # the same for programs, and as text (RFC 7303)
+XML: dict[int | str, dict[str, Any]] = {200: {"content": {kind: {"schema": {"type": "string"}} for kind in XMLS}}}
 TABLE: dict[int | str, dict[str, Any]] = {
     200: {"content": {kind: {"schema": {"type": "string"}} for kind in (EVENTS, "text/csv")}}
 }
@@ -82,7 +83,8 @@ async def list_tasks(request: Request, body: TasksRequest) -> Response:
 async def export_stack(request: Request, body: StackRequest) -> Response:
     """Tasks as questions of STACK (Moodle XML): input, model answer, feedback tree made of the misconceptions."""
     answer = await service_of(request).run(STACK, question_of(request, body))
-    return Response(loads(answer)["xml"], media_type="application/xml")
+    is_text = XMLS[1] in request.headers.get("accept", "") and XMLS[0] not in request.headers["accept"]
+    return Response(loads(answer)["xml"], media_type=XMLS[is_text])
 
 
 @router.post("/assignments", response_model=AssignmentAnswer, responses=COMPUTING)

@@ -24,7 +24,9 @@ from .common import LANGUAGE, SceneId, failures
 
 router = APIRouter(prefix="/scenes", tags=["scenes"], route_class=StrictRoute)
 TOML_BODY = {"schema": {"type": "string", "examples": [TOML_EXAMPLE]}}
-TOML = {"requestBody": {"required": True, "content": {"application/toml": TOML_BODY}}}
+BYTES = "application/octet-stream"  # what clients send who do not know TOML by name
+BYTES_BODY = {"schema": {"type": "string", "format": "binary", "examples": [TOML_EXAMPLE]}}
+TOML = {"requestBody": {"required": True, "content": {"application/toml": TOML_BODY, BYTES: BYTES_BODY}}}
 READ = Job("deltaq.api.jobs:read_scene_toml", deadline=5.0, processor=2.0)
 VALIDATE = Job("deltaq.api.jobs:validate", deadline=5.0, processor=2.0)
 
@@ -76,7 +78,7 @@ async def validate_scene(request: Request, scene: Annotated[GivenScene, Body(exa
 )
 async def read_toml_scene(request: Request) -> Response:
     """A scene document written in TOML, as JSON. Whether it describes a mechanical system, `/scenes/validate` says."""
-    demand_kind(request, "TOML")
+    demand_kind(request, "TOML", BYTES)
     body = await request.body()
     if len(body) > LONGEST:
         raise BodyError(413, limit=LONGEST)

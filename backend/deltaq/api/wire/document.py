@@ -169,7 +169,7 @@ EXAMPLE: dict[str, Any] = {
 class SceneDocument(Part):
     """A mechanical system as data, format 1."""
 
-    format: Literal[1] = Field(1, description="of the document")
+    format: int = Field(1, ge=1, le=1, description="of the document")
     id: str | None = Field(None, description="lower-case letters, digits and hyphens", examples=["my-pendulum"])
     title: Text | None = Field(None, description="what the scene is called")
     summary: Text | None = Field(None, description="what the scene is about")
@@ -241,7 +241,7 @@ class AssignedTaskDocument(Part):
 class AssignmentDocument(Part):
     """An assignment, format 1."""
 
-    format: Literal[1] = Field(description="of the document")
+    format: int = Field(ge=1, le=1, description="of the document")
     title: Text | None = Field(None, description="what the assignment is called")
     individual: bool | None = Field(None, description="whether each student has values of their own")
     follow_through: float | None = Field(None, description="share of the points for a right consequence")
