@@ -15,6 +15,8 @@ from fastapi.routing import APIRoute
 from pydantic import TypeAdapter
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
+from starlette.routing import Match
+from starlette.types import Receive, Scope, Send
 
 from ..settings import Settings
 from .clients import ACCOUNT, METER
@@ -109,7 +111,23 @@ def demand_kind(request: Request, kind: str, *others: str) -> None:
         raise BodyError(415, syntax=kind, media=media)
 
 
-class StrictRoute(APIRoute):
+class HeadedRoute(APIRoute):
+    """A route whose answers have a head, too, where they can be got (RFC 9110 §9.3.2).
+
+    That is the same answer, whose body the server leaves out; it is no operation of its own in the description.
+    """
+
+    def matches(self, scope: Scope) -> tuple[Match, Scope]:
+        return super().matches({**scope, "method": "GET"} if self._is_head(scope) else scope)
+
+    async def handle(self, scope: Scope, receive: Receive, send: Send) -> None:
+        await (self.app if self._is_head(scope) else super().handle)(scope, receive, send)
+
+    def _is_head(self, scope: Scope) -> bool:
+        return scope.get("method") == "HEAD" and "GET" in (self.methods or ())
+
+
+class StrictRoute(HeadedRoute):
     """A route that reads its body by StrictRequest, and works only while client and service are there."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:

@@ -8,11 +8,12 @@ from fastapi import APIRouter, Path, Query, Request, Response
 
 from ...errors import Problem, UnknownNameError
 from ...narration.catalog import catalog
+from ..body import HeadedRoute
 from ..languages import LANGUAGES
 from ..responses import tagged
 from .common import failures
 
-router = APIRouter(prefix="/catalogs", tags=["catalogs"])
+router = APIRouter(prefix="/catalogs", tags=["catalogs"], route_class=HeadedRoute)
 
 
 @router.get("/{lang}", response_model=dict[str, dict[str, Any]], responses=failures(404, 422))

@@ -8,13 +8,14 @@ from typing import Any
 from fastapi import APIRouter, Request, Response
 
 from ... import __version__
+from ..body import HeadedRoute
 from ..metrics import MEDIA_TYPE
 from ..service import service_of, source_digest
 from ..wire.health import CacheHealth, Health, Readiness, Version, WorkerHealth
 from ..workers.job import Overloaded
 from .common import failures
 
-router = APIRouter(tags=["service"])
+router = APIRouter(tags=["service"], route_class=HeadedRoute)
 TEXT: dict[int | str, dict[str, Any]] = {200: {"content": {"text/plain": {"schema": {"type": "string"}}}}}
 
 

@@ -8,12 +8,13 @@ from fastapi import APIRouter, Request, Response
 
 from ...narration.catalog import text
 from ...simulation.library import get_method, method_ids
+from ..body import HeadedRoute
 from ..languages import Language, language_of
 from ..responses import tagged
 from ..wire.method import MethodList
 from .common import LANGUAGE, failures
 
-router = APIRouter(prefix="/methods", tags=["methods"])
+router = APIRouter(prefix="/methods", tags=["methods"], route_class=HeadedRoute)
 
 
 @router.get("", response_model=MethodList, responses=failures(422), dependencies=[LANGUAGE])

@@ -1,0 +1,56 @@
+"""Whatever can be got has a head: the same status and fields, and no body."""
+
+from __future__ import annotations
+
+import http.client
+from collections.abc import Iterator
+from typing import Any
+from urllib.parse import urlsplit
+
+import pytest
+from tests.serving import PATIENT, served
+
+from deltaq.api.app import create_app
+from deltaq.settings import Settings
+
+CHANGING = {"date", "x-request-id", "server-timing"}
+COUNTING = ("/api/v1/metrics", "/api/v1/health")  # each answer counts the one before
+DOCUMENT = create_app(Settings(workers=1)).openapi()
+
+
+def addresses() -> Iterator[str]:
+    """Every address that the description says can be got, with the examples of the names in it."""
+    for path, methods in DOCUMENT["paths"].items():
+        given = [one for one in methods.get("get", {}).get("parameters", []) if one["in"] == "path"]
+        if "get" in methods:
+            yield path.format(**{one["name"]: (one["schema"].get("examples") or ["none"])[0] for one in given})
+
+
+@pytest.fixture(scope="module")
+def service() -> Iterator[str]:
+    with served(workers=1, **PATIENT) as one:
+        yield urlsplit(one.address).netloc
+
+
+def asked(service: str, method: str, address: str) -> tuple[int, dict[str, str], bytes]:
+    connection = http.client.HTTPConnection(service, timeout=60)
+    connection.request(method, address)
+    answer = connection.getresponse()
+    fields: dict[str, Any] = {name.lower(): value for name, value in answer.getheaders()}
+    body = answer.read()
+    connection.close()
+    return answer.status, {name: value for name, value in fields.items() if name not in CHANGING}, body
+
+
+@pytest.mark.parametrize("address", [*addresses(), "/", "/scene", "/no-such-page", "/api/v1/scenes/no-such-scene"])
+def test_head_is_get_without_a_body(service: str, address: str) -> None:
+    status, fields, _ = asked(service, "GET", address)
+    told = asked(service, "HEAD", address)
+    if address in COUNTING:
+        fields["content-length"] = told[1]["content-length"]
+    assert told == (status, fields, b"")
+
+
+def test_where_nothing_can_be_got_there_is_no_head(service: str) -> None:
+    status, _, _ = asked(service, "HEAD", "/api/v1/simulations")
+    assert status == 405
