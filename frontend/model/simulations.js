@@ -51,9 +51,9 @@ export function createSimulations({ get, set }, api, clock, attempt) {
       ? { ...request, samples: samplesFor(dense.rate * request.t_end) }
       : request;
 
-  /** The viewer's own scene changes on the page together with its motion. @param {any} request */
+  /** The viewer's own scene changes on the page together with its motion. @param {Request} request */
   function shownWith({ scene }) {
-    if (typeof scene === "string" || scene === shown) return {};
+    if (scene === null || typeof scene === "string" || scene === shown) return {};
     shown = scene;
     return { scene: completed(scene) };
   }

@@ -1,6 +1,8 @@
 /**
- * The shapes of what the API sends and of what the parts of the page hand to each other.
+ * The shapes of what the API sends, made of its description (contract.d.ts), and of what the parts of the
+ * page hand to each other.
  *
+ * @typedef {import("./contract.js").components["schemas"]} Contract
  * @typedef {{name: string, latex: string, unit: string, value: number, rate: number,
  *   min?: number | null, max?: number | null}} Coordinate
  * @typedef {{name: string, latex: string, unit: string, value: number,
@@ -15,14 +17,13 @@
  *   direction?: string, radius?: number | string, width?: number, height?: number, offset?: number, label?: string}} Element
  * @typedef {{vertical?: "up" | "down", view?: number[] | null, elements?: Element[]}} Drawing
  * @typedef {Record<string, string>} Texts  text by language
- * @typedef {{id: string, title: Texts, summary?: Texts, degrees_of_freedom: number, family?: Family}} SceneEntry
+ * @typedef {Contract["SceneEntry"]} SceneEntry
  * @typedef {{id: string, title: Texts, summary: Texts, dimension: number, coordinates: Coordinate[],
  *   parameters: Parameter[], points: Point[], bodies: Body[], loads: Load[], guides?: Guide[], events?: SceneEvent[], labels?: Record<string, Texts>,
  *   drawing?: Drawing | null}} Scene
- * @typedef {{parameter: string, min: number, max: number, value: number}} Family
- * @typedef {{id: string, rule: string, title: string, text: string, latex: string, marked: string,
- *   verified: boolean, sources: string[], substeps: Step[]}} Step
- * @typedef {{id: string, title: string, steps: Step[]}} Chapter
+ * @typedef {Contract["FamilyEntry"]} Family
+ * @typedef {Contract["Step"]} Step
+ * @typedef {Contract["Chapter"]} Chapter
  * @typedef {{id: string, chapters: Chapter[],
  *   result?: {equations?: {coordinate: string, plain: string, latex: string}[], points?: Record<string, {plain: string[]}>,
  *     positions?: Record<string, {plain: string[]}>, virtual_work?: {terms: {plain: string, sources: string[]}[]}}}} Derivation
@@ -43,8 +44,7 @@
  * @typedef {{key: string, d: string, className: string, at?: Pixel, opacity?: number}} Shape
  * @typedef {{key: string, latex: string, at: Pixel, className: string, start?: boolean, opacity?: number}} Label  start: the label begins at its place instead of being centred
  * @typedef {{shapes: Shape[], labels: Label[]}} Figure
- * @typedef {{pointer: string, offset: number | null, length: number | null, code: string, message: string,
- *   severity?: string}} Problem
+ * @typedef {Contract["ProblemEntry"]} Problem
  * @typedef {{title: string, detail: string, problems: {message: string, pointer?: string}[], status: number}} Failure
  * @typedef {Record<string, string | Record<string, unknown>>} Catalog
  * @typedef {"derivation" | "plots" | "values"} Panel

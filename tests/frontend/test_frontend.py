@@ -7,9 +7,10 @@ import json
 from pathlib import Path
 
 import pytest
+from tests.frontend.contract import FILE, types
 from tests.frontend.node import run
 
-TOOLS = ("typescript", "eslint", "prettier")
+TOOLS = ("typescript", "eslint", "prettier", "openapi-typescript")
 
 
 @pytest.fixture(scope="session")
@@ -27,6 +28,11 @@ def frontend(root: Path) -> Path:
 def test_types(frontend: Path) -> None:
     done = run("node", "node_modules/typescript/bin/tsc", "--noEmit", "--project", ".", cwd=frontend)
     assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.usefixtures("frontend")
+def test_types_of_the_api_are_current() -> None:
+    assert FILE.read_text(encoding="utf-8") == types(), "not current: .venv/bin/python -m tests.frontend.contract"
 
 
 def test_linter_finds_nothing(frontend: Path) -> None:

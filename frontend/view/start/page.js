@@ -66,7 +66,7 @@ function card({ id, title, summary, degrees_of_freedom: count }, { state, t }) {
     <li><a class="card" href=${sceneAddress(id, state.place)}>
       <div class="drawing waiting" data-scene=${id}><svg aria-hidden="true"></svg><div class="labels" aria-hidden="true"></div></div>
       <h3>${inLanguage(title, lang)}</h3>
-      <p>${inLanguage(summary, lang)}</p>
+      <p>${inLanguage(summary ?? undefined, lang)}</p>
       <p class="count">${count === 1 ? t("scene.freedoms-one") : t("scene.freedoms", { count })}</p></a></li>`;
 }
 
