@@ -25,7 +25,7 @@ from deltaq.simulation.request import COLUMNS
 from deltaq.simulation.service import problem_of, run, warm
 
 FIELDS = {
-    *("status", "reason", "remedy", "event", "method", "choice", "t"),
+    *("status", "reason", "remedy", "event", "method", "choice", "columns", "t"),
     *("t_reached", "trusted_until", "condition", "cost"),
     *("coordinates", "rates", "positions", "loads", "energy", "error"),
 }
