@@ -1,0 +1,68 @@
+import { strict as assert } from "node:assert";
+import { test } from "node:test";
+import { derivation, failure, own, page } from "./server.js";
+
+const ids = (/** @type {any} */ state) => state.lines.map((/** @type {any} */ line) => line.step.id);
+
+test("a derivation is asked for by scene, language, road and the number of members", async () => {
+  for (const [place, expected] of /** @type {[any, any][]} */ ([
+    [{ scene: "swing", lang: "de" }, { scene: "swing", lang: "de", formulation: "dalembert-lagrange" }],
+    [{ scene: "swing", formulation: "hamilton" }, { scene: "swing", lang: "en", formulation: "hamilton" }],
+    [{ scene: "chain", n: 4 }, { scene: "chain", lang: "en", formulation: "dalembert-lagrange", parameters: { n: 4 } }],
+    [{ scene: "own" }, { scene: own, lang: "en", formulation: "dalembert-lagrange" }],
+  ])) {
+    const { session, last } = page({ place, own });
+    void session.formulate(place.formulation ?? "dalembert-lagrange");
+    assert.deepEqual(last("derive").given, [expected]);
+  }
+});
+
+test("its steps are on the page, at the one that the address names, else at the first", async () => {
+  for (const [step, shown] of [["b", "b"], ["elsewhere", "a"], ["", "a"]]) {
+    const { session, last, get } = page({ place: /** @type {any} */ ({ step }) });
+    void session.formulate("hamilton");
+    const answer = derivation("a", "b");
+    await last("derive").answer(answer);
+    assert.deepEqual([get().derivation, ids(get()), get().place.step], [answer, ["a", "b"], shown]);
+  }
+});
+
+for (const [name, overtake] of /** @type {[string, (page: ReturnType<typeof import("./server.js").page>) => void][]} */ ([
+  ["scene", ({ session }) => session.choose("other")],
+  ["scene of one's own", ({ store }) => store.set({ own: { ...own } })],
+  ["language", ({ session }) => session.move({ lang: "de" })],
+  ["road", ({ session }) => session.formulate("hamilton")],
+  ["number of members", ({ session }) => session.choose("swing", "", 5)],
+])) {
+  test(`a derivation for another ${name} than the one on the page is not shown, however late it comes`, async () => {
+    const about = name.endsWith("own") ? page({ place: /** @type {any} */ ({ scene: "own" }), own }) : page();
+    void about.session.formulate("dalembert-lagrange");
+    const early = about.last("derive");
+    overtake(about);
+    await early.answer(derivation("overtaken"));
+    assert.deepEqual([about.get().derivation, about.get().lines, about.get().place.step], [null, [], ""]);
+    if (about.last("derive") === early) return;
+    await about.last("derive").answer(derivation("wanted"));
+    assert.deepEqual(ids(about.get()), ["wanted"]);
+  });
+}
+
+test("what is wanted stays when an overtaken answer comes after it", async () => {
+  const { session, all, get } = page();
+  void session.formulate("dalembert-lagrange");
+  void session.formulate("hamilton");
+  const [early, late] = all("derive");
+  await late.answer(derivation("wanted"));
+  await early.answer(derivation("overtaken"));
+  assert.deepEqual(ids(get()), ["wanted"]);
+});
+
+test("a failure is told of the derivation, and forgotten with the next answer", async () => {
+  const { session, last, get } = page();
+  void session.formulate("hamilton");
+  await last("derive").refuse();
+  assert.deepEqual(get().failures, { page: null, scene: null, derivation: failure, simulation: null, export: null });
+  void session.formulate("hamilton");
+  await last("derive").answer(derivation("a"));
+  assert.equal(get().failures.derivation, null);
+});
