@@ -1,0 +1,168 @@
+"""One small fault in one module: an operator swapped, a condition settled, a part lost, a number off by one.
+
+They are made in the syntax tree. Left out is what never runs (annotations) and what is no law of the module's own
+(decorators, texts).
+"""
+
+from __future__ import annotations
+
+import ast
+import random
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from types import CodeType
+from typing import TypeVar
+
+SWAPPED: dict[type[ast.AST], tuple[type[ast.AST], ...]] = {
+    ast.Add: (ast.Sub,),
+    ast.Sub: (ast.Add,),
+    ast.Mult: (ast.Div,),
+    ast.Div: (ast.Mult,),
+    ast.FloorDiv: (ast.Mult,),
+    ast.Mod: (ast.Mult,),
+    ast.Pow: (ast.Mult,),
+    ast.BitAnd: (ast.BitOr,),
+    ast.BitOr: (ast.BitAnd,),
+    ast.And: (ast.Or,),
+    ast.Or: (ast.And,),
+    ast.Eq: (ast.NotEq,),
+    ast.NotEq: (ast.Eq,),
+    ast.Lt: (ast.LtE, ast.GtE),
+    ast.LtE: (ast.Lt, ast.Gt),
+    ast.Gt: (ast.GtE, ast.LtE),
+    ast.GtE: (ast.Gt, ast.Lt),
+    ast.Is: (ast.IsNot,),
+    ast.IsNot: (ast.Is,),
+    ast.In: (ast.NotIn,),
+    ast.NotIn: (ast.In,),
+}
+OTHER_FUNCTION = {"any": "all", "all": "any", "min": "max", "max": "min", "sorted": "list", "abs": "float"}
+NEVER_RUN = {"annotation", "returns", "decorator_list", "type_params"}
+NEVER = ast.Constant(value=False)
+ALWAYS = ast.Constant(value=True)
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A module with one fault: where it is, how it read, how it reads now, and the code to run instead."""
+
+    module: Path
+    line: int
+    before: str
+    after: str
+    code: CodeType
+
+    def __str__(self) -> str:
+        return f"{self.module}:{self.line}\n  - {self.before}\n  + {self.after}"
+
+
+def mutants_of(module: Path) -> Iterator[Mutant]:
+    """All faults of a module, in reading order."""
+    tree = ast.parse(module.read_text(encoding="utf-8"))
+    for line, node, put in list(_places(tree)):
+        for fault in _faults(node):
+            put(ast.fix_missing_locations(ast.copy_location(fault, node)))
+            code = compile(tree, str(module), "exec", dont_inherit=True)
+            yield Mutant(module, line, _shown(node), _shown(fault), code)
+        put(node)
+
+
+def sample(modules: Iterable[Path], size: int, seed: int) -> tuple[list[Mutant], int]:
+    """So many mutants of the modules, drawn at random (0: all), and how many there are."""
+    every = [mutant for module in modules for mutant in mutants_of(module)]
+    return (random.Random(seed).sample(every, size) if 0 < size < len(every) else every), len(every)
+
+
+class _Put:
+    """Puts a node in the place of another."""
+
+    def __init__(self, parent: ast.AST, field: str, index: int | None) -> None:
+        self.parent, self.field, self.index = parent, field, index
+
+    def __call__(self, node: ast.AST) -> None:
+        if self.index is None:
+            setattr(self.parent, self.field, node)
+        else:
+            getattr(self.parent, self.field)[self.index] = node
+
+
+def _places(node: ast.AST, line: int = 1) -> Iterator[tuple[int, ast.AST, _Put]]:
+    """Every node below with its line, in reading order."""
+    for field, value in ast.iter_fields(node):
+        if field in NEVER_RUN:
+            continue
+        children = enumerate(value) if isinstance(value, list) else [(None, value)]
+        for index, child in children:
+            if isinstance(child, ast.AST) and not _is_text(child):
+                here = getattr(child, "lineno", line)
+                yield here, child, _Put(node, field, index)
+                yield from _places(child, here)
+
+
+def _is_text(node: ast.AST) -> bool:
+    """A docstring, an import, or what a type checker alone reads."""
+    if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+        return True
+    return isinstance(node, ast.Import | ast.ImportFrom) or (
+        isinstance(node, ast.If) and "TYPE_" in ast.dump(node.test)
+    )
+
+
+def _shown(node: ast.AST) -> str:
+    if isinstance(node, ast.match_case):
+        return f"case {ast.unparse(node.pattern)}" + (f" if {ast.unparse(node.guard)}" if node.guard else "")
+    return ast.unparse(node).splitlines()[0].strip()
+
+
+def _faults(node: ast.AST) -> Iterator[ast.AST]:  # one case for each kind of node
+    match node:
+        case ast.BinOp(left, op, right):
+            yield from (ast.BinOp(left, other(), right) for other in SWAPPED.get(type(op), ()))
+            yield from (left, right)
+        case ast.BoolOp(op, values):
+            yield from (ast.BoolOp(other(), values) for other in SWAPPED[type(op)])
+            yield from (
+                ast.BoolOp(op, _without(values, k)) if len(values) > 2 else values[1 - k] for k in range(len(values))
+            )
+        case ast.Compare(left, ops, others):
+            for k, op in enumerate(ops):
+                yield from (ast.Compare(left, [*ops[:k], new(), *ops[k + 1 :]], others) for new in SWAPPED[type(op)])
+        case ast.UnaryOp(ast.Not() | ast.USub(), operand):
+            yield operand
+        case ast.Constant(bool() as value):
+            yield ast.Constant(not value)
+        case ast.Constant(int() as value):
+            yield from (ast.Constant(value + 1), ast.Constant(value - 1))
+        case ast.Constant(float() as value):
+            yield from (ast.Constant(2 * value or 1.0), ast.Constant(-value or -1.0))
+        case ast.IfExp(_, body, orelse):
+            yield from (body, orelse)
+        case ast.If(_, body, orelse):
+            yield from (ast.If(NEVER, body, orelse), ast.If(ALWAYS, body, orelse))
+        case ast.While(_, body, orelse):
+            yield ast.While(NEVER, body, orelse)
+        case ast.For(target, _, body, orelse):
+            yield ast.For(target, ast.List([], ast.Load()), body, orelse)
+        case ast.comprehension(target, source, ifs, is_async) if ifs:
+            yield from (ast.comprehension(target, source, _without(ifs, k), is_async) for k in range(len(ifs)))
+        case ast.match_case(pattern, guard, body):
+            yield ast.match_case(pattern, NEVER, body)
+            if guard:
+                yield ast.match_case(pattern, None, body)
+        case ast.Slice(lower, upper, step) if lower or upper:
+            yield from ([ast.Slice(None, upper, step)] if lower else [])
+            yield from ([ast.Slice(lower, None, step)] if upper else [])
+        case ast.Call(function, given, named):
+            if isinstance(function, ast.Name) and function.id in OTHER_FUNCTION:
+                yield ast.Call(ast.Name(OTHER_FUNCTION[function.id], ast.Load()), given, named)
+            yield from (ast.Call(function, given, _without(named, k)) for k in range(len(named)))
+        case ast.Return(ast.expr()):
+            yield ast.Return(ast.Constant(None))
+        case ast.Expr() | ast.Assign() | ast.AugAssign() | ast.Raise() | ast.Break() | ast.Continue():
+            yield ast.Pass()
+
+
+def _without(values: list[T], k: int) -> list[T]:
+    return [*values[:k], *values[k + 1 :]]
