@@ -22,9 +22,9 @@ from deltaq.derivation.formula import (
     Term,
     Times,
 )
-from deltaq.derivation.step import Relation, Step
+from deltaq.derivation.step import Chapter, Derivation, Relation, Step
 from deltaq.derivation.system import System
-from deltaq.derivation.verification import holds, random_points, verified_step
+from deltaq.derivation.verification import holds, random_points, verified, verified_step
 from deltaq.mechanics.library import load_scene, scene_ids
 
 SYSTEM = System(load_scene("elastic-pendulum"))
@@ -83,6 +83,102 @@ def test_wrong_lines_do_not(formula: Formula, equal: Explicit) -> None:
 def test_what_is_nowhere_defined_is_not_verified() -> None:
     nowhere = Explicit(sp.log(-L))
     assert not holds(Relation((nowhere, nowhere)), POINTS)
+
+
+def first_values(symbol: sp.Symbol, count: int) -> list[sp.Rational]:
+    """What a symbol is at the first points, exactly."""
+    mantissas = [point[symbol.name].man_exp() for point in POINTS[:count]]
+    return [sp.Rational(int(mantissa)) * sp.Integer(2) ** int(exponent) for mantissa, exponent in mantissas]
+
+
+@pytest.mark.parametrize(("points", "enough"), [(1, False), (2, True)])
+def test_lines_that_can_be_compared_at_one_point_alone_are_not_verified(points: int, enough: bool) -> None:
+    """√(−(y − y₁)²…) is real where y is one of so many of the points, and nowhere else."""
+    here = Explicit(sp.sqrt(-sp.prod((Y - value) ** 2 for value in first_values(Y, points)), evaluate=False))
+    assert holds(Relation((here, Explicit(sp.Integer(0)))), POINTS) is enough
+
+
+def test_lines_that_agree_at_one_point_by_chance_are_not_verified() -> None:
+    (value,) = first_values(Y, 1)
+    lucky, right = Explicit(PHI + Y - value), Explicit(PHI)
+    assert not holds(Relation((lucky, right)), POINTS)
+    assert holds(Relation((lucky, right), "≠"), POINTS)
+
+
+def test_every_member_counts_and_every_component() -> None:
+    a, b = column(Y, PHI), column(Y, PHI + Y)
+    for members in ((a, b), (b, a), (a, a, b), (a, b, a)):
+        assert not holds(Relation(members), POINTS)
+        assert holds(Relation(members, "≠"), POINTS)
+    assert holds(Relation((a, a, a)), POINTS)
+    assert not holds(Relation((a, a), "≠"), POINTS)
+    opposite = column(Y + 1, PHI - 1)
+    assert not holds(Relation((a, opposite)), POINTS)
+
+
+@pytest.mark.parametrize(
+    ("size", "off", "same"),
+    [(1, 2**-78, False), (1, 2**-83, True), (10**30, 1, True), (10**30, 10**8, False), (-(10**30), 1, True)],
+)
+def test_a_difference_counts_by_the_size_of_what_is_compared(size: int, off: float, same: bool) -> None:
+    left, right = Explicit(sp.Integer(size)), Explicit(sp.Integer(size) + sp.Rational(off))
+    assert holds(Relation((left, right)), POINTS) is same
+
+
+def test_points_are_the_same_for_every_call_and_apart_from_each_other() -> None:
+    again = tuple(random_points(SYSTEM))
+    assert [dict(point) for point in again] == [dict(point) for point in POINTS]
+    names = [name for name in POINTS[0] if name not in {parameter.name for parameter in SYSTEM.scene.parameters}]
+    for name in names:
+        values = [float(point[name]) for point in POINTS]
+        assert len(set(values)) == len(values) == 10, name
+    for name in ("y", "dot(phi)", "ddot(y)", "delta(phi)", "d(y)", "d(t)", "t"):
+        assert all(0.25 <= float(point[name]) <= 1.75 for point in POINTS), name
+    assert [float(point["omega"]) for point in random_points(SYSTEM, seed=2)] != [float(p["omega"]) for p in POINTS]
+
+
+def test_the_last_two_points_have_the_values_of_the_scene() -> None:
+    own = {parameter.name: parameter.value for parameter in SYSTEM.scene.parameters}
+    assert [{name: float(point[name]) for name in own} == own for point in POINTS] == [False] * 8 + [True] * 2
+
+
+def test_a_variation_vanishes_at_both_ends() -> None:
+    """δq + δq̇ s + δq̈ s²/2 is the parabola through its value now; s leads from now to the start, or to the end."""
+    start, end = (symbol.name for symbol in SYSTEM.ends)
+    for point in POINTS:
+        for name in SYSTEM.coordinates:
+            value, slope, bend = (point[f"{dots}delta({name}){')' * bool(dots)}"] for dots in ("", "dot(", "ddot("))
+            for moment in (start, end):
+                s = point[moment] - point["t"]
+                assert abs(float(value + slope * s + bend * s * s / 2)) < 1e-12 * float(value)
+        assert float(point[start]) < float(point["t"]) < float(point[end])
+        assert float(point[end] - point[start]) < 1e-5
+
+
+def test_steps_are_found_with_all_below_them_in_reading_order() -> None:
+    leaf = Step("leaf", "", ())
+    branch = Step("branch", "bob", (), about={"load": "weight"}).with_substeps(leaf, Step("leaf", "two", ()))
+    derivation = Derivation("hamilton", (Chapter("one", (branch, leaf)), Chapter("two", (Step("last", "x", ()),))))
+    assert [step.id for step in derivation.steps()] == ["branch:bob", "leaf", "leaf:two", "leaf", "last:x"]
+    relation = Relation((Explicit(Y), Explicit(PHI), Explicit(L)))
+    assert (relation.before, relation.after) == (Explicit(Y), Explicit(L))
+    assert not branch.verified
+    with pytest.raises(TypeError):
+        branch.about["load"] = "another"  # type: ignore[index]
+
+
+@pytest.mark.parametrize("place", ["step", "substep", "second relation", "second step"])
+def test_only_what_is_wrong_and_what_holds_it_is_marked(place: str) -> None:
+    right, wrong = Relation((Explicit(Y), Explicit(Y))), Relation((Explicit(Y), Explicit(PHI)))
+
+    def line(*places: str) -> tuple[Relation, ...]:
+        return (right, wrong if place in places else right)
+
+    first = Step("first", "", line("step", "second relation")).with_substeps(Step("below", "", line("substep")))
+    derivation = Derivation("hamilton", (Chapter("only", (first, Step("second", "", line("second step")))),))
+    found = {step.id: step.verified for step in verified(derivation, SYSTEM).steps()}
+    spoilt = {"substep": {"first", "below"}, "second step": {"second"}}.get(place, {"first"})
+    assert found == {name: name not in spoilt for name in ("first", "below", "second")}
 
 
 def test_a_wrong_substep_spoils_its_step() -> None:

@@ -117,6 +117,31 @@ test("work is exported and imported, and what is no work is refused", () => {
   assert.equal(other.imported("not JSON"), null);
 });
 
+for (const [name, file] of /** @type {[string, unknown][]} */ ([
+  ["without a format", { records: { "swing/lagrangian": BLANK } }],
+  ["of another program", { format: "notes-1", records: { "swing/lagrangian": BLANK } }],
+  ["of a later format", { format: "deltaq-homework-2", records: { "swing/lagrangian": BLANK } }],
+  ["that is an assignment", { format: "deltaq-assignment-1", tasks: [], records: { "swing/lagrangian": BLANK } }],
+  ["whose records are a list", { format: "deltaq-homework-1", records: [BLANK] }],
+  ["without records", { format: "deltaq-homework-1" }],
+  ["that is a list", [{ format: "deltaq-homework-1", records: { "swing/lagrangian": BLANK } }]],
+  ["of more than two million letters", { format: "deltaq-homework-1", records: { "swing/lagrangian": "x".repeat(2_000_000) } }],
+])) {
+  test(`a file ${name} is not taken for one's own work`, () => {
+    const kept = storage();
+    assert.equal(createProgress(kept).imported(JSON.stringify(file)), null);
+    assert.equal(kept.length, 0);
+  });
+}
+
+test("how many records of a file were kept is told", () => {
+  const records = { "swing/lagrangian": BLANK, "swing/equation:phi": BLANK };
+  const file = JSON.stringify({ format: "deltaq-homework-1", records });
+  assert.equal(createProgress(storage()).imported(file), 2);
+  const full = { ...storage(), setItem: () => { throw new Error("full"); } };
+  assert.equal(createProgress(full).imported(file), 0);
+});
+
 test("where the browser keeps nothing, that is told", () => {
   const full = { ...storage(), setItem: () => { throw new Error("full"); } };
   assert.equal(createProgress(full).write("a", {}), false);

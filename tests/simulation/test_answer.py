@@ -1,0 +1,112 @@
+"""The numbers of an answer that say how good it is, and how long the others are."""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+
+import numpy as np
+import pytest
+from tests.simulation.scenes import document
+
+from deltaq.simulation.service import run
+
+REST = {"phi1": {"value": 0.0, "rate": 0.0}, "phi2": {"value": 0.0, "rate": 0.0}}
+
+
+def ask(**fields: object) -> dict[str, object]:
+    return run({"scene": "pendulum", "t_end": 2.0, "samples": 9, **fields})
+
+
+def digits(value: float) -> int:
+    """Significant digits of the shortest decimal."""
+    return len(Decimal(repr(value)).normalize().as_tuple().digits)
+
+
+@pytest.mark.parametrize(("m1", "m2", "condition"), [(1.0, 1.0, 2.0), (1.0, 3.0, 4.0), (4.0, 1.0, 1.25)])
+def test_condition_of_the_mass_matrix(m1: float, m2: float, condition: float) -> None:
+    """M₁₂²/(M₁₁M₂₂) = m2/(m1 + m2) of the hanging double pendulum: what is left of M₂₂ is m1/(m1 + m2) of it."""
+    answer = ask(scene="double-pendulum", initial=REST, parameters={"m1": m1, "m2": m2})
+    assert answer["condition"] == pytest.approx(condition, rel=1e-12)
+
+
+def test_the_error_is_that_of_the_harmonic_oscillator() -> None:
+    """x = cos 2t: the answer is off by no more than it says, and by no less than a hundredth of that at its worst."""
+    pull = {"kind": "force", "at": "mass", "force": ["-4*x", "0"]}
+    scene = document({"x": (1.0, 0.0)}, {"m": 1.0}, {"mass": ("m", ["x", "0"])}, [pull])
+    answer = ask(scene=scene, method="rk4", step=0.05, t_end=10.0)
+    off = np.abs(np.array(answer["coordinates"]["x"]) - np.cos(2.0 * np.array(answer["t"])))
+    error = answer["error"]
+    assert np.all(off <= 1.05 * np.array(error["estimate"]))
+    assert off.max() >= 0.01 * error["worst"] > 0.0
+    assert (error["tolerance"], error["reached"]) == (None, None)
+    assert max(error["estimate"]) <= error["worst"] <= 1.1 * max(error["estimate"])
+    assert all(digits(value) <= 3 for value in [*error["estimate"], error["worst"], answer["energy"]["drift"]])
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-9])
+def test_a_tolerance_is_told_with_whether_it_was_reached(tolerance: float) -> None:
+    error = ask(tolerance=tolerance)["error"]
+    assert (error["tolerance"], error["reached"]) == (tolerance, True)
+    assert error["worst"] <= tolerance
+
+
+def test_without_an_estimate_numbers_are_given_to_twelve_places() -> None:
+    answer = ask(include=["coordinates"], tolerance=1e-12)
+    assert "error" not in answer
+    shown = answer["coordinates"]["phi"]
+    assert all(value == round(value, 15) for value in shown)
+    full = ask(tolerance=1e-12)["coordinates"]["phi"]
+    np.testing.assert_allclose(shown, full, atol=1e-9)
+
+
+def thrown(mass: float) -> dict[str, object]:
+    """A mass thrown upwards with 5 m/s: E = m (5 − g t)²/2, V = m g (5 t − g t²/2)."""
+    weight = {"kind": "gravity", "acceleration": ["0", "-g"]}
+    return document({"y": (0.0, 5.0)}, {"m": mass, "g": 10.0}, {"stone": ("m", ["0", "y"])}, [weight])
+
+
+@pytest.mark.parametrize("mass", [1e-9, 1.0, 1e9])
+def test_energies_have_their_digits_however_light_or_heavy_the_body(mass: float) -> None:
+    answer = ask(scene=thrown(mass), t_end=1.5)
+    t, energy = np.array(answer["t"]), answer["energy"]
+    np.testing.assert_allclose(energy["kinetic"], mass * (5.0 - 10.0 * t) ** 2 / 2.0, rtol=1e-5, atol=1e-5 * mass)
+    np.testing.assert_allclose(energy["potential"], mass * 10.0 * (5.0 * t - 5.0 * t**2), rtol=1e-5, atol=1e-5 * mass)
+    np.testing.assert_allclose(energy["balance"], 12.5 * mass, rtol=1e-5)
+    assert energy["power"] == energy["work"] == [0.0] * 9
+
+
+def test_energies_of_a_rough_motion_are_short() -> None:
+    """Errors of 1e-5 and more leave no use for fifteen digits; a hundred times heavier, two decimals fewer."""
+    rough = {"method": "heun", "step": 0.02, "t_end": 3.0}
+    light, heavy = (ask(parameters={"m": mass}, **rough)["energy"] for mass in (1.0, 100.0))
+    for name in ("kinetic", "potential", "balance"):
+        assert all(digits(value) <= 12 for value in light[name][1:])
+        places = [[max(0, -Decimal(repr(v)).as_tuple().exponent) for v in each[name][1:]] for each in (light, heavy)]
+        assert max(places[1]) == max(places[0]) - 2
+        np.testing.assert_allclose(np.array(heavy[name]), 100.0 * np.array(light[name]), rtol=1e-8)
+
+
+def test_parts_that_were_asked_for_hold_their_own_numbers() -> None:
+    """Each part by itself says what it says among the others."""
+    names = ("coordinates", "rates", "positions", "loads")
+    asked = {"scene": "elastic-pendulum", "tolerance": 1e-9}
+    full = ask(**asked)
+    assert [set(full[name]) for name in ("coordinates", "rates")] == [{"y", "phi"}] * 2
+    for name in names:
+        alone = ask(include=[name, "error"], **asked)
+        assert {part for part in names if part in alone} == {name}
+        assert alone[name] == full[name]
+
+
+def test_cost_is_of_this_answer() -> None:
+    """Runge–Kutta of order four asks for four slopes a step; the second run has half the steps, or twice as many."""
+    cost = ask(method="rk4", step=0.01)["cost"]
+    assert cost["runs"] == 2
+    assert cost["steps"] in (100, 200, 400)
+    assert cost["run_evaluations"] == pytest.approx(4 * cost["steps"], abs=4)
+    assert cost["rhs_evaluations"] > cost["run_evaluations"]
+    assert 0.0 < cost["run_time"] <= cost["wall_time"]
+    assert cost["rejected"] == 0
+    assert cost["compile_time"] >= 0.0
+    assert math.isfinite(cost["wall_time"])
