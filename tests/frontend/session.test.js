@@ -101,6 +101,13 @@ test("without scenes the page says why, and shows none", async () => {
   assert.deepEqual([get().failures.page, asked().includes("scene")], [failure, false]);
 });
 
+test("without words the page says why", async () => {
+  const { session, last, get } = page();
+  void session.language("de");
+  await last("catalog").refuse();
+  assert.deepEqual(get().failures, { page: failure, scene: null, derivation: null, simulation: null, export: null });
+});
+
 test("what a place shows brings its words from the start", async () => {
   for (const [place, sections] of /** @type {[any, string[]][]} */ ([[{ edit: "form" }, ["methods", "editor"]], [{ view: "lecture" }, ["methods", "lecture"]]])) {
     const { session, last } = page();

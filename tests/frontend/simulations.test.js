@@ -1,5 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
+import { scene } from "./fixtures.js";
 import { failure, own, page, rest, swing } from "./server.js";
 
 const PARTS = ["coordinates", "rates", "positions", "loads", "energy", "error"];
@@ -40,6 +41,7 @@ test("a motion is on the page with its end; until then the page says that it is 
   const answer = { ...rest(last("simulate").given[0]), method: "dop853" };
   await last("simulate").answer(answer);
   assert.deepEqual([get().simulating, get().trajectory, clock.end], [false, { ...answer, coarse: false }, 5]);
+  assert.equal(get().scene, scene);
 });
 
 test("of many values a slider runs through the first and the last are computed, a tenth of a second apart", async () => {
