@@ -118,7 +118,16 @@ def test_every_member_counts_and_every_component() -> None:
 
 @pytest.mark.parametrize(
     ("size", "off", "same"),
-    [(1, 2**-78, False), (1, 2**-83, True), (10**30, 1, True), (10**30, 10**8, False), (-(10**30), 1, True)],
+    [
+        (1, 1.5 * 2**-79, False),  # relative to 1 + 1, hence three halves of what is allowed
+        (1, 2**-79, False),
+        (1, 1.5 * 2**-80, True),
+        (0, 1.5 * 2**-80, False),
+        (0, 1.5 * 2**-81, True),
+        (10**30, 1, True),
+        (10**30, 10**8, False),
+        (-(10**30), 1, True),
+    ],
 )
 def test_a_difference_counts_by_the_size_of_what_is_compared(size: int, off: float, same: bool) -> None:
     left, right = Explicit(sp.Integer(size)), Explicit(sp.Integer(size) + sp.Rational(off))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from tests.language.scene_names import problem_of, read
+from tests.language.scene_names import NAMES, problem_of, read
 
 from deltaq.errors import Problem
+from deltaq.language.parser import parse
 from deltaq.language.plain_printer import plain
 
 KNOWN = "y, phi, x, m, l, g, k, c, omega, y0, F0, m1"
@@ -355,6 +356,11 @@ REFUSED = [
 @pytest.mark.parametrize(("text", "meaning"), ACCEPTED, ids=[text for text, _ in ACCEPTED])
 def test_is_read(text: str, meaning: str) -> None:
     assert plain(read(text, "latex")) == meaning
+
+
+def test_what_is_read_does_not_depend_on_where_it_stands() -> None:
+    for text, _ in ACCEPTED:
+        assert parse(text, NAMES, "latex").tree == parse(f"   {text}", NAMES, "latex").tree, text
 
 
 @pytest.mark.parametrize(("text", "code", "offset", "length", "parameters"), REFUSED, ids=[row[0] for row in REFUSED])

@@ -95,14 +95,16 @@ def _places(node: ast.AST, line: int = 1) -> Iterator[tuple[int, ast.AST, _Put]]
             continue
         children = enumerate(value) if isinstance(value, list) else [(None, value)]
         for index, child in children:
-            if isinstance(child, ast.AST) and not _is_text(child):
+            if isinstance(child, ast.AST) and not _is_no_law(child):
                 here = getattr(child, "lineno", line)
                 yield here, child, _Put(node, field, index)
                 yield from _places(child, here)
 
 
-def _is_text(node: ast.AST) -> bool:
-    """A docstring, an import, or what a type checker alone reads."""
+def _is_no_law(node: ast.AST) -> bool:
+    """A docstring, an import, the names to be imported, an assertion of lengths, or what a type checker alone reads."""
+    if isinstance(node, ast.keyword) and node.arg == "strict":
+        return True
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
         return True
     return isinstance(node, ast.Import | ast.ImportFrom) or (
@@ -157,7 +159,10 @@ def _faults(node: ast.AST) -> Iterator[ast.AST]:  # one case for each kind of no
         case ast.Call(function, given, named):
             if isinstance(function, ast.Name) and function.id in OTHER_FUNCTION:
                 yield ast.Call(ast.Name(OTHER_FUNCTION[function.id], ast.Load()), given, named)
-            yield from (ast.Call(function, given, _without(named, k)) for k in range(len(named)))
+            # `strict` only asserts what the lengths are anyway.
+            yield from (
+                ast.Call(function, given, _without(named, k)) for k, one in enumerate(named) if one.arg != "strict"
+            )
         case ast.Return(ast.expr()):
             yield ast.Return(ast.Constant(None))
         case ast.Expr() | ast.Assign() | ast.AugAssign() | ast.Raise() | ast.Break() | ast.Continue():

@@ -87,6 +87,15 @@ def test_energies_of_a_rough_motion_are_short() -> None:
         np.testing.assert_allclose(np.array(heavy[name]), 100.0 * np.array(light[name]), rtol=1e-8)
 
 
+def test_where_nothing_moves_there_is_no_error_to_tell() -> None:
+    """The force is infinite where the particle stands at first."""
+    push = {"kind": "force", "at": "mass", "force": ["1/x", "0"]}
+    answer = ask(scene=document({"x": (0.0, 0.0)}, {"m": 1.0}, {"mass": ("m", ["x", "0"])}, [push]))
+    assert (answer["status"], answer["t"], answer["energy"]["drift"]) == ("diverged", [], 0.0)
+    assert (answer["error"]["estimate"], answer["error"]["horizon"]) == ([], None)
+    assert answer["error"]["worst"] < 1e-15
+
+
 def test_parts_that_were_asked_for_hold_their_own_numbers() -> None:
     """Each part by itself says what it says among the others."""
     names = ("coordinates", "rates", "positions", "loads")
