@@ -103,13 +103,12 @@ def _places(node: ast.AST, line: int = 1) -> Iterator[tuple[int, ast.AST, _Put]]
 
 def _is_no_law(node: ast.AST) -> bool:
     """A docstring, an import, the names to be imported, an assertion of lengths, or what a type checker alone reads."""
-    if isinstance(node, ast.keyword) and node.arg == "strict":
-        return True
-    if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
-        return True
-    return isinstance(node, ast.Import | ast.ImportFrom) or (
-        isinstance(node, ast.If) and "TYPE_" in ast.dump(node.test)
-    )
+    match node:
+        case ast.Expr(ast.Constant()) | ast.Import() | ast.ImportFrom() | ast.keyword(arg="strict"):
+            return True
+        case ast.Assign([ast.Name("__all__")]) | ast.If(ast.Name("TYPE_CHECKING")):
+            return True
+    return False
 
 
 def _shown(node: ast.AST) -> str:

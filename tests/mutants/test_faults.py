@@ -1,0 +1,70 @@
+"""Faults are made where the code says something, each in an otherwise sound module; every part has its files."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+from tests.mutants.faults import mutants_of, sample
+
+SOUND = '''"""Says 3 nowhere."""
+from __future__ import annotations
+__all__ = ["law"]
+def law(a: int = 1, *, b: list[int] | None = None) -> int:
+    if a > 2 and not b:
+        return a - 1
+    return sum(x for x in b or [] if x)
+'''
+EXPECTED = {
+    ("1", "2"),
+    ("1", "0"),
+    ("a > 2", "a >= 2"),
+    ("a > 2", "a <= 2"),
+    ("a > 2 and (not b)", "a > 2 or not b"),
+    ("a > 2 and (not b)", "a > 2"),
+    ("not b", "b"),
+    ("if a > 2 and (not b):", "if False:"),
+    ("a - 1", "a + 1"),
+    ("a - 1", "a"),
+    ("return a - 1", "return None"),
+    ("b or []", "b and []"),
+}
+
+
+@pytest.fixture
+def module(tmp_path: Path) -> Path:
+    file = tmp_path / "law.py"
+    file.write_text(SOUND, encoding="utf-8")
+    return file
+
+
+def test_faults_of_a_function(module: Path) -> None:
+    found = [(mutant.before, mutant.after) for mutant in mutants_of(module)]
+    assert set(found) >= EXPECTED
+    assert not any("__all__" in before or before == "None" for before, _ in found)
+
+
+def test_each_mutant_runs_and_has_one_fault(module: Path) -> None:
+    answers = set()
+    for mutant in mutants_of(module):
+        names: dict[str, object] = {}
+        exec(mutant.code, names)
+        law = names.get("law")
+        answers.add(law(3) if callable(law) else None)
+    assert answers >= {2, 4, 3, None, 0}
+
+
+def test_a_sample_is_the_same_for_the_same_seed(module: Path) -> None:
+    some = [[str(mutant) for mutant in sample([module], 5, seed)[0]] for seed in (1, 1, 2)]
+    assert some[0] == some[1] != some[2]
+
+
+def test_every_part_has_its_modules_and_tests(root: Path) -> None:
+    parts = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["deltaq"]["mutants"]
+    page = json.loads((root / "frontend" / "stryker.json").read_text(encoding="utf-8"))
+    files = [file for part in parts.values() for file in (*part["modules"], *part["tests"])]
+    files += [*page["mutate"], *re.findall(r"\S+\.test\.js", page["commandRunner"]["command"])]
+    assert [file for file in files if not list(root.glob(file.removeprefix("./")))] == []
