@@ -137,5 +137,5 @@ def test_no_exact_test_takes_an_equation_without_accelerations_for_the_right_one
     """Nor where no numbers have told so beforehand."""
     book = workbook("pendulum")
     task = book.task("equation:phi")
-    given = read(task, book.road, answer, "plain").parts
-    assert task.quantity.equality.same(given, book.right(task), book.road).equal is False
+    given = read(task, book.solution, answer, "plain").parts
+    assert task.quantity.equality.same(given, book.right(task), book.solution).equal is False
