@@ -39,7 +39,7 @@ export function createSimulations({ get, set }, api, clock, attempt) {
       set({ trajectory, ...shownWith(request) });
       clock.setEnd(endOf(trajectory));
       if (again) latest.offer({ request: again, round: round + 1 });
-      else dense = { of: keyOf(request), rate: request.samples / request.t_end };
+      else dense = { of: keyOf(request), rate: (request.samples - 1) / request.t_end };
       refined = again !== null;
     });
     await done.finally(() => set({ simulating: refined }));
@@ -47,8 +47,8 @@ export function createSimulations({ get, set }, api, clock, attempt) {
 
   /** @param {Request} request @returns {Request} */
   const asDense = (request) =>
-    dense.of === keyOf(request) && dense.rate * request.t_end > request.samples
-      ? { ...request, samples: samplesFor(dense.rate * request.t_end) }
+    dense.of === keyOf(request) && dense.rate * request.t_end + 1 > request.samples
+      ? { ...request, samples: samplesFor(dense.rate * request.t_end + 1) }
       : request;
 
   /** The viewer's own scene changes on the page together with its motion. @param {Request} request */

@@ -119,7 +119,7 @@ test("another scene or method begins with the usual samples", async () => {
 
 test("a method of fixed step keeps a sample for each of its steps", async () => {
   const { session, last, pass } = page({ methods, place: /** @type {any} */ ({ method: "rk4" }) });
-  for (const duration of [10, 10, 5]) {
+  for (const duration of [10, 10, 5, 20]) {
     session.resimulate({ duration });
     await pass(100);
     await last("simulate").answer(rest(last("simulate").given[0]));
