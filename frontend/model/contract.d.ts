@@ -2703,9 +2703,9 @@ export interface components {
             points?: components["schemas"]["ScenePoint"][] | null;
             /**
              * Bodies
-             * @description all that has mass
+             * @description all that has mass; a motion needs one
              */
-            bodies: components["schemas"]["SceneBody"][];
+            bodies?: components["schemas"]["SceneBody"][] | null;
             /**
              * Loads
              * @description all that does work

@@ -103,9 +103,9 @@ async def test_same_question_at_the_same_time_is_computed_once(client: httpx.Asy
     pool, ran = app.state.service.pool, []
     run = pool.run
 
-    async def counted(job: Any, *question: Any) -> bytes:
+    async def counted(job: Any, *question: Any, **how: Any) -> bytes:
         ran.append(job)
-        answer: bytes = await run(job, *question)
+        answer: bytes = await run(job, *question, **how)
         return answer
 
     pool.run = counted

@@ -28,10 +28,11 @@ def bodies() -> Iterator[Any]:
     for path, methods in DOCUMENT["paths"].items():
         if "post" not in methods:
             continue
-        [(media_type, content)] = methods["post"]["requestBody"]["content"].items()
         address = path.replace("{form}", "python")
-        shown = _schema(content).get("examples", [None])
-        yield from (pytest.param(address, media_type, body, id=f"{path} {i}") for i, body in enumerate(shown))
+        for media_type, content in methods["post"]["requestBody"]["content"].items():
+            shown = _schema(content).get("examples", [None])
+            for i, body in enumerate(shown):
+                yield pytest.param(address, media_type, body, id=f"{path} {media_type} {i}")
 
 
 @pytest.mark.parametrize(("address", "media_type", "body"), [*bodies()])

@@ -314,7 +314,7 @@ def idle_app() -> Iterator[FastAPI]:
 async def asked(app: FastAPI, error: Exception, monkeypatch: pytest.MonkeyPatch) -> httpx.Response:
     """What the client gets when the job ends with this error."""
 
-    async def fail(self: object, *question: object) -> bytes:
+    async def fail(self: object, *question: object, **how: object) -> bytes:
         raise error
 
     monkeypatch.setattr(type(app.state.service.pool), "run", fail)

@@ -177,7 +177,7 @@ def _model(document: Json, schema: Json) -> Json:
 def _of_model(model: Json, size: int) -> Iterator[tuple[str, Callable[[], bytes]]]:
     for name, make in (VALUES | WHOLES).items():
         yield name, _made(make, size)
-    example = (model.get("examples") or [EXAMPLE])[0]
+    example = next((one for one in model.get("examples", ()) if isinstance(one, dict)), EXAMPLE)
     for member in model.get("properties", PARTS):
         for name, make in VALUES.items():
             yield f"{member}: {name}", _member(example, member, make, size)

@@ -81,7 +81,8 @@ def _each(tables: tuple[Reader, ...], make: Callable[[Reader], T]) -> tuple[T, .
 
 
 def _dimension(root: Reader) -> int:
-    dimension = root.get("dimension", int, 2) or 2
+    given = root.get("dimension", int, 2)
+    dimension = 2 if given is None else given
     if dimension in (2, 3):
         return dimension
     root.complain("wrong-space", "dimension")

@@ -177,7 +177,7 @@ class SceneDocument(Part):
     coordinates: list[SceneCoordinate] = Field(description="generalized coordinates")
     parameters: list[SceneParameter] | None = Field(None, description="constants")
     points: list[ScenePoint] | None = Field(None, description="places without mass")
-    bodies: list[SceneBody] = Field(description="all that has mass")
+    bodies: list[SceneBody] | None = Field(None, description="all that has mass; a motion needs one")
     loads: list[SceneLoad] | None = Field(None, description="all that does work")
     guides: list[SceneGuide] | None = Field(None, description="coordinates that are given functions of time")
     events: list[SceneEvent] | None = Field(None, description="what ends the motion")
