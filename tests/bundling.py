@@ -20,11 +20,17 @@ def build_hook(root: Path) -> ModuleType:
     return module
 
 
-def bundle_of(root: Path) -> Path:
-    """The folder of the bundle; the end of a run says loudly if there is no esbuild to make it."""
+def made(root: Path) -> Path | None:
+    """The folder of the bundle, if there is an esbuild to make it."""
     frontend, hook = root / "frontend", build_hook(root)
     with (frontend / "package.json").open("rb") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # tests may run in several processes
-        if not hook.bundled(frontend):
-            pytest.skip("NO ESBUILD, SO THE BUNDLED PAGE IS NOT TESTED: npm ci in frontend/ brings it")
-    return frontend / "bundle"
+        return frontend / "bundle" if hook.bundled(frontend) else None
+
+
+def bundle_of(root: Path) -> Path:
+    """The folder of the bundle; the end of a run says loudly if there is no esbuild to make it."""
+    folder = made(root)
+    if folder is None:
+        pytest.skip("NO ESBUILD, SO THE BUNDLED PAGE IS NOT TESTED: npm ci in frontend/ brings it")
+    return folder

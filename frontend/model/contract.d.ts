@@ -891,6 +891,9 @@ export interface components {
         } & {
             [key: string]: unknown;
         };
+        Draft: components["schemas"]["SceneId"] | components["schemas"]["SceneDocument"] | {
+            [key: string]: unknown;
+        };
         /**
          * DrawnElement
          * @description One primitive of the drawing; its kind decides which fields it has.
@@ -1364,10 +1367,10 @@ export interface components {
              */
             material?: string[];
             /**
-             * @description a built-in scene by its id, or a scene document of format 1
-             * @example elastic-pendulum
+             * @description a built-in scene by its id, or a scene document, even an unfinished one
+             * @example pendulum
              */
-            scene: components["schemas"]["Scene"];
+            scene: components["schemas"]["Draft"];
             /**
              * Lang
              * @description language of the texts; else Accept-Language decides
@@ -1427,10 +1430,10 @@ export interface components {
          */
         ExpressionsRequest: {
             /**
-             * @description a built-in scene by its id, or a scene document of format 1
-             * @example elastic-pendulum
+             * @description a built-in scene by its id, or a scene document, even an unfinished one
+             * @example pendulum
              */
-            scene: components["schemas"]["Scene"];
+            scene: components["schemas"]["Draft"];
             /**
              * Expressions
              * @description the texts
@@ -2657,10 +2660,10 @@ export interface components {
         SceneDocument: {
             /**
              * Format
-             * @description of the document
+             * @description of the document; 1 if empty
              * @default 1
              */
-            format?: number;
+            format?: number | null;
             /**
              * Id
              * @description lower-case letters, digits and hyphens

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -16,19 +16,29 @@ def service() -> Iterator[Served]:
         yield one
 
 
+DOCUMENTS = ("SceneDocument", "AssignmentDocument")  # one reader for all operations: it is enough to be asked once
+READING = "/(scenes/validate|expressions|tasks|assignments)$"
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("chosen", "least"),
+    ("chosen", "closed", "least"),
     [
-        pytest.param(["--phases", "examples,coverage", "--exclude-path-regex", EXPERIMENTS], 500, id="right and wrong"),
+        pytest.param(
+            ["--phases", "examples,coverage", "--exclude-path-regex", EXPERIMENTS], DOCUMENTS, 500, id="right and wrong"
+        ),
         pytest.param(
             ["--phases", "coverage", "--mode", "negative", "--include-path-regex", EXPERIMENTS],
+            DOCUMENTS,
             500,
             id="experiments that are refused",  # right ones take seconds each
         ),
+        pytest.param(["--phases", "coverage", "--include-path-regex", READING], [], 500, id="documents"),
     ],
 )
-def test_answers_match_the_document(service: Served, tmp_path: Path, chosen: list[str], least: int) -> None:
-    found = drive(service.address, tmp_path, 2, "--seed", "1", *chosen)
-    assert found.returncode == 0, found.stdout[-10_000:]
+def test_answers_match_the_document(
+    service: Served, tmp_path: Path, chosen: list[str], closed: Sequence[str], least: int
+) -> None:
+    found = drive(service.address, tmp_path, 2, "--seed", "1", *chosen, closed=closed)
+    assert found.returncode == 0, "\n".join(line[:500] for line in found.stdout.splitlines())
     assert cases(found) > least

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
-import subprocess
-import sys
 import time
 import urllib.request
 from collections.abc import Iterator
@@ -14,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
+from tests.bundling import made
 from tests.e2e.browser import NoBrowser, chromium, started
 from tests.e2e.lecture import Lecture
 from tests.e2e.waiting import PATIENCE
@@ -22,39 +20,34 @@ from tests.serving import PATIENT, served
 
 @pytest.fixture(scope="session")
 def server(root: Path) -> Iterator[str]:
-    """The address of `deltaq serve` on a free port, with its kernels compiled."""
-    command = [sys.executable, "-m", "deltaq.cli", "serve", "--port", "0"]
-    with subprocess.Popen(command, cwd=root, stdout=subprocess.PIPE, text=True) as process:
-        try:
-            assert process.stdout is not None
-            address = re.search(r"http://\S+", process.stdout.readline())
-            assert address is not None, "the server did not say its address"
-            _answered(f"{address[0]}api/v1/simulations", {"scene": "elastic-pendulum", "t_end": 1.0})
-            yield address[0]
-        finally:
-            process.terminate()
+    """The address of a service with the page as packages have it; from its sources if there is no esbuild."""
+    yield from _serving(made(root) or "")
 
 
 @pytest.fixture(scope="session")
-def bundled_server(server: str, bundle: Path) -> Iterator[str]:
-    """The address of a service that has the page as packages have it; `server` serves the sources."""
-    with served(static=bundle, **PATIENT) as service:
+def source_server() -> Iterator[str]:
+    """The address of a service with the page from its sources, as who works on it sees it."""
+    yield from _serving("")
+
+
+def _serving(static: Path | str) -> Iterator[str]:
+    with served(static=static, **PATIENT) as service:
+        _answered(f"{service.address}api/v1/simulations", {"scene": "elastic-pendulum", "t_end": 1.0})
         yield service.address
 
 
 @pytest.fixture(params=["sources", "bundle"])
 def either(request: pytest.FixtureRequest, page: Page) -> Iterator[Lecture]:
     """The page from its sources, and from the bundle."""
-    address = request.getfixturevalue("server" if request.param == "sources" else "bundled_server")
-    lecture = Lecture(page, address)
+    lecture = Lecture(page, request.getfixturevalue("source_server" if request.param == "sources" else "server"))
     yield lecture
     assert lecture.complaints == []
 
 
 @pytest.fixture
-def bundled(page: Page, bundled_server: str) -> Iterator[Lecture]:
-    """The page as packages have it."""
-    lecture = Lecture(page, bundled_server)
+def sources(page: Page, source_server: str) -> Iterator[Lecture]:
+    """The page from its sources."""
+    lecture = Lecture(page, source_server)
     yield lecture
     assert lecture.complaints == []
 

@@ -284,11 +284,11 @@ OWN = {
 }
 
 
-def test_a_scene_that_the_address_brings_along_has_tasks_too(lecture: Lecture) -> None:
-    page = _open(lecture)
+def test_a_scene_that_the_address_brings_along_has_tasks_too(sources: Lecture) -> None:
+    page = _open(sources)
     fragment = page.evaluate("scene => import('/model/own.js').then(own => own.fragmentOf(scene))", OWN)
     page.goto("about:blank")
-    page.goto(f"{lecture.address}homework?lang=en&task=equation:x{fragment}")
+    page.goto(f"{sources.address}homework?lang=en&task=equation:x{fragment}")
     expect(page.locator("h1")).to_contain_text("Slider")
     _answer_as_text(page, "m*ddot(x) + k*x = 0")
     _check(page, "correct")

@@ -264,22 +264,24 @@ def test_an_unknown_scene_is_said_in_sentences(page: Page, server: str) -> None:
     expect(failure).to_have_count(0)
 
 
-def test_bytes_before_the_first_plot(bundled: Lecture) -> None:
-    before = bundled.bytes_before_the_first_plot()
+@pytest.mark.usefixtures("bundle")
+def test_bytes_before_the_first_plot(lecture: Lecture) -> None:
+    before = lecture.bytes_before_the_first_plot()
     total = sum(before.values())
     print(f"{len(before)} requests, {total} bytes before the first plot")
     assert len(before) > 10
     assert total < BYTES_BEFORE_FIRST_PLOT, sorted(before.items(), key=lambda entry: -entry[1])
 
 
-def test_requests_of_a_first_and_of_a_second_visit(bundled: Lecture) -> None:
+@pytest.mark.usefixtures("bundle")
+def test_requests_of_a_first_and_of_a_second_visit(lecture: Lecture) -> None:
     """On the second visit what names its content or its version is not asked for again."""
     visits = []
     for _ in range(2):
-        with bundled.asked() as asked:
-            bundled.open()
-            bundled.page.locator(".plots.ready").wait_for()
-            bundled.page.wait_for_load_state("networkidle")
+        with lecture.asked() as asked:
+            lecture.open()
+            lecture.page.locator(".plots.ready").wait_for()
+            lecture.page.wait_for_load_state("networkidle")
         visits.append(asked)
     first, second = visits
     print(f"{len(first)} requests, then {len(second)}")

@@ -135,6 +135,7 @@ def test_old_addresses_of_scenes_lead_to_them(lecture: Lecture, page: Page) -> N
     expect(page).to_have_url(re.compile(r"/scene\?.*edit=form"))
 
 
+@pytest.mark.usefixtures("bundle")
 @pytest.mark.parametrize(
     ("place", "ready"),
     [
@@ -150,7 +151,7 @@ def test_old_addresses_of_scenes_lead_to_them(lecture: Lecture, page: Page) -> N
         pytest.param("presenter?lang=en", ".presenter .notice", id="presenter"),
     ],
 )
-def test_bytes_of_the_first_view(bundled: Lecture, place: str, ready: str) -> None:
+def test_bytes_of_the_first_view(lecture: Lecture, place: str, ready: str) -> None:
     """What a page fetches before anything is asked of it, but for the large libraries that come after it."""
     received: list[int] = []
 
@@ -159,9 +160,9 @@ def test_bytes_of_the_first_view(bundled: Lecture, place: str, ready: str) -> No
         if not re.search(r"/(plotly|mathlive)", request.url):
             received.append(sizes["responseBodySize"] + sizes["responseHeadersSize"])
 
-    bundled.page.on("requestfinished", count)
-    bundled.page.goto(bundled.address + place)
-    bundled.page.locator(ready).first.wait_for(state="attached")
-    bundled.page.wait_for_load_state("networkidle")
+    lecture.page.on("requestfinished", count)
+    lecture.page.goto(lecture.address + place)
+    lecture.page.locator(ready).first.wait_for(state="attached")
+    lecture.page.wait_for_load_state("networkidle")
     print(f"{place}: {len(received)} requests, {sum(received)} bytes")
     assert 0 < sum(received) < FIRST_VIEW

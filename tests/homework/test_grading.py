@@ -162,6 +162,14 @@ def test_assignment_names_tasks_by_number_and_counts_their_points(tmp_path: Path
         pytest.param([], [("", "request-not-object")], id="list"),
         pytest.param({"format": 1}, [("/tasks", "assignment-no-task")], id="no task"),
         pytest.param(
+            {"format": 1, "title": 3}, [("/title", "request-not-text"), ("/tasks", "assignment-no-task")], id="title 3"
+        ),
+        pytest.param(
+            {"format": 1, "title": {"de": {}, "en": "x"}, "tasks": []},
+            [("/title/de", "request-not-text"), ("/tasks", "assignment-no-task")],
+            id="table for a title",
+        ),
+        pytest.param(
             {"format": 2, "tasks": [{}], "ex/tra": 1, "follow_through": 3},
             [
                 ("/format", "assignment-format"),

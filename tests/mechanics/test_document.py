@@ -118,6 +118,9 @@ def never_defined(pointer: str, expression: str) -> Problem:
 
 
 WRONG = [
+    pytest.param(put("/title", {"en": 3, "de": "Drei"}), Problem("not-text", "/title/en"), id="number for a title"),
+    pytest.param(put("/summary", {"de": None}), Problem("not-text", "/summary/de"), id="null for a summary"),
+    pytest.param(put("/labels", {"bob": {"x/y": {}}}), Problem("not-text", "/labels/bob/x~1y"), id="table for a label"),
     pytest.param(put("/bodies/0/mass", 3), Problem("not-text", "/bodies/0/mass"), id="number for an expression"),
     pytest.param(
         put("/bodies/0/mass", ""),

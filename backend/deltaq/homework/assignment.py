@@ -87,6 +87,10 @@ def _problems(document: Mapping[str, object]) -> Iterator[Problem]:
         yield Problem("assignment-format", "/format", parameters={"format": FORMAT})
     for name in sorted(document.keys() - FIELDS):
         yield Problem("unknown-field", f"/{escaped(name)}", parameters={"field": name[:40]})
+    title = document.get("title") or ""
+    texts = title if isinstance(title, Mapping) else {"": title}
+    for language in sorted(language for language, text in texts.items() if not isinstance(text, str)):
+        yield Problem("request-not-text", f"/title/{escaped(language)}" if language else "/title")
     if not isinstance(document.get("individual", False), bool):
         yield Problem("request-not-boolean", "/individual")
     if not _is_number(document.get("follow_through", FOLLOW_THROUGH), 1.0):

@@ -92,7 +92,13 @@ class Reader:
 
     def translated(self, key: str) -> Translated:
         """A text by language; one without a language is for all."""
-        return translated(self.get(key, (Mapping, str), {}) or {})
+        texts = self.get(key, (Mapping, str), {}) or {}
+        if not isinstance(texts, Mapping):
+            return translated(texts)
+        readable = {language: text for language, text in texts.items() if isinstance(text, str)}
+        for language in sorted(map(str, texts.keys() - readable.keys())):
+            self.complain(NOT_OF[str], f"{escaped(key)}/{escaped(language)}")
+        return translated(readable)
 
     def strings(self, key: str) -> tuple[str, ...]:
         values = self.get(key, (list, tuple), None)

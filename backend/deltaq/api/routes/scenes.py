@@ -17,7 +17,7 @@ from ..body import BodyError, StrictRoute, demand_kind
 from ..languages import language_of
 from ..responses import JSON, tagged
 from ..service import service_of
-from ..wire.document import EXAMPLE, GivenScene, SceneDocument
+from ..wire.document import EXAMPLE, GivenDraft, SceneDocument
 from ..wire.scene import TOML_EXAMPLE, SceneList, SceneText, SceneValidity
 from ..workers.job import Job
 from .common import LANGUAGE, SceneId, failures
@@ -63,7 +63,7 @@ def list_scenes(
     responses=failures(400, 413, 422, 503, 504),
     dependencies=[LANGUAGE],
 )
-async def validate_scene(request: Request, scene: Annotated[GivenScene, Body(examples=[EXAMPLE])]) -> Response:
+async def validate_scene(request: Request, scene: Annotated[GivenDraft, Body(examples=[EXAMPLE])]) -> Response:
     """Whether a scene document describes a mechanical system, and all that is wrong with it."""
     document = {"scene": scene, "lang": language_of(request)}
     return Response(await service_of(request).run(VALIDATE, document), media_type=JSON)

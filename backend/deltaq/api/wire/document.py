@@ -169,7 +169,7 @@ EXAMPLE: dict[str, Any] = {
 class SceneDocument(Part):
     """A mechanical system as data, format 1."""
 
-    format: int = Field(1, ge=1, le=1, description="of the document")
+    format: Annotated[int, Field(ge=1, le=1)] | None = Field(1, description="of the document; 1 if empty")
     id: str | None = Field(None, description="lower-case letters, digits and hyphens", examples=["my-pendulum"])
     title: Text | None = Field(None, description="what the scene is called")
     summary: Text | None = Field(None, description="what the scene is about")
@@ -220,11 +220,17 @@ SceneId = TypeAliasType(
     "SceneId", Annotated[str, Field(max_length=LONGEST_ID, description="id of a built-in scene", examples=["pendulum"])]
 )
 Scene = TypeAliasType("Scene", Annotated[Any, ReadElsewhere(SceneId | SceneDocument, _scene)])
+Draft = TypeAliasType("Draft", Annotated[Any, ReadElsewhere(SceneId | SceneDocument | dict[str, Any], _scene)])
+DraftReference = Annotated[
+    Draft,
+    Field(description="a built-in scene by its id, or a scene document, even an unfinished one", examples=["pendulum"]),
+]
 SceneReference = Annotated[
     Scene,
     Field(description="a built-in scene by its id, or a scene document of format 1", examples=["elastic-pendulum"]),
 ]
 GivenScene = Annotated[dict[str, Any], ReadElsewhere(SceneDocument, _object)]
+GivenDraft = Annotated[dict[str, Any], ReadElsewhere(SceneDocument | dict[str, Any], _object)]
 
 
 class AssignedTaskDocument(Part):

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from .base import Answer, AskedLanguage, Names, Request, Syntax, examples, items
-from .document import SceneReference
+from .document import DraftReference
 from .problem import ProblemEntry
 
 Text = Annotated[str, Field(min_length=1, max_length=4000)]
@@ -24,7 +24,7 @@ class ExpressionText(Request):
 class ExpressionRequest(ExpressionText):
     """A text, and the scene whose names it uses."""
 
-    scene: SceneReference
+    scene: DraftReference
     lang: AskedLanguage = None
 
     model_config = examples({"scene": "elastic-pendulum", "expression": "l*sin(phi)"})
@@ -33,7 +33,7 @@ class ExpressionRequest(ExpressionText):
 class ExpressionsRequest(Request):
     """Several texts that use the names of one scene."""
 
-    scene: SceneReference
+    scene: DraftReference
     expressions: Annotated[tuple[ExpressionText, ...], items(max_length=500, description="the texts")]
     lang: AskedLanguage = None
 
