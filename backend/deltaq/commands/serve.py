@@ -85,8 +85,9 @@ def _run(listener: socket.socket, settings: Settings) -> None:
     from ..api.app import create_app
     from ..api.connection import ACCEPTED, Patience, connections, most_connections
     from ..api.logs import configure
-    from ..api.server import Server
+    from ..api.server import Server, give_large_blocks_back
 
+    give_large_blocks_back()
     configure(settings.log_level)
     config = uvicorn.Config(
         create_app(settings),
