@@ -113,7 +113,7 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
         motion_of(problem, is_long=is_long),
         _control(problem, method, steps, plan),
         watch_of(problem, cancelled),
-        times,
+        np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
         np.zeros((times.size, problem.state.size)),
     )
     start = perf_counter()
