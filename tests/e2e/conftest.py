@@ -98,6 +98,9 @@ def page(browser: Browser) -> Iterator[Page]:
     context = browser.new_context(viewport={"width": 1366, "height": 768}, locale="de-DE")
     context.set_default_timeout(PATIENCE)
     yield context.new_page()
+    context.unroute_all(behavior="ignoreErrors")  # what a test answered in the service's place may still be under way
+    for page in context.pages:
+        page.unroute_all(behavior="ignoreErrors")
     context.close()
 
 
