@@ -74,7 +74,7 @@ def test_every_step_is_verified(scene: Scene) -> None:
 
 def test_a_wrong_shape_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     right = spectrum.kernel
-    monkeypatch.setattr(spectrum, "kernel", lambda rows: [[x[0] * (1 + arb(2) ** -60), *x[1:]] for x in right(rows)])
+    monkeypatch.setattr(spectrum, "kernel", lambda *law: [[x[0] * (1 + arb(2) ** -60), *x[1:]] for x in right(*law)])
     steps = model_steps(pushed("-2*k*x + k*y - c*dot(x)", "k*x - k*y"))
     assert not steps["complex-mode-shapes:1"].verified
     assert steps["linearization:1"].verified

@@ -58,8 +58,13 @@ EQUILIBRIA = [
     ),
     pytest.param(
         particle(["x"], {"k": 2.0}, ["x", "0"], {"kind": "potential", "energy": "k*x^4/4"}),
-        [({"x": "0"}, "undecided")],
+        [({"x": "0"}, "stable")],
         id="singular K",
+    ),
+    pytest.param(
+        particle(["x"], {"a": 1.0, "b": 1.0}, ["x", "0"], {"kind": "potential", "energy": "-a*x^2/2 + b*x^4/4"}),
+        [({"x": "1"}, "stable"), ({"x": "-1"}, "stable"), ({"x": "0"}, "unstable")],
+        id="both wells of two",
     ),
     pytest.param(
         particle(["x", "y"], {"k": 2.0}, ["x", "y"], {"kind": "force", "at": "bob", "force": ["-k*y", "k*x"]}),

@@ -10,6 +10,7 @@ import sympy as sp
 from ..language.functions import FUNCTIONS
 
 Function = Callable[[Sequence[float]], float]
+Vectors = Callable[[Sequence[float]], list[float]]
 
 
 def compiled(expression: sp.Expr, slots: Mapping[sp.Symbol, int]) -> Function:
@@ -23,6 +24,25 @@ def compiled(expression: sp.Expr, slots: Mapping[sp.Symbol, int]) -> Function:
             return math.nan
 
     return safe
+
+
+def compiled_together(expressions: Sequence[sp.Expr], slots: Mapping[sp.Symbol, int]) -> Vectors:
+    """f(values) of several expressions, NaN where one is not defined; what they have in common is computed once."""
+    common, rest = sp.cse(list(expressions), order="none")
+    places = dict(slots)
+    intermediate = []
+    for symbol, expression in common:
+        intermediate.append(compiled(expression, places))
+        places[symbol] = len(places)
+    outcomes = [compiled(expression, places) for expression in rest]
+
+    def together(values: Sequence[float]) -> list[float]:
+        known = list(values)
+        for each in intermediate:
+            known.append(each(known))
+        return [each(known) for each in outcomes]
+
+    return together
 
 
 def _compiled(expression: sp.Expr, slots: Mapping[sp.Symbol, int]) -> Function:

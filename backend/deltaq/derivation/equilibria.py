@@ -1,7 +1,8 @@
 """Equilibria: configurations q₀ in which nothing moves and nothing starts to, f(q₀, 0) = 0.
 
-Equations that share no unknown are solved apart, by damped Newton's method from fixed starts within the coordinates'
-ranges, at the scene's parameter values. What is found is then recognized as a closed form where that is quick.
+Equations that share no unknown are solved apart, at the scene's parameter values: one equation that is algebraic in
+its unknown, or in its sine and cosine, completely; others by damped Newton's method from fixed starts within the
+coordinates' ranges. What is found is then recognized as a closed form where that is quick.
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.1.
 """
 
@@ -9,7 +10,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
 
@@ -18,11 +19,12 @@ import sympy as sp
 from ..language.memory import cached_method
 from ..mechanics.coordinate import Coordinate
 from .closed_form import Known, Sought, closed_form
-from .compiled import compiled
+from .compiled import compiled_together
 from .matrix_form import forces_at_rest, forcing, is_autonomous, mass_matrix
 from .newton import root
 from .refinement import in_numbers, refined
 from .system import System
+from .univariate import real_zeros
 
 STARTS = 32
 MOST = 8  # equilibria of a scene
@@ -96,37 +98,48 @@ def _solutions(system: System, part: _Part) -> Iterator[Equilibrium]:
     symbols = [system.q(c.name) for c in part.unknowns]
     parameters = system.parameter_values
     angles = frozenset(q for q in symbols if is_angle(system, q))
-    found = _roots(part, symbols, parameters, angles)
+    equations = [equation.xreplace(dict(parameters)) for equation in part.equations]
+    known = real_zeros(equations[0], symbols[0], is_angle=bool(angles)) if len(symbols) == len(equations) == 1 else None
+    if known is not None:
+        found, equations = [[value] for value in _by_distance(known.values)[:MOST]], [known.equation]
+    else:
+        found = _roots(part, symbols, equations, angles)
     for numbers in found:
-        known = dict(zip(symbols, numbers, strict=True))
-        values: Known | None = closed_form(Sought(system, part.equations, known, angles, parameters))
+        sought = dict(zip(symbols, numbers, strict=True))
+        values: Known | None = closed_form(Sought(system, part.equations, sought, angles, parameters))
         if values is not None:
             yield Equilibrium(values, exact=True)
             continue
-        rounded = refined([e.xreplace(parameters) for e in part.equations], known)
+        rounded = refined(equations, sought)
         if rounded is not None:
             yield Equilibrium(rounded, exact=False)
-        if len(found) == MOST:  # so many come from a continuum; one of them stands for all
+        if known is None and len(found) == MOST:  # so many come from a continuum; one of them stands for all
             return
 
 
+def _by_distance(values: Sequence[float]) -> list[float]:
+    return sorted(values, key=lambda x: (round(abs(x), 6), -x))
+
+
 def _roots(
-    part: _Part, symbols: list[sp.Symbol], parameters: Mapping[sp.Symbol, sp.Expr], angles: frozenset[sp.Symbol]
+    part: _Part, symbols: list[sp.Symbol], equations: list[sp.Expr], angles: frozenset[sp.Symbol]
 ) -> list[list[float]]:
     """Distinct roots in the order of their distance from the origin."""
     slots = {q: slot for slot, q in enumerate(symbols)}
-    equations = [equation.xreplace(dict(parameters)) for equation in part.equations]
-    functions = [compiled(equation, slots) for equation in equations]
-    slopes = [[compiled(equation.diff(q), slots) for q in symbols] for equation in equations]
+    field, size = compiled_together(equations, slots), len(symbols)
+    flat = compiled_together([equation.diff(q) for equation in equations for q in symbols], slots)
     starts = list(_starts(part, [q in angles for q in symbols]))
-    values = [[f(start) for f in functions] for start in starts]
+    values = [field(start) for start in starts]
     scale = max((math.hypot(*value) for value in values if all(map(math.isfinite, value))), default=1.0)
     far = FAR * (1 + max(math.hypot(*start) for start in starts))
+
+    def slopes(x: Sequence[float]) -> list[list[float]]:
+        entries = flat(x)
+        return [entries[i : i + size] for i in range(0, len(entries), size)]
+
     distinct: list[list[float]] = []
     for start in starts:
-        found = root(
-            lambda x: [f(x) for f in functions], lambda x: [[f(x) for f in row] for row in slopes], start, scale
-        )
+        found = root(field, slopes, start, scale)
         if found is None or math.hypot(*found) > far:
             continue
         turned = [_within_a_turn(x) if q in angles else x for q, x in zip(symbols, found, strict=True)]

@@ -21,10 +21,12 @@ from .matrix_form import forces_at_rest, forcing, mass_matrix
 from .program import number
 from .refinement import rational
 from .spectrum import Spectrum, spectrum
-from .stability import stability
+from .stability import Verdict, verdict
 from .system import System
 
 BITS = 512
+UNDEFINED = (sp.nan, sp.zoo, sp.oo, -sp.oo)
+SLOW, FALLEN = arb(2) ** -200, arb(2) ** -20  # of the rates; what falls even like a tenth root of them is far below
 ORDER: tuple[Stability, ...] = ("stable", "undecided", "unstable")
 
 
@@ -40,7 +42,13 @@ class Linearization:
     damping: sp.ImmutableMatrix
     stiffness: sp.ImmutableMatrix
     spectrum: Spectrum | None
-    stability: Stability
+    verdict: Verdict
+    is_smooth: bool
+
+    @property
+    def stability(self) -> Stability:
+        """Whether small disturbances stay small, as far as that is known."""
+        return self.verdict.stability
 
     @property
     def is_damped(self) -> bool:
@@ -50,10 +58,37 @@ class Linearization:
 
 @cached_method
 def damping_at_rest(system: System) -> sp.ImmutableMatrix:
-    """−∂f/∂q̇ at q̇ = 0, as a function of q."""
-    at_rest = {system.rate(q): system.zero for q in system.free}
-    slopes = [[-system.slope(f, system.rate(q)).xreplace(at_rest) for q in system.free] for f in forcing(system)]
+    """−∂f/∂q̇ at q̇ = 0, as a function of q; NaN where f has no slope there."""
+    slopes = [[_at_rest(system, -system.slope(f, system.rate(q))) for q in system.free] for f in forcing(system)]
     return system.display(sp.ImmutableMatrix(slopes))
+
+
+def _at_rest(system: System, slope: sp.Expr) -> sp.Expr:
+    """The slope at q̇ = 0. What is 0/0 there is the limit, where that is zero: |v| vₓ has the slope 0 at rest."""
+    rest = {system.rate(q): system.zero for q in system.free}
+    value = slope.xreplace(rest)
+    if not value.has(*UNDEFINED):
+        return value
+    terms = [(term.xreplace(rest), term) for term in sp.Add.make_args(slope.expand())]
+    undefined = [term for value, term in terms if value.has(*UNDEFINED)]
+    if not all(_vanishes_at_rest(system, term) for term in undefined):
+        return sp.nan
+    return sp.Add(*(value for value, _ in terms if not value.has(*UNDEFINED)))
+
+
+def _vanishes_at_rest(system: System, term: sp.Expr) -> bool:
+    """Whether a term falls with the rates, whichever way they tend to zero. A jump's slope is zero beside it only."""
+    if term.has(sp.DiracDelta, sp.sign):
+        return False
+    point = {symbol.name: number(value, {}) for symbol, value in system.parameter_values.items()}
+    point |= {c.name: arb(c.value) + arb(1) / 7 for c in system.scene.free}
+
+    def size(rate: arb, direction: int) -> arb:
+        rates = {system.rate(q).name: rate * (1 + (direction * (i + 2)) % 7) for i, q in enumerate(system.free)}
+        return abs(number(term, point | rates))
+
+    with ctx.workprec(BITS):
+        return all(bool(size(SLOW, way) <= FALLEN * size(arb(1), way)) for way in range(1, 7))
 
 
 @cached_method
@@ -94,12 +129,12 @@ def _about(system: System, equilibrium: Equilibrium) -> Linearization:
         mass, damping, stiffness = numbers = [list(components(matrix, point)) for matrix in raw]
         smooth = all(part.is_finite() for values in numbers for part in values)
         found = spectrum(mass, damping, stiffness, len(system.free)) if smooth else None
-        judged = stability(system, numbers, found)
+        judged = verdict(system, equilibrium, point, numbers, found)
         if equilibrium.exact:
             matrices = [system.display(matrix.xreplace(dict(equilibrium.values))) for matrix in raw]
         else:
             matrices = [_rational(values, len(system.free)) for values in numbers]
-    return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged)
+    return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged, smooth)
 
 
 def _rational(values: list[arb], size: int) -> sp.ImmutableMatrix:

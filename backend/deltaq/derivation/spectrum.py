@@ -105,7 +105,7 @@ def _complex_modes(M: arb_mat, D: arb_mat, K: arb_mat, eigenvalues: tuple[Eigenv
             continue
         law = acb_mat(M) * (root * root) + acb_mat(D) * root + acb_mat(K)
         rows = [[law[i, k].mid() for k in range(size)] for i in range(size)]
-        for shape in kernel(rows):
+        for shape in kernel(rows, _largest(M) * abs(root) ** 2 + _largest(D) * abs(root) + _largest(K)):
             real, imaginary = ([part.real for part in shape], [part.imag for part in shape])
             modes.append(ComplexMode(value, tuple(map(rational, real)), tuple(map(rational, imaginary))))
     return tuple(modes)
@@ -124,7 +124,8 @@ def _undamped(M: arb_mat, K: arb_mat, flexible: arb_mat, size: int) -> Spectrum:
     modes: list[Mode] = []
     for square in _distinct([square.real for square in squares if square.imag == 0]):
         rows = [[(K[i, k] - square * M[i, k]).mid() for k in range(size)] for i in range(size)]
-        modes += [Mode(rational(square), tuple(map(rational, shape))) for shape in kernel(rows)]
+        shapes = kernel(rows, _largest(K) + abs(square) * _largest(M))
+        modes += [Mode(rational(square), tuple(map(rational, shape))) for shape in shapes]
     return Spectrum(eigenvalues, tuple(modes) if len(modes) == size else ())
 
 
@@ -149,10 +150,18 @@ def _distinct(values: list[arb]) -> list[arb]:
     return found
 
 
-def kernel(rows: list[list[N]]) -> list[list[N]]:
-    """A basis of the solutions of A x = 0, real or complex, in echelon form, its largest part scaled to 1."""
+def _largest(matrix: arb_mat) -> arb:
+    """The size of the largest entry."""
+    return max((abs(entry).mid() for entry in matrix.entries()), default=arb(0))
+
+
+def kernel(rows: list[list[N]], scale: arb) -> list[list[N]]:
+    """A basis of the solutions of A x = 0, real or complex, in echelon form, its largest part scaled to 1.
+
+    `scale` is the size of what A is the difference of: what is left of K − ω²M may be rounding alone.
+    """
     rows, size = [list(row) for row in rows], len(rows)
-    limit = ZERO * max(abs(entry) for row in rows for entry in row)
+    limit = ZERO * scale
     pivots: list[int] = []
     for k in range(size):
         best = max(range(len(pivots), size), key=lambda r: abs(rows[r][k]), default=None)

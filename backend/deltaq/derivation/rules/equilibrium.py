@@ -26,6 +26,8 @@ def apply(system: System, linear: Linearization, number: int) -> Step:
     places = tuple(_place(system, linear, q) for q in system.free if system.q(q) in linear.equilibrium.values)
     free = free_coordinates(system)
     about = {"outcome": _outcome(linear, free), "number": str(number), "coordinate": ", ".join(free)}
+    if linear.verdict.derivative:
+        about["derivative"] = str(linear.verdict.derivative)
     return Step(RULE, str(number), (*places, Relation((proof, zero(system)))), (), about)
 
 
@@ -39,6 +41,10 @@ def _place(system: System, linear: Linearization, coordinate: str) -> Relation:
 
 
 def _outcome(linear: Linearization, free: tuple[str, ...]) -> str:
+    """Which sentence is true: where it cannot be linearized that is said as well."""
     if linear.spectrum is None:
-        return "singular"
+        reason = "singular" if linear.is_smooth else "jumps"
+        return reason if linear.stability == "undecided" else f"{reason}-{linear.stability}"
+    if linear.verdict.derivative > 1:
+        return f"{linear.stability}-by-derivative"
     return "stable-in-the-others" if linear.stability == "stable" and free else linear.stability
