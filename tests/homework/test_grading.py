@@ -371,3 +371,59 @@ def test_a_wrong_answer_that_says_nothing_has_a_name(language: str) -> None:
     found = graded_rows(f"scene,task,answer\npendulum,{EQUATION},0 = 0\n", language=language)
     assert found[0].misconception == "degenerate"
     assert text(language, "homework.summary.remarks.degenerate") in summary(found, language)
+
+
+HEAD = "student,scene,task,answer\n"
+
+
+def test_a_table_may_be_so_long_and_no_longer() -> None:
+    row = "ada,pendulum,equation:phi,0\n"
+    assert len(read_answers((HEAD + row * 5000).encode()).rows) == 5000
+    with pytest.raises(InputError) as found:
+        read_answers((HEAD + row * 5001).encode())
+    assert [dict(problem.parameters) for problem in found.value.problems] == [{"count": 5001, "most": 5000}]
+
+
+def test_an_assignment_may_have_so_many_tasks_and_no_more() -> None:
+    tasks = [{"scene": "pendulum", "task": "equation:phi"}] * 64
+    assert len(read_assignment({"format": 1, "tasks": tasks}).tasks) == 64
+    with pytest.raises(InputError) as found:
+        read_assignment({"format": 1, "tasks": [*tasks, tasks[0]]})
+    assert [(problem.pointer, problem.code) for problem in found.value.problems] == [("/tasks", "request-too-many")]
+
+
+@pytest.mark.parametrize("individual", [False, True])
+def test_everybody_has_the_same_values_unless_the_assignment_says_otherwise(individual: bool) -> None:
+    """√(g/l) at the scene's values, for g = 9.81 and l = 1."""
+    sheet = {"format": 1, "individual": individual, "tasks": [{"scene": "pendulum", "task": "eigenfrequencies"}]}
+    (graded,) = graded_rows("student,task,answer\nada,1,3.13209\n", sheet)
+    assert (graded.outcome == "correct") is not individual
+
+
+@pytest.mark.parametrize(
+    ("document", "pointer", "shown"),
+    [
+        pytest.param({"x" * 60: 1}, f"/{'x' * 60}", "x" * 40, id="of the sheet"),
+        pytest.param(
+            {"tasks": [{"scene": "pendulum", "task": "equation:phi", "y" * 60: 1}]},
+            f"/tasks/0/{'y' * 60}",
+            "y" * 40,
+            id="of a task",
+        ),
+    ],
+)
+def test_an_endless_name_is_shown_by_its_beginning(document: dict[str, Any], pointer: str, shown: str) -> None:
+    sheet = {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi"}], **document}
+    with pytest.raises(InputError) as found:
+        read_assignment(sheet)
+    told = [(problem.pointer, problem.parameters["field"]) for problem in found.value.problems]
+    assert told == [(pointer, shown)]
+
+
+@pytest.mark.parametrize(
+    ("column", "shown"), [pytest.param("line", 20, id="line"), pytest.param("syntax", 20, id="syntax")]
+)
+def test_an_endless_cell_is_shown_by_its_beginning(column: str, shown: int) -> None:
+    (graded,) = graded_rows(f"{HEAD.strip()},{column}\nada,pendulum,equation:phi,0,{'z' * 60}\n")
+    assert "z" * shown in graded.feedback
+    assert "z" * (shown + 1) not in graded.feedback
