@@ -17,7 +17,7 @@ import pytest
 from deltaq import ownership
 from deltaq.api.stores.disk import Disk
 from deltaq.api.workers import kernels
-from deltaq.ownership import NotOursError, believe
+from deltaq.ownership import UntrustedFileError, require_trusted
 from deltaq.simulation.kernels.compiler import OwnFiles
 
 KEY = "0123456789abcdef" * 2
@@ -97,7 +97,7 @@ def test_kernels_that_others_may_have_written_are_not_loaded(tmp_path: Path, spo
     spoil(folder, files[number])
     try:
         found = kept.load("signature")
-    except NotOursError:
+    except UntrustedFileError:
         found = None
     assert found is None
     assert not ran.exists()
@@ -109,7 +109,7 @@ def test_kernels_below_a_folder_of_all_are_not_loaded(tmp_path: Path, monkeypatc
     (tmp_path / "kernels").mkdir()
     kept.save("signature", "code")
     tmp_path.chmod(0o777)
-    with pytest.raises(NotOursError):
+    with pytest.raises(UntrustedFileError):
         kept.load("signature")
 
 
@@ -125,12 +125,12 @@ def test_a_service_whose_kernels_others_may_write_has_a_folder_of_its_own(
     given.chmod(0o777)
     kernels.take_own_folder()
     assert kernels.folder() == caches / "deltaq" / "kernels"
-    believe(kernels.folder())
+    require_trusted(kernels.folder())
     kernels.folder().chmod(0o777)
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     kernels.take_own_folder()
     assert kernels.folder().parent == tmp_path
-    believe(kernels.folder())
+    require_trusted(kernels.folder())
 
 
 def test_every_kernel_is_kept_in_files_that_are_looked_at() -> None:
@@ -144,7 +144,7 @@ def test_a_group_of_one_user_alone_is_he_himself(tmp_path: Path, monkeypatch: py
     tmp_path.chmod(0o775)
     user = SimpleNamespace(pw_name="ada")
     monkeypatch.setattr(ownership.pwd, "getpwuid", lambda number: user)
-    for group, members, is_believed in (
+    for group, members, is_accepted in (
         ("ada", [], True),
         ("ada", ["ada"], True),
         ("ada", ["eve"], False),
@@ -153,9 +153,9 @@ def test_a_group_of_one_user_alone_is_he_himself(tmp_path: Path, monkeypatch: py
         entry = SimpleNamespace(gr_name=group, gr_mem=members)
         monkeypatch.setattr(ownership.grp, "getgrgid", lambda number, entry=entry: entry)
         ownership._is_private.cache_clear()
-        if is_believed:
-            believe(tmp_path)
+        if is_accepted:
+            require_trusted(tmp_path)
         else:
-            with pytest.raises(NotOursError):
-                believe(tmp_path)
+            with pytest.raises(UntrustedFileError):
+                require_trusted(tmp_path)
     ownership._is_private.cache_clear()

@@ -18,23 +18,23 @@ from pathlib import Path
 LOGGER = logging.getLogger("deltaq.ownership")
 
 
-class NotOursError(OSError):
+class UntrustedFileError(OSError):
     """Somebody else may have written it."""
 
 
-def believe(place: Path | str) -> None:
+def require_trusted(place: Path | str) -> None:
     """Raises NotOursError if others may have written a file or folder, FileNotFoundError if it is not there."""
-    believe_state(os.lstat(place), str(place))
+    require_trusted_state(os.lstat(place), str(place))
 
 
-def believe_state(state: os.stat_result, place: str) -> None:
+def require_trusted_state(state: os.stat_result, place: str) -> None:
     """The same of what is open, or has been looked at."""
-    if not is_ours(state):
+    if not is_trusted(state):
         _warn(place)
-        raise NotOursError(f"others may have written {place}")
+        raise UntrustedFileError(f"others may have written {place}")
 
 
-def is_ours(state: os.stat_result) -> bool:
+def is_trusted(state: os.stat_result) -> bool:
     """Whether it is this user's or root's, a file or folder, and for nobody else to write."""
     writable = bool(state.st_mode & stat.S_IWOTH) or (
         bool(state.st_mode & stat.S_IWGRP) and not _is_private(state.st_gid, state.st_uid)

@@ -29,7 +29,7 @@ from deltaq.api.connection import (
     SEEN_OFF,
     Connection,
     Crowd,
-    Patience,
+    Timeouts,
     connections,
     most_connections,
     refusal,
@@ -118,7 +118,7 @@ def full(most: int) -> Iterator[str]:
         await send({"type": "http.response.start", "status": 200, "headers": []})
         await send({"type": "http.response.body", "body": b""})
 
-    http: Any = connections(Patience(10.0, 10.0), most)
+    http: Any = connections(Timeouts(10.0, 10.0), most)
     server = uvicorn.Server(uvicorn.Config(app, http=http, port=0, lifespan="off", log_config=None))
     with socket.create_server(("127.0.0.1", 0)) as listener, ThreadPoolExecutor(1 + most) as others:
         serving = others.submit(server.run, [listener])

@@ -82,7 +82,7 @@ async def test_kernels_that_cannot_be_compiled_stop_nobody(
 
 @pytest.mark.anyio
 async def test_patience_has_an_end(make_pool: MakePool) -> None:
-    pool, kernels = make_pool(), Kernels(SLEEP, ECHO, patience=0.05)
+    pool, kernels = make_pool(), Kernels(SLEEP, ECHO, timeout=0.05)
     compiling = asyncio.create_task(kernels.compile(pool, pool, workers=1))
     await asyncio.sleep(0)
     with pytest.raises(Overloaded, match=r"^the numerical kernels are still being compiled$"):

@@ -158,10 +158,10 @@ async def test_life_of_the_application() -> None:
         transport = httpx.ASGITransport(app=app)
         async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test", timeout=120) as client:
             assert (await client.post(f"{API}/scenes/validate", json={})).status_code == 200
-        lanes = app.state.service.pool._lanes
-        assert all(lane.is_alive() for lane in lanes)
+        threads = app.state.service.pool._threads
+        assert all(thread.is_alive() for thread in threads)
     await asyncio.sleep(0.1)
-    assert [lane for lane in lanes if lane.is_alive() or lane.worker] == []
+    assert [thread for thread in threads if thread.is_alive() or thread.worker] == []
 
 
 @pytest.mark.parametrize("module", ["sympy", "numpy", "numba", "symengine", "flint", "plotly"])

@@ -37,7 +37,7 @@ def test_cluster_that_does_not_answer_is_done_without(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     monkeypatch.setenv(SCHEDULER, "tcp://127.0.0.1:9")
-    monkeypatch.setattr(engine_module, "PATIENCE", 0.2)
+    monkeypatch.setattr(engine_module, "CLUSTER_TIMEOUT", 0.2)
     with engine() as executor:
         assert list(executor.map(abs, [-1, 2])) == [1, 2]
     assert [record.message.partition(":")[0] for record in caplog.records if record.name == "deltaq.lab"] == [

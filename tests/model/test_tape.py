@@ -12,7 +12,7 @@ from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.model.functions import FUNCTIONS, Expr
 from deltaq.model.model import compile_model
 from deltaq.model.tape import CHOICE, INPUT, Tape, tape_of
-from deltaq.simulation.kernels.intervals import Program, Ranges, bound
+from deltaq.simulation.kernels.intervals import Ranges, TapeArrays, propagate_bounds
 from deltaq.simulation.service import problem_of
 
 X, Y = se.symbols("x y")
@@ -21,9 +21,9 @@ X, Y = se.symbols("x y")
 def ranges_of(tape: Tape, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Bounds of the outputs for inputs between low and high."""
     size = tape.codes.size
-    program = Program(tape.codes, tape.a, tape.b, tape.c, tape.constants, tape.outputs)
+    arrays = TapeArrays(tape.codes, tape.a, tape.b, tape.c, tape.constants, tape.outputs)
     ranges = Ranges(low, high, np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(tape.outputs.size))
-    bound(program, ranges)
+    propagate_bounds(arrays, ranges)
     return ranges.low[tape.outputs], ranges.high[tape.outputs]
 
 

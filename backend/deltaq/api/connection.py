@@ -31,7 +31,7 @@ ACCEPTED = 16  # connections at a time; they have to fit into the reserve, for t
 
 
 @dataclass(frozen=True)
-class Patience:
+class Timeouts:
     """Seconds for the head of a request, and between two looks at whether a client reads its answer."""
 
     head: float
@@ -134,9 +134,9 @@ class Connection(H11Protocol):
     address = ""  # of the client
     is_refused = False
 
-    def __init__(self, *arguments: Any, patience: Patience, crowd: Crowd, **options: Any) -> None:
+    def __init__(self, *arguments: Any, timeouts: Timeouts, crowd: Crowd, **options: Any) -> None:
         super().__init__(*arguments, **options)
-        self.patience = patience
+        self.timeouts = timeouts
         self.crowd = crowd
         self._head = Alarm()
         self._reading = Alarm()
@@ -200,20 +200,20 @@ class Connection(H11Protocol):
         if self.conn.their_state is not h11.IDLE and self.conn.our_state is not h11.DONE:
             self._head.stop()
         elif not self.transport.is_closing():
-            self._head.start(self.loop, self.patience.head, self.transport.abort)
+            self._head.start(self.loop, self.timeouts.head, self.transport.abort)
 
     def _watch_reading(self, size: int) -> None:
-        self._reading.start(self.loop, self.patience.reading, partial(self._look_at_reading, size))
+        self._reading.start(self.loop, self.timeouts.reading, partial(self._look_at_reading, size))
 
     def _look_at_reading(self, before: int) -> None:
         self._reading.stop()
         size = self.transport.get_write_buffer_size()
-        if before - size < SLOWEST * self.patience.reading:
+        if before - size < SLOWEST * self.timeouts.reading:
             self.transport.abort()
         else:
             self._watch_reading(size)
 
 
-def connections(patience: Patience, most: int) -> Callable[..., Connection]:
+def connections(timeouts: Timeouts, most: int) -> Callable[..., Connection]:
     """What uvicorn makes a protocol with; at most so many are open."""
-    return partial(Connection, patience=patience, crowd=Crowd(most))
+    return partial(Connection, timeouts=timeouts, crowd=Crowd(most))

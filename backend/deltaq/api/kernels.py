@@ -25,7 +25,7 @@ class Kernels:
 
     warm: Job = WARM
     warm_laboratory: Job = WARM_LABORATORY
-    patience: float = 120.0
+    timeout: float = 120.0
     _compiled: dict[str, asyncio.Event] = field(default_factory=dict)  # of the families that are being compiled
 
     async def compile(self, pool: Pool, laboratory: Pool, workers: int) -> None:
@@ -53,7 +53,7 @@ class Kernels:
         """
         wanted = {get_method(USUAL if method == AUTO else method).family for method in methods}
         try:
-            async with asyncio.timeout(self.patience):
+            async with asyncio.timeout(self.timeout):
                 for family in wanted or families():
                     if family in self._compiled:
                         await self._compiled[family].wait()

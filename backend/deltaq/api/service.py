@@ -32,9 +32,9 @@ from .stores.memory import Memory
 from .stores.store import Store
 from .workers.account import Ledger, QuotaExceeded
 from .workers.job import Job
-from .workers.lane import Limits
 from .workers.pool import Pool
 from .workers.queue import Place
+from .workers.worker_thread import Limits
 
 LOGGER = logging.getLogger("deltaq.api")
 PACKAGE = Path(__file__).parents[1]
@@ -121,7 +121,7 @@ def make_service(settings: Settings) -> Service:
         settings.worker_memory, settings.jobs_per_worker, settings.start_timeout, settings.queue_patience, NICENESS
     )
     pool = Pool(settings.workers, settings.queue_length, limits, reserve=RESERVE)
-    waiting_longer = replace(limits, patience=settings.experiment_patience, niceness=2 * NICENESS)
+    waiting_longer = replace(limits, queue_timeout=settings.experiment_patience, niceness=2 * NICENESS)
     laboratory = Pool(settings.experiment_workers, settings.experiment_queue, waiting_longer)
     cache = Cache(Memory(settings.cache_size), *stores_of(settings))
     metrics = make_metrics({"requests": pool, "experiments": laboratory}, cache)

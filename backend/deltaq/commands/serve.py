@@ -83,7 +83,7 @@ def _run(listener: socket.socket, settings: Settings) -> None:
     import uvicorn
 
     from ..api.app import create_app
-    from ..api.connection import ACCEPTED, Patience, connections, most_connections
+    from ..api.connection import ACCEPTED, Timeouts, connections, most_connections
     from ..api.logs import configure
     from ..api.server import Server, give_large_blocks_back
 
@@ -91,7 +91,7 @@ def _run(listener: socket.socket, settings: Settings) -> None:
     configure(settings.log_level)
     config = uvicorn.Config(
         create_app(settings),
-        http=connections(Patience(settings.head_timeout, settings.reading_timeout), most_connections()),  # type: ignore[arg-type]  # makes protocols
+        http=connections(Timeouts(settings.head_timeout, settings.reading_timeout), most_connections()),  # type: ignore[arg-type]  # makes protocols
         ws="none",
         log_config=None,
         access_log=False,

@@ -41,9 +41,11 @@ class AssignedTask:
     points: float | None = None
 
     def workbook(self, seed: str | None) -> Workbook:
+        """The workbook of the scene, with the values that belong to a seed; its own ones without."""
         return workbook_of({**self.scene, "seed": seed})
 
     def resolved(self, seed: str | None) -> tuple[Workbook, Task]:
+        """The workbook and the task in it. Raises UnknownNameError if the scene has no such task."""
         workbook = self.workbook(seed)
         return workbook, workbook.task(self.task)
 

@@ -97,6 +97,7 @@ def _shown(state: dict[str, float], parts: Parts, unknown: set[str]) -> dict[str
 
 
 def rounded_text(value: float) -> str:
+    """A number with four significant digits, as a sentence tells it."""
     return f"{value:.4g}"
 
 

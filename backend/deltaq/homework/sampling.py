@@ -32,6 +32,7 @@ class Sampler:
 
     @cached_property
     def slots(self) -> dict[sp.Symbol, int]:
+        """The place of each symbol in a point."""
         return {symbol: index for index, symbol in enumerate((*self._constant, *self._moving))}
 
     @property
@@ -50,6 +51,7 @@ class Sampler:
 
     @cached_property
     def points(self) -> tuple[list[float], ...]:
+        """Points at random, always the same: values of all symbols in the order of `slots`."""
         source = random.Random(20_061)
         constant = [source.uniform(0.55, 1.65) for _ in self._constant]
         return tuple([*constant, *(source.uniform(0.3, 1.4) for _ in self._moving)] for _ in range(POINTS))

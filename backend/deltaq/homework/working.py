@@ -44,6 +44,7 @@ class Scheme:
     follow_through: float = FOLLOW_THROUGH
 
     def of(self, task: Task) -> float:
+        """The points that a task is worth."""
         return self.points.get(task.id, task.quantity.points)
 
 

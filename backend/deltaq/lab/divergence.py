@@ -14,19 +14,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..mechanics.library import load_scene
+from ..simulation.derivatives import accelerations, derivatives
 from ..simulation.integration import explicit_weights, motion_of
 from ..simulation.kernels.motion import FINE, STEP_LIMIT
 from ..simulation.kernels.plan import make_plan
-from ..simulation.kernels.step import make_room
+from ..simulation.kernels.step import make_workspace
 from ..simulation.kernels.step_control import Control
-from ..simulation.kernels.tangent import Pace, Pair, Trace, accompany, begin_pair
+from ..simulation.kernels.tangent import Pair, Progress, Trace, begin_pair, follow_stretches
 from ..simulation.library import get_method
 from ..simulation.method import Tableau
 from ..simulation.outcome import outcome_of
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Run, Steps, run
 from ..simulation.service import problem_of
-from ..simulation.slopes import accelerations, slopes
 from ..simulation.stability import real_stability
 from ..simulation.stiffness import drive, spectrum
 
@@ -42,13 +42,17 @@ SHOWS = 1e-9  # of the largest; what moves less is at rest
 
 @dataclass(frozen=True)
 class Rhythm:
-    """What is typical of a motion: its angular frequency, and how far each component of the state goes."""
+    """What is typical of a motion: its angular frequency in 1/s, and how far each component of the state goes.
+
+    `scales` has shape (2n,).
+    """
 
     frequency: float
     scales: Floats  # shape (2n,)
 
     @property
     def stretch(self) -> float:
+        """The length of a stretch in seconds: a quarter of a typical period."""
         return math.tau / self.frequency / IN_PERIOD
 
 
@@ -56,7 +60,8 @@ class Rhythm:
 class Followed:
     """A motion over equal stretches: at the end of each the state and the ln of a deviation's growth in it.
 
-    `status` is "ok", or how the motion ended before its time; `is_whole` is whether it will not be followed further.
+    `states` has shape (stretches, 2n), `growths` shape (stretches,). `status` is "ok", or how the motion ended before
+    its time; `is_whole` is whether it will not be followed further.
     """
 
     rhythm: Rhythm
@@ -77,25 +82,28 @@ class Followed:
 
     @property
     def rates(self) -> Floats:
-        """q̇ in units of the scales."""
+        """q̇ in units of the scales: shape (stretches, n)."""
         n = self.states.shape[1] // 2
         return np.asarray(self.states[:, n:] / self.rhythm.scales[n:])
 
 
 def moved(problem: Problem, state: Floats) -> Problem:
-    """The problem with another initial state."""
+    """The problem with another initial state, shape (≥ 2n,)."""
     n = problem.degrees
     return replace(problem, values=tuple(map(float, state[:n])), rates=tuple(map(float, state[n : 2 * n])))
 
 
 def solved(problem: Problem, times: Floats, tolerance: float = TOLERANCE) -> Run:
-    """One accurate run."""
+    """One accurate run with samples at `times`, shape (samples,), in seconds."""
     steps = Steps(max(problem.t_end / 10, 1e-12), tolerance)
     return run(problem, get_method(METHOD), times, np.zeros(1, dtype=np.int64), steps)
 
 
 def twins(problem: Problem, apart: float, samples: int) -> tuple[Floats, Floats]:
-    """Times, and the distance of two motions that begin `apart` from each other in their first coordinate."""
+    """Times and the distance of two motions that begin `apart` from each other in their first coordinate.
+
+    Both have shape (samples,).
+    """
     times, start = np.linspace(0.0, problem.t_end, samples), problem.state[: 2 * problem.degrees].copy()
     start[0] += apart
     first, second = solved(problem, times), solved(moved(problem, start), times)
@@ -130,11 +138,11 @@ def followed(problem: Problem, rhythm: Rhythm, periods: int = PERIODS) -> Iterat
     """The motion while it is followed, over so many periods; ends early where the motion does or costs too much."""
     count, n, stretch = IN_PERIOD * periods, problem.degrees, rhythm.stretch
     trace, pair = Trace(np.zeros((count, 2 * n)), np.zeros(count)), _pair(problem, rhythm)
-    pace, turning = Pace(np.zeros(2), np.zeros(1)), np.zeros(n, dtype=bool)
-    outcome, done = begin_pair(pair, pace, _direction(2 * n)), 0
+    progress, turning = Progress(np.zeros(2), np.zeros(1)), np.zeros(n, dtype=bool)
+    outcome, done = begin_pair(pair, progress, _direction(2 * n)), 0
     while outcome == FINE and done < count:
         trace.growths[done : done + PART] = np.nan
-        outcome = accompany(pair, pace, 0.0, stretch, done, min(PART, count - done), trace)
+        outcome = follow_stretches(pair, progress, 0.0, stretch, done, min(PART, count - done), trace)
         begun, done = done, done + int(np.isfinite(trace.growths[done : done + PART]).sum())
         turning |= _turning(problem, trace.states[begun:done])
         _unwind(pair, turning)
@@ -156,8 +164,8 @@ def _pair(problem: Problem, rhythm: Rhythm) -> Pair:
     plan = make_plan(np.array([np.inf]), np.array([largest]), 2 * problem.degrees)
     control = Control(tolerance, largest, 8.0, 0.0, limit, scheme.stages, real_stability(scheme), plan)
     weights = explicit_weights(scheme)
-    rooms = make_room(state.copy(), weights), make_room(state.copy(), weights)
-    return Pair(motion_of(problem), weights, control, *rooms, rhythm.scales)
+    workspaces = make_workspace(state.copy(), weights), make_workspace(state.copy(), weights)
+    return Pair(motion_of(problem), weights, control, *workspaces, rhythm.scales)
 
 
 def _direction(width: int) -> Floats:
@@ -171,9 +179,9 @@ def _turning(problem: Problem, states: Floats) -> np.ndarray:
     far = np.abs(states[-1, :n]) > 4.0 * math.tau if len(states) else np.zeros(n, dtype=bool)
     for place in np.flatnonzero(far):
         some = states[:: max(1, len(states) // 8)].copy()
-        here = slopes(problem, np.zeros(len(some)), some)
+        here = derivatives(problem, np.zeros(len(some)), some)
         some[:, place] -= math.tau
-        there = slopes(problem, np.zeros(len(some)), some)
+        there = derivatives(problem, np.zeros(len(some)), some)
         far[place] = np.allclose(here, there, rtol=1e-8, atol=1e-8 * float(np.abs(here).max(initial=0.0)))
     return np.asarray(far)
 
@@ -181,9 +189,9 @@ def _turning(problem: Problem, states: Floats) -> np.ndarray:
 def _unwind(pair: Pair, turning: np.ndarray) -> None:
     """Takes whole turns off both motions, so that no digits are lost to a large angle."""
     for place in np.flatnonzero(turning):
-        turns = math.tau * np.round(pair.room.old[place] / math.tau)
-        pair.room.old[place] -= turns
-        pair.other.old[place] -= turns
+        turns = math.tau * np.round(pair.workspace.old[place] / math.tau)
+        pair.workspace.old[place] -= turns
+        pair.neighbour.old[place] -= turns
 
 
 def warm() -> None:

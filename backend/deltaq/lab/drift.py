@@ -16,7 +16,7 @@ import numpy as np
 
 from ..simulation.library import get_method
 from ..simulation.problem import Floats, Problem
-from ..simulation.reference import demand_motion
+from ..simulation.reference import require_motion
 from ..simulation.run import Run, Steps
 from ..simulation.run import run as run_once
 
@@ -58,7 +58,8 @@ class Growth:
 class Departure:
     """The departure in each stretch of time, in parts of the energy, by the end of the stretch.
 
-    `errors` are the largest absolute ones, `means` the mean signed ones; `steps` is how many steps were taken.
+    `times` (ends, in seconds), `errors` (the largest absolute ones) and `means` (the mean signed ones) have shape
+    (stretches,); `steps` is how many steps were taken.
     """
 
     times: Floats
@@ -152,7 +153,10 @@ def _jackknife(x: Floats, y: Floats) -> float:
 
 
 def sample_times(t_end: float, step: float) -> Floats:
-    """Times dense at the start and out of tune with any period; whole steps, so that nothing is interpolated."""
+    """Times dense at the start and out of tune with any period: shape (samples,), in seconds.
+
+    They are whole steps, so that nothing is interpolated.
+    """
     edges = _edges(t_end)
     chance = np.random.default_rng(1).uniform(size=(WINDOWS - 1, IN_WINDOW))
     times = np.sort((edges[:-1, None] + chance * np.diff(edges)[:, None]).ravel())
@@ -186,7 +190,7 @@ def energy_scale(problem: Problem, span: float) -> float:
     found = run_once(short, get_method("dop853"), times, np.zeros(1, dtype=np.int64), Steps(span / 10, 1e-9))
     seen = problem.model.observe(problem.inputs(found.times, found.states[:, : 2 * problem.degrees]))
     kinetic, potential = (float(np.abs(energy).max(initial=0.0)) for energy in (seen.kinetic, seen.potential))
-    demand_motion(found.times, kinetic + potential)
+    require_motion(found.times, kinetic + potential)
     return kinetic or potential or 1.0
 
 

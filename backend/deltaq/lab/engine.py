@@ -19,7 +19,7 @@ from ..simulation.integration import Flag
 LOGGER = logging.getLogger("deltaq.lab")
 SCHEDULER = "DELTAQ_SCHEDULER"  # environment variable with the address of Dask's scheduler
 RETRIES = 3  # of a part whose worker was lost
-PATIENCE = 5.0  # seconds for the cluster to answer; then this machine does it
+CLUSTER_TIMEOUT = 5.0  # seconds for the cluster to answer; then this machine does it
 LOOK_UP = 0.2  # seconds between two looks at whether a part is still wanted
 
 
@@ -47,8 +47,8 @@ def _cluster() -> Any:
         return None
     client = None
     try:
-        client = import_module("distributed").Client(address, set_as_default=False, timeout=PATIENCE)
-        client.wait_for_workers(1, timeout=PATIENCE)
+        client = import_module("distributed").Client(address, set_as_default=False, timeout=CLUSTER_TIMEOUT)
+        client.wait_for_workers(1, timeout=CLUSTER_TIMEOUT)
     except (ImportError, OSError) as error:  # a TimeoutError is an OSError
         LOGGER.warning("a map is worked out here, for the cluster does not answer: %s", type(error).__name__)
         if client is not None:

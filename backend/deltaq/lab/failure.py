@@ -201,7 +201,10 @@ def _ran(pair: Pair) -> bool:
 
 
 def growth_in_a_step(distances: Floats) -> float:
-    """The factor by which distances grow per step, from the largest of the second and of the last quarter."""
+    """The factor by which distances grow per step, from the largest of the second and of the last quarter.
+
+    `distances` has shape (steps,).
+    """
     quarter = len(distances) // 4
     early = distances[quarter : 2 * quarter].max(initial=1e-300)
     late = distances[3 * quarter :].max(initial=1e-300)

@@ -27,7 +27,10 @@ Place = tuple[int, int]
 
 @dataclass(frozen=True)
 class Plane:
-    """Initial values of two coordinates (by their places); all else is the problem's."""
+    """Initial values of two coordinates (by their places); all else is the problem's.
+
+    `x`, shape (columns,), are those of the `first`, `y`, shape (rows,), those of the `second`.
+    """
 
     problem: Problem
     first: int
@@ -37,7 +40,10 @@ class Plane:
     cancelled: Flag = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
 
     def refined(self) -> Iterator[Floats]:
-        """Times (second, first), infinite where nothing turns over, NaN where not known yet: rough, then finer."""
+        """Times of the first flip in seconds, shape (rows, columns): rough, then finer.
+
+        Infinite where nothing turns over, NaN where not known yet.
+        """
         found, stride = np.full((self.y.size, self.x.size), np.nan), COARSEST
         with engine() as executor:
             while stride >= 1:

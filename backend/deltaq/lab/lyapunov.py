@@ -55,8 +55,8 @@ class Reason(StrEnum):
 class Exponent:
     """λ in 1/s with an interval (99 %), measured from the time `transient` on.
 
-    `times` and `values` are the mean rate since then. `power` is p if the growth is read as t^p instead of e^(λt);
-    `misfits` are how far ln(growth) stays from a line over t, and over ln t (root mean square).
+    `times` and `values`, the mean rate since then, have shape (stretches,). `power` is p if the growth is read as t^p
+    instead of e^(λt); `misfits` are how far ln(growth) stays from a line over t, and over ln t (root mean square).
     """
 
     times: Floats
@@ -69,6 +69,7 @@ class Exponent:
 
     @property
     def last(self) -> float:
+        """The mean over all that was followed, in 1/s."""
         return float(self.values[-1])
 
     @property
@@ -133,7 +134,9 @@ def _readings(times: Floats, grown: Floats) -> tuple[float, float, float]:
 def irregularity(signal: Floats) -> float:
     """K of the 0–1 test, median over random angles c: how closely the spread of Σ x e^{icj} grows with the time.
 
-    Bounded for a regular signal (K near 0), like a random walk for a chaotic one (K near 1); 0 for one that is at rest.
+    `signal` has shape (samples,). Bounded for a regular signal (K near 0), like a random walk for a chaotic one (K near
+    1); 0 for one that is at rest.
+    Source: Gottwald, Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009) 129.
     """
     off = signal - signal.mean()
     size = float(off.std())

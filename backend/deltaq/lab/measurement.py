@@ -32,6 +32,7 @@ class Setting:
     value: float
 
     def steps(self, longest: float) -> Steps:
+        """How to step with this setting; adaptive steps are no longer than `longest` seconds."""
         return Steps(longest, self.value) if self.kind == "tolerance" else Steps(self.value)
 
 
@@ -49,14 +50,17 @@ class Point:
 
     @property
     def time(self) -> float:
+        """The median of the seconds that its runs took; 0 if there were none."""
         return median(self.seconds) if self.seconds else 0.0
 
     @property
     def is_slow(self) -> bool:
+        """Whether even the fastest run took so long that a finer one is not tried."""
         return min(self.seconds, default=0.0) > SLOW
 
     @property
     def described(self) -> Document:
+        """The point as plain data for JSON."""
         return {
             "method": self.method,
             self.setting.kind: significant(self.setting.value),
@@ -117,7 +121,8 @@ def repeated(again: Callable[[], float], first: float, repeats: int) -> tuple[fl
 def error_of(values: Floats, reference: Reference) -> float | None:
     """The largest error at any sample, or None where the run or the reference is not complete.
 
-    It is not known to be less than the reference's own: what is closer to the reference shares its errors.
+    `values` has shape (samples, n). The error is not known to be less than the reference's own: what is closer to the
+    reference shares its errors.
     """
     if values.shape != reference.values.shape:
         return None

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from ..mechanics.library import load_scene
 from ..simulation.integration import Flag, explicit_weights, motion_of
-from ..simulation.kernels.monodromy import Flow, Found, Survey, make_desk, survey
+from ..simulation.kernels.monodromy import Flow, Found, Survey, make_newton_workspace, survey
 from ..simulation.kernels.motion import CANCELLED, FINE
 from ..simulation.kernels.plan import make_plan
-from ..simulation.kernels.step import make_room
+from ..simulation.kernels.step import make_workspace
 from ..simulation.kernels.step_control import Control
 from ..simulation.kernels.watch import unwatched
 from ..simulation.library import get_method
@@ -49,9 +49,10 @@ class Axis:
 
 @dataclass(frozen=True)
 class StabilityMap:
-    """For every point (second axis, first axis): the largest |μ|, NaN where there is no periodic motion nearby.
+    """For every point of the map the largest |μ| as `growth`, NaN where there is no periodic motion nearby.
 
-    `states` are the periodic states (q, q̇) at the start of the period, `multipliers` all μ.
+    It has shape (second, first), by the axes; `states` are the periodic states (q, q̇) at the start of the period and
+    `multipliers` all μ, shape (second, first, 2n).
     """
 
     first: Axis
@@ -62,12 +63,16 @@ class StabilityMap:
 
     @property
     def is_stable(self) -> NDArray[np.bool_]:
+        """Whether no |μ| exceeds 1: shape (second, first)."""
         return np.asarray(self.growth <= 1.0 + ROUNDING)
 
 
 @dataclass(frozen=True)
 class Plane:
-    """The parameter plane of a problem, with the period at each of its points (second axis, first axis)."""
+    """The parameter plane of a problem, with the period in seconds at each of its points.
+
+    `periods` has shape (second, first), by the axes.
+    """
 
     problem: InitialValueProblem
     first: Axis
@@ -125,7 +130,10 @@ class Plane:
 
 
 def surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table: Survey) -> Found:
-    """Periodic states and monodromy matrices for the rows of a table, each looked for from the state `start`."""
+    """Periodic states and monodromy matrices for the rows of a table.
+
+    Each is looked for from the state `start`, shape (2n,).
+    """
     scheme = get_method(METHOD).tableau
     if not isinstance(scheme, Tableau):
         raise TypeError("the survey steps by an explicit Runge–Kutta method")
@@ -133,12 +141,12 @@ def surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table
     longest = float(table.periods.max())
     plan = make_plan(np.array([longest]), np.array([longest]), width)
     control = Control(TOLERANCE, longest, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme), plan)
-    motion, room = motion_of(problem)._replace(is_powered=False), make_room(start.copy(), weights)
+    motion, workspace = motion_of(problem)._replace(is_powered=False), make_workspace(start.copy(), weights)
     outcomes = np.full(count, CANCELLED, dtype=np.int64)
     found = Found(np.zeros((count, width)), np.zeros((count, width, width)), outcomes)
     with while_wanted(cancelled) as flag:
-        flow = Flow(motion, weights, control, unwatched(flag), room, np.zeros(2), np.zeros((2, width)))
-        survey(flow, start, table, (0, count), found, make_desk(width))
+        flow = Flow(motion, weights, control, unwatched(flag), workspace, np.zeros(2), np.zeros((2, width)))
+        survey(flow, start, table, (0, count), found, make_newton_workspace(width))
     return found
 
 

@@ -36,7 +36,10 @@ EXACT, TOLERANCE, LIMIT = "dop853", 1e-13, 100_000
 
 @dataclass(frozen=True)
 class Pair:
-    """Two motions a little apart at evenly spread times, and their distance at each that both have."""
+    """Two motions a little apart at evenly spread times, and their distance at each that both have.
+
+    `distances` has shape (samples,).
+    """
 
     first: Run
     second: Run
@@ -62,7 +65,7 @@ class Neighbours:
 
     @cached_property
     def eigenvalues(self) -> Complexes:
-        """λ of the motion linearized at its start, in 1/s."""
+        """λ of the motion linearized at its start, in 1/s: shape (2n,)."""
         return np.asarray(np.linalg.eigvals(self.linear.jacobian)).astype(np.complex128)
 
     @cached_property
@@ -121,7 +124,10 @@ class Neighbours:
 
     @cached_property
     def scales(self) -> Floats:
-        """Of coordinates and rates: so a vibration of the fastest part does not change its size while it turns."""
+        """Units of coordinates and rates, shape (2n,).
+
+        A vibration of the fastest part does not change its size in them while it turns.
+        """
         return np.repeat([1.0, self.fastest or 1.0], self.problem.degrees)
 
     @cached_property

@@ -33,6 +33,7 @@ def significant(number: float, digits: int = 4) -> float:
 
 
 def rounded(numbers: Iterable[float], digits: int = 6) -> list[float]:
+    """The numbers, each with so many significant digits."""
     return [significant(float(number), digits) for number in numbers]
 
 

@@ -25,8 +25,9 @@ Step = Callable[[float], Floats]
 
 @dataclass(frozen=True)
 class Linear:
-    """A motion linearized at its start: J = ∂ẏ/∂y (2n, 2n), P = ∂p/∂y and S = ∂ṗ/∂y (n, 2n); J is zero where it has no
-    value.
+    """A motion ẏ = J y linearized at its start, y = (q, q̇): J is zero where it has no value.
+
+    `jacobian` is J = ∂ẏ/∂y, shape (2n, 2n); `momentum` P = ∂p/∂y and `rate` S = ∂ṗ/∂y have shape (n, 2n).
     """
 
     jacobian: Floats

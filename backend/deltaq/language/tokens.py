@@ -36,6 +36,7 @@ class Token:
     value: Fraction = Fraction(0)
 
     def is_operator(self, *texts: str) -> bool:
+        """Whether it is one of these operators."""
         return self.kind == "operator" and self.text in texts
 
 

@@ -66,33 +66,65 @@ T = TypeVar("T")
 class Algebra(Protocol[T]):
     """What a backend must know: how to make its value of each node from the values of the node's parts."""
 
-    def number(self, value: Fraction) -> T: ...
-    def name(self, name: str) -> T: ...
-    def rate(self, name: str, order: int) -> T: ...
-    def variation(self, name: str, order: int) -> T: ...
-    def differential(self, name: str) -> T: ...
-    def sum(self, terms: tuple[T, ...]) -> T: ...
-    def product(self, factors: tuple[T, ...]) -> T: ...
-    def quotient(self, numerator: T, denominator: T) -> T: ...
-    def negation(self, operand: T) -> T: ...
-    def power(self, base: T, exponent: T) -> T: ...
-    def call(self, function: str, arguments: tuple[T, ...]) -> T: ...
-    def time_derivative(self, operand: T) -> T: ...
-    def partial_derivative(self, operand: T, variable: T) -> T: ...
-    def vector(self, components: tuple[T, ...]) -> T: ...
-    def equation(self, left: T, right: T) -> T: ...
+    def number(self, value: Fraction) -> T:
+        """A number, exactly."""
+
+    def name(self, name: str) -> T:
+        """A coordinate, parameter or constant by its name."""
+
+    def rate(self, name: str, order: int) -> T:
+        """The time derivative of a coordinate, of order 1 or 2."""
+
+    def variation(self, name: str, order: int) -> T:
+        """δq, or its time derivative of an order."""
+
+    def differential(self, name: str) -> T:
+        """dq."""
+
+    def sum(self, terms: tuple[T, ...]) -> T:
+        """The sum of at least one term."""
+
+    def product(self, factors: tuple[T, ...]) -> T:
+        """The product of the factors, in their order."""
+
+    def quotient(self, numerator: T, denominator: T) -> T:
+        """numerator / denominator."""
+
+    def negation(self, operand: T) -> T:
+        """−operand."""
+
+    def power(self, base: T, exponent: T) -> T:
+        """base^exponent."""
+
+    def call(self, function: str, arguments: tuple[T, ...]) -> T:
+        """A function of the language by its name."""
+
+    def time_derivative(self, operand: T) -> T:
+        """d/dt along the motion."""
+
+    def partial_derivative(self, operand: T, variable: T) -> T:
+        """∂operand/∂variable."""
+
+    def vector(self, components: tuple[T, ...]) -> T:
+        """A vector of its components."""
+
+    def equation(self, left: T, right: T) -> T:
+        """left = right."""
 
 
 class NumbersOnly:
     """What algebras of numbers have no value for; the names are gone in it, so nothing is left to differentiate by."""
 
     def partial_derivative(self, _operand: object, _variable: object) -> NoReturn:
+        """Raises ValueError."""
         raise ValueError("a number has no derivative")
 
     def vector(self, _components: object) -> NoReturn:
+        """Raises ValueError."""
         raise ValueError("a vector is evaluated component by component")
 
     def equation(self, _left: object, _right: object) -> NoReturn:
+        """Raises ValueError."""
         raise ValueError("an equation has no value")
 
 

@@ -37,6 +37,7 @@ def demand(*problems: Problem | None) -> None:
 
 
 def name_problem(name: str, pointer: str = "/name") -> Problem | None:
+    """The problem of a name that is none; None if it is one."""
     if NAME.fullmatch(name):
         return None
     return Problem("invalid-name", pointer, parameters={"name": name[:40]})

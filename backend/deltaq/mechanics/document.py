@@ -155,36 +155,43 @@ def _vertical(root: Reader) -> str:
 
 
 def read_drawing(table: Reader) -> Drawing:
+    """How the scene is drawn."""
     vertical = cast("Vertical", table.text("vertical", "up"))
     view = table.get("view", list, []) or []
     return Drawing(vertical, tuple(map(as_float, view)) or None, _each(table.tables("elements"), Element.read))
 
 
 def read_coordinate(table: Reader) -> Coordinate:
+    """A coordinate with its initial value and rate."""
     value, rate = table.number("value", 0.0), table.number("rate", 0.0)
     name, latex, unit = table.name(), table.text("latex", ""), table.text("unit", "")
     return Coordinate(name, latex, unit, value, rate, table.bound("min"), table.bound("max"))
 
 
 def read_parameter(table: Reader) -> Parameter:
+    """A parameter; positive unless it says otherwise."""
     value, positive = table.number("value", 1.0), table.flag("positive", default=True)
     name, latex, unit = table.name(), table.text("latex", ""), table.text("unit", "")
     return Parameter(name, latex, unit, value, table.bound("min"), table.bound("max"), positive)
 
 
 def read_point(table: Reader) -> Point:
+    """A named point."""
     return Point(table.name(), table.position("position"))
 
 
 def read_guide(table: Reader) -> Guide:
+    """A guide: the coordinate, and the function of time that it follows."""
     return Guide(table.text("coordinate"), table.expression("value"))
 
 
 def read_body(table: Reader) -> Body:
+    """A body of the kind named. Raises what an unknown kind raises."""
     return cast("type[Body]", _kind("deltaq.mechanics.bodies", table)).read(table)
 
 
 def read_load(table: Reader) -> Load:
+    """A load of the kind named."""
     return cast("type[Load]", _kind("deltaq.mechanics.loads", table)).read(table)
 
 

@@ -53,6 +53,7 @@ class Element:
 
     @classmethod
     def read(cls, table: Reader) -> Element:
+        """The element in a table; options that its kind does not have are left unread, which the reader notes."""
         kind = table.text("kind")
         places = tuple((key, table.place(key)) for key in ELEMENTS.get(kind, ()))
         texts = ((key, table.text(key)) for key in TEXTS if key in table.table)
@@ -60,6 +61,7 @@ class Element:
         return cls(kind, places, (*texts, *sizes))
 
     def write(self) -> dict[str, object]:
+        """The element as it stands in a document."""
         return {"kind": self.kind, **dict(self.places), **dict(self.options)}
 
 

@@ -33,6 +33,7 @@ class Event:
 
     @classmethod
     def read(cls, table: Reader) -> Event:
+        """The event in a table of a scene document."""
         at = table.place("at") if "at" in table.table else None
         return cls(table.name(), table.expression("value"), table.translated("title"), at)
 

@@ -24,6 +24,7 @@ class Material:
         demand(name_problem(self.name))
 
     def write(self) -> dict[str, str]:
+        """The coordinate as it stands in a document."""
         return {"name": self.name, "from": self.lower.text, "to": self.upper.text}
 
 

@@ -55,6 +55,7 @@ class Reader:
     default_name: str = ""
 
     def complain(self, code: str, key: str = "", **parameters: Parameter) -> None:
+        """Notes a problem by its code in the catalog, at a key or at the table itself."""
         self.problems.append(Problem(code, f"{self.pointer}/{key}" if key else self.pointer, parameters=parameters))
 
     def get(self, key: str, kind: type[T] | tuple[type[T], ...], default: T | None) -> T | None:
@@ -71,15 +72,19 @@ class Reader:
         return value
 
     def text(self, key: str, default: str | None = None) -> str:
+        """A text; what is missing without a default is a problem."""
         return self.get(key, str, default) or ""
 
     def name(self) -> str:
+        """The name of what is read."""
         return self.text("name", self.default_name or None)
 
     def flag(self, key: str, *, default: bool) -> bool:
+        """True or false."""
         return bool(self.get(key, bool, default))
 
     def number(self, key: str, default: float) -> float:
+        """A finite number; the default in place of one that is not."""
         found = as_float(self.get(key, (float, int), default))
         if math.isfinite(found):
             return found
@@ -87,6 +92,7 @@ class Reader:
         return default
 
     def bound(self, key: str) -> float | None:
+        """A bound, which may be left out."""
         self.used.add(key)
         return None if self.table.get(key) is None else self.number(key, 0.0)
 
@@ -101,6 +107,7 @@ class Reader:
         return translated(readable)
 
     def strings(self, key: str) -> tuple[str, ...]:
+        """A list of texts, empty if it is left out."""
         values = self.get(key, (list, tuple), None)
         return () if values is None else tuple(self._string(f"{key}/{i}", value) for i, value in enumerate(values))
 
@@ -134,6 +141,7 @@ class Reader:
         )
 
     def expression(self, key: str, default: str | None = None) -> Expression:
+        """A scalar expression without derivatives of expressions."""
         text = self.text(key, default)
         return self.parsed(text, key) if text else self._empty(key)
 
@@ -143,6 +151,7 @@ class Reader:
         return NOTHING
 
     def vector(self, key: str) -> tuple[Expression, ...]:
+        """As many expressions as the scene has dimensions; another number is a problem."""
         texts = self.strings(key)
         dimension = self.named.dimension
         if key in self.table and len(texts) != dimension:
@@ -164,6 +173,7 @@ class Reader:
         return expression
 
     def place(self, key: str) -> str:
+        """The name of a point or body; another name is a problem, told with the nearest one."""
         name = self.text(key)
         if name and name not in self.named.places:
             near = get_close_matches(name, self.named.places, n=1)
@@ -171,6 +181,7 @@ class Reader:
         return name
 
     def parsed(self, text: str, key: str) -> Expression:
+        """A text as a scalar expression; NOTHING in place of one with a problem."""
         try:
             expression = parse(text, self.named.names)
         except InputError as error:

@@ -21,10 +21,12 @@ class Dimension:
     scale: float = 1.0
 
     def times(self, other: Dimension) -> Dimension:
+        """The dimension of a product."""
         exponents = (self.mass + other.mass, self.length + other.length, self.time + other.time)
         return Dimension(*exponents, self.scale * other.scale)
 
     def to(self, exponent: Fraction) -> Dimension:
+        """The dimension of a power."""
         exponents = (self.mass * exponent, self.length * exponent, self.time * exponent)
         return Dimension(*exponents, self.scale ** float(exponent))
 

@@ -38,7 +38,7 @@ class Compiled:
         return int(ctypes.cast(pointer, ctypes.c_void_p).value or 0), int(data.value or 0)
 
     def table(self, rows: Floats) -> Floats:
-        """The outputs for each row of inputs: shape (n, inputs) to (n, outputs)."""
+        """The outputs for each row of inputs: shape (rows, inputs) to shape (rows, outputs)."""
         values = self.function(np.ascontiguousarray(rows, dtype=np.float64))
         return np.asarray(values, dtype=np.float64).reshape(len(rows), self.outputs)
 

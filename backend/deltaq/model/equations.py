@@ -49,6 +49,7 @@ class Equations:
 
     @property
     def is_powered(self) -> bool:
+        """Whether anything feeds power in or takes it that is not in E + V."""
         return any(part != 0 for part in (self.power, *self.acceleration_power))
 
 

@@ -15,10 +15,12 @@ Expr = Any  # SymEngine has no type information
 
 
 def absolute(x: Expr) -> Expr:
+    """|x| as a piecewise expression."""
     return se.Piecewise((x, x >= 0), (-x, True))
 
 
 def sign(x: Expr) -> Expr:
+    """sign x as a piecewise expression, 0 at 0."""
     return se.Piecewise((1, x > 0), (-1, x < 0), (0, True))
 
 

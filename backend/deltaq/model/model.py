@@ -43,7 +43,11 @@ class Layout:
 
 @dataclass(frozen=True)
 class Observation:
-    """What can be seen of a motion; every array has the samples as its first axis."""
+    """What can be seen of a motion at its samples.
+
+    `kinetic` and `potential` have shape (samples,). By name, `values` and `rates` of guided coordinates have shape
+    (samples,), `positions` and `arrows` (force vectors) shape (samples, dimension).
+    """
 
     kinetic: Floats
     potential: Floats
@@ -112,7 +116,7 @@ class Model:
         return phase_space(self._equations)
 
     def observe(self, inputs: Floats) -> Observation:
-        """What is seen in each row of inputs."""
+        """What is seen at each row of inputs, shape (samples, inputs)."""
         layout, table = self.layout, self.observed.table(inputs)
         guided, size = len(layout.guided), layout.dimension
         first_place = 2 + 2 * guided

@@ -27,6 +27,7 @@ class Operations:
 
     @property
     def total(self) -> int:
+        """All operations of one right-hand side, solving included."""
         return self.additions + self.multiplications + self.functions + self.solving
 
 

@@ -31,6 +31,7 @@ class Symbols:
 
     @classmethod
     def of(cls, scene: Scene) -> Symbols:
+        """The symbols of a scene."""
         return cls(
             tuple(coordinate.name for coordinate in scene.free),
             tuple(guide.coordinate for guide in scene.guides),
@@ -43,6 +44,7 @@ class Symbols:
 
     @cached_property
     def moving(self) -> tuple[str, ...]:
+        """The free coordinates, the guided ones and the clock."""
         return (*self.free, *self.guided, CLOCK)
 
     @cached_property
@@ -54,10 +56,12 @@ class Symbols:
 
     @cached_property
     def rates(self) -> Mapping[str, Expr]:
+        """The symbol of every rate, that of the clock included."""
         return self._numbered("u", self.moving)
 
     @cached_property
     def accelerations(self) -> Mapping[str, Expr]:
+        """The symbol of every acceleration."""
         return self._numbered("a", self.moving)
 
     @cached_property

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from .functions import Expr
 
 Floats = NDArray[np.float64]
-Places = NDArray[np.int64]
+Indices = NDArray[np.int64]
 
 # What an operation does with its operands a, b, c (places of earlier operations) and its constant.
 INPUT, CONSTANT, ADD, MULTIPLY, POWER, EXPONENTIAL, LOGARITHM = 0, 1, 2, 3, 4, 5, 6
@@ -52,16 +52,17 @@ _RECIPROCALS: Mapping[str, int] = MappingProxyType({"sec": COSINE, "csc": SINE, 
 class Tape:
     """Operation i is codes[i] with operands at the places a[i], b[i], c[i] < i and the constant constants[i].
 
-    An input's `a` is its number among the model's inputs (q, q̇, t, parameters). `outputs` are the places of the lower
-    triangle of M by rows, of f, of the values of guided coordinates, and of their rates.
+    `codes`, `a`, `b`, `c` and `constants` have shape (operations,). An input's `a` is its number among the model's
+    inputs (q, q̇, t, parameters). `outputs`, shape (n (n + 1)/2 + n + 2 guided,), are the places of the packed lower
+    triangle of M, of f, of the values of guided coordinates, and of their rates.
     """
 
-    codes: Places
-    a: Places
-    b: Places
-    c: Places
+    codes: Indices
+    a: Indices
+    b: Indices
+    c: Indices
     constants: Floats
-    outputs: Places
+    outputs: Indices
 
     @property
     def has_choices(self) -> bool:

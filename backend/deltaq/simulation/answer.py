@@ -10,11 +10,11 @@ from ..mechanics.user_text import plainly
 from ..model.model import Observation
 from .choice import Choice
 from .columns import WRITERS, Column
+from .derivatives import power
 from .outcome import Outcome
 from .problem import Floats, Problem
 from .request import Request
 from .rounding import rounded, short, significant
-from .slopes import power
 from .trajectory import Trajectory
 
 Document = dict[str, object]

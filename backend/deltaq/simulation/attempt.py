@@ -10,7 +10,7 @@ import numpy as np
 
 from .audit import USUAL, Audit
 from .estimate import Estimate, estimate, larger, rounding_matters, with_rounding
-from .event import Happening
+from .event import EventOccurrence
 from .integration import Flag
 from .kernels.motion import CANCELLED, STEP_LIMIT, STIFF
 from .method import Method
@@ -57,7 +57,7 @@ class Attempt:
         return min((each.start for each in self.blind), default=np.inf)
 
     @property
-    def doubtful(self) -> Happening | None:
+    def doubtful(self) -> EventOccurrence | None:
         """An event of which it is not sure that it happened."""
         return None if self.estimate is None else self.estimate.doubtful
 
@@ -71,8 +71,11 @@ class Attempt:
 
 
 @dataclass(frozen=True)
-class Work:
-    """A problem and a method, with the times at which errors are compared; without a tolerance it is infinite."""
+class Integrator:
+    """A problem and a method: runs at one resolution, and their refinement until the tolerance is met.
+
+    `times`, shape (samples,), are those at which errors are compared, in seconds; without a tolerance it is infinite.
+    """
 
     problem: Problem
     method: Method
@@ -98,6 +101,7 @@ class Work:
 
     @cached_property
     def audit(self) -> Audit:
+        """What the method can see of the problem."""
         return Audit(self.problem, self.method)
 
     def given(self, step: float) -> Attempt:

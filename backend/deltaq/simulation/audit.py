@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.tape import Tape
-from .kernels.audit import DEEPEST, GROUP, Blind, Parts, Path, Rules, inspect, survey_times
-from .kernels.intervals import Program, Ranges
+from .kernels.audit import DEEPEST, GROUP, AuditWorkspace, Blind, Path, Rules, inspect, survey_times
+from .kernels.intervals import Ranges, TapeArrays
 from .method import Method
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
@@ -36,8 +36,8 @@ NOTICED = 1e-9  # a jump of a guide, relative to its size
 
 
 @dataclass(frozen=True)
-class Blow:
-    """A guided coordinate that jumps, or whose rate does, and the time just before."""
+class GuideJump:
+    """A guided coordinate that jumps, or whose rate does, and the time just before in seconds."""
 
     name: str
     time: float
@@ -45,7 +45,10 @@ class Blow:
 
 @dataclass(frozen=True)
 class Level:
-    """Intervals of time of much the same length, and whether a switch may lie in what each is a half of."""
+    """Intervals of time of much the same length, and whether a switch may lie in what each is a half of.
+
+    `starts`, `ends` and `had_switch` have shape (intervals,).
+    """
 
     starts: Floats
     ends: Floats
@@ -53,16 +56,17 @@ class Level:
 
     @property
     def sizes(self) -> Floats:
+        """The lengths of the intervals: shape (intervals,)."""
         return self.ends - self.starts
 
     @property
     def is_whole(self) -> NDArray[np.bool_]:
-        """Which have nothing between their ends: neighbouring numbers."""
+        """Which have nothing between their ends, that is neighbouring numbers: shape (intervals,)."""
         middles = self._middles
         return (middles <= self.starts) | (middles >= self.ends)
 
     def halved(self, chosen: NDArray[np.bool_], switches: NDArray[np.bool_]) -> Level:
-        """Both halves of those chosen."""
+        """Both halves of those chosen; `chosen` and `switches` have shape (intervals,)."""
         starts, ends, middles = self.starts[chosen], self.ends[chosen], self._middles[chosen]
         return Level(np.concatenate([starts, middles]), np.concatenate([middles, ends]), np.tile(switches[chosen], 2))
 
@@ -88,7 +92,7 @@ class Audit:
         leaves = self._leaves(self._threshold(tolerance))
         return Pieces.joined(self.problem.t_end, leaves)
 
-    def blow(self) -> Blow | None:
+    def guide_jump(self) -> GuideJump | None:
         """The first jump of a guide or of its rate: it takes an infinite force, which no equation here contains."""
         layout = self.problem.model.layout
         for before, after in self.before(USUAL).jumps if layout.guided and self._tape.has_choices else ():
@@ -97,7 +101,7 @@ class Audit:
             for name in layout.guided:
                 sides = [*seen.values[name], *seen.rates[name]]
                 if any(abs(b - a) > NOTICED * max(1.0, abs(a), abs(b)) for a, b in (sides[:2], sides[2:])):
-                    return Blow(name, before)
+                    return GuideJump(name, before)
         return None
 
     def after(self, run: Run, tolerance: float) -> tuple[Stretch, ...]:
@@ -107,10 +111,10 @@ class Audit:
             return ()
         rules = Rules(self.limit, self._threshold(tolerance), float(run.stride))
         width = 2 * self.problem.degrees + 1
-        parts = _parts(self._program.codes.size)
+        workspace = _make_workspace(self._tape_arrays.codes.size)
         blind = Blind(*_columns(MOST_STRETCHES), np.zeros(1, dtype=np.int64))
         seeds = self._seeds(path.times[:-1:GROUP], path.q[:-1:GROUP], path.v[:-1:GROUP])
-        inspect(self._program, self._ranges, path, seeds, rules, parts, np.zeros((2, width)), blind)
+        inspect(self._tape_arrays, self._ranges, path, seeds, rules, workspace, np.zeros((2, width)), blind)
         count = int(blind.found[0])
         columns = (column[:count].tolist() for column in (blind.starts, blind.ends, blind.steps))
         return tuple(Stretch(*row) for row in zip(*columns, strict=True))
@@ -129,9 +133,9 @@ class Audit:
         return self.problem.model.tape
 
     @cached_property
-    def _program(self) -> Program:
+    def _tape_arrays(self) -> TapeArrays:
         tape = self._tape
-        return Program(tape.codes, tape.a, tape.b, tape.c, tape.constants, tape.outputs)
+        return TapeArrays(tape.codes, tape.a, tape.b, tape.c, tape.constants, tape.outputs)
 
     @cached_property
     def _ranges(self) -> Ranges:
@@ -194,7 +198,7 @@ class Audit:
     def _swings(self, starts: Floats, ends: Floats, threshold: float) -> tuple[Floats, NDArray[np.bool_]]:
         swings, switches = np.zeros(starts.size), np.zeros(starts.size, dtype=np.int64)
         place = 2 * self.problem.degrees
-        survey_times(self._program, self._ranges, place, starts, ends, threshold, swings, switches)
+        survey_times(self._tape_arrays, self._ranges, place, starts, ends, threshold, swings, switches)
         return swings, switches > 0
 
 
@@ -203,9 +207,9 @@ def _columns(size: int) -> tuple[Floats, Floats, Floats]:
     return np.zeros(size), np.zeros(size), np.zeros(size)
 
 
-def _parts(operations: int) -> Parts:
+def _make_workspace(operations: int) -> AuditWorkspace:
     looked, flips = np.zeros(1, dtype=np.int64), np.zeros(operations, dtype=np.int64)
-    return Parts(*_columns(DEEPEST), looked, flips, np.zeros(operations))
+    return AuditWorkspace(*_columns(DEEPEST), looked, flips, np.zeros(operations))
 
 
 def _path(problem: Problem, run: Run) -> Path:

@@ -15,13 +15,13 @@ Column = list[float] | str
 
 
 def as_numbers(values: Floats) -> Column:
-    """A list, or a list of lists."""
+    """A list of the values of shape (samples,), or a list of rows of those of shape (samples, dimension)."""
     found: list[float] = values.tolist()
     return found
 
 
 def packed(values: Floats) -> Column:
-    """Base64 of the doubles."""
+    """Base64 of the doubles, row by row; `values` may have any shape (samples, …)."""
     return base64.b64encode(values.astype("<f8").tobytes()).decode("ascii")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .attempt import Attempt
-from .audit import Blow
+from .audit import GuideJump
 from .kernels.motion import HELD, TOO_LARGE
 from .method import Method
 from .outcome import OK, Number, Outcome, outcome_of
@@ -16,7 +16,12 @@ SMALL = 1e-5  # an error of a time, relative to it, that is not worth telling in
 
 
 def outcome(
-    problem: Problem, method: Method, best: Attempt, tolerance: float | None, step: float | None, blow: Blow | None
+    problem: Problem,
+    method: Method,
+    best: Attempt,
+    tolerance: float | None,
+    step: float | None,
+    guide_jump: GuideJump | None,
 ) -> Outcome:
     """What ended the runs comes first, then a horizon (behind which no event is sure), an event, a tolerance missed."""
     told: dict[str, Number] = {"method": method.id, "t": short(best.reached), "t_end": problem.t_end}
@@ -28,8 +33,8 @@ def outcome(
         return Outcome("horizon_reached", "horizon_reached", told | {"t": short(found.horizon)})
     if best.doubtful is not None or best.chosen.event is not None:
         return _ended(best, told)
-    if blow is not None:
-        return Outcome("guide_jumps", "guide_jumps", told | {"t": short(blow.time), "name": blow.name})
+    if guide_jump is not None:
+        return Outcome("guide_jumps", "guide_jumps", told | {"t": short(guide_jump.time), "name": guide_jump.name})
     if found is not None and tolerance is not None and found.worst > tolerance:
         parameters = told | {"tolerance": tolerance, "error": short(found.worst)}
         return Outcome("tolerance_missed", "tolerance_missed", parameters)

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .attempt import Attempt, Work
-from .audit import Audit, Blow
+from .attempt import Attempt, Integrator
+from .audit import Audit, GuideJump
 from .conclusion import outcome
 from .estimate import Estimate
-from .event import Happening
+from .event import EventOccurrence
 from .integration import Flag
 from .method import Method
 from .problem import Floats, Problem
@@ -35,16 +35,16 @@ def simulate(
     """The motion of a problem with a fixed step, or to a tolerance (exactly one of the two is given)."""
     if (step is None) == (tolerance is None):
         raise ValueError("give either a step or a tolerance")
-    blow = Audit(problem, method).blow()
+    guide_jump = Audit(problem, method).guide_jump()
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    work = Work(
-        problem, method, _refinement(problem, method, tolerance), _grid(problem, blow), flag, tolerance or np.inf
+    integrator = Integrator(
+        problem, method, _refinement(problem, method, tolerance), _grid(problem, guide_jump), flag, tolerance or np.inf
     )
     if step is not None:
-        attempts = [work.rounded(work.given(step)) if with_error else work.coarse(step)]
+        attempts = [integrator.rounded(integrator.given(step)) if with_error else integrator.coarse(step)]
     else:
-        attempts = [work.rounded(each) for each in work.until()] if with_error else [work.fine()]
-    return _trajectory(problem, method, attempts, tolerance, step, blow)
+        attempts = [integrator.rounded(each) for each in integrator.until()] if with_error else [integrator.fine()]
+    return _trajectory(problem, method, attempts, tolerance, step, guide_jump)
 
 
 def _refinement(problem: Problem, method: Method, tolerance: float | None) -> Refinement:
@@ -54,14 +54,18 @@ def _refinement(problem: Problem, method: Method, tolerance: float | None) -> Re
     return ByStep(problem.t_end, method.order, problem.step_limit, sure)
 
 
-def _grid(problem: Problem, blow: Blow | None) -> Floats:
+def _grid(problem: Problem, guide_jump: GuideJump | None) -> Floats:
     """The sample times, and as many between them as it takes to see the error; up to a blow that ends the motion.
 
     They are numbers of 15 digits, so that what is computed at them and what an answer writes down are the same times.
     """
     times = significant(np.linspace(0.0, problem.t_end, _refined(problem) * (problem.samples - 1) + 1), 15)
     times[-1] = problem.t_end
-    return times if blow is None or blow.time >= problem.t_end else np.append(times[times < blow.time], blow.time)
+    return (
+        times
+        if guide_jump is None or guide_jump.time >= problem.t_end
+        else np.append(times[times < guide_jump.time], guide_jump.time)
+    )
 
 
 def _refined(problem: Problem) -> int:
@@ -74,7 +78,7 @@ def _trajectory(
     attempts: list[Attempt],
     tolerance: float | None,
     step: float | None,
-    blow: Blow | None,
+    guide_jump: GuideJump | None,
 ) -> Trajectory:
     best = max(attempts, key=_merit)
     found, n = best.estimate, problem.degrees
@@ -82,7 +86,7 @@ def _trajectory(
     times, states, errors = _shown(best, _refined(problem))
     return Trajectory(
         method.id,
-        outcome(problem, method, best, tolerance, step, blow),
+        outcome(problem, method, best, tolerance, step, guide_jump),
         times,
         states[:, :n],
         states[:, n : 2 * n],
@@ -92,7 +96,7 @@ def _trajectory(
         best.reached,
         min(run.conditioning for run in best.runs),
         _cost(attempts, best),
-        _happening(best),
+        _event_occurrence(best),
         best.seen_until,
     )
 
@@ -129,12 +133,12 @@ def _with_stop(
     return np.append(times, stop.time), np.vstack([states, last]), np.append(errors, error)
 
 
-def _happening(best: Attempt) -> Happening | None:
+def _event_occurrence(best: Attempt) -> EventOccurrence | None:
     """The event that ended the motion, or may have."""
     event, found = best.chosen.event, best.estimate
     if event is None or not best.is_complete:
         return best.doubtful
-    return Happening(event.index, event.time, None if found is None else found.event)
+    return EventOccurrence(event.index, event.time, None if found is None else found.event)
 
 
 def _merit(attempt: Attempt) -> tuple[float, bool, float]:

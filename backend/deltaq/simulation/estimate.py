@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..model.model import DISTURBANCE
-from .event import Approach, Happening, event_values
+from .derivatives import accelerations
+from .event import Approach, EventOccurrence, event_values
 from .problem import Floats, Problem
 from .run import Run
-from .slopes import accelerations
 from .stiffness import NUDGE
 
 # Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
@@ -35,11 +35,12 @@ UNKNOWN = 1e300  # for an error that is no number; with room for sums
 
 @dataclass(frozen=True)
 class Estimate:
-    """`errors[i]` estimates the largest error of any coordinate at times[i]; after `horizon` no digit is left.
+    """`errors[i]`, shape (samples,), estimates the largest error of any coordinate at times[i].
 
-    `worst` is the largest error in the measure of a tolerance: absolute below 1 and relative above. `event` is the
-    error of the time of the event that ended both runs; the last of `errors` is that of the state then. `doubtful` is
-    an event that may have happened or not, as far as the errors tell. `stop` is the error of where friction holds it.
+    After `horizon` seconds no digit is left; None if that is never so. `worst` is the largest error in the measure of a
+    tolerance: absolute below 1 and relative above. `event` is the error of the time of the event that ended both runs;
+    the last of `errors` is that of the state then. `doubtful` is an event that may have happened or not, as far as the
+    errors tell. `stop` is the error of where friction holds the motion.
     """
 
     errors: Floats
@@ -47,7 +48,7 @@ class Estimate:
     horizon: float | None
     event: float | None = None
     stop: float = 0.0
-    doubtful: Happening | None = None
+    doubtful: EventOccurrence | None = None
 
 
 def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimate:
@@ -60,9 +61,9 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     factors = _factors(problem, factor, difference[:n], np.abs(states[:n]))
     differences = np.vstack([together, difference[n : 2 * n]])
     spread = _spread(factors * differences + np.minimum(differences, CLOSE))
-    grain, sizes = _grain(problem, times, fine), np.abs(states[:n])
+    floor, sizes = _rounding_floor(problem, times, fine), np.abs(states[:n])
     ones = np.maximum(1.0, sizes)
-    errors = _known(np.maximum(spread[:n], grain * ones))
+    errors = _known(np.maximum(spread[:n], floor * ones))
     horizon = _horizon(problem, times, errors, sizes)
     if horizon is not None:
         # Beyond the horizon both runs are wrong, and their difference may shrink by chance.
@@ -70,7 +71,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
         errors[:, late] = 2.0 * np.maximum.accumulate(errors[:, late], axis=1)
     stop = _of_stop(problem, coarse, fine, factor)
     worst = max(float(np.max(errors / ones)), stop)
-    doubts = np.vstack([errors, np.maximum(spread[n:], grain)])
+    doubts = np.vstack([errors, np.maximum(spread[n:], floor)])
     of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
     return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, _doubtful(problem, coarse, fine, times, doubts))
 
@@ -161,21 +162,21 @@ def _of_event(problem: Problem, coarse: Run, fine: Run, factor: float, doubts: F
     return max(apart, event.late_by(doubt)) + rounding
 
 
-def _doubtful(problem: Problem, coarse: Run, fine: Run, times: Floats, doubts: Floats) -> Happening | None:
+def _doubtful(problem: Problem, coarse: Run, fine: Run, times: Floats, doubts: Floats) -> EventOccurrence | None:
     """The first event that only one run met, or whose value came closer to zero than it is known."""
     met = [run.event for run in (fine, coarse) if run.event]
     if met:
         event = met[0]
         doubt = _doubt(problem, event.index, event.time, event.state, doubts[:, -1])
         is_sure = len(met) == 2 and not event.may_not_be(doubt)
-        return None if is_sure else Happening(event.index, event.time, None)
+        return None if is_sure else EventOccurrence(event.index, event.time, None)
 
     def is_close(a: Approach) -> bool:
         row = min(int(np.searchsorted(times, a.time)), len(times) - 1)
         return a.value <= _doubt(problem, a.index, a.time, a.state, doubts[:, row])
 
-    close = [Happening(a.index, a.time, None) for a in fine.approaches if is_close(a)]
-    return min(close, key=lambda happening: happening.time, default=None)
+    close = [EventOccurrence(a.index, a.time, None) for a in fine.approaches if is_close(a)]
+    return min(close, key=lambda occurrence: occurrence.time, default=None)
 
 
 def _doubt(problem: Problem, index: int, time: float, state: Floats, doubts: Floats) -> float:
@@ -187,8 +188,8 @@ def _doubt(problem: Problem, index: int, time: float, state: Floats, doubts: Flo
     return float(np.abs((values[:width] - values[width:]) / (2.0 * nudges.diagonal())) @ doubts)
 
 
-def _grain(problem: Problem, times: Floats, fine: Run) -> Floats:
-    """Rounding: one in the last digit for each step, some up and some down."""
+def _rounding_floor(problem: Problem, times: Floats, fine: Run) -> Floats:
+    """The rounding floor ε√steps, shape (samples,): one rounding error for each step adds up as a random walk."""
     return np.asarray(ROUNDING * np.sqrt(1.0 + fine.result.steps * times / problem.t_end))
 
 

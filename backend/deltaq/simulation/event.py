@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .derivatives import accelerations
 from .kernels.watch import Watch
 from .problem import Floats, Problem
-from .slopes import accelerations
 
 ROUNDS, PARTS = 12, 32  # each round looks at so many parts of what the one before left: 32¹² > 2⁵³
 CLOSER = 6  # rounds for a minimum, each an eighth of the part before; its value is flat
@@ -24,7 +24,7 @@ NUDGE, LEAST_NUDGE = 0.01, 1e-6  # of the step, and seconds
 
 @dataclass(frozen=True)
 class Event:
-    """Which of the scene's events happened first, when, and the state (q, q̇, ∫P dt) then.
+    """Which of the scene's events happened first, when, and the `state` (q, q̇, ∫P dt) then, shape (width,).
 
     `fall` and `bend` are the first and second time derivatives of its value as it went through zero.
     """
@@ -47,7 +47,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Approach:
-    """How close the value of an event came to zero, when, and in which state."""
+    """How close the value of an event came to zero, when, and in which `state`, shape (width,)."""
 
     index: int
     value: float
@@ -56,8 +56,8 @@ class Approach:
 
 
 @dataclass(frozen=True)
-class Happening:
-    """An event that ended a motion: its number in the scene, its time, and that time's estimated error."""
+class EventOccurrence:
+    """The event that ended a motion: its number in the scene, its time and that time's estimated error, in seconds."""
 
     index: int
     time: float
@@ -66,28 +66,34 @@ class Happening:
 
 @dataclass(frozen=True)
 class Step:
-    """A step as the kernel saw it: states at times, in Chebyshev's extreme points."""
+    """A step as the kernel saw it: states at times, in Chebyshev's extreme points.
+
+    `nodes` (the points in units of the step, from 0 to 1) and `times` have shape (nodes,), `states` shape (nodes,
+    width).
+    """
 
     problem: Problem
-    places: Floats
+    nodes: Floats
     times: Floats
     states: Floats
 
     @property
     def size(self) -> float:
+        """The length of the step in seconds."""
         return float(self.times[-1] - self.times[0])
 
     def time(self, x: Floats) -> Floats:
+        """The times at places x of the step, 0 to 1: shape (points,) to shape (points,)."""
         return np.asarray(self.times[0] + self.size * x)
 
     def state(self, x: Floats) -> Floats:
-        """The states at places x of the step, 0 to 1, by the barycentric formula.
+        """The states at places x of the step by the barycentric formula: shape (points,) to shape (points, width).
 
         Source: Trefethen, Approximation Theory and Approximation Practice, ch. 5.
         """
-        weights = np.where(np.arange(self.places.size) % 2 == 0, 1.0, -1.0)
+        weights = np.where(np.arange(self.nodes.size) % 2 == 0, 1.0, -1.0)
         weights[[0, -1]] *= 0.5
-        apart = x[:, None] - self.places
+        apart = x[:, None] - self.nodes
         row, column = np.nonzero(apart == 0.0)
         apart[row, column] = 1.0
         shares = weights / apart
@@ -96,18 +102,22 @@ class Step:
         return np.asarray(found)
 
     def values(self, x: Floats) -> Floats:
+        """The values of all events at places x of the step: shape (points,) to shape (points, events)."""
         return event_values(self.problem, self.time(x), self.state(x))
 
 
 def event_values(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """What is positive as long as no event has happened: a row for each time, a column for each event."""
+    """What is positive as long as no event has happened.
+
+    `times` has shape (states,), `states` shape (states, ≥ 2n); returns shape (states, events).
+    """
     function = problem.model.events
     return np.ones((len(times), 0)) if function is None else function.table(problem.inputs(times, states))
 
 
 def first_event(problem: Problem, watch: Watch, t_end: float) -> Event | None:
     """The first event that can be seen in what the kernel kept, to rounding; those beyond the end do not count."""
-    steps = (Step(problem, watch.places, watch.times, watch.states), *_closest(problem, watch))
+    steps = (Step(problem, watch.nodes, watch.times, watch.states), *_closest(problem, watch))
     found = [event for step in steps for event in _falls(step) if event.time <= t_end]
     return min(found, key=lambda event: event.time, default=None)
 
@@ -121,15 +131,15 @@ def approaches(problem: Problem, watch: Watch, t_end: float) -> tuple[Approach, 
 def _closest(problem: Problem, watch: Watch) -> Iterator[Step]:
     """For each event, the step in which its value was least."""
     for times, states in zip(watch.closest_times, watch.closest_states, strict=True):
-        yield Step(problem, watch.places, times, states)
+        yield Step(problem, watch.nodes, times, states)
 
 
 def _falls(step: Step) -> Iterator[Event]:
     """The first event in a step, if there is one."""
     if not step.size > 0.0:
         return
-    least = [_least(step, index) for index in range(step.values(step.places).shape[1])]
-    x = _first_fall(step.values, np.union1d(step.places, least))
+    least = [_least(step, index) for index in range(step.values(step.nodes).shape[1])]
+    x = _first_fall(step.values, np.union1d(step.nodes, least))
     if x is None:
         return
     place = np.array([x])
@@ -155,9 +165,9 @@ def _flow(problem: Problem, times: Floats, states: Floats) -> Floats:
     return found
 
 
-def _first_fall(values: Callable[[Floats], Floats], places: Floats) -> float | None:
+def _first_fall(values: Callable[[Floats], Floats], nodes: Floats) -> float | None:
     """The first place in the step at which a value is no longer positive; None if there is none."""
-    x = np.union1d(places, np.linspace(0.0, 1.0, PARTS + 1))
+    x = np.union1d(nodes, np.linspace(0.0, 1.0, PARTS + 1))
     if not (values(x) <= 0.0).any():
         return None
     for _ in range(ROUNDS):
@@ -176,7 +186,7 @@ def _approach(step: Step, index: int) -> Approach:
 
 def _least(step: Step, index: int) -> float:
     """The place in the step at which a value is least."""
-    x = np.union1d(step.places, np.linspace(0.0, 1.0, PARTS + 1))
+    x = np.union1d(step.nodes, np.linspace(0.0, 1.0, PARTS + 1))
     for _ in range(CLOSER):
         at = int(np.nanargmin(step.values(x)[:, index]))
         best = float(x[at])

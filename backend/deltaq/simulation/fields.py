@@ -17,6 +17,7 @@ class Fields:
     problems: list[Problem] = field(default_factory=list)
 
     def complain(self, code: str, pointer: str, **parameters: str | float) -> None:
+        """Notes a problem by its code in the catalog and its JSON pointer."""
         self.problems.append(Problem(code, pointer, parameters=parameters))
 
     def number(
@@ -61,6 +62,7 @@ class Fields:
         return default
 
     def text(self, key: str, default: str) -> str:
+        """A text, or the default if nothing is said."""
         given = self.document.get(key)
         return self._text(default if given is None else given, f"/{key}")
 
@@ -79,6 +81,7 @@ class Fields:
         return False
 
     def names(self, key: str) -> tuple[str, ...]:
+        """A list of texts, empty if nothing is said."""
         return tuple(self._text(name, f"/{key}/{i}") for i, name in enumerate(self._list(key)))
 
     def _list(self, key: str) -> tuple[object, ...]:
@@ -95,6 +98,7 @@ class Fields:
         return {}
 
     def numbers(self, key: str) -> dict[str, float]:
+        """Finite numbers by name; what is null is left out."""
         given = self._table(self.document.get(key), f"/{key}")
         return dict(self._finite(given, f"/{key}"))
 
@@ -105,6 +109,7 @@ class Fields:
                 yield name, number
 
     def initial(self) -> dict[str, dict[str, float]]:
+        """Initial values by coordinate, each with `value`, `rate`, or both."""
         found = {}
         for name, given in self._table(self.document.get("initial"), "/initial").items():
             pointer = f"/initial/{escaped(name)}"
@@ -115,6 +120,7 @@ class Fields:
         return found
 
     def guides(self) -> tuple[dict[str, str], ...]:
+        """Pairs of `coordinate` and `value`, as texts."""
         tables = [self._table(given, f"/guides/{i}") for i, given in enumerate(self._list("guides"))]
         return tuple(
             {key: self._text(table.get(key), f"/guides/{i}/{key}") for key in ("coordinate", "value")}
@@ -137,5 +143,6 @@ class Fields:
         return wanted
 
     def reject_all_but(self, known: tuple[str, ...]) -> None:
+        """Complains of every field that is not known."""
         for key in sorted(self.document.keys() - set(known)):
             self.complain("unknown-field", f"/{escaped(key)}", field=key[:40])

@@ -9,16 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .kernels.explicit_runge_kutta import integrate
-from .kernels.implicit_room import make_implicit_room
 from .kernels.implicit_runge_kutta import integrate_implicit
+from .kernels.implicit_workspace import make_implicit_workspace
 from .kernels.loop import Result
 from .kernels.motion import Motion
 from .kernels.newmark import integrate_newmark
-from .kernels.newmark_step import NewmarkWeights, make_newmark_room
+from .kernels.newmark_step import NewmarkWeights, make_newmark_workspace
 from .kernels.phase import Phase
-from .kernels.splitting import SplitWeights, integrate_split, make_split_room
+from .kernels.splitting import SplitWeights, integrate_split, make_split_workspace
 from .kernels.stages import ImplicitWeights
-from .kernels.step import Weights, make_room
+from .kernels.step import Weights, make_workspace
 from .kernels.step_control import Control
 from .kernels.switch import Switch, make_switch
 from .kernels.watch import Watch, make_watch, unwatched
@@ -29,10 +29,10 @@ Flag = NDArray[np.int64]  # one number; anything but 0 ends the run
 
 
 @dataclass(frozen=True)
-class Setting:
+class KernelArguments:
     """What every kernel is given: the right-hand side, how to step, what to watch for, and where samples belong.
 
-    `out[i]` becomes the state at times[i], as far as the run comes.
+    out[i] becomes the state at times[i], as far as the run comes: `times` has shape (samples,), `out` (samples, width).
     """
 
     problem: Problem
@@ -44,35 +44,50 @@ class Setting:
 
 
 @singledispatch
-def integrated(scheme: object, _setting: Setting) -> Result:
-    """Runs a scheme."""
+def run_kernel(scheme: object, _arguments: KernelArguments) -> Result:
+    """Runs the kernel of a scheme. Raises TypeError for a scheme of an unknown family."""
     raise TypeError(f"no kernel is known for {type(scheme).__name__}")
 
 
-@integrated.register
-def _explicit(scheme: Tableau, its: Setting) -> Result:
+@run_kernel.register
+def _explicit(scheme: Tableau, arguments: KernelArguments) -> Result:
     weights = explicit_weights(scheme)
-    room = make_room(its.problem.state, weights)
-    return integrate(its.motion, weights, its.control, its.watch, room, its.times, its.out)
+    workspace = make_workspace(arguments.problem.state, weights)
+    return integrate(
+        arguments.motion, weights, arguments.control, arguments.watch, workspace, arguments.times, arguments.out
+    )
 
 
-@integrated.register
-def _partitioned(scheme: Partitioned, its: Setting) -> Result:
-    problem, phase = its.problem, phase_of(its.problem)
+@run_kernel.register
+def _partitioned(scheme: Partitioned, arguments: KernelArguments) -> Result:
+    problem, phase = arguments.problem, phase_of(arguments.problem)
     if scheme.kicks and problem.model.phase.is_separable:
         split = SplitWeights(floats(scheme.kicks), floats(scheme.drifts))
-        split_room = make_split_room(problem.state, problem.degrees)
-        return integrate_split(its.motion, phase, split, its.control, its.watch, split_room, its.times, its.out)
-    room = make_implicit_room(problem.state, problem.degrees, scheme.stages)
+        split_workspace = make_split_workspace(problem.state, problem.degrees)
+        return integrate_split(
+            arguments.motion,
+            phase,
+            split,
+            arguments.control,
+            arguments.watch,
+            split_workspace,
+            arguments.times,
+            arguments.out,
+        )
+    workspace = make_implicit_workspace(problem.state, problem.degrees, scheme.stages)
     weights = implicit_weights(scheme)
-    return integrate_implicit(its.motion, phase, weights, its.control, its.watch, room, its.times, its.out)
+    return integrate_implicit(
+        arguments.motion, phase, weights, arguments.control, arguments.watch, workspace, arguments.times, arguments.out
+    )
 
 
-@integrated.register
-def _newmark(scheme: Newmark, its: Setting) -> Result:
+@run_kernel.register
+def _newmark(scheme: Newmark, arguments: KernelArguments) -> Result:
     weights = NewmarkWeights(float(scheme.beta), float(scheme.gamma))
-    room = make_newmark_room(its.problem.state, its.problem.degrees)
-    return integrate_newmark(its.motion, weights, its.control, its.watch, room, its.times, its.out)
+    workspace = make_newmark_workspace(arguments.problem.state, arguments.problem.degrees)
+    return integrate_newmark(
+        arguments.motion, weights, arguments.control, arguments.watch, workspace, arguments.times, arguments.out
+    )
 
 
 def motion_of(problem: Problem, *, is_long: bool = True) -> Motion:
@@ -137,7 +152,7 @@ def implicit_weights(scheme: Partitioned) -> ImplicitWeights:
 
 
 def floats(row: Row) -> Floats:
-    """A row of a tableau in double precision."""
+    """A row of a tableau in double precision: shape (entries,)."""
     return np.array([float(number) for number in row])
 
 

@@ -93,6 +93,7 @@ class Newmark:
 
     @property
     def is_symmetric(self) -> bool:
+        """Whether a step back undoes a step: the average acceleration method alone."""
         return (self.beta, self.gamma) == (Fraction(1, 4), Fraction(1, 2))
 
 

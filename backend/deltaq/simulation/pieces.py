@@ -67,6 +67,7 @@ class Pieces:
 
     @property
     def is_whole(self) -> bool:
+        """Whether it is one piece whose steps nothing bounds."""
         return len(self.largest) == 1 and self.largest[0] >= self.ends[0]
 
     def needed_by(self, step: float) -> Stretch | None:
@@ -89,7 +90,10 @@ class Pieces:
         return Pieces(tuple(cuts), tuple(largest.tolist()))
 
     def steps(self, size: float, ratio: float = 1.0) -> Floats:
-        """Fixed steps for each piece: as many as it takes with that size or the bound, `ratio` times as many."""
+        """Fixed steps for each piece: as many as it takes with that size or the bound, `ratio` times as many.
+
+        Returns shape (pieces,), in seconds.
+        """
         lengths = np.diff(np.array((0.0, *self.ends)))
         bounds = np.minimum(np.array(self.largest), size)
         with np.errstate(divide="ignore"):
@@ -107,7 +111,7 @@ class Pieces:
         return Pieces(self.ends, tuple((np.minimum(np.array(self.largest), lengths) * factor).tolist()))
 
     def bounded(self, size: float) -> Floats:
-        """The largest steps, none above the size."""
+        """The largest step of each piece, none above the size: shape (pieces,)."""
         return np.asarray(np.minimum(np.array(self.largest), size))
 
 

@@ -38,11 +38,14 @@ class Problem:
 
     @property
     def state(self) -> Floats:
-        """The initial state (q, q̇ and, where power is fed in, ∫P dt)."""
+        """The initial state (q, q̇ and, where power is fed in, ∫P dt): shape (width,), width 2n or 2n + 1."""
         work = (0.0,) if self.model.layout.is_powered else ()
         return np.array([*self.values, *self.rates, *work], dtype=np.float64)
 
     def inputs(self, times: Floats, states: Floats) -> Floats:
-        """What the model's functions read at these times and states: one row each."""
+        """What the model's functions read at these times and states: (q, q̇, t, parameters).
+
+        `times` has shape (states,), `states` shape (states, ≥ 2n); returns shape (states, inputs).
+        """
         parameters = np.broadcast_to(np.array(self.parameters, dtype=np.float64), (len(times), len(self.parameters)))
         return np.hstack([states[:, : 2 * self.degrees], times[:, None], parameters])

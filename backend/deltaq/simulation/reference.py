@@ -23,7 +23,10 @@ TOLERANCE = 1e-13
 
 @dataclass(frozen=True)
 class Reference:
-    """Coordinates at `times`, shape (samples, degrees), as far as both methods came; `errors` bounds each sample."""
+    """The coordinates as far as both methods came: `values`, shape (samples, n), at `times`, shape (samples,).
+
+    `errors`, shape (samples,), bounds each sample.
+    """
 
     times: Floats
     values: Floats
@@ -31,7 +34,7 @@ class Reference:
     methods: tuple[str, str]
 
     def errors_of(self, trajectory: Trajectory) -> Floats:
-        """The largest error of any coordinate at each sample that both have."""
+        """The largest error of any coordinate at each sample that both have: shape (samples,)."""
         count = min(len(self.times), len(trajectory.times))
         return np.asarray(np.abs(trajectory.values[:count] - self.values[:count]).max(axis=1))
 
@@ -40,14 +43,17 @@ def reference(problem: Problem) -> Reference:
     """The reference of a problem at its samples. RequestError if it cannot be followed even to the second of them."""
     first, second = (simulate(problem, get_method(name), tolerance=TOLERANCE) for name in METHODS)
     count = min(len(first.times), len(second.times))
-    demand_motion(first.times[:count])
+    require_motion(first.times[:count])
     apart = np.abs(first.values[:count] - second.values[:count]).max(axis=1)
     size = np.maximum(1.0, np.abs(first.values[:count]).max(axis=1))
-    grain = np.finfo(np.float64).eps * size
-    return Reference(first.times[:count], first.values[:count], np.maximum.accumulate(apart) + grain, METHODS)
+    floor = np.finfo(np.float64).eps * size
+    return Reference(first.times[:count], first.values[:count], np.maximum.accumulate(apart) + floor, METHODS)
 
 
-def demand_motion(times: Floats, size: float = 1.0) -> None:
-    """Raises RequestError if a motion has no sample after its start, or no finite size, so that nothing can be told."""
+def require_motion(times: Floats, size: float = 1.0) -> None:
+    """Raises RequestError if a motion has no sample after its start, or no finite size: nothing can be told of it.
+
+    `times` has shape (samples,).
+    """
     if len(times) < 2 or not np.isfinite(size):
         raise RequestError(Mistake("no-motion"))

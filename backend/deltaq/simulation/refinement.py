@@ -34,8 +34,12 @@ class Refinement(Protocol):
     """
 
     @property
-    def factor_of_coarse(self) -> float: ...
-    def factor_of_fine(self, coarse: Steps, fine: Steps) -> float: ...
+    def factor_of_coarse(self) -> float:
+        """What the difference of two runs is multiplied by to estimate the error of the coarser one."""
+
+    def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
+        """The same for the finer one."""
+
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
         """Whether a run and a finer one are far enough apart, but not too far, for an estimate."""
         ...
@@ -52,10 +56,17 @@ class Refinement(Protocol):
         """The pieces for runs with another resolution than before."""
         ...
 
-    def first(self, tolerance: float) -> float: ...
-    def pair(self, resolution: float, pieces: Pieces, /) -> tuple[Steps, Steps]: ...
-    def next(self, resolution: float, excess: float) -> float: ...
-    def is_finest(self, resolution: float) -> bool: ...
+    def first(self, tolerance: float) -> float:
+        """The resolution to begin with."""
+
+    def pair(self, resolution: float, pieces: Pieces, /) -> tuple[Steps, Steps]:
+        """How to step for the coarser and the finer run at a resolution."""
+
+    def next(self, resolution: float, excess: float) -> float:
+        """The next resolution, where the error was `excess` times too large."""
+
+    def is_finest(self, resolution: float) -> bool:
+        """Whether there is no finer resolution."""
 
 
 @dataclass(frozen=True)
@@ -103,13 +114,13 @@ class ByTolerance:
         return max(0.1 * tolerance, FINEST_TOLERANCE)
 
     def pair(self, resolution: float, pieces: Pieces) -> tuple[Steps, Steps]:
-        # Where the largest step rules, the tolerance does not tell the two runs apart; so it must differ, too.
+        """Two local tolerances, and two largest steps: where these rule, the tolerance does not tell the runs apart."""
         largest, fine = LARGEST_STEP * self.t_end, 0.1 * resolution
         apart = self._apart(fine) if pieces.is_whole else CLOSEST
         return Steps(largest, apart * fine), Steps(float(largest / apart ** (1.0 / self.error_order)), fine)
 
     def next(self, resolution: float, excess: float) -> float:
-        # Far enough for the finer run of this pair to be the coarser one of the next, which saves a run.
+        """A tolerance by what is still missing, far enough for this pair's finer run to be the next one's coarser."""
         far = resolution / (1.01 * LEAST_PART * self._apart(0.1 * resolution))
         return max(min(resolution * max(0.3 / excess, 1e-4), far), FINEST_TOLERANCE)
 

@@ -15,7 +15,10 @@ WHOLE = 2.0**53  # from here on doubles are whole numbers, and without decimals
 
 
 def rounded(values: Floats, errors: Floats) -> Floats:
-    """Values, first axis as `errors`, each rounded to a few digits beyond its error; without error as they are."""
+    """Values, each rounded to a few digits beyond its error; those without an error as they are.
+
+    `values` has shape (samples, …), `errors` shape (samples,); returns the shape of `values`.
+    """
     decimals = _decimals(errors)
     result = np.array(values, dtype=np.float64)
     for count in np.unique(decimals):
@@ -50,7 +53,10 @@ def _decimals(errors: Floats) -> Floats:
 
 
 def significant(values: Floats, digits: int) -> Floats:
-    """So many digits of each value; zero as it is, and as many as there are where a power of ten is not exact."""
+    """So many significant digits of each value, shape (count,); zero as it is.
+
+    Where a power of ten is no exact double, all digits stay.
+    """
     sizes = np.abs(values)
     leading = np.floor(np.log10(sizes, out=np.zeros(len(sizes)), where=sizes > 0.0))
     found = np.array(values, dtype=np.float64)

@@ -8,7 +8,7 @@ from time import perf_counter
 import numpy as np
 
 from .event import Approach, Event, approaches, first_event
-from .integration import Flag, Setting, integrated, motion_of, watch_of
+from .integration import Flag, KernelArguments, motion_of, run_kernel, watch_of
 from .kernels.loop import Result
 from .kernels.motion import EVENT, FINE, HELD, STEP_LIMIT, STIFF
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
@@ -25,7 +25,10 @@ SHORT = 100_000  # right-hand sides; the time for so many is about that of compi
 
 @dataclass(frozen=True)
 class Stop:
-    """Which switching function holds a motion by friction, since when, and the state then (its ∫P dt is not known)."""
+    """Which switching function holds a motion by friction, since when, and the `state` then, shape (width,).
+
+    The work ∫P dt in that state is not known.
+    """
 
     index: int
     time: float
@@ -34,11 +37,12 @@ class Stop:
 
 @dataclass(frozen=True)
 class Run:
-    """States (q, q̇ and, where power is fed in, ∫P dt) at `times`, as far as the run came.
+    """A motion as far as the run came: `times`, shape (samples,), and `states`, shape (samples, width).
 
-    `event` is what ended it, if an event did; else `approaches` tell how close it came to each of the scene's events.
-    `held` is where friction holds it. `mesh_times` and `mesh_states` (q, q̇) are the ends of
-    its steps, or of every `stride`-th, where they were recorded.
+    A state is (q, q̇) or, where power is fed in, (q, q̇, ∫P dt). `event` is what ended it, if an event did; else
+    `approaches` tell how close it came to each of the scene's events. `held` is where friction holds it. `mesh_times`,
+    shape (mesh,), and `mesh_states` (q, q̇), shape (mesh, 2n), are the ends of its steps, or of every `stride`-th,
+    where they were recorded.
     """
 
     times: Floats
@@ -89,7 +93,7 @@ class Steps:
 
 
 def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
-    """Integrates a problem once; samples at `times`.
+    """Integrates a problem once, with samples at `times`, shape (samples,), in seconds; `cancelled` has shape (1,).
 
     A run begins in machine code that is compiled quickly. One that turns out to be long begins again in code that runs
     faster, whose compilation takes as long as what was lost; so do runs of a model that has run for as long already.
@@ -108,7 +112,7 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
 
 def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, *, is_long: bool) -> Run:
     plan = steps.plan(replace(problem, t_end=float(times[-1])), method)
-    setting = Setting(
+    arguments = KernelArguments(
         problem,
         motion_of(problem, is_long=is_long),
         _control(problem, method, steps, plan),
@@ -117,9 +121,9 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
         np.zeros((times.size, problem.state.size)),
     )
     start = perf_counter()
-    result = integrated(method.tableau, setting)
+    result = run_kernel(method.tableau, arguments)
     wall_time = perf_counter() - start
-    out, conditioning = setting.out, float(setting.motion.conditioning[0])
+    out, conditioning = arguments.out, float(arguments.motion.conditioning[0])
     good = int(np.isfinite(out[: result.samples]).all(axis=1).cumprod().sum())
     found = Run(
         times[:good],
@@ -127,13 +131,13 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
         result,
         conditioning,
         wall_time,
-        held=_stop(setting) if result.outcome == HELD else None,
+        held=_stop(arguments) if result.outcome == HELD else None,
         mesh_times=plan.times[: plan.progress[COUNT]],
         mesh_states=plan.states[: plan.progress[COUNT]],
         stride=int(plan.progress[STRIDE]),
         steps=steps,
     )
-    return found if setting.watch.functions == 0 else _ended(found, setting)
+    return found if arguments.watch.functions == 0 else _ended(found, arguments)
 
 
 def _control(problem: Problem, method: Method, steps: Steps, plan: Plan) -> Control:
@@ -149,22 +153,22 @@ def _control(problem: Problem, method: Method, steps: Steps, plan: Plan) -> Cont
     )
 
 
-def _stop(setting: Setting) -> Stop:
+def _stop(arguments: KernelArguments) -> Stop:
     """Where the kernel found the motion held."""
-    switch = setting.watch.switch
+    switch = arguments.watch.switch
     return Stop(int(switch.which[0]), float(switch.when[0]), switch.middle.copy())
 
 
-def _ended(run: Run, setting: Setting) -> Run:
+def _ended(run: Run, arguments: KernelArguments) -> Run:
     """The run up to the event, if there is one; a fixed step may have met one beyond the end."""
-    t_end = float(setting.times[-1])
+    t_end = float(arguments.times[-1])
     if run.held is not None:
         return run
-    event = first_event(setting.problem, setting.watch, t_end)
+    event = first_event(arguments.problem, arguments.watch, t_end)
     if event is None:
         fine = run.result._replace(outcome=FINE) if run.result.outcome == EVENT else run.result
-        return replace(run, result=fine, approaches=approaches(setting.problem, setting.watch, t_end))
-    close = APART * (setting.times[1] - setting.times[0])
+        return replace(run, result=fine, approaches=approaches(arguments.problem, arguments.watch, t_end))
+    close = APART * (arguments.times[1] - arguments.times[0])
     count = max(int(np.searchsorted(run.times, event.time - close)), 1)
     result = run.result._replace(outcome=EVENT, reached=event.time, samples=count)
     return replace(run, times=run.times[:count], states=run.states[:count], result=result, event=event)

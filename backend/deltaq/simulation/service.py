@@ -17,6 +17,7 @@ from ..model.model import Observation, compile_model
 from .answer import Document, answer
 from .auto import choose
 from .choice import Choice, check
+from .derivatives import power
 from .driver import simulate
 from .event import event_values
 from .library import get_method, method_ids
@@ -24,7 +25,6 @@ from .outcome import Outcome
 from .problem import Floats, Problem
 from .request import Request, read_request
 from .rounding import short
-from .slopes import power
 from .trajectory import Trajectory
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
@@ -44,7 +44,7 @@ def run(document: Mapping[str, object]) -> Document:
     compile_time = perf_counter() - start
     problem = problem_of(request.scene, request.t_end, request.samples)
     with inside("/scene"):
-        demand_no_event(request.scene, problem)
+        require_no_event(request.scene, problem)
     choice = choose(request.method, request.scene, problem, request.step, request.tolerance)
     return _simulated(request, choice, problem, compile_time)
 
@@ -63,7 +63,7 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
     return answer(request, choice, problem, *_finite(trajectory, seen, watts), compile_time)
 
 
-def demand_no_event(scene: Scene, problem: Problem) -> None:
+def require_no_event(scene: Scene, problem: Problem) -> None:
     """Raises SceneError if an event has happened before the motion begins."""
     values = event_values(problem, np.zeros(1), problem.state[None, :])[0]
     problems = [

@@ -26,7 +26,10 @@ Floats = NDArray[np.float64]
 
 @singledispatch
 def growth(scheme: object, _z: Complexes) -> Floats:
-    """The factor by which a step makes a motion with the eigenvalues z/h grow; an array of any shape."""
+    """The factor by which a step makes a motion with the eigenvalues z/h grow, for z of any shape (…,).
+
+    For Runge–Kutta methods it is |R(z)|. Raises TypeError for a scheme of an unknown family.
+    """
     raise TypeError(f"no stability function is known for {type(scheme).__name__}")
 
 
@@ -34,10 +37,10 @@ def growth(scheme: object, _z: Complexes) -> Floats:
 def _of_tableau(scheme: Tableau, z: Complexes) -> Floats:
     """|R(z)|, R(z) = 1 + z bᵀ k with kᵢ = 1 + z Σ aᵢⱼ kⱼ, stage by stage"""
     a, b = _square(scheme.a, scheme.stages), _line(scheme.b)
-    slopes: list[NDArray[Any]] = []
+    derivatives: list[NDArray[Any]] = []
     for row in a:
-        slopes.append(1.0 + z * sum((weight * k for weight, k in zip(row, slopes, strict=False)), 0.0 * z))
-    return np.asarray(np.abs(1.0 + z * sum((weight * k for weight, k in zip(b, slopes, strict=True)), 0.0 * z)))
+        derivatives.append(1.0 + z * sum((weight * k for weight, k in zip(row, derivatives, strict=False)), 0.0 * z))
+    return np.asarray(np.abs(1.0 + z * sum((weight * k for weight, k in zip(b, derivatives, strict=True)), 0.0 * z)))
 
 
 @growth.register
@@ -66,9 +69,10 @@ def _of_newmark(scheme: Newmark, z: Complexes) -> Floats:
 
 
 def largest_stable_step(scheme: Scheme, eigenvalues: Complexes) -> float:
-    """The first step size from which on some part grows that would not grow by itself.
+    """The first step size from which on some part grows that would not grow by itself, in seconds.
 
     Infinite if there is none up to a thousand times that of the fastest part, 0 if every step makes it grow.
+    `eigenvalues`, in 1/s, has shape (2n,).
     """
     fastest = float(np.abs(eigenvalues).max(initial=0.0))
     passive = eigenvalues[eigenvalues.real <= ROUNDING * fastest]

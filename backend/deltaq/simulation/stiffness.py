@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .derivatives import derivatives
 from .problem import Floats, Problem
-from .slopes import slopes
 
 NUDGE = 1e-6
 NOISE = 1e-9  # of a force; what changes less with time is rounding
@@ -24,12 +24,12 @@ class Spectrum:
 
 
 def spectrum(problem: Problem, time: float, state: Floats) -> Spectrum:
-    """The spectrum at one state (q, q̇); zero where it cannot be had."""
+    """The spectrum at one state (q, q̇, …), shape (≥ 2n,); zero where it cannot be had."""
     return spectra(problem, np.array([time]), state[None, :])[0]
 
 
 def spectra(problem: Problem, times: Floats, states: Floats) -> list[Spectrum]:
-    """The spectra at several states, one row each."""
+    """The spectra at several states: `times` has shape (states,), `states` shape (states, ≥ 2n)."""
     matrices = jacobians(problem, times, states[:, : 2 * problem.degrees])
     known = np.isfinite(matrices).all(axis=(1, 2))
     found = np.zeros(matrices.shape[:2], dtype=complex)
@@ -40,7 +40,7 @@ def spectra(problem: Problem, times: Floats, states: Floats) -> list[Spectrum]:
 
 
 def eigenvalues(problem: Problem, time: float, state: Floats) -> np.ndarray:
-    """Eigenvalues of ẏ = f(y) linearized at a state (q, q̇); a single zero where it has no value."""
+    """Eigenvalues, shape (2n,), of ẏ = f(y) linearized at a state (q, q̇); a single zero where it has no value."""
     (jacobian,) = jacobians(problem, np.array([time]), state[None, :])
     return np.asarray(np.linalg.eigvals(jacobian)) if np.isfinite(jacobian).all() else np.zeros(1, dtype=complex)
 
@@ -48,12 +48,13 @@ def eigenvalues(problem: Problem, time: float, state: Floats) -> np.ndarray:
 def drive(problem: Problem, state: Floats) -> float:
     """How fast the forces change that time alone changes, in 1/s: ω² = ⟨(∂f/∂t)²⟩ / ⟨(f − ⟨f⟩)²⟩ at one state.
 
-    For a sine of any amplitude this is its angular frequency. Times within the span are taken in unlike distances.
+    `state` has shape (≥ 2n,). For a sine of any amplitude this is its angular frequency. Times within the span are
+    taken in unlike distances.
     """
     times = problem.t_end * np.modf(GOLDEN * np.arange(1, PLACES + 1))[0]
     later = times + NUDGE * problem.t_end
     rows = np.tile(state[: 2 * problem.degrees], (2 * PLACES, 1))
-    now, then = np.split(slopes(problem, np.concatenate([times, later]), rows), 2)
+    now, then = np.split(derivatives(problem, np.concatenate([times, later]), rows), 2)
     swing = float(np.var(now, axis=0).sum())
     rate = float((((then - now) / (later - times)[:, None]) ** 2).mean(axis=0).sum())
     is_driven = swing > NOISE**2 * float((now**2).sum())
@@ -61,12 +62,15 @@ def drive(problem: Problem, state: Floats) -> float:
 
 
 def jacobians(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """∂f/∂y at each row of states, by central differences."""
+    """∂f/∂y of the right-hand side at each state, by central differences.
+
+    `times` has shape (states,), `states` shape (states, 2n); returns shape (states, 2n, 2n).
+    """
     count, width = states.shape
     nudges = NUDGE * np.maximum(1.0, np.abs(states))
     steps = nudges[:, :, None] * np.eye(width)
     rows = np.concatenate([states[:, None, :] + steps, states[:, None, :] - steps]).reshape(-1, width)
-    ahead, behind = slopes(problem, np.tile(np.repeat(times, width), 2), rows)[:, :width].reshape(
+    ahead, behind = derivatives(problem, np.tile(np.repeat(times, width), 2), rows)[:, :width].reshape(
         2, count, width, width
     )
     return np.asarray((ahead - behind).transpose(0, 2, 1) / (2.0 * nudges[:, None, :]))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .estimate import Estimate
-from .event import Happening
+from .event import EventOccurrence
 from .outcome import Outcome
 from .problem import Floats
 
@@ -27,8 +27,9 @@ class Cost:
 
 @dataclass(frozen=True)
 class Trajectory:
-    """A motion at `times`, as far as it came: q and q̇ of the free coordinates, shape (samples, degrees), and ∫P dt.
+    """A motion at `times`, shape (samples,), as far as it came.
 
+    `values` and `rates` are q and q̇ of the free coordinates, shape (samples, n); `work` is ∫P dt, shape (samples,).
     `estimate` is None if it was not asked for; `reached` is the time at which the runs ended. `conditioning` is the
     smallest pivot of the mass matrix met, relative to the diagonal entry it is left of. Where an event ended the
     motion, its time is the last sample. Behind `seen_until` steps were too long to see what the forces do.
@@ -45,7 +46,7 @@ class Trajectory:
     reached: float
     conditioning: float
     cost: Cost
-    event: Happening | None = None
+    event: EventOccurrence | None = None
     seen_until: float = np.inf
 
     @property

@@ -6,8 +6,8 @@ from contextlib import ExitStack
 
 import pytest
 
-from deltaq.api.workers.lane import Limits
 from deltaq.api.workers.pool import Pool
+from deltaq.api.workers.worker_thread import Limits
 
 MakePool = Callable[..., Pool]
 
@@ -18,7 +18,7 @@ def make_pool() -> Iterator[MakePool]:
     with ExitStack() as stack:
 
         def make(size: int = 1, queue_length: int = 100, reserve: int = 0, **limits: float) -> Pool:
-            chosen = {"memory": 2**31, "jobs": 10_000, "start_timeout": 30.0, "patience": 30.0} | limits
+            chosen = {"memory": 2**31, "jobs": 10_000, "start_timeout": 30.0, "queue_timeout": 30.0} | limits
             # A fork server that is started again loads what the last pool wanted.
             pool = Pool(size, queue_length, Limits(**chosen), reserve=reserve)
             pool.start()

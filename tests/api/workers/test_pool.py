@@ -275,7 +275,7 @@ async def test_full_queue_refuses_at_once(make_pool: MakePool, tmp_path: Path) -
 async def test_job_that_waited_too_long_is_refused_while_the_lane_is_still_taken(
     make_pool: MakePool, tmp_path: Path
 ) -> None:
-    pool, door = make_pool(1, patience=0.3), tmp_path / "door"
+    pool, door = make_pool(1, queue_timeout=0.3), tmp_path / "door"
     running = await held(pool, door)
     begin = time.monotonic()
     with pytest.raises(Overloaded, match="waited too long"):
@@ -287,7 +287,7 @@ async def test_job_that_waited_too_long_is_refused_while_the_lane_is_still_taken
 
 
 async def test_what_has_begun_is_not_refused(make_pool: MakePool, tmp_path: Path) -> None:
-    pool, door = make_pool(1, patience=0.2), tmp_path / "door"
+    pool, door = make_pool(1, queue_timeout=0.2), tmp_path / "door"
     running = await held(pool, door)
     await asyncio.sleep(0.3)
     door.touch()
@@ -434,11 +434,11 @@ ORPHAN = """
 import asyncio, json
 from deltaq.api.workers.account import Account
 from deltaq.api.workers.job import Job
-from deltaq.api.workers.lane import Limits
+from deltaq.api.workers.worker_thread import Limits
 from deltaq.api.workers.pool import Pool
 
 async def main():
-    pool = Pool(1, 4, Limits(memory=2**31, jobs=10, start_timeout=30.0, patience=30.0))
+    pool = Pool(1, 4, Limits(memory=2**31, jobs=10, start_timeout=30.0, queue_timeout=30.0))
     pool.start()
     print(json.loads(await pool.run(Job("tests.api.workers.jobs:pid", 30.0), None))["pid"], flush=True)
     await pool.run(Job("tests.api.workers.jobs:spin", 60.0), None)

@@ -15,7 +15,7 @@ from deltaq.api.workers.kernels import are_compiled
 PROBE = """
 import asyncio, json
 from deltaq.api.workers.job import Job
-from deltaq.api.workers.lane import Limits
+from deltaq.api.workers.worker_thread import Limits
 from deltaq.api.workers.pool import Pool
 
 async def main():

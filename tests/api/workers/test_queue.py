@@ -11,11 +11,11 @@ import pytest
 
 from deltaq.api.workers.account import Account
 from deltaq.api.workers.job import Job, Overloaded, Pace
-from deltaq.api.workers.occupancy import Durations, Lanes
+from deltaq.api.workers.occupancy import Durations, Slots
 from deltaq.api.workers.queue import FairQueue, Place
 from deltaq.api.workers.task import Task
 
-MANY = Lanes(100, 100)
+MANY = Slots(100, 100)
 
 
 class Clock:
@@ -32,8 +32,8 @@ def task(name: str, client: str = "", pace: Pace = "fast") -> Task:
     return Task(Job(name, 1.0, pace=pace), b"", account=Account(client), key=name)
 
 
-def filled(tasks: Iterable[Task], lanes: Lanes = MANY, length: int = 1000) -> FairQueue:
-    queue = FairQueue(length, lanes)
+def filled(tasks: Iterable[Task], slots: Slots = MANY, length: int = 1000) -> FairQueue:
+    queue = FairQueue(length, slots)
     for one in tasks:
         queue.put(one)
     return queue
@@ -51,7 +51,7 @@ def taken(queue: FairQueue, count: int) -> list[Task]:
 
 
 def started(queue: FairQueue) -> list[Task]:
-    """All that lanes begin now."""
+    """All that begin now."""
     return list(iter(queue.take_now, None))
 
 
@@ -73,41 +73,41 @@ def test_clients_take_turns(waiting: list[str], order: str) -> None:
     assert len(queue) == 0
 
 
-def test_slow_jobs_leave_a_lane_to_fast_ones() -> None:
+def test_slow_jobs_leave_a_slot_to_fast_ones() -> None:
     queue = filled(
-        (task(name, pace="slow" if name < "t" else "fast") for name in ("s1", "s2", "s3", "t1")), Lanes(3, 2)
+        (task(name, pace="slow" if name < "t" else "fast") for name in ("s1", "s2", "s3", "t1")), Slots(3, 2)
     )
     assert names(started(queue)) == "s1 s2 t1"
 
 
-def test_nobody_has_all_lanes() -> None:
-    queue = filled((task(f"g{n}", "greedy", "slow" if n % 2 else "fast") for n in range(8)), Lanes(4, 3))
+def test_nobody_has_all_slots() -> None:
+    queue = filled((task(f"g{n}", "greedy", "slow" if n % 2 else "fast") for n in range(8)), Slots(4, 3))
     greedy = started(queue)
-    assert names(greedy) == "g0 g1 g2"  # two of the three lanes for slow jobs would be free, had it not three of all
+    assert names(greedy) == "g0 g1 g2"  # two of the three slots for slow jobs would be free, had it not three of all
     queue.put(task("s", "modest", "slow"))
     assert names(started(queue)) == "s"
     queue.done(greedy[0])
     assert names(started(queue)) == "g3"
 
 
-def test_nobody_has_all_lanes_of_slow_jobs() -> None:
-    queue = filled((task(f"g{n}", "greedy", "slow") for n in range(4)), Lanes(3, 2))
+def test_nobody_has_all_slots_of_slow_jobs() -> None:
+    queue = filled((task(f"g{n}", "greedy", "slow") for n in range(4)), Slots(3, 2))
     assert names(started(queue)) == "g0"
     for name, pace in (("s", "slow"), ("f", "fast")):
         queue.put(task(name, "modest", pace))  # type: ignore[arg-type]
     assert names(started(queue)) == "s f"
 
 
-def test_who_asks_from_the_machine_itself_may_have_all_lanes() -> None:
-    queue = filled((task(f"s{n}", "", "slow") for n in range(4)), Lanes(3, 2))
+def test_who_asks_from_the_machine_itself_may_have_all_slots() -> None:
+    queue = filled((task(f"s{n}", "", "slow") for n in range(4)), Slots(3, 2))
     queue.put(task("f"))
     assert names(started(queue)) == "s0 s1 f"
 
 
-@pytest.mark.parametrize("lanes", [Lanes(1, 1), Lanes(2, 1), Lanes(3, 2), Lanes(5, 4)], ids=str)
+@pytest.mark.parametrize("slots", [Slots(1, 1), Slots(2, 1), Slots(3, 2), Slots(5, 4)], ids=str)
 @pytest.mark.parametrize("seed", range(5))
-def test_whatever_is_asked_for_lanes_are_shared(lanes: Lanes, seed: int) -> None:
-    draw, queue = random.Random(seed), FairQueue(1000, lanes)
+def test_whatever_is_asked_for_slots_are_shared(slots: Slots, seed: int) -> None:
+    draw, queue = random.Random(seed), FairQueue(1000, slots)
     running: list[Task] = []
     waiting: list[Task] = []
     overtaken: Counter[Task] = Counter()
@@ -123,8 +123,8 @@ def test_whatever_is_asked_for_lanes_are_shared(lanes: Lanes, seed: int) -> None
             served = {each.account.client for each in running}
             overtaken.update(each for each in fast_first(waiting) if each.account.client not in served)
             running.append(one)
-        assert is_shared(running, lanes)
-        assert not any(is_kept_waiting(one, running, lanes) for one in waiting)
+        assert is_shared(running, slots)
+        assert not any(is_kept_waiting(one, running, slots) for one in waiting)
     assert max(overtaken.values(), default=0) <= 4  # once by each client, who may have been before it in turn
 
 
@@ -132,20 +132,20 @@ def slow_among(tasks: list[Task]) -> list[Task]:
     return [one for one in tasks if one.job.pace == "slow"]
 
 
-def is_shared(running: list[Task], lanes: Lanes) -> bool:
-    """Where all lanes are taken, or all for slow jobs, more than one client has them."""
-    groups = ((running, lanes.all), (slow_among(running), lanes.slow))
+def is_shared(running: list[Task], slots: Slots) -> bool:
+    """Where all slots are taken, or all for slow jobs, more than one client has them."""
+    groups = ((running, slots.all), (slow_among(running), slots.slow))
     return all(
         len(group) < size or (len(group) == size and (size == 1 or len({one.account.client for one in group}) > 1))
         for group, size in groups
     )
 
 
-def is_kept_waiting(task: Task, running: list[Task], lanes: Lanes) -> bool:
-    """Whether there is a lane for it though its client has none."""
-    if any(one.account.client == task.account.client for one in running) or len(running) == lanes.all:
+def is_kept_waiting(task: Task, running: list[Task], slots: Slots) -> bool:
+    """Whether there is a slot for it though its client has none."""
+    if any(one.account.client == task.account.client for one in running) or len(running) == slots.all:
         return False
-    return task.job.pace == "fast" or len(slow_among(running)) < lanes.slow
+    return task.job.pace == "fast" or len(slow_among(running)) < slots.slow
 
 
 def fast_first(waiting: list[Task]) -> list[Task]:
@@ -155,7 +155,7 @@ def fast_first(waiting: list[Task]) -> list[Task]:
 
 
 def test_fast_job_that_takes_long_goes_on_where_a_slow_one_has_a_place() -> None:
-    queue = filled((task("f", "a"), task("g", "b"), task("s", "b", "slow")), Lanes(3, 2))
+    queue = filled((task("f", "a"), task("g", "b"), task("s", "b", "slow")), Slots(3, 2))
     f, g, s = started(queue)
     assert names((f, g, s)) == "f g s"
     assert queue.outgrow(s)  # it is a slow one already
@@ -166,16 +166,16 @@ def test_fast_job_that_takes_long_goes_on_where_a_slow_one_has_a_place() -> None
 
 
 def test_what_is_put_back_waits_as_a_slow_job_before_its_clients_others() -> None:
-    queue = filled((task("s", "a", "slow"), task("f", "b")), Lanes(2, 1))
+    queue = filled((task("s", "a", "slow"), task("f", "b")), Slots(2, 1))
     slow, fast = started(queue)
     for name in ("f2", "f3"):
         queue.put(task(name, "b"))
     assert not queue.outgrow(fast)
     queue.done(fast)
     queue.put_back(fast)
-    assert names(started(queue)) == "f2"  # the lane is not for slow jobs
+    assert names(started(queue)) == "f2"  # the slot is not for slow jobs
     queue.done(slow)
-    assert names(started(queue)) == ""  # its client has as many lanes as it may have
+    assert names(started(queue)) == ""  # its client has as many slots as it may have
     assert queue.discard(fast)
     assert not queue.discard(fast)
 
@@ -211,7 +211,7 @@ def test_task_that_nobody_waits_for_frees_its_place() -> None:
 
 
 def test_closing_gives_back_what_waits_and_ends_the_waiting() -> None:
-    queue, ends = FairQueue(4, Lanes(2, 1)), list[Task | None]()
+    queue, ends = FairQueue(4, Slots(2, 1)), list[Task | None]()
     queue.put(task("slow", pace="slow"))
     assert queue.take() is not None
     waiting = Thread(target=lambda: ends.append(queue.take()))
@@ -225,7 +225,7 @@ def test_closing_gives_back_what_waits_and_ends_the_waiting() -> None:
 
 
 def test_lane_that_waits_is_told_when_a_place_is_free() -> None:
-    queue, got = FairQueue(4, Lanes(2, 1)), list[Task | None]()
+    queue, got = FairQueue(4, Slots(2, 1)), list[Task | None]()
     queue.put(first := task("first", pace="slow"))
     queue.put(second := task("second", pace="slow"))
     assert queue.take() is first
@@ -237,13 +237,13 @@ def test_lane_that_waits_is_told_when_a_place_is_free() -> None:
 
 
 def test_last_to_become_idle_is_the_first_to_take() -> None:
-    queue, order = FairQueue(4, Lanes(3, 3)), list[int]()
+    queue, order = FairQueue(4, Slots(3, 3)), list[int]()
 
-    def lane(number: int) -> None:
+    def waiter(number: int) -> None:
         if queue.take() is not None:
             order.append(number)
 
-    threads = [Thread(target=lane, args=(number,)) for number in range(3)]
+    threads = [Thread(target=waiter, args=(number,)) for number in range(3)]
     for number, thread in enumerate(threads):
         thread.start()
         while len(queue._idle) <= number:
@@ -256,7 +256,7 @@ def test_last_to_become_idle_is_the_first_to_take() -> None:
 
 def test_place_and_time_of_what_waits() -> None:
     clock = Clock()
-    queue = FairQueue(10, Lanes(1, 1), clock)
+    queue = FairQueue(10, Slots(1, 1), clock)
     for _ in range(2):  # two jobs of four seconds, and one of ten
         queue.put(known := task("short", "a"))
         queue.take()
@@ -296,7 +296,7 @@ def test_durations() -> None:
 
 def test_what_was_given_up_tells_nothing_of_durations() -> None:
     clock = Clock()
-    queue = FairQueue(10, Lanes(1, 1), clock)
+    queue = FairQueue(10, Slots(1, 1), clock)
     queue.put(given_up := task("x"))
     queue.take()
     clock.now += 0.1

@@ -6,14 +6,14 @@ import threading
 
 import pytest
 
-from deltaq.api.workers import lane as lane_module
+from deltaq.api.workers import worker_thread as thread_module
 from deltaq.api.workers.job import Job
-from deltaq.api.workers.lane import Lane, Limits
-from deltaq.api.workers.occupancy import Lanes
+from deltaq.api.workers.occupancy import Slots
 from deltaq.api.workers.queue import FairQueue
 from deltaq.api.workers.worker import Worker, start_worker
+from deltaq.api.workers.worker_thread import Limits, WorkerThread
 
-LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, patience=30.0)
+LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, queue_timeout=30.0)
 
 
 def test_worker_that_is_not_ready_in_time_is_given_up() -> None:
@@ -38,20 +38,20 @@ def test_lane_tries_again_until_a_worker_comes_up(monkeypatch: pytest.MonkeyPatc
             raise error
         return start_worker(memory, timeout)
 
-    monkeypatch.setattr(lane_module, "start_worker", start_third_time)
-    lane = Lane(FairQueue(10, Lanes(1, 1)), LIMITS)
-    worker = lane.ready_worker()
+    monkeypatch.setattr(thread_module, "start_worker", start_third_time)
+    thread = WorkerThread(FairQueue(10, Slots(1, 1)), LIMITS)
+    worker = thread.ready_worker()
     assert worker is not None
     assert worker.ask(b'["tests.api.workers.jobs:echo", 10, 5]', Job("", 10.0)) == b"+5"
     assert len(attempts) == 3
-    lane.drop_worker()
+    thread.drop_worker()
 
 
 def test_stopped_lane_gives_up_starting(monkeypatch: pytest.MonkeyPatch) -> None:
     def never(memory: int, timeout: float, niceness: int) -> Worker:
         raise OSError("no more processes")
 
-    monkeypatch.setattr(lane_module, "start_worker", never)
-    lane = Lane(FairQueue(10, Lanes(1, 1)), LIMITS)
-    threading.Timer(0.2, lane.stop).start()
-    assert lane.ready_worker() is None
+    monkeypatch.setattr(thread_module, "start_worker", never)
+    thread = WorkerThread(FairQueue(10, Slots(1, 1)), LIMITS)
+    threading.Timer(0.2, thread.stop).start()
+    assert thread.ready_worker() is None

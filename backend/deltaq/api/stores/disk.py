@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from ...ownership import NotOursError, believe, believe_state
+from ...ownership import UntrustedFileError, require_trusted, require_trusted_state
 from .store import sealed, unsealed
 
 LOGGER = logging.getLogger("deltaq.cache")
@@ -42,7 +42,7 @@ class Disk:
                 file.unlink(missing_ok=True)
             else:
                 os.utime(file)
-        except (FileNotFoundError, NotOursError):
+        except (FileNotFoundError, UntrustedFileError):
             return None
         except OSError as error:
             LOGGER.warning("the cache on disk cannot be read: %s", error.strerror)
@@ -57,7 +57,7 @@ class Disk:
             self._written += len(content)
             if self._written > self.size:
                 self._make_room()
-        except NotOursError:
+        except UntrustedFileError:
             return
         except OSError as error:
             LOGGER.warning("the cache on disk cannot be written: %s", error.strerror)
@@ -66,17 +66,17 @@ class Disk:
         return self.folder / key[:2] / f"{key}.answer"
 
     def _read(self, file: Path) -> bytes:
-        """What nobody else can have written: a file of ours in folders of ours. Raises NotOursError."""
+        """What nobody else can have written: a file of this user in folders of this user. Raises UntrustedFileError."""
         for folder in (self.folder, file.parent):
-            believe(folder)
+            require_trusted(folder)
         with os.fdopen(os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK), "rb") as found:
-            believe_state(os.fstat(found.fileno()), str(file))
+            require_trusted_state(os.fstat(found.fileno()), str(file))
             return found.read()
 
     def _write(self, file: Path, content: bytes) -> None:
         for folder in (self.folder, file.parent):
             folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-            believe(folder)
+            require_trusted(folder)
         descriptor, name = tempfile.mkstemp(dir=file.parent, suffix=".new")
         try:
             with os.fdopen(descriptor, "wb") as new:

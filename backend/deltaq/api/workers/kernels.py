@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 from tempfile import mkdtemp
 
-from ...ownership import NotOursError, believe
+from ...ownership import UntrustedFileError, require_trusted
 
 KERNELS = Path(__file__).parents[2] / "simulation" / "kernels"
 PROCESSOR = Path("/proc/cpuinfo")
@@ -24,25 +24,25 @@ def folder() -> Path:
 def take_own_folder() -> None:
     """See that nobody else writes the folder of kernels: where others may, another one of this user is taken.
 
-    In theirs Numba would believe nothing, and every worker compile for itself.
+    From theirs nothing would be loaded, and every worker would compile for itself.
     """
-    if _is_believed(folder()):
+    if _is_trusted(folder()):
         return
     caches = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser()
     own = caches / "deltaq" / "kernels"
     with suppress(OSError):
         own.mkdir(mode=0o700, parents=True, exist_ok=True)
-    is_usable = own.is_dir() and _is_believed(own) and os.access(own, os.W_OK)
+    is_usable = own.is_dir() and _is_trusted(own) and os.access(own, os.W_OK)
     os.environ[VARIABLE] = str(own) if is_usable else mkdtemp(prefix="deltaq-kernels-")
 
 
-def _is_believed(place: Path) -> bool:
+def _is_trusted(place: Path) -> bool:
     """Whether nobody else writes there; what is not there yet will be made by us."""
     try:
-        believe(place)
+        require_trusted(place)
     except FileNotFoundError:
         return True
-    except NotOursError:
+    except UntrustedFileError:
         return False
     return True
 

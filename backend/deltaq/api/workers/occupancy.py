@@ -1,8 +1,8 @@
 """Which jobs run, which others may begin beside them, and how long they should go on. Guarded by the queue's lock.
 
 A process cannot be taken from a job without losing what it has done, so what must stay free is never given away: of
-the lanes one is never a client's who has all the others, one is never a slow job's, and of those that slow jobs may
-have one is never a client's who has all the others of them. Where there is one such lane, it is anybody's. The nameless
+the slots one is never a client's who has all the others, one is never a slow job's, and of those that slow jobs may
+have one is never a client's who has all the others of them. Where there is one such slot, it is anybody's. The nameless
 client, who asks from the machine itself, may have them all.
 """
 
@@ -20,7 +20,7 @@ RECENT = 0.3  # weight of the last duration in the mean
 
 
 @dataclass(frozen=True)
-class Lanes:
+class Slots:
     """How many jobs may run at once, and how many slow ones among them."""
 
     all: int
@@ -39,7 +39,7 @@ class Lanes:
 
 @dataclass(frozen=True)
 class Run:
-    """A task that a lane is at."""
+    """A task that runs, since when (seconds of the clock), and whether it counts as slow."""
 
     task: Task
     pace: Pace
@@ -64,10 +64,10 @@ class Durations:
 
 
 class Occupancy:
-    """The jobs that run in some lanes."""
+    """The jobs that run, in so many slots."""
 
-    def __init__(self, lanes: Lanes, clock: Callable[[], float]) -> None:
-        self.lanes = lanes
+    def __init__(self, slots: Slots, clock: Callable[[], float]) -> None:
+        self.slots = slots
         self.durations = Durations()
         self._clock = clock
         self._runs: dict[Task, Run] = {}
@@ -76,27 +76,27 @@ class Occupancy:
         return any(run.answer is task.answer for run in self._runs)
 
     def begin(self, task: Task, pace: Pace) -> None:
-        """A lane is at it from now on."""
+        """It runs from now on."""
         self._runs[task] = Run(task, pace, self._clock())
 
     def end(self, task: Task, *, answered: bool) -> None:
-        """Its lane is free; how long it took is remembered if it came to its end."""
+        """Its slot is free; how long it took is remembered if it came to its end."""
         run = self._runs.pop(task, None)
         if run is not None and answered:
             self.durations.note(task.job.kind, self._clock() - run.since)
 
-    def has_lane(self, client: str, pace: Pace) -> bool:
+    def has_slot(self, client: str, pace: Pace) -> bool:
         """Whether another job of this client may begin."""
-        if len(self._runs) >= self.lanes.all or (client and len(self._of(client)) >= self.lanes.of_client):
+        if len(self._runs) >= self.slots.all or (client and len(self._of(client)) >= self.slots.of_client):
             return False
-        return pace == "fast" or self._has_slow_lane(client)
+        return pace == "fast" or self._has_slow_slot(client)
 
     def outgrow(self, task: Task) -> bool:
         """Whether a task that has run for more than a moment may go on, as a slow one from now on."""
         run = self._runs.get(task)
         if run is None or run.pace == "slow":
             return True
-        if not self._has_slow_lane(task.account.client):
+        if not self._has_slow_slot(task.account.client):
             return False
         self._runs[task] = Run(task, "slow", run.since)
         return True
@@ -110,10 +110,10 @@ class Occupancy:
         elapsed = self._clock() - run.since
         return max(self.durations.usual(run.task.job.kind) - elapsed, OVERTIME * elapsed)
 
-    def _has_slow_lane(self, client: str) -> bool:
+    def _has_slow_slot(self, client: str) -> bool:
         of_client = sum(run.pace == "slow" for run in self._of(client))
         of_all = sum(run.pace == "slow" for run in self._runs.values())
-        return of_all < self.lanes.slow and not (client and of_client >= self.lanes.slow_of_client)
+        return of_all < self.slots.slow and not (client and of_client >= self.slots.slow_of_client)
 
     def _of(self, client: str) -> list[Run]:
         return [run for run in self._runs.values() if run.task.account.client == client]

@@ -11,12 +11,12 @@ from typing import Any
 
 from .account import FREE, Account, QuotaExceeded
 from .job import Job, Overloaded
-from .lane import Lane, Limits
 from .message import encode_request
-from .occupancy import Lanes
+from .occupancy import Slots
 from .queue import BEGUN, FairQueue, Place
 from .task import Task
 from .worker import PRELOAD, Listener, start_fork_server
+from .worker_thread import Limits, WorkerThread
 
 FIRST, AGAIN = 0.2, 1.0  # seconds after which one who waits is told so, and told again
 
@@ -43,28 +43,28 @@ class Pool:
     def __init__(
         self, size: int, queue_length: int, limits: Limits, modules: Sequence[str] = (PRELOAD,), reserve: int = 0
     ) -> None:
-        self._tasks = FairQueue(queue_length, Lanes(size + reserve, size))
+        self._tasks = FairQueue(queue_length, Slots(size + reserve, size))
         self._limits = limits
         self._modules = tuple(modules)
         self._askers: dict[str, list[Account]] = {}
-        self._lanes = tuple(Lane(self._tasks, limits) for _ in range(size + reserve))
+        self._threads = tuple(WorkerThread(self._tasks, limits) for _ in range(size + reserve))
 
     def start(self) -> None:
         """Start the lanes; returns at once, the workers come up in the background."""
         start_fork_server(self._modules)
-        for lane in self._lanes:
-            lane.start()
+        for thread in self._threads:
+            thread.start()
 
     def stop(self, timeout: float = 5.0) -> None:
         """End the lanes: waiting tasks are refused, running ones may finish within `timeout` seconds."""
-        for lane in self._lanes:
-            lane.stop()
+        for thread in self._threads:
+            thread.stop()
         for task in self._tasks.close():
             if task.answer.set_running_or_notify_cancel():
                 task.answer.set_exception(Overloaded("the service is stopping"))
-        for lane in self._lanes:
-            lane.join(timeout)
-            lane.drop_worker()
+        for thread in self._threads:
+            thread.join(timeout)
+            thread.drop_worker()
 
     async def run(
         self,
@@ -120,12 +120,12 @@ class Pool:
         self._tasks.put(task)
         for account in self._askers.get(task.key, ()):
             self._share(task.key, account)
-        loop, patience = asyncio.get_running_loop(), self._limits.patience
-        refusal = loop.call_later(patience, self._refuse, task)
+        loop, timeout = asyncio.get_running_loop(), self._limits.queue_timeout
+        refusal = loop.call_later(timeout, self._refuse, task)
         if wait is not None:
             loop.call_later(FIRST, self._tell_place, task, wait)
         try:
-            return await asyncio.wait_for(asyncio.wrap_future(task.answer), patience + 2 * task.job.deadline + 5.0)
+            return await asyncio.wait_for(asyncio.wrap_future(task.answer), timeout + 2 * task.job.deadline + 5.0)
         except TimeoutError:
             raise Overloaded("no worker came up") from None
         finally:
@@ -151,15 +151,15 @@ class Pool:
     @property
     def state(self) -> PoolState:
         return PoolState(
-            workers=len(self._lanes),
-            ready=sum(lane.worker is not None for lane in self._lanes),
-            busy=sum(lane.busy for lane in self._lanes),
+            workers=len(self._threads),
+            ready=sum(thread.worker is not None for thread in self._threads),
+            busy=sum(thread.busy for thread in self._threads),
             waiting=len(self._tasks),
-            kills=sum(lane.kills for lane in self._lanes),
-            processor_seconds=sum(lane.processor_seconds for lane in self._lanes),
+            kills=sum(thread.kills for thread in self._threads),
+            processor_seconds=sum(thread.processor_seconds for thread in self._threads),
         )
 
     @property
     def pids(self) -> tuple[int, ...]:
         """The process ids of the workers that are up."""
-        return tuple(worker.pid for lane in self._lanes if (worker := lane.worker) is not None)
+        return tuple(worker.pid for thread in self._threads if (worker := thread.worker) is not None)

@@ -11,7 +11,7 @@ from weakref import WeakSet
 
 from .account import Account
 from .job import Overloaded, Pace
-from .occupancy import Lanes, Occupancy
+from .occupancy import Occupancy, Slots
 from .task import Task
 
 
@@ -29,9 +29,9 @@ BEGUN = Place(0, 0.0)
 class FairQueue:
     """At most `length` tasks wait; no client but the nameless one may hold more than half of the places."""
 
-    def __init__(self, length: int, lanes: Lanes, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, length: int, slots: Slots, clock: Callable[[], float] = time.monotonic) -> None:
         self._length = length
-        self._running = Occupancy(lanes, clock)
+        self._running = Occupancy(slots, clock)
         self._count = 0
         self._open = True
         self._by_client: OrderedDict[str, deque[Task]] = OrderedDict()  # whose turn it is stands first
@@ -58,12 +58,12 @@ class FairQueue:
 
         Whoever has begun to wait last takes first: what its worker remembers is the freshest.
         """
-        lane, task = object(), None
+        taker, task = object(), None
         with self._changed:
-            self._idle.append(lane)
-            while self._open and (self._idle[-1] is not lane or (task := self.take_now()) is None):
+            self._idle.append(taker)
+            while self._open and (self._idle[-1] is not taker or (task := self.take_now()) is None):
                 self._changed.wait()
-            self._idle.remove(lane)
+            self._idle.remove(taker)
             self._changed.notify_all()
         return task
 
@@ -76,7 +76,7 @@ class FairQueue:
             return task
 
     def done(self, task: Task, *, answered: bool = False) -> None:
-        """A task that was taken needs its lane no more; `answered` if it came to its end."""
+        """A task that was taken needs its slot no more; `answered` if it came to its end."""
         with self._changed:
             self._running.end(task, answered=answered)
             self._changed.notify_all()
@@ -130,12 +130,12 @@ class FairQueue:
             ahead = self._running.left
             for number, one in enumerate(self._in_turn(), 1):
                 if one.answer is task.answer:
-                    return Place(number, sum(ahead) / self._running.lanes.all)
+                    return Place(number, sum(ahead) / self._running.slots.all)
                 ahead.append(self._running.durations.usual(one.job.kind))
             return None
 
     def is_running(self, task: Task) -> bool:
-        """Whether a lane is at it."""
+        """Whether a thread runs it."""
         return task in self._running
 
     def close(self) -> list[Task]:
@@ -151,7 +151,7 @@ class FairQueue:
     def _next(self) -> Task | None:
         """The first task that may run, of the first client in turn who has one; it waits no more."""
         for client, tasks in self._by_client.items():
-            place = next((n for n, task in enumerate(tasks) if self._has_lane(task)), None)
+            place = next((n for n, task in enumerate(tasks) if self._has_slot(task)), None)
             if place is not None:
                 task = self._remove(client, place)
                 self.discard(task)  # the others who ask for it wait for the same answer
@@ -169,8 +169,8 @@ class FairQueue:
         if not tasks:
             del self._by_client[task.account.client]
 
-    def _has_lane(self, task: Task) -> bool:
-        return self._running.has_lane(task.account.client, self._pace_of(task))
+    def _has_slot(self, task: Task) -> bool:
+        return self._running.has_slot(task.account.client, self._pace_of(task))
 
     def _pace_of(self, task: Task) -> Pace:
         return "slow" if task in self._outgrown else task.job.pace

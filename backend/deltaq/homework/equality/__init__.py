@@ -31,8 +31,11 @@ class Match:
 class Equality(Protocol):
     """What every module here offers."""
 
-    def fingerprint(self, parts: Parts, sampler: Sampler, /) -> Fingerprint | None: ...
-    def same(self, given: Parts, right: Parts, solution: Solution, /) -> Match: ...
+    def fingerprint(self, parts: Parts, sampler: Sampler, /) -> Fingerprint | None:
+        """Numbers that equal answers share; None: cannot be told from numbers, (): the answer says nothing."""
+
+    def same(self, given: Parts, right: Parts, solution: Solution, /) -> Match:
+        """Whether an answer equals the right one, decided exactly where that is possible."""
 
 
 def weakest(outcomes: Sequence[bool | None]) -> bool | None:

@@ -21,6 +21,7 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
+    """Whether given = c · right + d with c, d depending on parameters alone, c ≠ 0: decided by derivatives."""
     factor = _factor(given[0], right[0], solution)
     if factor is None:
         return Match(equal=False)

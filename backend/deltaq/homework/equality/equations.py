@@ -35,6 +35,10 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
+    """Whether A q̈ + b = 0 is an invertible combination of the right equations: X A₀ = A, X b₀ = b with det X ≠ 0.
+
+    The remark tells where det X can vanish; undecided where no regular block of A₀ is found.
+    """
     if len(given) != len(right):
         return Match(equal=False)
     matrix, rest = system_of(right, solution)

@@ -15,6 +15,7 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
+    """Whether every component of given − right vanishes identically."""
     if len(given) != len(right):
         return Match(equal=False)
     pairs = zip(given, right, strict=True)

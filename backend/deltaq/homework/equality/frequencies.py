@@ -20,6 +20,7 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
+    """Whether the ω, in order of size, agree as numbers, and their squares identically if they are expressions."""
     if len(given) != len(right):
         return Match(equal=False)
     given = tuple(_simple(part, solution) for part in given)

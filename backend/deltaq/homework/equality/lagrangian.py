@@ -21,6 +21,7 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
+    """Whether L′ − L is constant, or its Euler–Lagrange expressions vanish identically."""
     constant = up_to_constant.same(given, right, solution)
     if constant.equal:
         return constant

@@ -15,6 +15,7 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
+    """Whether given − right depends on no coordinate and no rate: its derivatives vanish identically."""
     difference = given[0] - right[0]
     moving = sorted(
         difference.free_symbols - {solution.q(p.name) for p in solution.scene.parameters} - {solution.t}, key=str

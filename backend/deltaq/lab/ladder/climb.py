@@ -19,7 +19,7 @@ from .distance import Yardstick
 from .ending import DIGITS, known
 from .findings import Deviation, Finding, Growth, Ladder, Least, Measured, Rung
 from .mean import Mean
-from .measurement import CERTAIN, RungRun, cost, deviation, full_run, ride_along, yardstick
+from .measurement import CERTAIN, RungRun, cost, deviation, full_run, run_beside, yardstick
 from .nudge import WAYS, allowed, nudged
 from .simplification import SimplificationContext
 from .verdict import is_within, lasts, least
@@ -114,17 +114,17 @@ class _Climb:
 
     def _full(self, context: SimplificationContext) -> Yardstick:
         """The full motion from other initial values."""
-        return known(self._ridden(context, math.inf), self.tolerance)[0]
+        return known(self._full_run(context, math.inf), self.tolerance)[0]
 
     def _full_beside(self, context: SimplificationContext) -> Yardstick:
         """The full motion from values close to its own, for no longer than from those."""
-        return yardstick(self._ridden(context, self.full.end), self.tolerance, self.full.end)
+        return yardstick(self._full_run(context, self.full.end), self.tolerance, self.full.end)
 
-    def _ridden(self, context: SimplificationContext, needed: float) -> RungRun:
+    def _full_run(self, context: SimplificationContext, needed: float) -> RungRun:
         return full_run(context.scene, self.full.problem.t_end, self.cancelled, self.tolerance, needed)
 
     def _run(self, scene: Scene, full: Yardstick) -> RungRun:
-        return ride_along(scene, full, self.cancelled)
+        return run_beside(scene, full, self.cancelled)
 
     def _context(self, amplitude: float) -> SimplificationContext:
         return self.context if self.centre is None else self.context.with_scene(self.centre.at(amplitude))

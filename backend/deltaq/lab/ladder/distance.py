@@ -39,11 +39,12 @@ class Accuracy:
 
 @dataclass(frozen=True)
 class Yardstick:
-    """The full motion at `times`, its states (q, q̇), the mass of all bodies, and the error of the integration.
+    """The full motion at `times`, shape (samples,), that rungs are measured against, and how accurate it is.
 
-    `floor` is that error as integration measures it: absolute for coordinates below 1, relative above. `radians` holds
-    for each coordinate how many there are in its unit, 0 for lengths. `accuracy` is that of the rungs to compare.
-    `particles` are the masses of the bodies by name if all of them are particles, else there are none.
+    `states` (q, q̇) has shape (samples, 2n); `mass` is that of all bodies. `floor` is the error of the integration as
+    it measures it: absolute for coordinates below 1, relative above. `radians` holds for each coordinate how many there
+    are in its unit, 0 for lengths. `accuracy` is that of the rungs to compare. `particles` are the masses of the bodies
+    by name if all of them are particles, else there are none.
     """
 
     problem: Problem
@@ -56,13 +57,16 @@ class Yardstick:
     particles: Mapping[str, float] = field(default_factory=dict)
 
     def errors(self, values: Mapping[str, Floats]) -> Floats:
-        """d at each sample that a rung, its values by coordinate, has in common with the full motion, in metres."""
+        """d in metres at each sample that a rung has in common with the full motion: shape (samples,).
+
+        `values` has the rung's coordinates by name, shape (samples,) each.
+        """
         count = min(len(self.times), *(len(each) for each in values.values()))
         rung = np.column_stack([values[name][:count] for name in self.problem.model.layout.free])
         return self.distances(rung)
 
     def distances(self, rung: Floats) -> Floats:
-        """d at each of the first samples, from values of the coordinates: shape (samples, degrees)."""
+        """d in metres at each of the first samples, from coordinates of shape (samples, n): shape (samples,)."""
         found = self.lengths(rung - self.values[: len(rung)])
         return np.asarray(np.minimum(found, IN_SPACE * self._in_space(rung))) if self.particles else found
 
@@ -72,11 +76,14 @@ class Yardstick:
         return replace(self, times=self.times[kept], states=self.states[kept], floor=floor)
 
     def at(self, places: np.ndarray) -> Yardstick:
-        """The motion at some of its samples."""
+        """The motion at some of its samples, given by their numbers, shape (chosen,)."""
         return replace(self, times=self.times[places], states=self.states[places])
 
     def steps(self, lengths: Floats, places: np.ndarray) -> Floats:
-        """Changes of each coordinate that move the mass that far at these samples; no more than a radian."""
+        """Changes of each coordinate that move the mass by `lengths`, shape (chosen,), at these samples.
+
+        `places` are their numbers, shape (chosen,); returns shape (chosen, n), no angle more than a radian.
+        """
         arms = np.sqrt(np.maximum(np.einsum("tii->ti", self.masses[places]), 0.0) / self.mass)
         wide = np.broadcast_to(self.wide_units, arms.shape)
         return np.asarray(np.minimum(wide, np.divide(lengths[:, None], arms, out=wide.copy(), where=arms > 0.0)))
@@ -128,11 +135,11 @@ class Yardstick:
 
     @cached_property
     def units(self) -> Floats:
-        """For each coordinate the change that moves the mass by `size`; no more than a radian."""
+        """For each coordinate the change that moves the mass by `size`; no more than a radian: shape (n,)."""
         return self._units(self.size)
 
     def apart(self, one: Floats, other: Floats) -> float:
-        """√(Δqᵀ M Δq / m) of two places, M that of the start; angles count in full."""
+        """√(Δqᵀ M Δq / m) in metres of two places, shape (n,) each, M that of the start; angles count in full."""
         step = one - other
         return float(np.sqrt(max(0.0, step @ self.masses[0] @ step) / self.mass))
 
@@ -143,14 +150,17 @@ class Yardstick:
 
     @cached_property
     def wide_units(self) -> Floats:
-        """For each angle a radian; for each length what moves the mass as far, or by `size` if that is more."""
+        """For each angle a radian; for each length what moves the mass as far, or by `size` if that is more.
+
+        Returns shape (n,).
+        """
         turns = self._in_radians
         wide = self._units(max(self.size, float((self._arms * turns).max(initial=0.0))))
         return np.where(turns > 0.0, turns, wide)
 
     @property
     def can_be_boosted(self) -> np.ndarray:
-        """Which coordinates may be given another rate without any other consequence."""
+        """Which coordinates may be given another rate without any other consequence: shape (n,)."""
         return self._directions.can_be_boosted()
 
     @cached_property
@@ -171,10 +181,12 @@ class Yardstick:
 
     @property
     def values(self) -> Floats:
+        """The coordinates q: shape (samples, n)."""
         return self.states[:, : self.problem.degrees]
 
     @cached_property
     def masses(self) -> Floats:
+        """M(q, t) along the motion: shape (samples, n, n)."""
         return mass_matrices(self.problem, self.times, self.states)
 
     @cached_property
@@ -204,7 +216,10 @@ class Yardstick:
         return float(self.lengths(values - values[:1]).max(initial=0.0))
 
     def lengths(self, steps: Floats, places: np.ndarray | None = None) -> Floats:
-        """The lengths of differences from the full motion, sample by sample: the first ones, or those at `places`."""
+        """The lengths in metres of differences `steps`, shape (count, n), from the full motion: shape (count,).
+
+        They are those from its first samples, or from those at `places`, shape (count,).
+        """
         masses = self.masses[: len(steps)] if places is None else self.masses[places]
         radians = np.array(self.radians)
         turn = np.where(radians > 0.0, radians, 1.0)

@@ -26,25 +26,30 @@ REGULAR = 1e10  # condition of the part of M that belongs to the directions
 
 @dataclass(frozen=True)
 class Directions:
-    """Orthonormal columns in units of the coordinates: those of `boosts`, and `lengths` on which nothing depends."""
+    """Directions as orthonormal columns, in units of the coordinates.
+
+    `boosts`, shape (n, boosts), are those of boosts; `lengths`, shape (n, lengths), those on which nothing depends.
+    """
 
     boosts: Floats
     lengths: Floats
 
     @property
     def both(self) -> Floats:
+        """An orthonormal basis of all of them: shape (n, directions)."""
         left, sizes, _ = np.linalg.svd(np.hstack([self.boosts, self.lengths]), full_matrices=False)
         return np.asarray(left[:, sizes > SAME])
 
     def can_be_boosted(self) -> np.ndarray:
-        """Which coordinates alone are directions of boosts."""
+        """Which coordinates alone are directions of boosts: shape (n,)."""
         return np.asarray(np.linalg.norm(self.boosts, axis=1) > 1.0 - SAME)
 
 
 def drift(times: Floats, states: Floats, masses: Floats, along: Floats) -> Floats:
-    """The rates of a motion's uniform part: the mean over time of its velocity along the columns N of `along`.
+    """The rates of a motion's uniform part: the mean over time of (Nᵀ M N)⁻¹ Nᵀ M q̇, the columns N being `along`.
 
-    That velocity is (Nᵀ M N)⁻¹ Nᵀ M q̇: the centre of mass's, for one.
+    For the direction of a common displacement that is the velocity of the centre of mass. `times` has shape (samples,),
+    `states` shape (samples, 2n), `masses` shape (samples, n, n), `along` shape (n, directions); returns shape (n,).
     """
     n = len(along)
     if len(times) < 2 or not np.isfinite(masses).all():
@@ -58,7 +63,11 @@ def drift(times: Floats, states: Floats, masses: Floats, along: Floats) -> Float
 
 
 def directions(problem: Problem, times: Floats, states: Floats, units: Floats, is_length: np.ndarray) -> Directions:
-    """The directions of a problem, seen near a motion of it; `units` are sizes of changes of the coordinates."""
+    """The directions of a problem, seen near a motion of it.
+
+    `times` has shape (samples,), `states` shape (samples, 2n). `units` are sizes of changes of the coordinates,
+    `is_length` says which are lengths: shape (n,) each.
+    """
     n = problem.degrees
     if not len(times):
         return Directions(np.zeros((n, 0)), np.zeros((n, 0)))

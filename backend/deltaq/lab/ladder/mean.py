@@ -17,7 +17,10 @@ COUNT, LONG = 4096, 100.0  # spans, where there is no period
 
 @dataclass(frozen=True)
 class Mean:
-    """Moments and the weights of a mean, which add up to one; a single moment where nothing depends on the time."""
+    """Moments in seconds and the weights of a mean, which add up to one: shape (moments,) each as `times`, `weights`.
+
+    There is a single moment where nothing depends on the time.
+    """
 
     times: Floats
     weights: Floats

@@ -92,7 +92,7 @@ class RungRun:
 
     @cached_property
     def sampled(self) -> tuple[Floats, Floats]:
-        """Times and states of the even samples, without that of an event."""
+        """Times, shape (samples,), and states (q, q̇), shape (samples, 2n), of the even samples, without an event's."""
         found = self.trajectory
         count = int(np.searchsorted(found.times, found.reached)) if found.event else len(found.times)
         return found.times[:count], np.hstack([found.values, found.rates])[:count]
@@ -112,7 +112,7 @@ def run_rung(scene: Scene, span: float, cancelled: Flag, accuracy: Accuracy = US
     return RungRun(scene, problem, choice, found, accuracy)
 
 
-def ride_along(scene: Scene, full: Yardstick, cancelled: Flag) -> RungRun:
+def run_beside(scene: Scene, full: Yardstick, cancelled: Flag) -> RungRun:
     """The motion of a rung beside the full one: as finely as that, or else as finely as it can be had to its end."""
     wanted = (replace(full.accuracy, tolerance=each) for each in _tolerances(full.accuracy.tolerance))
     runs = (run_rung(scene, full.problem.t_end, cancelled, each) for each in wanted)

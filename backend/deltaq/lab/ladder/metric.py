@@ -19,7 +19,10 @@ def radians(scene: Scene, problem: Problem) -> tuple[float, ...]:
 
 
 def mass_matrices(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """M(q, t) at the samples: shape (samples, degrees, degrees)."""
+    """M(q, t) at the samples: shape (samples, n, n).
+
+    `times` has shape (samples,), `states` shape (samples, ≥ 2n).
+    """
     n = problem.degrees
     table = problem.model.motion.table(problem.inputs(times, states))
     lower = np.tril_indices(n)

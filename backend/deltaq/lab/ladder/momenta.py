@@ -15,7 +15,10 @@ from .rest_frame import in_rest_frame
 
 
 def momenta(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """p of all free coordinates at the samples, shape (samples, degrees)."""
+    """p = ∂E/∂q̇ of all free coordinates at the samples: shape (samples, n).
+
+    `times` has shape (samples,), `states` shape (samples, ≥ 2n).
+    """
     n = problem.degrees
     first = n * (n + 1) // 2
     table = problem.model.phase.function.table(problem.inputs(times, states))
@@ -27,7 +30,10 @@ REGULAR = 1e12  # condition of the part of M that belongs to the cyclic coordina
 
 @dataclass(frozen=True)
 class Conserved:
-    """The cyclic coordinates of a problem, by their places among the free ones, and their momenta at the start."""
+    """The cyclic coordinates of a problem, by their places among the free ones, and their momenta at the start.
+
+    `values` has shape (cyclic,).
+    """
 
     problem: Problem
     names: tuple[str, ...]
@@ -46,7 +52,8 @@ class Conserved:
     def rates(self, times: Floats, states: Floats) -> Floats:
         """q̇ at the samples, those of the cyclic coordinates from their momenta: M_c q̇_c = p − p(q̇_c = 0).
 
-        NaN where that has no solution.
+        `times` has shape (samples,), `states` shape (samples, 2n); returns shape (samples, n), NaN where that has no
+        solution.
         """
         n, chosen = self.problem.degrees, np.array(self.places, dtype=int)
         still = states.copy()

@@ -12,8 +12,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...simulation.derivatives import accelerations
 from ...simulation.problem import Floats, Problem
-from ...simulation.slopes import accelerations
 from .distance import Yardstick
 from .metric import mass_matrices
 

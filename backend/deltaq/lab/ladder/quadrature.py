@@ -16,7 +16,10 @@ SIX = 6
 
 
 def running_integral(values: Floats, step: float) -> Floats:
-    """∫ from the first sample to each; fewer than six samples are joined by straight lines."""
+    """∫ from the first sample to each, for values of shape (samples,) that are `step` apart: shape (samples,).
+
+    Fewer than six samples are joined by straight lines.
+    """
     if len(values) < SIX:
         return np.asarray(step * np.concatenate([[0.0], np.cumsum((values[1:] + values[:-1]) / 2.0)]))
     windows = np.lib.stride_tricks.sliding_window_view(values, SIX)

@@ -24,12 +24,16 @@ class SimplificationContext:
     mean: Mean
 
     def with_scene(self, scene: Scene) -> SimplificationContext:
+        """The same with another scene."""
         return replace(self, scene=scene)
 
 
 @dataclass(frozen=True)
 class Motion:
-    """Values and rates of all coordinates of a scene at `times`, the guided ones among them."""
+    """A motion of a scene at `times`, shape (samples,): all coordinates, the guided ones among them.
+
+    `values` and `rates` are q and q̇ by name, shape (samples,) each.
+    """
 
     times: Floats
     values: Mapping[str, Floats]

@@ -39,10 +39,12 @@ class Steady:
 
     @classmethod
     def of(cls, scene: Scene, full: Yardstick) -> Steady:
+        """The steady motions of a scene whose motion is `full`."""
         return cls(scene, full, Conserved.of(scene), Mean.of(scene, full.problem.t_end))
 
     @property
     def problem(self) -> Problem:
+        """The initial value problem of the full motion."""
         return self.full.problem
 
     @cached_property
@@ -71,12 +73,18 @@ class Steady:
         return np.array([each.name in self.conserved.names for each in self.scene.free])
 
     def rates(self, place: Floats, rates: Floats) -> Floats:
-        """The rates given, but those of the cyclic coordinates such that their momenta are as they were."""
+        """The rates given, but those of the cyclic coordinates such that their momenta are as they were.
+
+        `place` (q), `rates` and what is returned have shape (n,).
+        """
         found = self.conserved.rates(np.zeros(1), np.concatenate([place, rates])[None])
         return np.asarray(found[0])
 
     def force(self, place: Floats) -> Floats:
-        """The mean over time of the forces on the coordinates that are not cyclic, times the units of these."""
+        """The mean over time of the forces on the coordinates that are not cyclic, times the units of these, in J.
+
+        `place` (q) has shape (n,); returns shape (moving,).
+        """
         rates = self.rates(place, np.zeros(len(place)))
         times, weights = self._moments
         states = np.tile(np.concatenate([place, rates]), (len(times), 1))
@@ -86,7 +94,7 @@ class Steady:
         return np.asarray((weights @ table * self._units)[self._moving])
 
     def settled(self, start: Floats) -> Floats | None:
-        """Where the forces vanish, by Newton's method from a start; None if it does not get there.
+        """Where the forces vanish, by Newton's method from a start, shape (n,); None if it does not get there.
 
         Far away forces only fade; and where M has no inverse nothing can be said of the motion.
         """
@@ -126,7 +134,10 @@ class Steady:
         return slopes if np.isfinite(slopes).all() else np.zeros_like(slopes)
 
     def lasts(self, place: Floats) -> bool:
-        """Whether no small deviation grows, as far as the laws at the start tell; unasked where they change."""
+        """Whether no small deviation from `place`, shape (n,), grows, as far as the laws at the start tell.
+
+        Unasked where they change.
+        """
         if self._changes(place):
             return True
         found = eigenvalues(self.problem, 0.0, np.concatenate([place, self.rates(place, np.zeros(len(place)))]))
@@ -142,7 +153,7 @@ class Steady:
         return any(np.ptp(part, axis=0).max() > CLOSE * np.abs(part).max() for part in np.split(scaled, [-n], axis=1))
 
     def starts(self) -> Iterator[Floats]:
-        """The initial state, and others within the motion and within the ranges of the coordinates.
+        """The initial q, shape (n,), and others within the motion and within the ranges of the coordinates.
 
         None of them depends on where the coordinates begin.
         """

@@ -21,13 +21,24 @@ class Body(Protocol):
     kind: ClassVar[str]
 
     @classmethod
-    def read(cls, table: Reader, /) -> Self: ...
+    def read(cls, table: Reader, /) -> Self:
+        """The body in a table of a scene document; the reader collects what is wrong."""
+
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """The name that loads and drawings refer to."""
+
     @property
-    def position(self) -> tuple[Expression, ...]: ...
+    def position(self) -> tuple[Expression, ...]:
+        """r(q, t), of a continuum also of its material coordinates."""
+
     @property
-    def material(self) -> tuple[Material, ...]: ...
+    def material(self) -> tuple[Material, ...]:
+        """The material coordinates of a continuum; none of others."""
+
     @property
-    def kinetics(self) -> tuple[Kinetics, ...]: ...
-    def weight(self, source: str, acceleration: tuple[Expression, ...], /) -> PointForce | DistributedForce: ...
+    def kinetics(self) -> tuple[Kinetics, ...]:
+        """What the kinetic energy is made of."""
+
+    def weight(self, source: str, acceleration: tuple[Expression, ...], /) -> PointForce | DistributedForce:
+        """The force of gravity on the body, with the load `source` that it belongs to."""

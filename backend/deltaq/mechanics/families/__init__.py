@@ -18,4 +18,5 @@ class Family(Protocol):
     most: ClassVar[int]
     default: ClassVar[int]
 
-    def document(self, size: int, /) -> dict[str, object]: ...
+    def document(self, size: int, /) -> dict[str, object]:
+        """The scene document of the member of this size."""

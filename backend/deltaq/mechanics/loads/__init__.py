@@ -22,8 +22,12 @@ class Load(Protocol):
     kind: ClassVar[str]
 
     @classmethod
-    def read(cls, table: Reader, /) -> Self: ...
+    def read(cls, table: Reader, /) -> Self:
+        """The load in a table of a scene document; the reader collects what is wrong."""
 
     @property
-    def name(self) -> str: ...
-    def contributions(self, places: Places, bodies: tuple[Body, ...], /) -> tuple[Contribution, ...]: ...
+    def name(self) -> str:
+        """The name that drawings and arrows refer to."""
+
+    def contributions(self, places: Places, bodies: tuple[Body, ...], /) -> tuple[Contribution, ...]:
+        """What the load adds to virtual work: forces, moments, potentials, dissipation functions."""

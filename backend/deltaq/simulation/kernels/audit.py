@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...model.tape import CHOICE
-from .compiler import inner, kernel
-from .intervals import Places, Program, Ranges, bound, is_relevant, largest_swing
+from .compiler import inline, kernel
+from .intervals import Indices, Ranges, TapeArrays, is_relevant, largest_swing, propagate_bounds
 from .motion import Floats
 
 GROUP = 256  # steps that are looked at together first
@@ -29,7 +29,10 @@ JOINED = 4.0  # neighbouring steps whose needs differ by less share the smaller
 
 
 class Path(NamedTuple):
-    """The ends of steps: times, q and q̇ (one row each), and how far q̈ of the cubic jumps there."""
+    """The ends of N steps. `times` has shape (N + 1,); `q` and `v`, which is q̇, have shape (N + 1, n).
+
+    `jumps`, shape (N + 1, n), is how far q̈ of the cubic polynomials jumps there.
+    """
 
     times: Floats
     q: Floats
@@ -49,32 +52,35 @@ class Rules(NamedTuple):
 
 
 class Blind(NamedTuple):
-    """Stretches found blind, from `starts` to `ends`, with the largest step that would see; `found[0]` of them."""
+    """Stretches found blind: from `starts` to `ends`, `steps` the largest step that would see what happens.
+
+    `found[0]`, shape (1,), says how many; the others have shape (MOST_STRETCHES,), of which so many are filled.
+    """
 
     starts: Floats
     ends: Floats
     steps: Floats
-    found: Places
+    found: Indices
 
 
-class Parts(NamedTuple):
-    """Room for the audit: parts of a step still to be looked at, with the swing of what they are halves of.
+class AuditWorkspace(NamedTuple):
+    """Parts of a step still to be examined, with the swing of what they are halves of.
 
-    `looked[0]` counts all parts looked at. `flips` and `truths` have a place for each operation: how the ends of a part
-    differ in it, and whether it matters.
+    `starts`, `sizes` and `swings` have shape (DEEPEST,). `looked[0]`, shape (1,), counts all parts examined. `flips`
+    and `truths`, shape (operations,), say how the ends of a part differ in each operation, and whether it matters.
     """
 
     starts: Floats
     sizes: Floats
     swings: Floats
-    looked: Places
-    flips: Places
+    looked: Indices
+    flips: Indices
     truths: Floats
 
 
-@inner
+@inline
 def box_of_part(path: Path, i: int, x: float, size: float, ranges: Ranges) -> None:
-    """The inputs' bounds over the part from x of the given size (of the whole step, 1) of step i."""
+    """The inputs' bounds over the part from x of the given size (of the whole step, 1) of step i, into `ranges`."""
     n, t, h = path.q.shape[1], path.times[i], path.times[i + 1] - path.times[i]
     for d in range(n):
         q0, q1, v0, v1 = path.q[i, d], path.q[i + 1, d], h * path.v[i, d], h * path.v[i + 1, d]
@@ -93,9 +99,9 @@ def box_of_part(path: Path, i: int, x: float, size: float, ranges: Ranges) -> No
     ranges.inputs_low[2 * n], ranges.inputs_high[2 * n] = t + x * h, t + (x + size) * h
 
 
-@inner
+@inline
 def box_of_group(path: Path, first: int, count: int, ranges: Ranges, spare: Floats) -> None:
-    """The inputs' bounds over some steps: the union of theirs; `spare` has room for two rows."""
+    """The inputs' bounds over some steps, the union of theirs, into `ranges`; `spare` has shape (2, 2n + 1)."""
     width = 2 * path.q.shape[1] + 1
     for k in range(first, first + count):
         box_of_part(path, k, 0.0, 1.0, ranges)
@@ -106,84 +112,86 @@ def box_of_group(path: Path, first: int, count: int, ranges: Ranges, spare: Floa
         ranges.inputs_low[d], ranges.inputs_high[d] = spare[0, d], spare[1, d]
 
 
-@inner
-def note_flips(program: Program, ranges: Ranges, rules: Rules, parts: Parts) -> None:
+@inline
+def note_flips(tape: TapeArrays, ranges: Ranges, rules: Rules, workspace: AuditWorkspace) -> None:
     """Counts the conditions that relevant choices hang on and that differ at the two ends of the box of a short part.
 
     The bounds of the whole part come first: they say which choices are undecided and matter.
     """
-    for i in range(program.codes.size):
-        condition = program.a[i]
-        undecided = program.codes[i] == CHOICE and ranges.low[condition] != ranges.high[condition]
-        parts.truths[i] = 1.0 if undecided and is_relevant(ranges, i, rules.threshold) else 0.0
+    for i in range(tape.codes.size):
+        condition = tape.a[i]
+        undecided = tape.codes[i] == CHOICE and ranges.low[condition] != ranges.high[condition]
+        workspace.truths[i] = 1.0 if undecided and is_relevant(ranges, i, rules.threshold) else 0.0
 
 
-@inner
-def count_flips(program: Program, ranges: Ranges, parts: Parts, sign: float) -> None:
+@inline
+def count_flips(tape: TapeArrays, ranges: Ranges, workspace: AuditWorkspace, sign: float) -> None:
     """Adds, for the arguments of the conditions noted, their sign at one end of a part times `sign`."""
-    bound(program, ranges)
-    for i in range(program.codes.size):
-        if parts.truths[i] != 0.0:
-            argument = program.a[program.a[i]]
+    propagate_bounds(tape, ranges)
+    for i in range(tape.codes.size):
+        if workspace.truths[i] != 0.0:
+            argument = tape.a[tape.a[i]]
             value = ranges.low[argument]
-            parts.flips[argument] += int(sign) if value > 0.0 else 0
+            workspace.flips[argument] += int(sign) if value > 0.0 else 0
 
 
-@inner
-def look(program: Program, ranges: Ranges, path: Path, i: int, rules: Rules, parts: Parts) -> tuple[float, int]:
+@inline
+def inspect_step(
+    tape: TapeArrays, ranges: Ranges, path: Path, i: int, rules: Rules, workspace: AuditWorkspace
+) -> tuple[float, int]:
     """The largest part of step i that is seen through (1 for the whole), and how often a switch happens within it."""
     finest_of_use = 1.0 / (64.0 * rules.stride)
-    parts.starts[0], parts.sizes[0], parts.swings[0] = 0.0, 1.0, np.inf
-    if parts.looked[0] > MOST_PARTS:
+    workspace.starts[0], workspace.sizes[0], workspace.swings[0] = 0.0, 1.0, np.inf
+    if workspace.looked[0] > MOST_PARTS:
         return 0.25, 0
     left, finest, switches = 1, 1.0, 0
     while left > 0:
         left -= 1
-        parts.looked[0] += 1
-        x, size, before = parts.starts[left], parts.sizes[left], parts.swings[left]
+        workspace.looked[0] += 1
+        x, size, before = workspace.starts[left], workspace.sizes[left], workspace.swings[left]
         box_of_part(path, i, x, size, ranges)
-        swing, undecided = largest_swing(program, ranges, rules.threshold)
+        swing, undecided = largest_swing(tape, ranges, rules.threshold)
         swing = min(LARGEST, swing)
         is_small = size <= 0.5**HALVINGS / rules.stride
         if swing <= rules.limit and (not undecided or is_small):
             if undecided:
-                switches += flips_within(program, ranges, path, i, x, size, rules, parts)
+                switches += flips_within(tape, ranges, path, i, x, size, rules, workspace)
             continue
         finest = min(finest, 0.5 * size) if swing > rules.limit else finest
         gains_nothing = size < 1.0 and swing > SHRINKS * before  # what widens the path rules, or a pole
         if is_small or left + 2 > DEEPEST or (not undecided and (gains_nothing or finest <= finest_of_use)):
             continue
         for half in (1.0, 0.0):
-            parts.starts[left], parts.sizes[left] = x + 0.5 * half * size, 0.5 * size
-            parts.swings[left] = swing
+            workspace.starts[left], workspace.sizes[left] = x + 0.5 * half * size, 0.5 * size
+            workspace.swings[left] = swing
             left += 1
     return finest * rules.stride, switches
 
 
-@inner
+@inline
 def flips_within(
-    program: Program, ranges: Ranges, path: Path, i: int, x: float, size: float, rules: Rules, parts: Parts
+    tape: TapeArrays, ranges: Ranges, path: Path, i: int, x: float, size: float, rules: Rules, workspace: AuditWorkspace
 ) -> int:
     """How many relevant conditions change over a part."""
     n, found = path.q.shape[1], 0
-    note_flips(program, ranges, rules, parts)
-    for k in range(program.codes.size):
-        parts.flips[k] = 0
+    note_flips(tape, ranges, rules, workspace)
+    for k in range(tape.codes.size):
+        workspace.flips[k] = 0
     for sign in (1.0, -1.0):
         at = x if sign > 0.0 else x + size
         box_of_part(path, i, at, 1e-9, ranges)
         for d in range(2 * n + 1):
             middle = 0.5 * (ranges.inputs_low[d] + ranges.inputs_high[d])
             ranges.inputs_low[d], ranges.inputs_high[d] = middle, middle
-        count_flips(program, ranges, parts, sign)
-    for k in range(program.codes.size):
-        found += 1 if parts.flips[k] != 0 else 0
+        count_flips(tape, ranges, workspace, sign)
+    for k in range(tape.codes.size):
+        found += 1 if workspace.flips[k] != 0 else 0
     return found
 
 
-@inner
-def note(blind: Blind, start: float, end: float, step: float) -> None:
-    """A blind stretch is added, or joined to the one before where they touch and need much the same."""
+@inline
+def record_blind(blind: Blind, start: float, end: float, step: float) -> None:
+    """Adds a blind stretch, or joins it to the one before where they touch and need much the same step."""
     count = blind.found[0]
     if count > 0:
         last = count - 1
@@ -198,9 +206,20 @@ def note(blind: Blind, start: float, end: float, step: float) -> None:
 
 @kernel
 def inspect(
-    program: Program, ranges: Ranges, path: Path, seeds: Floats, rules: Rules, parts: Parts, spare: Floats, blind: Blind
+    tape: TapeArrays,
+    ranges: Ranges,
+    path: Path,
+    seeds: Floats,
+    rules: Rules,
+    workspace: AuditWorkspace,
+    spare: Floats,
+    blind: Blind,
 ) -> None:
-    """Finds the blind steps of a path; seeds[k] are those of the k-th group of steps."""
+    """Finds the blind steps of a path; `blind` receives them.
+
+    `seeds` has shape (groups, outputs of the tape): its row k bounds |∂q̈/∂output| over the k-th GROUP of steps.
+    `spare` has shape (2, 2n + 1).
+    """
     total = path.times.size - 1
     for group in range(seeds.shape[0]):
         for k in range(ranges.seeds.size):
@@ -210,7 +229,7 @@ def inspect(
         while first < last:
             count = min(count, last - first)
             box_of_group(path, first, count, ranges, spare)
-            swing, undecided = largest_swing(program, ranges, rules.threshold)
+            swing, undecided = largest_swing(tape, ranges, rules.threshold)
             if swing <= rules.limit and not undecided:
                 first += count
                 count *= 2
@@ -219,29 +238,30 @@ def inspect(
             else:
                 h = path.times[first + 1] - path.times[first]
                 if h > 1e-13 * abs(path.times[first + 1]):
-                    seen, switches = look(program, ranges, path, first, rules, parts)
+                    seen, switches = inspect_step(tape, ranges, path, first, rules, workspace)
                     if seen <= 0.25 or switches > 1:
                         needed = min(seen, 0.25)
-                        note(blind, path.times[first], path.times[first + 1], needed * h / rules.stride)
+                        record_blind(blind, path.times[first], path.times[first + 1], needed * h / rules.stride)
                 first += 1
 
 
 @kernel
 def survey_times(
-    program: Program,
+    tape: TapeArrays,
     ranges: Ranges,
     place: int,
     starts: Floats,
     ends: Floats,
     threshold: float,
     swings: Floats,
-    jumps: Places,
+    jumps: Indices,
 ) -> None:
     """For each interval of time, all else as it is bounded: the largest swing, and whether a switch may lie in it.
 
-    `place` is that of the time among the inputs.
+    `starts`, `ends`, `swings` (written) and `jumps` (written, 1 for a switch) have shape (intervals,); `place` is that
+    of the time among the inputs.
     """
     for k in range(starts.size):
         ranges.inputs_low[place], ranges.inputs_high[place] = starts[k], ends[k]
-        swings[k], undecided = largest_swing(program, ranges, threshold)
+        swings[k], undecided = largest_swing(tape, ranges, threshold)
         jumps[k] = 1 if undecided else 0

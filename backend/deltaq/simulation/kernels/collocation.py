@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from .compiler import inner
-from .implicit_room import ImplicitRoom
+from .compiler import inline
+from .implicit_workspace import ImplicitWorkspace
 from .motion import Floats
 from .phase import Phase, velocity
 from .stages import ImplicitWeights
 
 
-@inner
-def share(weights: ImplicitWeights, x: float, i: int) -> float:
-    """The Lagrange polynomial of node cᵢ among 0, c₁, … at x."""
+@inline
+def lagrange_basis(weights: ImplicitWeights, x: float, i: int) -> float:
+    """The value at x of the Lagrange basis polynomial of node cᵢ among the nodes 0, c₁, …"""
     c = weights.c
     part = x / c[i]
     for j in range(c.size):
@@ -20,17 +20,21 @@ def share(weights: ImplicitWeights, x: float, i: int) -> float:
     return float(part)
 
 
-@inner
+@inline
 def sample_stages(
     phase: Phase,
     weights: ImplicitWeights,
     now: tuple[float, float],
     samples: tuple[Floats, Floats],
     first: int,
-    room: ImplicitRoom,
+    workspace: ImplicitWorkspace,
 ) -> int:
-    """Samples number `first` and on, as far as they lie in the step now = (t, h): q and p by polynomials, q̇ from p."""
-    p, stages, ends = room.p, room.stages, room.ends
+    """Samples number `first` and on, as far as they lie in the step now = (t, h); returns the number of the next one.
+
+    q and p come from the polynomials through the stages, q̇ from p. `samples` are the times, shape (samples,), and the
+    states, shape (samples, width), which are written.
+    """
+    p, stages, ends = workspace.p, workspace.stages, workspace.ends
     t, h = now
     times, out = samples
     n, count, reached = p.size, times.size, t + h
@@ -41,7 +45,7 @@ def sample_stages(
             out[first, d], stages.spare[1, d] = ends.old[d], p[d]
             out[first, n + d] = ends.new[n + d]
         for i in range(weights.c.size):
-            part = share(weights, x, i)
+            part = lagrange_basis(weights, x, i)
             for d in range(n):
                 out[first, d] += part * (stages.q[i, d] - ends.old[d])
                 stages.spare[1, d] += part * (stages.p[i, d] - p[d])

@@ -16,7 +16,7 @@ from numba import njit
 from numba.core import config
 from numba.core.caching import IndexDataCacheFile
 
-from ...ownership import believe
+from ...ownership import require_trusted
 
 LOGGER = logging.getLogger("deltaq.simulation")
 F = TypeVar("F", bound=Callable[..., object])
@@ -32,7 +32,7 @@ def kernel(function: F) -> F:
     return _compiled(function, forceinline=False)
 
 
-def inner(function: F) -> F:
+def inline(function: F) -> F:
     """A part of a kernel: always inlined, since a call would pass seven words for each array."""
     return _compiled(function, forceinline=True)
 
@@ -44,7 +44,7 @@ def _compiled(function: F, *, forceinline: bool) -> F:
     stamp = source_stamp(Path(function.__code__.co_filename))
     base = compiled._cache._impl.filename_base  # noqa: SLF001 - Numba offers no other way
     compiled._cache._cache_file = OwnFiles(compiled._cache.cache_path, base, stamp)  # noqa: SLF001
-    compiled._cache._guard_against_spurious_io_errors = _unkept  # noqa: SLF001
+    compiled._cache._guard_against_spurious_io_errors = _without_cache_errors  # noqa: SLF001
     return cast("F", compiled)
 
 
@@ -59,16 +59,16 @@ class OwnFiles(IndexDataCacheFile):
         """Raises NotOursError, also before anything is written."""
         for place in (getattr(config, "CACHE_DIR", ""), self.folder, self.folder / self._index_name):
             with suppress(FileNotFoundError):
-                believe(place or self.folder)
+                require_trusted(place or self.folder)
         return super()._load_index()  # type: ignore[no-untyped-call]
 
     def _load_data(self, name: str) -> Any:
-        believe(self.folder / name)
+        require_trusted(self.folder / name)
         return super()._load_data(name)  # type: ignore[no-untyped-call]
 
 
 @contextmanager
-def _unkept() -> Iterator[None]:
+def _without_cache_errors() -> Iterator[None]:
     """A kernel that cannot be kept, or not be read, is compiled anew: a full disk costs time, not the simulation."""
     try:
         yield
@@ -105,7 +105,7 @@ def _imported(file: Path) -> set[Path]:
     return {module for module in found if module.is_file()}
 
 
-@inner
-def variable(number: int) -> int:
+@inline
+def runtime_int(number: int) -> int:
     """The number, no longer a literal: Numba compiles a function once more for each literal it is called with."""
     return int(number)

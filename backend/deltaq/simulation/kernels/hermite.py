@@ -6,51 +6,58 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner, variable
-from .motion import FINE, Floats, Motion, slope
-from .watch import Watch, look_at, seen
+from .compiler import inline, runtime_int
+from .motion import FINE, Floats, Motion, rhs
+from .watch import Watch, check_events, set_sample_times
 
 
 class Ends(NamedTuple):
-    """States (q, q̇ and, where power is fed in, ∫P dt) at both ends of a step, and their slopes."""
+    """The states at both ends of a step and their time derivatives: shape (width,) each.
+
+    `old` and `new` are the states; `old_derivative` and `new_derivative` what the right-hand side says there.
+    """
 
     old: Floats
     new: Floats
-    old_slope: Floats
-    new_slope: Floats
+    old_derivative: Floats
+    new_derivative: Floats
 
 
 def make_ends(state: Floats) -> Ends:
+    """Both ends at a state of shape (width,), with derivatives of zero."""
     return Ends(state.copy(), state.copy(), np.zeros(state.size), np.zeros(state.size))
 
 
-@inner
+@inline
 def is_smooth(ends: Ends, h: float, n: int) -> bool:
     """Whether the accelerations at the ends explain the change of rates; with unresolved vibrations they do not."""
     missed, largest = 0.0, 0.0
     for d in range(n, 2 * n):
         change = ends.new[d] - ends.old[d]
-        missed = max(missed, abs(change - 0.5 * h * (ends.old_slope[d] + ends.new_slope[d])))
-        largest = max(largest, h * abs(ends.old_slope[d]), h * abs(ends.new_slope[d]))
+        missed = max(missed, abs(change - 0.5 * h * (ends.old_derivative[d] + ends.new_derivative[d])))
+        largest = max(largest, h * abs(ends.old_derivative[d]), h * abs(ends.new_derivative[d]))
     return missed <= 0.1 * largest
 
 
-@inner
+@inline
 def cubic(x: float, h: float, ends: Ends, d: int) -> float:
-    """The cubic through values and slopes at both ends (Hermite), at t + xh."""
+    """The cubic through values and derivatives at both ends (Hermite), at t + xh."""
     change = ends.new[d] - ends.old[d]
-    bend = h * ends.old_slope[d] - change
-    other = change - h * ends.new_slope[d] - bend
+    bend = h * ends.old_derivative[d] - change
+    other = change - h * ends.new_derivative[d] - bend
     return float(ends.old[d] + x * (change + (1.0 - x) * (bend + x * other)))
 
 
-@inner
+@inline
 def quintic(x: float, h: float, ends: Ends, d: int, n: int, out: Floats) -> None:
-    """q and q̇ from the quintic through q, q̇, q̈ at both ends, of error h⁶."""
-    v, a = h * ends.old[n + d], 0.5 * h * h * ends.old_slope[n + d]
+    """Hermite interpolation of degree 5 at t + xh: q and q̇ of coordinate d from q, q̇, q̈ at both ends, error O(h⁶).
+
+    They go into `out`, shape (width,).
+    """
+    v, a = h * ends.old[n + d], 0.5 * h * h * ends.old_derivative[n + d]
     value = ends.new[d] - ends.old[d] - v - a
     rate = h * ends.new[n + d] - v - 2.0 * a
-    bend = 0.5 * h * h * ends.new_slope[n + d] - a
+    bend = 0.5 * h * h * ends.new_derivative[n + d] - a
     c3 = 10.0 * value - 4.0 * rate + bend
     c4 = -15.0 * value + 7.0 * rate - 2.0 * bend
     c5 = 6.0 * value - 3.0 * rate + bend
@@ -58,16 +65,20 @@ def quintic(x: float, h: float, ends: Ends, d: int, n: int, out: Floats) -> None
     out[n + d] = (v + x * (2.0 * a + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))) / h
 
 
-@inner
+@inline
 def sample_between(
     motion: Motion, t: float, h: float, times: Floats, out: Floats, first: int, ends: Ends
 ) -> tuple[int, int]:
-    """Samples number `first` and on, as far as they lie in the step; returns the next one and the evaluations made."""
+    """Samples number `first` and on, as far as they lie in the step; returns the next one and the evaluations made.
+
+    `times` has shape (samples,), `out`, which is written, shape (samples, width).
+    """
     n, count, reached = motion.degrees, times.size, t + h * (1.0 + 1e-9)
     if times[first] > reached:
         return first, 0
     knows = (
-        slope(motion, t, ends.old, ends.old_slope) == FINE and slope(motion, t + h, ends.new, ends.new_slope) == FINE
+        rhs(motion, t, ends.old, ends.old_derivative) == FINE
+        and rhs(motion, t + h, ends.new, ends.new_derivative) == FINE
     )
     smooth = knows and is_smooth(ends, h, n)
     while first < count and times[first] <= reached:
@@ -86,11 +97,11 @@ def sample_between(
     return first, 2
 
 
-@inner
+@inline
 def watch_between(motion: Motion, t: float, h: float, watch: Watch, ends: Ends) -> tuple[int, int]:
     """Whether an event happens in the step; also returns the evaluations made."""
     if watch.functions == 0:
         return FINE, 0
-    look_at(watch, t, h)
-    _, extra = sample_between(motion, t, h, watch.times, watch.states, variable(0), ends)
-    return seen(watch, motion.degrees), extra
+    set_sample_times(watch, t, h)
+    _, extra = sample_between(motion, t, h, watch.times, watch.states, runtime_int(0), ends)
+    return check_events(watch, motion.degrees), extra

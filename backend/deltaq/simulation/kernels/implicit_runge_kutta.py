@@ -8,22 +8,22 @@ from __future__ import annotations
 import numpy as np
 
 from .collocation import sample_stages
-from .compiler import inner, kernel, variable
+from .compiler import inline, kernel, runtime_int
 from .hermite import sample_between
-from .implicit_room import ImplicitRoom, take
 from .implicit_step import attempt_implicit, differentiate, prepare
-from .loop import Result, begin, interruption, passed
-from .motion import FINE, HELD, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion, slope
+from .implicit_workspace import ImplicitWorkspace, accept_step
+from .loop import Result, advance_time, begin, interruption
+from .motion import FINE, HELD, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion, rhs
 from .newton import SLOW
 from .phase import Phase, momenta
-from .plan import Plan, entered, fitted, record
+from .plan import Plan, enter_piece, fit_step, record
 from .stages import ImplicitWeights, predict
-from .step_control import Control, grown, level, shrunk, tells_apart
-from .switch import AHEAD, fallen, hold, is_held_before
-from .watch import Watch, look_at, seen
+from .step_control import Control, controlled_step, is_resolvable, log_error, reduced_step
+from .switch import AHEAD, detect_hold, held_or_failed, is_held_before
+from .watch import Watch, check_events, set_sample_times
 
 
-@inner
+@inline
 def sample_implicit(
     motion: Motion,
     phase: Phase,
@@ -31,28 +31,36 @@ def sample_implicit(
     now: tuple[float, float],
     samples: tuple[Floats, Floats],
     first: int,
-    room: ImplicitRoom,
+    workspace: ImplicitWorkspace,
 ) -> tuple[int, int]:
-    """Samples number `first` and on that lie in the step now = (t, h); samples = (times, states)."""
+    """Samples number `first` and on that lie in the step now = (t, h); returns the next one and the evaluations made.
+
+    `samples` are the times, shape (samples,), and the states, shape (samples, width), which are written.
+    """
     if weights.error.size > 0:
-        return sample_stages(phase, weights, now, samples, first, room), 0
-    return sample_between(motion, now[0], now[1], samples[0], samples[1], first, room.ends)
+        return sample_stages(phase, weights, now, samples, first, workspace), 0
+    return sample_between(motion, now[0], now[1], samples[0], samples[1], first, workspace.ends)
 
 
-@inner
+@inline
 def watch_implicit(
-    motion: Motion, phase: Phase, weights: ImplicitWeights, now: tuple[float, float], watch: Watch, room: ImplicitRoom
+    motion: Motion,
+    phase: Phase,
+    weights: ImplicitWeights,
+    now: tuple[float, float],
+    watch: Watch,
+    workspace: ImplicitWorkspace,
 ) -> tuple[int, int]:
     """Whether an event happens in the step now = (t, h); also returns the evaluations made."""
     if watch.functions == 0:
         return FINE, 0
-    look_at(watch, now[0], now[1])
-    _, extra = sample_implicit(motion, phase, weights, now, (watch.times, watch.states), variable(0), room)
-    return seen(watch, motion.degrees), extra
+    set_sample_times(watch, now[0], now[1])
+    _, extra = sample_implicit(motion, phase, weights, now, (watch.times, watch.states), runtime_int(0), workspace)
+    return check_events(watch, motion.degrees), extra
 
 
-@inner
-def shown(
+@inline
+def sample_and_watch(
     motion: Motion,
     phase: Phase,
     weights: ImplicitWeights,
@@ -60,58 +68,64 @@ def shown(
     samples: tuple[Floats, Floats],
     first: int,
     watch: Watch,
-    room: ImplicitRoom,
+    workspace: ImplicitWorkspace,
 ) -> tuple[int, int, int]:
-    """Samples of a step, and whether an event happens in it: the next sample, how it went, and the evaluations made."""
-    filled, made = sample_implicit(motion, phase, weights, now, samples, first, room)
-    outcome, more = watch_implicit(motion, phase, weights, now, watch, room)
+    """Samples of a step, and whether an event happens in it: the next sample, the outcome, and the evaluations made.
+
+    `samples` are the times, shape (samples,), and the states, shape (samples, width), which are written.
+    """
+    filled, made = sample_implicit(motion, phase, weights, now, samples, first, workspace)
+    outcome, more = watch_implicit(motion, phase, weights, now, watch, workspace)
     return filled, outcome, made + more
 
 
-@inner
+@inline
 def next_step(control: Control, h: float, error: float) -> float:
     """The size after an accepted step; the same again where it would hardly grow, which saves a decomposition."""
     if control.tolerance == 0.0:
         return np.inf
-    wanted = grown(control, h, level(max(error, 1e-6)), 0.0, 5.0)
+    wanted = controlled_step(control, h, log_error(max(error, 1e-6)), 0.0, 5.0)
     return h if h <= wanted <= 1.2 * h else wanted
 
 
-@inner
+@inline
 def smaller_step(control: Control, outcome: int, t: float, h: float, error: float) -> tuple[int, float]:
     """The size to try again with, or the outcome that ends the run."""
     if control.tolerance == 0.0:
         return outcome, h
-    smaller = shrunk(control, h, error) if outcome == FINE else 0.25 * h
-    if tells_apart(control, t, smaller):
+    smaller = reduced_step(control, h, error) if outcome == FINE else 0.25 * h
+    if is_resolvable(control, t, smaller):
         return FINE, smaller
     return STEP_UNDERFLOW if outcome in (FINE, NEWTON_FAILED) else outcome, smaller
 
 
-@inner
-def cautious(control: Control, piece: int) -> float:
+@inline
+def first_step_of_piece(control: Control, piece: int) -> float:
     """A first step in a piece: a small part of the largest one where there is step control."""
     return 0.01 * min(control.largest_step, control.plan.sizes[piece]) if control.tolerance > 0.0 else np.inf
 
 
-@inner
-def renewed(phase: Phase, plan: Plan, t: float, room: ImplicitRoom) -> int:
+@inline
+def begin_step(phase: Phase, plan: Plan, t: float, workspace: ImplicitWorkspace) -> int:
     """The rates of the momenta where a step begins, which is recorded; returns the evaluations made."""
-    ends, n = room.ends, room.p.size
-    momenta(phase, t, ends.old[:n], ends.old[n : 2 * n], room.stages.spare[0], room.rate)
+    ends, n = workspace.ends, workspace.p.size
+    momenta(phase, t, ends.old[:n], ends.old[n : 2 * n], workspace.stages.spare[0], workspace.rate)
     record(plan, t, ends.old)
     return 1
 
 
-@inner
-def explained(
-    motion: Motion, control: Control, watch: Watch, t: float, h: float, outcome: int, room: ImplicitRoom
+@inline
+def explain_failure(
+    motion: Motion, control: Control, watch: Watch, t: float, h: float, outcome: int, workspace: ImplicitWorkspace
 ) -> int:
     """HELD if a run ended because friction holds the motion, else the outcome as it was."""
-    if outcome not in (STEP_UNDERFLOW, NEWTON_FAILED) or slope(motion, t, room.ends.old, room.ends.old_slope) != FINE:
+    if (
+        outcome not in (STEP_UNDERFLOW, NEWTON_FAILED)
+        or rhs(motion, t, workspace.ends.old, workspace.ends.old_derivative) != FINE
+    ):
         return outcome
     reach = AHEAD * control.largest_step if control.tolerance > 0.0 else 2.0 * h
-    return fallen(motion, watch.switch, t, reach, room.ends.old, room.ends.old_slope, outcome)
+    return held_or_failed(motion, watch.switch, t, reach, workspace.ends.old, workspace.ends.old_derivative, outcome)
 
 
 @kernel
@@ -121,54 +135,60 @@ def integrate_implicit(
     weights: ImplicitWeights,
     control: Control,
     watch: Watch,
-    room: ImplicitRoom,
+    workspace: ImplicitWorkspace,
     times: Floats,
     out: Floats,
 ) -> Result:
-    """Steps from times[0] to times[-1] and fills out[i] with (q, q̇, ∫P dt) at times[i], for as long as all goes well.
+    """Steps from times[0] to times[-1]; out[i] becomes (q, q̇, ∫P dt) at times[i], as far as all goes well.
 
-    The initial state stands in room.ends.old.
+    The initial state stands in `workspace.ends.old`. `times` has shape (samples,), `out` shape (samples, width).
     """
-    t, lost_time, n, plan = times[0], 0.0, motion.degrees, control.plan
-    q, v = room.ends.old[:n], room.ends.old[n : 2 * n]
-    outcome = begin(motion, plan, watch, t, room.ends.old, room.ends.old_slope, out)
+    t, time_compensation, n, plan = times[0], 0.0, motion.degrees, control.plan
+    q, v = workspace.ends.old[:n], workspace.ends.old[n : 2 * n]
+    outcome = begin(motion, plan, watch, t, workspace.ends.old, workspace.ends.old_derivative, out)
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
-    momenta(phase, t, q, v, room.p, room.rate)
+    momenta(phase, t, q, v, workspace.p, workspace.rate)
     is_adaptive = control.tolerance > 0.0
-    wanted, piece = cautious(control, 0), variable(0)
+    wanted, piece = first_step_of_piece(control, 0), runtime_int(0)
     h, before_h, assembled_h, is_old, is_fresh = 0.0, 0.0, 0.0, True, True
-    filled, steps, rejected, evaluations = variable(1), 0, 0, 2
+    filled, steps, rejected, evaluations = runtime_int(1), 0, 0, 2
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps + rejected, watch)
         if outcome != FINE:
             break
-        piece, t, jumped = entered(plan, piece, t)
+        piece, t, jumped = enter_piece(plan, piece, t)
         if jumped:
-            lost_time, before_h, is_old, wanted = 0.0, 0.0, True, cautious(control, piece)
-            evaluations += renewed(phase, plan, t, room)
-        h, ends_piece = fitted(plan, piece, t, wanted)
-        predict(weights, h / before_h if before_h > 0.0 else 0.0, v, room.stages)
+            time_compensation, before_h, is_old, wanted = 0.0, 0.0, True, first_step_of_piece(control, piece)
+            evaluations += begin_step(phase, plan, t, workspace)
+        h, ends_piece = fit_step(plan, piece, t, wanted)
+        predict(weights, h / before_h if before_h > 0.0 else 0.0, v, workspace.stages)
         if is_old:
-            evaluations += differentiate(phase, weights, t, h, room)
+            evaluations += differentiate(phase, weights, t, h, workspace)
             assembled_h, is_old, is_fresh = 0.0, False, True
-        outcome = prepare(weights, h, room) if assembled_h != h else FINE
+        outcome = prepare(weights, h, workspace) if assembled_h != h else FINE
         assembled_h, slowness, error = h, 0.0, 0.0
         if outcome == FINE:
-            outcome, made, slowness, error = attempt_implicit(motion, phase, weights, control.tolerance, t, h, room)
+            outcome, made, slowness, error = attempt_implicit(
+                motion, phase, weights, control.tolerance, t, h, workspace
+            )
             evaluations += made
         if outcome == FINE and error <= 1.0:
-            held = hold(motion, watch.switch, t, h, 0 if is_adaptive else 1, room.ends.old, room.ends.new)
+            held = detect_hold(
+                motion, watch.switch, t, h, 0 if is_adaptive else 1, workspace.ends.old, workspace.ends.new
+            )
             if is_held_before(watch.switch, t + h, held):
                 outcome = held
                 break
-            filled, outcome, made = shown(motion, phase, weights, (t, h), (times, out), filled, watch, room)
+            filled, outcome, made = sample_and_watch(
+                motion, phase, weights, (t, h), (times, out), filled, watch, workspace
+            )
             outcome = outcome or held
             evaluations += made
-            take(room)
+            accept_step(workspace)
             steps += 1
-            t, lost_time = passed(plan, piece, t, h, lost_time, 1 if ends_piece else 0)
-            evaluations += renewed(phase, plan, t, room)
+            t, time_compensation = advance_time(plan, piece, t, h, time_compensation, 1 if ends_piece else 0)
+            evaluations += begin_step(phase, plan, t, workspace)
             before_h, is_fresh, is_old = h, False, slowness > SLOW
             wanted = max(next_step(control, h, error), wanted if ends_piece else 0.0)
         elif outcome != FINE and not is_fresh:
@@ -177,6 +197,6 @@ def integrate_implicit(
             before_h = 0.0
             rejected += is_adaptive
             outcome, wanted = smaller_step(control, outcome, t, h, error)
-    outcome = explained(motion, control, watch, t, h, outcome, room)
+    outcome = explain_failure(motion, control, watch, t, h, outcome, workspace)
     reached = watch.switch.when[0] if outcome == HELD else min(t, times[times.size - 1])
     return Result(outcome, filled, steps, rejected, evaluations, reached)

@@ -4,72 +4,84 @@ from __future__ import annotations
 
 import numpy as np
 
-from .compiler import inner
+from .compiler import inline
 from .implicit_error import error_of, prepare_error
-from .implicit_room import ImplicitRoom, add
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Motion, slope
+from .implicit_workspace import ImplicitWorkspace, compensated_sum
+from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Motion, rhs
 from .newton import assemble, newton
 from .phase import Phase, linearize, velocity
-from .stages import ImplicitWeights, Start, middle
+from .stages import ImplicitWeights, Start, midpoint
 from .step import LARGEST_VALUE
 
 
-@inner
-def finish(motion: Motion, phase: Phase, weights: ImplicitWeights, t: float, h: float, room: ImplicitRoom) -> int:
-    """The new state from the stages."""
-    stages, ends, n = room.stages, room.ends, motion.degrees
+@inline
+def finish(
+    motion: Motion, phase: Phase, weights: ImplicitWeights, t: float, h: float, workspace: ImplicitWorkspace
+) -> int:
+    """The new state from the stages; returns the outcome."""
+    stages, ends, n = workspace.stages, workspace.ends, motion.degrees
     count = weights.b.size
     for d in range(n):
-        change, push = 0.0, 0.0
+        change, impulse = 0.0, 0.0
         for i in range(count):
             change += weights.b[i] * stages.v[i, d]
-            push += weights.momentum_b[i] * stages.r[i, d]
-        ends.new[d] = add(ends.old[d], h * change, d, room)
-        room.new_p[d] = add(room.p[d], h * push, n + d, room)
+            impulse += weights.momentum_b[i] * stages.r[i, d]
+        ends.new[d] = compensated_sum(ends.old[d], h * change, d, workspace)
+        workspace.new_p[d] = compensated_sum(workspace.p[d], h * impulse, n + d, workspace)
         ends.new[n + d] = stages.v[count - 1, d]
-        if not abs(ends.new[d]) + abs(room.new_p[d]) <= LARGEST_VALUE:
-            return TOO_LARGE if abs(ends.new[d]) + abs(room.new_p[d]) < np.inf else NOT_FINITE
+        if not abs(ends.new[d]) + abs(workspace.new_p[d]) <= LARGEST_VALUE:
+            return TOO_LARGE if abs(ends.new[d]) + abs(workspace.new_p[d]) < np.inf else NOT_FINITE
     if motion.is_powered:
         work = 0.0
         for i in range(count):
             for d in range(n):
-                room.state[d] = stages.q[i, d]
-                room.state[n + d] = stages.v[i, d]
-            if slope(motion, t + weights.c[i] * h, room.state, room.slope) != FINE:
+                workspace.state[d] = stages.q[i, d]
+                workspace.state[n + d] = stages.v[i, d]
+            if rhs(motion, t + weights.c[i] * h, workspace.state, workspace.derivative) != FINE:
                 return NOT_FINITE
-            work += weights.b[i] * room.slope[2 * n]
-        ends.new[2 * n] = add(ends.old[2 * n], h * work, 2 * n, room)
-    return velocity(phase, t + h, ends.new[:n], room.new_p, ends.new[n : 2 * n], stages.spare[0])
+            work += weights.b[i] * workspace.derivative[2 * n]
+        ends.new[2 * n] = compensated_sum(ends.old[2 * n], h * work, 2 * n, workspace)
+    return velocity(phase, t + h, ends.new[:n], workspace.new_p, ends.new[n : 2 * n], stages.spare[0])
 
 
-@inner
-def differentiate(phase: Phase, weights: ImplicitWeights, t: float, h: float, room: ImplicitRoom) -> int:
+@inline
+def differentiate(phase: Phase, weights: ImplicitWeights, t: float, h: float, workspace: ImplicitWorkspace) -> int:
     """The derivatives in the middle of the step, by the first guesses; returns the evaluations made."""
-    stages, n = room.stages, room.p.size
-    middle(weights, h, room.ends.old[:n], stages)
+    stages, n = workspace.stages, workspace.p.size
+    midpoint(weights, h, workspace.ends.old[:n], stages)
     linearize(phase, t + 0.5 * h, stages.centre[0], stages.centre[1], stages.linear, stages.spare)
     return 1 + 2 * n
 
 
-@inner
-def prepare(weights: ImplicitWeights, h: float, room: ImplicitRoom) -> int:
-    """The matrices for steps of size h; returns how it went."""
-    if not assemble(weights, h, room.stages):
+@inline
+def prepare(weights: ImplicitWeights, h: float, workspace: ImplicitWorkspace) -> int:
+    """Decomposes the matrices for steps of size h; NEWTON_FAILED if one is singular."""
+    if not assemble(weights, h, workspace.stages):
         return NEWTON_FAILED
-    if weights.error.size > 0 and not prepare_error(weights, h, room):
+    if weights.error.size > 0 and not prepare_error(weights, h, workspace):
         return NEWTON_FAILED
     return FINE
 
 
-@inner
+@inline
 def attempt_implicit(
-    motion: Motion, phase: Phase, weights: ImplicitWeights, tolerance: float, t: float, h: float, room: ImplicitRoom
+    motion: Motion,
+    phase: Phase,
+    weights: ImplicitWeights,
+    tolerance: float,
+    t: float,
+    h: float,
+    workspace: ImplicitWorkspace,
 ) -> tuple[int, int, float, float]:
-    """Stages, new state and error; returns how it went, the evaluations, the first ratio of corrections, the error."""
-    n = room.p.size
-    start = Start(room.ends.old[:n], room.ends.old[n : 2 * n], room.p)
-    outcome, iterations, slowness = newton(phase, weights, t, h, 0.02 * tolerance, start, room.stages)
+    """Stages, new state and error of one step.
+
+    Returns the outcome, the evaluations made, the ratio of the first two corrections, and the error over what is
+    tolerated.
+    """
+    n = workspace.p.size
+    start = Start(workspace.ends.old[:n], workspace.ends.old[n : 2 * n], workspace.p)
+    outcome, iterations, slowness = newton(phase, weights, t, h, 0.02 * tolerance, start, workspace.stages)
     if outcome == FINE:
-        outcome = finish(motion, phase, weights, t, h, room)
-    error = error_of(weights, tolerance, h, room) if outcome == FINE and tolerance > 0.0 else 0.0
+        outcome = finish(motion, phase, weights, t, h, workspace)
+    error = error_of(weights, tolerance, h, workspace) if outcome == FINE and tolerance > 0.0 else 0.0
     return outcome, weights.b.size * iterations + 1, slowness, error

@@ -40,27 +40,32 @@ from ...model.tape import (
     SINE,
     TANGENT,
 )
-from .compiler import inner, kernel
+from .compiler import inline, kernel
 from .motion import Floats
 
-Places = NDArray[np.int64]
+Indices = NDArray[np.int64]
 
 
-class Program(NamedTuple):
-    """A tape (see `model.tape`) as arrays."""
+class TapeArrays(NamedTuple):
+    """A tape (see `model.tape`): `codes`, operands `a`, `b`, `c` and `constants` have shape (operations,).
 
-    codes: Places
-    a: Places
-    b: Places
-    c: Places
+    `outputs`, shape (outputs,), are the places of the results among the operations.
+    """
+
+    codes: Indices
+    a: Indices
+    b: Indices
+    c: Indices
     constants: Floats
-    outputs: Places
+    outputs: Indices
 
 
 class Ranges(NamedTuple):
-    """Bounds of the inputs and of every operation, the bounds of its influence on q̈, and the seeds of those bounds.
+    """Bounds of the inputs and of every operation, and of what each operation can do to q̈.
 
-    `seeds[k]` bounds |∂q̈/∂(output k)|. A condition is 1 where it holds throughout, 0 where it nowhere does.
+    `inputs_low` and `inputs_high` have shape (inputs,); `low`, `high` and `influence`, a bound of |∂q̈/∂(operation)|,
+    shape (operations,); `seeds`, shape (outputs,), bounds |∂q̈/∂output|. A condition is 1 where it holds throughout the
+    box, 0 where it nowhere does.
     """
 
     inputs_low: Floats
@@ -71,25 +76,25 @@ class Ranges(NamedTuple):
     seeds: Floats
 
 
-@inner
+@inline
 def product(x: float, y: float) -> float:
     """x y, zero if one of them is: 0 · ∞ bounds nothing from a constant zero."""
     return 0.0 if x == 0.0 or y == 0.0 else x * y
 
 
-@inner
+@inline
 def magnitude(low: float, high: float) -> float:
     """The largest |x|."""
     return max(abs(low), abs(high))
 
 
-@inner
+@inline
 def mignitude(low: float, high: float) -> float:
     """The least |x|."""
     return 0.0 if low <= 0.0 <= high else min(abs(low), abs(high))
 
 
-@inner
+@inline
 def sine_range(low: float, high: float) -> tuple[float, float]:
     """Bounds of sin x."""
     if not high - low < 2.0 * np.pi or abs(low) > 1e12:
@@ -100,7 +105,7 @@ def sine_range(low: float, high: float) -> tuple[float, float]:
     return (-1.0 if trough <= high else min(first, last)), (1.0 if crest <= high else max(first, last))
 
 
-@inner
+@inline
 def power_range(low: float, high: float, exponent: float) -> tuple[float, float]:
     """Bounds of x^p for a constant p; without a real value somewhere there are none."""
     whole = exponent == np.floor(exponent)
@@ -114,14 +119,14 @@ def power_range(low: float, high: float, exponent: float) -> tuple[float, float]
     return least, max(first, last)
 
 
-@inner
+@inline
 def tangent_range(low: float, high: float) -> tuple[float, float]:
     """Bounds of tan x, none where a pole lies between."""
     pole = np.ceil((low - 0.5 * np.pi) / np.pi) * np.pi + 0.5 * np.pi
     return (-np.inf, np.inf) if not high - low < np.pi or pole <= high else (np.tan(low), np.tan(high))
 
 
-@inner
+@inline
 def angle_range(y_low: float, y_high: float, x_low: float, x_high: float) -> tuple[float, float]:
     """Bounds of atan2(y, x); none but ±π where the cut or the origin lies between."""
     if x_low <= 0.0 and y_low <= 0.0 <= y_high:
@@ -131,7 +136,7 @@ def angle_range(y_low: float, y_high: float, x_low: float, x_high: float) -> tup
     return min(first, second, third, fourth), max(first, second, third, fourth)
 
 
-@inner
+@inline
 def elementary_range(code: int, low: float, high: float) -> tuple[float, float]:
     """Bounds of a function of one variable that is monotonic where it is real (cosh excepted)."""
     if code == EXPONENTIAL:
@@ -157,15 +162,15 @@ def elementary_range(code: int, low: float, high: float) -> tuple[float, float]:
     return np.arccos(min(high, 1.0)), np.arccos(max(low, -1.0))  # ARCCOSINE
 
 
-@inner
-def operation_range(program: Program, ranges: Ranges, i: int) -> tuple[float, float]:
+@inline
+def operation_range(tape: TapeArrays, ranges: Ranges, i: int) -> tuple[float, float]:
     """Bounds of operation i from those of its operands."""
-    code, low, high = program.codes[i], ranges.low, ranges.high
+    code, low, high = tape.codes[i], ranges.low, ranges.high
     if code == INPUT:
-        return ranges.inputs_low[program.a[i]], ranges.inputs_high[program.a[i]]
+        return ranges.inputs_low[tape.a[i]], ranges.inputs_high[tape.a[i]]
     if code == CONSTANT:
-        return program.constants[i], program.constants[i]
-    a, b = program.a[i], program.b[i]
+        return tape.constants[i], tape.constants[i]
+    a, b = tape.a[i], tape.b[i]
     if code == ADD:
         return low[a] + low[b], high[a] + high[b]
     if code == MULTIPLY:
@@ -177,7 +182,7 @@ def operation_range(program: Program, ranges: Ranges, i: int) -> tuple[float, fl
         third, fourth = product(high[a], low[b]), product(high[a], high[b])
         return min(first, second, third, fourth), max(first, second, third, fourth)
     if code == POWER:
-        return power_range(low[a], high[a], program.constants[i])
+        return power_range(low[a], high[a], tape.constants[i])
     if code == SINE:
         return sine_range(low[a], high[a])
     if code == COSINE:
@@ -193,7 +198,7 @@ def operation_range(program: Program, ranges: Ranges, i: int) -> tuple[float, fl
     if code == NOT_POSITIVE:
         return (1.0 if high[a] <= 0.0 else 0.0), (1.0 if low[a] <= 0.0 else 0.0)
     if code == CHOICE:
-        c = program.c[i]
+        c = tape.c[i]
         if low[a] == 1.0:
             return low[b], high[b]
         if high[a] == 0.0:
@@ -205,16 +210,18 @@ def operation_range(program: Program, ranges: Ranges, i: int) -> tuple[float, fl
 
 
 @kernel
-def bound(program: Program, ranges: Ranges) -> None:
-    """Bounds of every operation over the box of inputs; unbounded where it has no value."""
-    for i in range(program.codes.size):
-        low, high = operation_range(program, ranges, i)
+def propagate_bounds(tape: TapeArrays, ranges: Ranges) -> None:
+    """Bounds of every operation over the box of inputs, in the order of the tape; infinite where it has no value."""
+    for i in range(tape.codes.size):
+        low, high = operation_range(tape, ranges, i)
         ranges.low[i] = -np.inf if np.isnan(low) else low
         ranges.high[i] = np.inf if np.isnan(high) else high
 
 
-@inner
-def slope_bound(code: int, exponent: float, low: float, high: float, result_low: float, result_high: float) -> float:
+@inline
+def derivative_bound(
+    code: int, exponent: float, low: float, high: float, result_low: float, result_high: float
+) -> float:
     """A bound of |f′| over an interval of the argument, f a function of one variable."""
     least, most = mignitude(low, high), magnitude(low, high)
     if code in (SINE, COSINE):
@@ -250,15 +257,15 @@ def slope_bound(code: int, exponent: float, low: float, high: float, result_low:
 
 
 @kernel
-def weigh(program: Program, ranges: Ranges) -> None:
-    """Bounds of the influence of every operation on q̈, from the seeds backward (`bound` comes first)."""
+def propagate_influence(tape: TapeArrays, ranges: Ranges) -> None:
+    """Bounds of the influence of every operation on q̈, from the seeds backward (`propagate_bounds` comes first)."""
     influence, low, high = ranges.influence, ranges.low, ranges.high
     influence[:] = 0.0
-    for k in range(program.outputs.size):
-        influence[program.outputs[k]] += ranges.seeds[k]
-    for i in range(program.codes.size - 1, -1, -1):
-        weight, code = influence[i], program.codes[i]
-        a, b = program.a[i], program.b[i]
+    for k in range(tape.outputs.size):
+        influence[tape.outputs[k]] += ranges.seeds[k]
+    for i in range(tape.codes.size - 1, -1, -1):
+        weight, code = influence[i], tape.codes[i]
+        a, b = tape.a[i], tape.b[i]
         if weight == 0.0 or code in (INPUT, CONSTANT) or POSITIVE <= code <= NOT_POSITIVE:
             continue
         if code == ADD:
@@ -271,29 +278,29 @@ def weigh(program: Program, ranges: Ranges) -> None:
             if high[a] == 1.0:
                 influence[b] += weight
             if low[a] == 0.0:
-                influence[program.c[i]] += weight
+                influence[tape.c[i]] += weight
         elif code == ARCTANGENT_2:
             nearest = mignitude(low[a], high[a]) ** 2 + mignitude(low[b], high[b]) ** 2
             steepest = 1.0 / np.sqrt(nearest) if nearest > 0.0 else np.inf
             influence[a] += product(weight, steepest)
             influence[b] += product(weight, steepest)
         else:
-            influence[a] += product(weight, slope_bound(code, program.constants[i], low[a], high[a], low[i], high[i]))
+            influence[a] += product(weight, derivative_bound(code, tape.constants[i], low[a], high[a], low[i], high[i]))
 
 
-@inner
-def swing_of(program: Program, ranges: Ranges, i: int) -> float:
+@inline
+def swing_of(tape: TapeArrays, ranges: Ranges, i: int) -> float:
     """How far the argument of operation i moves, in the unit in which its value changes its course.
 
     Radians for waves, the argument itself for exponentials, its distance from the singularity for roots, reciprocals
     and logarithms. Polynomials change theirs nowhere.
     """
-    code, a, low, high = program.codes[i], program.a[i], ranges.low, ranges.high
+    code, a, low, high = tape.codes[i], tape.a[i], ranges.low, ranges.high
     if code in (INPUT, CONSTANT, ADD, MULTIPLY) or POSITIVE <= code <= CHOICE:
         return 0.0
     width, least, most = high[a] - low[a], mignitude(low[a], high[a]), magnitude(low[a], high[a])
     if code == POWER:
-        exponent = program.constants[i]
+        exponent = tape.constants[i]
         if exponent >= 0.0 and exponent == np.floor(exponent):
             return 0.0
         return width / least if least > 0.0 else (np.inf if width > 0.0 else 0.0)
@@ -306,7 +313,7 @@ def swing_of(program: Program, ranges: Ranges, i: int) -> float:
     if code == AREA_COSINE:
         return width / (low[a] - 1.0) if low[a] > 1.0 else (np.inf if width > 0.0 else 0.0)
     if code == ARCTANGENT_2:
-        b = program.b[i]
+        b = tape.b[i]
         nearest = np.sqrt(least * least + mignitude(low[b], high[b]) ** 2)
         width = max(width, high[b] - low[b])
         return float(width / nearest) if nearest > 0.0 else (np.inf if width > 0.0 else 0.0)
@@ -315,7 +322,7 @@ def swing_of(program: Program, ranges: Ranges, i: int) -> float:
     return float(width)
 
 
-@inner
+@inline
 def is_relevant(ranges: Ranges, i: int, threshold: float) -> bool:
     """Whether what operation i does within the box can change q̈ by more than the threshold."""
     width = ranges.high[i] - ranges.low[i]
@@ -323,17 +330,17 @@ def is_relevant(ranges: Ranges, i: int, threshold: float) -> bool:
 
 
 @kernel
-def largest_swing(program: Program, ranges: Ranges, threshold: float) -> tuple[float, bool]:
+def largest_swing(tape: TapeArrays, ranges: Ranges, threshold: float) -> tuple[float, bool]:
     """The largest swing of a relevant operation over the box, and whether a relevant choice is undecided in it."""
-    bound(program, ranges)
-    weigh(program, ranges)
+    propagate_bounds(tape, ranges)
+    propagate_influence(tape, ranges)
     largest, is_undecided = 0.0, False
-    for i in range(program.codes.size):
+    for i in range(tape.codes.size):
         if ranges.influence[i] == 0.0 or not is_relevant(ranges, i, threshold):
             continue
-        if program.codes[i] == CHOICE:
-            condition = program.a[i]
+        if tape.codes[i] == CHOICE:
+            condition = tape.a[i]
             is_undecided = is_undecided or ranges.low[condition] != ranges.high[condition]
         else:
-            largest = max(largest, swing_of(program, ranges, i))
+            largest = max(largest, swing_of(tape, ranges, i))
     return largest, is_undecided

@@ -5,22 +5,26 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inner
+from .compiler import inline
 from .motion import Floats
 
-Places = NDArray[np.int64]
+Indices = NDArray[np.int64]
 
 
-@inner
-def decompose(a: Floats, places: Places) -> bool:
-    """P A = L U in place, with partial pivoting; False if A is singular or not finite (Golub, Van Loan, §3.4)."""
-    n = places.size
+@inline
+def decompose(a: Floats, pivots: Indices) -> bool:
+    """P A = L U in place with partial pivoting; False if A is singular or not finite.
+
+    `a` has shape (n, n) and becomes the factors; `pivots`, shape (n,), receives the rows exchanged.
+    Source: Golub, Van Loan, Matrix Computations, 4th ed., §3.4.
+    """
+    n = pivots.size
     for k in range(n):
         best = k
         for i in range(k + 1, n):
             if abs(a[i, k]) > abs(a[best, k]):
                 best = i
-        places[k] = best
+        pivots[k] = best
         if not 0.0 < abs(a[best, k]) < np.inf:
             return False
         for j in range(n):
@@ -32,12 +36,12 @@ def decompose(a: Floats, places: Places) -> bool:
     return True
 
 
-@inner
-def substitute(a: Floats, places: Places, x: Floats) -> None:
-    """Solves A x = b in place, b standing in x, for a decomposed A."""
-    n = places.size
+@inline
+def substitute(a: Floats, pivots: Indices, x: Floats) -> None:
+    """Solves A x = b in place for a decomposed A, shape (n, n); `x`, shape (n,), holds b before and x behind."""
+    n = pivots.size
     for k in range(n):
-        x[k], x[places[k]] = x[places[k]], x[k]
+        x[k], x[pivots[k]] = x[pivots[k]], x[k]
     for i in range(n):
         for k in range(i):
             x[i] -= a[i, k] * x[k]

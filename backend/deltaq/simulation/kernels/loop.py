@@ -6,16 +6,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner
-from .motion import CANCELLED, FINE, NOT_FINITE, STEP_LIMIT, Floats, Motion, slope
+from .compiler import inline
+from .motion import CANCELLED, FINE, NOT_FINITE, STEP_LIMIT, Floats, Motion, rhs
 from .plan import Plan, record
 from .step_control import Control
-from .switch import hold_ahead
+from .switch import detect_hold_ahead
 from .watch import Watch
 
 
 class Result(NamedTuple):
-    """`outcome` as in `motion`; the first `samples` rows of the samples are filled."""
+    """How a run ended: `outcome` as in `motion`; the first `samples` rows of the samples are filled.
+
+    `steps`, `rejected` and `evaluations` are counts, `reached` is the time in seconds.
+    """
 
     outcome: int
     samples: int
@@ -25,36 +28,41 @@ class Result(NamedTuple):
     reached: float
 
 
-@inner
-def later(t: float, h: float, lost: float) -> tuple[float, float]:
-    """t + h, and what of it is below its rounding, to be given back as `lost` (Kahan's summation)."""
-    tick = h + lost
-    new = t + tick
-    return new, tick - (new - t)
+@inline
+def kahan_add(t: float, h: float, compensation: float) -> tuple[float, float]:
+    """t + h, and what of it is below its rounding, to be given back as `compensation` (Kahan's summation)."""
+    increment = h + compensation
+    new = t + increment
+    return new, increment - (new - t)
 
 
-@inner
-def passed(plan: Plan, piece: int, t: float, h: float, lost: float, ends_piece: int) -> tuple[float, float]:
-    """The time after a step of size h, and what of it is below its rounding; the end of a piece is met exactly."""
-    return (plan.ends[piece], 0.0) if ends_piece != 0 else later(t, h, lost)
+@inline
+def advance_time(
+    plan: Plan, piece: int, t: float, h: float, compensation: float, ends_piece: int
+) -> tuple[float, float]:
+    """The time after a step of size h, and its compensation; the end of a piece is met exactly."""
+    return (plan.ends[piece], 0.0) if ends_piece != 0 else kahan_add(t, h, compensation)
 
 
-@inner
-def begin(motion: Motion, plan: Plan, watch: Watch, t: float, state: Floats, first_slope: Floats, out: Floats) -> int:
-    """The initial state becomes the first sample, `first_slope` its slope; returns how it went.
+@inline
+def begin(
+    motion: Motion, plan: Plan, watch: Watch, t: float, state: Floats, first_derivative: Floats, out: Floats
+) -> int:
+    """The initial state becomes the first sample; returns the outcome.
 
-    A motion may be held by friction from the start.
+    `state` and `first_derivative`, which is written, have shape (width,), `out` shape (samples, width). A motion may be
+    held by friction from the start.
     """
-    outcome = slope(motion, t, state, first_slope)
+    outcome = rhs(motion, t, state, first_derivative)
     for d in range(state.size):
         out[0, d] = state[d]
-        if outcome == FINE and not abs(first_slope[d]) < np.inf:
+        if outcome == FINE and not abs(first_derivative[d]) < np.inf:
             outcome = NOT_FINITE
     record(plan, t, state)
-    return hold_ahead(motion, watch.switch, t, 0.0, state, first_slope) if outcome == FINE else outcome
+    return detect_hold_ahead(motion, watch.switch, t, 0.0, state, first_derivative) if outcome == FINE else outcome
 
 
-@inner
+@inline
 def interruption(control: Control, tries: int, watch: Watch) -> int:
     """Whether to stop before the next step, and why."""
     if watch.cancelled[0] != 0:

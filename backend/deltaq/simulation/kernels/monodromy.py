@@ -12,11 +12,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inner, kernel
+from .compiler import inline, kernel
 from .explicit_runge_kutta import integrate
 from .linear import decompose, substitute
 from .motion import CANCELLED, FINE, Floats, Motion
-from .step import Room, Weights
+from .step import Weights, Workspace
 from .step_control import Control
 from .watch import Watch
 
@@ -27,7 +27,10 @@ NOT_PERIODIC = 100
 
 
 class Survey(NamedTuple):
-    """What is varied: inputs number `first` and `second` of the motion, row by row, and the period of each row."""
+    """What is varied: inputs number `first` and `second` of the motion, and the period of each point.
+
+    `values` has shape (points, 2), `periods` shape (points,), in seconds.
+    """
 
     first: int
     second: int
@@ -36,7 +39,10 @@ class Survey(NamedTuple):
 
 
 class Found(NamedTuple):
-    """Per point: the periodic state, the monodromy matrix at it, and how it went."""
+    """Per point the periodic state, the monodromy matrix at it, and the outcome.
+
+    `states` has shape (points, 2n), `matrices` shape (points, 2n, 2n), `outcomes` shape (points,).
+    """
 
     states: Floats  # shape (points, 2n)
     matrices: Floats  # shape (points, 2n, 2n)
@@ -44,34 +50,43 @@ class Found(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """What it takes to follow the motion from `times[0]` to `times[1]`; out[1] becomes the state there."""
+    """What it takes to follow the motion from `times[0]` to `times[1]`; out[1] becomes the state there.
+
+    `times` has shape (2,), `out` shape (2, 2n). `watch` is for being cancelled only.
+    """
 
     motion: Motion
     weights: Weights
     control: Control
     watch: Watch  # for being cancelled only
-    room: Room
+    workspace: Workspace
     times: Floats
     out: Floats  # shape (2, 2n)
 
 
-class Desk(NamedTuple):
-    """Arrays to solve (Φ − 1) Δy = y − y(T) in."""
+class NewtonWorkspace(NamedTuple):
+    """The arrays to solve (Φ − 1) Δy = y − y(T) in.
+
+    `system` has shape (2n, 2n), `gap` (the right side, then Δy) and `pivots` shape (2n,).
+    """
 
     system: Floats  # shape (2n, 2n)
     gap: Floats
-    places: NDArray[np.int64]
+    pivots: NDArray[np.int64]
 
 
-def make_desk(width: int) -> Desk:
-    return Desk(np.zeros((width, width)), np.zeros(width), np.zeros(width, dtype=np.int64))
+def make_newton_workspace(width: int) -> NewtonWorkspace:
+    """The workspace for states with `width` components."""
+    return NewtonWorkspace(np.zeros((width, width)), np.zeros(width), np.zeros(width, dtype=np.int64))
 
 
 @kernel
-def survey(flow: Flow, start: Floats, table: Survey, span: tuple[int, int], found: Found, desk: Desk) -> int:
+def survey(
+    flow: Flow, start: Floats, table: Survey, span: tuple[int, int], found: Found, newton: NewtonWorkspace
+) -> int:
     """Fills the points span[0] … span[1] − 1 of `found`; FINE or CANCELLED.
 
-    Each begins at the periodic state of the point before, if there is one, else at the state `start`.
+    Each begins at the periodic state of the point before, if there is one, else at the state `start`, shape (2n,).
     """
     near = False
     for point in range(span[0], span[1]):
@@ -83,43 +98,46 @@ def survey(flow: Flow, start: Floats, table: Survey, span: tuple[int, int], foun
         state = found.states[point]
         for d in range(start.size):
             state[d] = found.states[point - 1, d] if near else start[d]
-        found.outcomes[point] = periodic(flow, state, found.matrices[point], desk)
+        found.outcomes[point] = periodic(flow, state, found.matrices[point], newton)
         near = found.outcomes[point] == FINE
     return FINE
 
 
-@inner
-def periodic(flow: Flow, state: Floats, matrix: Floats, desk: Desk) -> int:
-    """Moves the state onto a periodic motion, and finds the monodromy matrix there."""
+@inline
+def periodic(flow: Flow, state: Floats, matrix: Floats, newton: NewtonWorkspace) -> int:
+    """Moves the state, shape (2n,), onto a periodic motion by Newton's method; returns the outcome.
+
+    `matrix`, shape (2n, 2n), becomes the monodromy matrix there.
+    """
     for _ in range(PASSES):
         outcome = follow(flow, state, 0, 0.0)
         if outcome != FINE:
             return outcome
         distance = 0.0
         for d in range(state.size):
-            desk.gap[d] = flow.out[1, d] - state[d]
-            distance = max(distance, abs(desk.gap[d]))
+            newton.gap[d] = flow.out[1, d] - state[d]
+            distance = max(distance, abs(newton.gap[d]))
         outcome = columns(flow, state, matrix)
         if outcome != FINE or distance < CLOSE:
             return outcome
         for i in range(state.size):
             for j in range(state.size):
-                desk.system[i, j] = (1.0 if i == j else 0.0) - matrix[i, j]
-        if not decompose(desk.system, desk.places):
+                newton.system[i, j] = (1.0 if i == j else 0.0) - matrix[i, j]
+        if not decompose(newton.system, newton.pivots):
             return NOT_PERIODIC
-        substitute(desk.system, desk.places, desk.gap)
+        substitute(newton.system, newton.pivots, newton.gap)
         longest = LONGEST_MOVE
         for d in range(state.size):
-            longest = max(longest, abs(desk.gap[d]))
+            longest = max(longest, abs(newton.gap[d]))
         part = LONGEST_MOVE / longest  # to the motion nearby, not to one far off
         for d in range(state.size):
-            state[d] += part * desk.gap[d]
+            state[d] += part * newton.gap[d]
     return NOT_PERIODIC
 
 
-@inner
+@inline
 def columns(flow: Flow, state: Floats, matrix: Floats) -> int:
-    """The monodromy matrix by central differences."""
+    """The monodromy matrix, shape (2n, 2n), at a state of shape (2n,), by central differences; returns the outcome."""
     for j in range(state.size):
         for sign in (1.0, -1.0):
             outcome = follow(flow, state, j, sign * NUDGE)
@@ -133,11 +151,11 @@ def columns(flow: Flow, state: Floats, matrix: Floats) -> int:
 
 @kernel
 def follow(flow: Flow, state: Floats, moved: int, by: float) -> int:
-    """The state a period later, for a start with one component moved."""
+    """Integrates over a period, from a state of shape (2n,) with one component moved; returns the outcome."""
     for d in range(state.size):
-        flow.room.old[d] = state[d]
-        flow.room.lost[d] = 0.0
-    flow.room.old[moved] += by
+        flow.workspace.old[d] = state[d]
+        flow.workspace.compensation[d] = 0.0
+    flow.workspace.old[moved] += by
     flow.control.plan.ends[0] = flow.times[1]
-    result = integrate(flow.motion, flow.weights, flow.control, flow.watch, flow.room, flow.times, flow.out)
+    result = integrate(flow.motion, flow.weights, flow.control, flow.watch, flow.workspace, flow.times, flow.out)
     return result.outcome

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inner
-from .pointer import call, one_by_one
+from .compiler import inline
+from .pointer import call, prevent_vectorization
 
 Floats = NDArray[np.float64]
 
@@ -22,11 +22,12 @@ SMALLEST_PIVOT = 1e-14
 
 
 class Motion(NamedTuple):
-    """A compiled model with room for its numbers.
+    """A compiled model with the arrays that it reads and writes.
 
-    `inputs` holds q, q̇, t and the parameters; `outputs` receives the lower triangle of M by rows, f and the power.
-    `conditioning[0]` keeps the smallest ratio of a pivot to the diagonal entry of M that it is left of. No change of
-    units changes that ratio; its inverse is about the condition of M scaled to a unit diagonal.
+    `inputs` holds q, q̇, t and the parameters, shape (2n + 1 + parameters,). `outputs` receives the packed lower
+    triangle of M, f and, where power is fed in, P₀ and p₁, shape (n (n + 1)/2 + n,) or n + 1 more. `conditioning`,
+    shape (1,), keeps the smallest ratio of a pivot to the diagonal entry of M that it is left of. No change of units
+    changes that ratio; its inverse is about the condition of M scaled to a unit diagonal.
     """
 
     address: int
@@ -38,13 +39,14 @@ class Motion(NamedTuple):
     conditioning: Floats
 
 
-@inner
+@inline
 def factor(m: Floats, n: int) -> float:
-    """Cholesky factors L D Lᵀ of the packed lower triangle m in place, 1/D on the diagonal.
+    """Cholesky factors L D Lᵀ of M in place, 1/D on the diagonal.
 
-    Without square roots, since those and divisions cost more than all the rest for a small matrix. Returns the smallest
-    ratio of a pivot to its diagonal entry: at most SMALLEST_PIVOT if M is singular or indefinite, NaN if it is not
-    finite. The rounding error of a pivot is a few units in the last place of that entry.
+    `m`, shape (≥ n (n + 1)/2,), begins with the packed lower triangle. Without square roots, since those and divisions
+    cost more than all the rest for a small matrix. Returns the smallest ratio of a pivot to its diagonal entry: at most
+    SMALLEST_PIVOT if M is singular or indefinite, NaN if it is not finite. The rounding error of a pivot is a few units
+    in the last place of that entry.
     Sources: Golub, Van Loan, Matrix Computations, 4th ed., §4.1; Higham, Accuracy and Stability of Numerical
     Algorithms, 2nd ed., §10.1.
     """
@@ -69,9 +71,9 @@ def factor(m: Floats, n: int) -> float:
     return smallest
 
 
-@inner
+@inline
 def solve(m: Floats, n: int) -> None:
-    """Solves L D Lᵀ x = f in place for the factors at the start of m and f right behind them."""
+    """Solves L D Lᵀ x = f in place; `m`, shape (n (n + 1)/2 + n,), holds the factors and then f, which becomes x."""
     x = n * (n + 1) // 2
     for i in range(n):
         for k in range(i):
@@ -82,11 +84,12 @@ def solve(m: Floats, n: int) -> None:
             m[x + i] -= m[k * (k + 1) // 2 + i] * m[x + k]
 
 
-@inner
+@inline
 def solve_small(m: Floats, n: int, known: float, out: Floats) -> float:
-    """`factor` and `solve` for one or two coordinates, with as few divisions as can be; q̈ goes behind q̇ in `out`.
+    """`factor` and `solve` for one or two coordinates, with as few divisions as can be.
 
-    `known` is the smallest ratio so far, and what is returned if this one is not smaller.
+    `m`, shape (n (n + 1)/2 + n,), holds the triangle and f; q̈ goes behind q̇ into `out`, shape (≥ 2n,). `known` is the
+    smallest ratio so far, and what is returned if this one is not smaller.
     """
     if n == 1:
         first = m[0]
@@ -104,9 +107,12 @@ def solve_small(m: Floats, n: int, known: float, out: Floats) -> float:
     return float(ratio) if a > 0.0 and c > 0.0 else 0.0
 
 
-@inner
+@inline
 def solve_large(m: Floats, n: int, out: Floats) -> float:
-    """The same for any number of coordinates, by `factor` and `solve`."""
+    """The same for any number of coordinates, by `factor` and `solve`, for arrays as there.
+
+    `m` has shape (n (n + 1)/2 + n,), `out` shape (≥ 2n,).
+    """
     ratio = factor(m, n)
     if ratio > SMALLEST_PIVOT:
         solve(m, n)
@@ -115,19 +121,22 @@ def solve_large(m: Floats, n: int, out: Floats) -> float:
     return float(ratio)
 
 
-@inner
-def slope(motion: Motion, t: float, state: Floats, out: Floats) -> int:
-    """d/dt of the state (q, q̇, ∫P dt) into `out`; returns FINE, SINGULAR or NOT_FINITE."""
-    one_by_one()
+@inline
+def rhs(motion: Motion, t: float, state: Floats, out: Floats) -> int:
+    """The right-hand side: d/dt of (q, q̇, ∫P dt), with q̈ from M q̈ = f; returns FINE, SINGULAR or NOT_FINITE.
+
+    `state` and `out`, which is written, have shape (width,).
+    """
+    prevent_vectorization()
     for i in range(2 * motion.degrees):
         motion.inputs[i] = state[i]
-    return slope_here(motion, t, out)
+    return rhs_at_inputs(motion, t, out)
 
 
-@inner
-def slope_here(motion: Motion, t: float, out: Floats) -> int:
-    """`slope` at the state that stands in the inputs already."""
-    one_by_one()
+@inline
+def rhs_at_inputs(motion: Motion, t: float, out: Floats) -> int:
+    """`rhs` at the state that stands in the inputs already; `out` has shape (width,)."""
+    prevent_vectorization()
     n, inputs, outputs = motion.degrees, motion.inputs, motion.outputs
     inputs[2 * n] = t
     call(motion.address, motion.data, outputs, inputs)

@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner
+from .compiler import inline
 from .hermite import Ends, make_ends
-from .linear import Places, decompose, substitute
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, TOO_LARGE, Floats, Motion, slope
+from .linear import Indices, decompose, substitute
+from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, TOO_LARGE, Floats, Motion, rhs
 from .phase import NUDGE
 from .pointer import call
 from .step import LARGEST_VALUE
@@ -24,95 +24,104 @@ class NewmarkWeights(NamedTuple):
     gamma: float
 
 
-class NewmarkRoom(NamedTuple):
-    """Both ends of a step, digits below their rounding, the acceleration sought and the matrix of the iteration."""
+class NewmarkWorkspace(NamedTuple):
+    """Both ends of a step, digits below their rounding, the acceleration sought and the matrix of the iteration.
+
+    `compensation` and `new_compensation` have shape (width,); `acceleration`, `residual`, `column` and `pivots` shape
+    (n,); `matrix` shape (n, n).
+    """
 
     ends: Ends
-    lost: Floats
-    new_lost: Floats
+    compensation: Floats
+    new_compensation: Floats
     acceleration: Floats
     residual: Floats
     column: Floats
     matrix: Floats
-    places: Places
+    pivots: Indices
 
 
-def make_newmark_room(state: Floats, n: int) -> NewmarkRoom:
+def make_newmark_workspace(state: Floats, n: int) -> NewmarkWorkspace:
+    """The workspace for n coordinates, at an initial state of shape (width,)."""
     wide, line = np.zeros(state.size), np.zeros(n)
     lines = (line, line.copy(), line.copy())
-    places = np.zeros(n, dtype=np.int64)
-    return NewmarkRoom(make_ends(state), wide, wide.copy(), *lines, np.zeros((n, n)), places)
+    pivots = np.zeros(n, dtype=np.int64)
+    return NewmarkWorkspace(make_ends(state), wide, wide.copy(), *lines, np.zeros((n, n)), pivots)
 
 
-@inner
-def place(weights: NewmarkWeights, h: float, room: NewmarkRoom) -> None:
-    """The state at the end that belongs to the acceleration sought, with compensation."""
-    ends, n = room.ends, room.residual.size
+@inline
+def update_state(weights: NewmarkWeights, h: float, workspace: NewmarkWorkspace) -> None:
+    """Newmark's formulas: q and q̇ at the end of the step for the acceleration sought, with Kahan's summation."""
+    ends, n = workspace.ends, workspace.residual.size
     for d in range(n):
-        a, b, v = ends.old_slope[n + d], room.acceleration[d], ends.old[n + d]
-        change = h * (v + h * ((0.5 - weights.beta) * a + weights.beta * b)) + room.lost[d]
+        a, b, v = ends.old_derivative[n + d], workspace.acceleration[d], ends.old[n + d]
+        change = h * (v + h * ((0.5 - weights.beta) * a + weights.beta * b)) + workspace.compensation[d]
         ends.new[d] = ends.old[d] + change
-        room.new_lost[d] = change - (ends.new[d] - ends.old[d])
-        change = h * ((1.0 - weights.gamma) * a + weights.gamma * b) + room.lost[n + d]
+        workspace.new_compensation[d] = change - (ends.new[d] - ends.old[d])
+        change = h * ((1.0 - weights.gamma) * a + weights.gamma * b) + workspace.compensation[n + d]
         ends.new[n + d] = v + change
-        room.new_lost[n + d] = change - (ends.new[n + d] - v)
+        workspace.new_compensation[n + d] = change - (ends.new[n + d] - v)
 
 
-@inner
-def imbalance(motion: Motion, t: float, room: NewmarkRoom, out: Floats) -> None:
-    """f − M q̈ at the end of the step, for the acceleration sought."""
+@inline
+def equation_residual(motion: Motion, t: float, workspace: NewmarkWorkspace, out: Floats) -> None:
+    """f − M q̈ at the end of the step, for the acceleration sought, into `out` of shape (n,)."""
     n = motion.degrees
     for i in range(2 * n):
-        motion.inputs[i] = room.ends.new[i]
+        motion.inputs[i] = workspace.ends.new[i]
     motion.inputs[2 * n] = t
     call(motion.address, motion.data, motion.outputs, motion.inputs)
     for i in range(n):
         out[i] = motion.outputs[n * (n + 1) // 2 + i]
         for j in range(n):
             at = i * (i + 1) // 2 + j if j <= i else j * (j + 1) // 2 + i
-            out[i] -= motion.outputs[at] * room.acceleration[j]
+            out[i] -= motion.outputs[at] * workspace.acceleration[j]
 
 
-@inner
-def differentiate(motion: Motion, weights: NewmarkWeights, t: float, h: float, room: NewmarkRoom) -> bool:
-    """The derivative of the imbalance by the acceleration sought, by differences, decomposed; False if singular."""
+@inline
+def differentiate(motion: Motion, weights: NewmarkWeights, t: float, h: float, workspace: NewmarkWorkspace) -> bool:
+    """The derivative of the residual by the acceleration sought, by differences, decomposed; False if singular."""
     n = motion.degrees
-    place(weights, h, room)
-    imbalance(motion, t, room, room.residual)
+    update_state(weights, h, workspace)
+    equation_residual(motion, t, workspace, workspace.residual)
     for j in range(n):
-        kept = room.acceleration[j]
-        nudge = NUDGE * max(1.0, abs(room.ends.new[j])) / (weights.beta * h * h)
-        room.acceleration[j] = kept + nudge
-        place(weights, h, room)
-        imbalance(motion, t, room, room.column)
-        room.acceleration[j] = kept
+        base = workspace.acceleration[j]
+        nudge = NUDGE * max(1.0, abs(workspace.ends.new[j])) / (weights.beta * h * h)
+        workspace.acceleration[j] = base + nudge
+        update_state(weights, h, workspace)
+        equation_residual(motion, t, workspace, workspace.column)
+        workspace.acceleration[j] = base
         for i in range(n):
-            room.matrix[i, j] = (room.residual[i] - room.column[i]) / nudge
-    return decompose(room.matrix, room.places)
+            workspace.matrix[i, j] = (workspace.residual[i] - workspace.column[i]) / nudge
+    return decompose(workspace.matrix, workspace.pivots)
 
 
-@inner
-def iterate(motion: Motion, weights: NewmarkWeights, t: float, h: float, room: NewmarkRoom) -> tuple[int, int, float]:
-    """Newton's iteration down to rounding; returns how it went, the iterations and the first ratio of corrections."""
+@inline
+def newton_iteration(
+    motion: Motion, weights: NewmarkWeights, t: float, h: float, workspace: NewmarkWorkspace
+) -> tuple[int, int, float]:
+    """Newton's iteration down to rounding; returns the outcome, the iterations, the ratio of the first corrections."""
     n, before, ratio, slowness = motion.degrees, np.inf, 0.0, 0.0
     for iteration in range(1, MOST_ITERATIONS + 1):
-        place(weights, h, room)
-        imbalance(motion, t, room, room.residual)
-        substitute(room.matrix, room.places, room.residual)
+        update_state(weights, h, workspace)
+        equation_residual(motion, t, workspace, workspace.residual)
+        substitute(workspace.matrix, workspace.pivots, workspace.residual)
         correction, size, reach = 0.0, 1e-300, 0.0
         for d in range(n):
-            room.acceleration[d] += room.residual[d]
-            change = abs(room.residual[d])
+            workspace.acceleration[d] += workspace.residual[d]
+            change = abs(workspace.residual[d])
             correction = change if not change <= correction else correction
-            size = max(size, abs(room.acceleration[d]))
-            reach = max(reach, abs(room.ends.new[d]), abs(room.ends.old[d]), h * abs(room.ends.old[n + d]))
+            size = max(size, abs(workspace.acceleration[d]))
+            reach = max(
+                reach, abs(workspace.ends.new[d]), abs(workspace.ends.old[d]), h * abs(workspace.ends.old[n + d])
+            )
         if not correction < np.inf:
             return NOT_FINITE, iteration, np.inf
         ratio = correction / before if iteration > 1 else 0.0
         slowness = ratio if iteration == 2 else slowness
-        grain = ROUNDING * (size + reach / (weights.beta * h * h))
-        if correction <= ROUNDING * size or (ratio > 0.3 and correction <= 64.0 * grain):
-            place(weights, h, room)
+        floor = ROUNDING * (size + reach / (weights.beta * h * h))
+        if correction <= ROUNDING * size or (ratio > 0.3 and correction <= 64.0 * floor):
+            update_state(weights, h, workspace)
             return FINE, iteration, slowness
         if iteration > 3 and ratio >= 1.0:
             return NEWTON_FAILED, iteration, ratio
@@ -120,42 +129,48 @@ def iterate(motion: Motion, weights: NewmarkWeights, t: float, h: float, room: N
     return NEWTON_FAILED, MOST_ITERATIONS, ratio
 
 
-@inner
-def settle(motion: Motion, t: float, h: float, room: NewmarkRoom) -> int:
-    """Slope and work at the end of the step, and whether the new state is within bounds."""
-    ends, n = room.ends, motion.degrees
+@inline
+def finish_step(motion: Motion, t: float, h: float, workspace: NewmarkWorkspace) -> int:
+    """The derivative and the work at the end of the step; returns whether the new state is within bounds."""
+    ends, n = workspace.ends, motion.degrees
     for d in range(2 * n):
         size = abs(ends.new[d])
         if not size <= LARGEST_VALUE:
             return TOO_LARGE if size < np.inf else NOT_FINITE
-    outcome = slope(motion, t + h, ends.new, ends.new_slope)
+    outcome = rhs(motion, t + h, ends.new, ends.new_derivative)
     for d in range(2 * n, ends.new.size):
-        ends.new[d] = ends.old[d] + 0.5 * h * (ends.old_slope[d] + ends.new_slope[d])
+        ends.new[d] = ends.old[d] + 0.5 * h * (ends.old_derivative[d] + ends.new_derivative[d])
     return outcome
 
 
-@inner
+@inline
 def attempt_newmark(
-    motion: Motion, weights: NewmarkWeights, t: float, h: float, is_fresh: int, room: NewmarkRoom
+    motion: Motion, weights: NewmarkWeights, t: float, h: float, is_fresh: int, workspace: NewmarkWorkspace
 ) -> tuple[int, int, float]:
-    """One step, with a fresh matrix if asked; returns how it went, the evaluations, the first ratio of corrections."""
+    """One step, with a fresh matrix if asked.
+
+    Returns the outcome, the evaluations made, and the ratio of the first two corrections.
+    """
     n, made, slowness, outcome = motion.degrees, 1, np.inf, FINE
     for d in range(n):
-        room.acceleration[d] = room.ends.old_slope[n + d]
+        workspace.acceleration[d] = workspace.ends.old_derivative[n + d]
     if is_fresh != 0:
-        outcome = FINE if differentiate(motion, weights, t + h, h, room) else NEWTON_FAILED
+        outcome = FINE if differentiate(motion, weights, t + h, h, workspace) else NEWTON_FAILED
         made += 1 + n
     if outcome == FINE:
-        outcome, iterations, slowness = iterate(motion, weights, t + h, h, room)
+        outcome, iterations, slowness = newton_iteration(motion, weights, t + h, h, workspace)
         made += iterations
     if outcome == FINE:
-        outcome = settle(motion, t, h, room)
+        outcome = finish_step(motion, t, h, workspace)
     return outcome, made, slowness
 
 
-@inner
-def take(room: NewmarkRoom) -> None:
+@inline
+def accept_step(workspace: NewmarkWorkspace) -> None:
     """The new state becomes the old one."""
-    for d in range(room.ends.old.size):
-        room.ends.old[d], room.ends.old_slope[d] = room.ends.new[d], room.ends.new_slope[d]
-        room.lost[d] = room.new_lost[d]
+    for d in range(workspace.ends.old.size):
+        workspace.ends.old[d], workspace.ends.old_derivative[d] = (
+            workspace.ends.new[d],
+            workspace.ends.new_derivative[d],
+        )
+        workspace.compensation[d] = workspace.new_compensation[d]

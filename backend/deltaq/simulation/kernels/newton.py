@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .compiler import inner
+from .compiler import inline
 from .linear import decompose, substitute
 from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, Floats
 from .phase import Phase, momenta
@@ -22,7 +22,7 @@ MOST_ITERATIONS = 50
 SLOW = 0.002  # a ratio of corrections above which the derivatives are taken anew
 
 
-@inner
+@inline
 def assemble(weights: ImplicitWeights, h: float, stages: Stages) -> bool:
     """The matrix of the iteration, δᵢⱼM + h aᵢⱼA − h âᵢⱼD − h²(âa)ᵢⱼK, decomposed; False if it is singular."""
     count, n = stages.q.shape
@@ -34,12 +34,12 @@ def assemble(weights: ImplicitWeights, h: float, stages: Stages) -> bool:
                 for d in range(n):
                     entry = a * m.shift[k, d] - b * m.damping[k, d] - c * m.stiffness[k, d]
                     stages.matrix[i * n + k, j * n + d] = entry + (m.mass[k, d] if i == j else 0.0)
-    return decompose(stages.matrix, stages.places)
+    return decompose(stages.matrix, stages.pivots)
 
 
-@inner
+@inline
 def evaluate(phase: Phase, weights: ImplicitWeights, t: float, h: float, q: Floats, stages: Stages) -> None:
-    """Qᵢ, p and r of every stage for the present Vᵢ."""
+    """Qᵢ, p and r of every stage for the present Vᵢ; `q`, shape (n,), is the position at the start of the step."""
     count, n = stages.q.shape
     for i in range(count):
         for d in range(n):
@@ -50,9 +50,9 @@ def evaluate(phase: Phase, weights: ImplicitWeights, t: float, h: float, q: Floa
         momenta(phase, t + weights.c[i] * h, stages.q[i], stages.v[i], stages.p[i], stages.r[i])
 
 
-@inner
+@inline
 def correct(weights: ImplicitWeights, h: float, p: Floats, stages: Stages) -> float:
-    """One Newton correction of all Vᵢ; returns its largest component."""
+    """One Newton correction of all Vᵢ; returns its largest component. `p`, shape (n,), are the momenta at the start."""
     count, n = stages.q.shape
     for i in range(count):
         for d in range(n):
@@ -60,7 +60,7 @@ def correct(weights: ImplicitWeights, h: float, p: Floats, stages: Stages) -> fl
             for j in range(count):
                 change += weights.momentum_a[i, j] * stages.r[j, d]
             stages.residual[i * n + d] = p[d] - stages.p[i, d] + h * change
-    substitute(stages.matrix, stages.places, stages.residual)
+    substitute(stages.matrix, stages.pivots, stages.residual)
     largest = 0.0
     for i in range(count):
         for d in range(n):
@@ -70,9 +70,12 @@ def correct(weights: ImplicitWeights, h: float, p: Floats, stages: Stages) -> fl
     return largest
 
 
-@inner
-def floor_of(h: float, q: Floats, v: Floats, stages: Stages) -> tuple[float, float]:
-    """The largest velocity, and what the rounding of positions makes of it over a step."""
+@inline
+def rounding_floor(h: float, q: Floats, v: Floats, stages: Stages) -> tuple[float, float]:
+    """The largest velocity, and what the rounding of positions makes of it over a step, ε |q|/h.
+
+    `q` and `v` have shape (n,), those at the start of the step.
+    """
     count, n = stages.q.shape
     speed, size = 1e-300, 0.0
     for d in range(n):
@@ -83,13 +86,13 @@ def floor_of(h: float, q: Floats, v: Floats, stages: Stages) -> tuple[float, flo
     return speed, ROUNDING * size / h
 
 
-@inner
+@inline
 def newton(
     phase: Phase, weights: ImplicitWeights, t: float, h: float, tolerance: float, start: Start, stages: Stages
 ) -> tuple[int, int, float]:
     """Iterates until corrections are rounding errors, or (tolerance > 0) change positions by less than that.
 
-    Returns how it went, the number of iterations and the first ratio of two corrections.
+    Returns the outcome, the number of iterations and the ratio of the first two corrections.
     """
     before, ratio, slowness = np.inf, 0.0, 0.0
     for iteration in range(1, MOST_ITERATIONS + 1):
@@ -97,12 +100,12 @@ def newton(
         correction = correct(weights, h, start.p, stages)
         if not correction < np.inf:
             return NOT_FINITE, iteration, np.inf
-        speed, grain = floor_of(h, start.q, start.v, stages)
+        speed, floor = rounding_floor(h, start.q, start.v, stages)
         ratio = correction / before if iteration > 1 else 0.0
         slowness = ratio if iteration == 2 else slowness
         left = correction * (ratio / (1.0 - ratio) if 0.0 < ratio < 1.0 else 1.0)
-        is_grain = ratio > 0.3 and correction <= 1e-11 * speed + 64.0 * grain
-        if correction <= ROUNDING * speed or left <= 0.1 * ROUNDING * speed or is_grain:
+        is_rounding = ratio > 0.3 and correction <= 1e-11 * speed + 64.0 * floor
+        if correction <= ROUNDING * speed or left <= 0.1 * ROUNDING * speed or is_rounding:
             return FINE, iteration, slowness
         if iteration > 1 and left * max(1.0, h) <= tolerance:
             return FINE, iteration, slowness

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner
+from .compiler import inline
 from .motion import FINE, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, solve
 from .pointer import call
 
@@ -14,7 +14,10 @@ NUDGE = 1.5e-8  # of forward differences: the root of the rounding error
 
 
 class Phase(NamedTuple):
-    """A compiled function of q, q̇, t: the lower triangle of M by rows, p = ∂E/∂q̇ and ṗ = ∂E/∂q + Q."""
+    """A compiled function of q, q̇, t: the packed lower triangle of M, p = ∂E/∂q̇ and ṗ = ∂E/∂q + Q.
+
+    `inputs` has shape (2n + 1 + parameters,), `outputs` shape (n (n + 1)/2 + 2n,).
+    """
 
     address: int
     data: int
@@ -24,7 +27,10 @@ class Phase(NamedTuple):
 
 
 class Linear(NamedTuple):
-    """Derivatives of momenta and their rates at one state: M = ∂p/∂q̇, A = ∂p/∂q, D = ∂ṗ/∂q̇, K = ∂ṗ/∂q."""
+    """Derivatives of momenta and their rates at one state: M = ∂p/∂q̇, A = ∂p/∂q, D = ∂ṗ/∂q̇, K = ∂ṗ/∂q.
+
+    `mass`, `shift`, `damping` and `stiffness` are these in order: shape (n, n) each.
+    """
 
     mass: Floats
     shift: Floats
@@ -32,9 +38,9 @@ class Linear(NamedTuple):
     stiffness: Floats
 
 
-@inner
+@inline
 def momenta(phase: Phase, t: float, q: Floats, v: Floats, p: Floats, rate: Floats) -> None:
-    """p and ṗ at (q, v, t)."""
+    """p = ∂E/∂q̇ and ṗ = ∂E/∂q + Q at (q, v, t); `q`, `v` and, written, `p` and `rate` have shape (n,)."""
     n = phase.degrees
     for i in range(n):
         phase.inputs[i] = q[i]
@@ -47,9 +53,12 @@ def momenta(phase: Phase, t: float, q: Floats, v: Floats, p: Floats, rate: Float
         rate[i] = phase.outputs[first + n + i]
 
 
-@inner
+@inline
 def velocity(phase: Phase, t: float, q: Floats, p: Floats, v: Floats, spare: Floats) -> int:
-    """The rates v that belong to momenta p, which are affine in them; v holds a first guess."""
+    """The rates v that belong to momenta p, which are affine in them; v holds a first guess. Returns the outcome.
+
+    `q`, `p`, `v` and `spare` have shape (n,).
+    """
     n = phase.degrees
     momenta(phase, t, q, v, spare, spare)
     first = n * (n + 1) // 2
@@ -64,25 +73,28 @@ def velocity(phase: Phase, t: float, q: Floats, p: Floats, v: Floats, spare: Flo
     return FINE
 
 
-@inner
+@inline
 def linearize(phase: Phase, t: float, q: Floats, v: Floats, linear: Linear, spare: Floats) -> None:
-    """The derivatives at (q, v, t), by forward differences; `spare` has four rows to work in."""
+    """The derivatives at (q, v, t) into `linear`, by forward differences.
+
+    `q` and `v` have shape (n,), `spare` shape (4, n).
+    """
     n = phase.degrees
     momenta(phase, t, q, v, spare[0], spare[1])
     for j in range(n):
-        kept, nudge = v[j], NUDGE * max(1.0, abs(v[j]))
-        v[j] = kept + nudge
+        base, nudge = v[j], NUDGE * max(1.0, abs(v[j]))
+        v[j] = base + nudge
         momenta(phase, t, q, v, spare[2], spare[3])
-        nudge = v[j] - kept
-        v[j] = kept
+        nudge = v[j] - base
+        v[j] = base
         for i in range(n):
             linear.mass[i, j] = (spare[2, i] - spare[0, i]) / nudge
             linear.damping[i, j] = (spare[3, i] - spare[1, i]) / nudge
-        kept, nudge = q[j], NUDGE * max(1.0, abs(q[j]))
-        q[j] = kept + nudge
+        base, nudge = q[j], NUDGE * max(1.0, abs(q[j]))
+        q[j] = base + nudge
         momenta(phase, t, q, v, spare[2], spare[3])
-        nudge = q[j] - kept
-        q[j] = kept
+        nudge = q[j] - base
+        q[j] = base
         for i in range(n):
             linear.shift[i, j] = (spare[2, i] - spare[0, i]) / nudge
             linear.stiffness[i, j] = (spare[3, i] - spare[1, i]) / nudge

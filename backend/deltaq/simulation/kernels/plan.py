@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inner
+from .compiler import inline
 from .motion import Floats
 
 CAPACITY = 1 << 15  # recorded steps, an even number; a longer run keeps every second, every fourth … of its steps
@@ -21,9 +21,10 @@ COUNT, STRIDE, SKIPPED = 0, 1, 2
 class Plan(NamedTuple):
     """Pieces of the span, and the mesh that a run leaves.
 
-    Piece k goes up to ends[k] (the last may have no end) with steps of sizes[k], adaptive ones up to that. Size 0 marks
-    a jump: the piece has no length but the distance of two neighbouring numbers, and forces differ at its ends.
-    `times` and `states` (rows q, q̇) receive the ends of steps, `progress` how many, every how many, and those since.
+    Piece k goes up to ends[k] (the last may have no end) with steps of sizes[k], adaptive ones up to that: `ends` and
+    `sizes` have shape (pieces,), in seconds. Size 0 marks a jump: the piece has no length but the distance of two
+    neighbouring numbers, and forces differ at its ends. `times`, shape (capacity,), and `states`, shape (capacity, 2n),
+    receive the ends of steps; `progress`, shape (3,), how many, every how many, and those since.
     """
 
     ends: Floats
@@ -34,13 +35,16 @@ class Plan(NamedTuple):
 
 
 def make_plan(ends: Floats, sizes: Floats, width: int, capacity: int = 0) -> Plan:
-    """A plan with room to record so many steps of a state (q, q̇) of so many numbers."""
+    """A plan that records up to `capacity` steps of states with `width` components.
+
+    `ends` and `sizes` of its pieces have shape (pieces,).
+    """
     progress = np.array([0, 1, 0], dtype=np.int64)
     return Plan(ends, sizes, np.empty(capacity), np.empty((capacity, width)), progress)
 
 
-@inner
-def entered(plan: Plan, piece: int, t: float) -> tuple[int, float, bool]:
+@inline
+def enter_piece(plan: Plan, piece: int, t: float) -> tuple[int, float, bool]:
     """The piece in which a step from t begins, the time it begins at, and whether a jump was crossed to get there."""
     if t < plan.ends[piece]:
         return piece, t, False
@@ -49,16 +53,16 @@ def entered(plan: Plan, piece: int, t: float) -> tuple[int, float, bool]:
     return piece + 1, t, False
 
 
-@inner
-def fitted(plan: Plan, piece: int, t: float, wanted: float) -> tuple[float, bool]:
+@inline
+def fit_step(plan: Plan, piece: int, t: float, wanted: float) -> tuple[float, bool]:
     """The step wanted, no longer than the piece allows, and whether it ends the piece."""
     left, h = plan.ends[piece] - t, min(wanted, plan.sizes[piece])
     return (h, False) if h * (1.0 + 1e-9) < left else (left, True)
 
 
-@inner
+@inline
 def record(plan: Plan, t: float, state: Floats) -> None:
-    """The end of a step is kept; where there is no more room, every second of those before gives way."""
+    """Records the end of a step, a state of shape (≥ 2n,); when the record is full, every second entry is dropped."""
     progress = plan.progress
     progress[SKIPPED] += 1
     if plan.times.size == 0 or (progress[SKIPPED] < progress[STRIDE] and progress[COUNT] > 0):

@@ -27,8 +27,8 @@ def _call(_context: Any, _address: Any, _data: Any, outputs: Any, inputs: Any) -
     return types.void(types.int64, types.int64, outputs, inputs), generate
 
 
-def _one_by_one(_context: Any) -> Any:
-    """one_by_one(): the function in which this stands, and what it is a part of, is not vectorized.
+def _prevent_vectorization(_context: Any) -> Any:
+    """prevent_vectorization(): the function in which this stands, and what it is a part of, is not vectorized.
 
     Vectors of numbers that were stored one by one just before are what a processor must wait for: with them, a
     right-hand side of two coordinates takes a quarter longer.
@@ -42,4 +42,4 @@ def _one_by_one(_context: Any) -> Any:
 
 
 call: Any = intrinsic(_call)
-one_by_one: Any = intrinsic(_one_by_one)
+prevent_vectorization: Any = intrinsic(_prevent_vectorization)

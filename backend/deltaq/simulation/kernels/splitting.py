@@ -10,113 +10,120 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner, kernel, variable
+from .compiler import inline, kernel, runtime_int
 from .hermite import Ends, make_ends, sample_between, watch_between
-from .loop import Result, begin, interruption, passed
-from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, factor, slope, solve
+from .loop import Result, advance_time, begin, interruption
+from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, factor, rhs, solve
 from .phase import Phase, momenta
-from .plan import entered, fitted, record
+from .plan import enter_piece, fit_step, record
 from .step import LARGEST_VALUE
 from .step_control import Control
 from .watch import Watch
 
 
 class SplitWeights(NamedTuple):
-    """Kick by kicks[i] h, then drift by drifts[i] h, for every i."""
+    """Kick by kicks[i] h, then drift by drifts[i] h, for every i: `kicks` and `drifts` have shape (stages,)."""
 
     kicks: Floats
     drifts: Floats
 
 
-class SplitRoom(NamedTuple):
-    """Both ends of a step, digits below their rounding, the force at hand and the factors of M with room for one."""
+class SplitWorkspace(NamedTuple):
+    """Both ends of a step, digits below their rounding, q̈ at the new positions, and the factors of M.
+
+    `compensation` has shape (width,), `acceleration` and `spare` shape (n,), `factors` shape (n (n + 1)/2 + n,): the
+    factors and a right side.
+    """
 
     ends: Ends
-    lost: Floats
-    force: Floats
+    compensation: Floats
+    acceleration: Floats
     spare: Floats
     factors: Floats
 
 
-def make_split_room(state: Floats, n: int) -> SplitRoom:
+def make_split_workspace(state: Floats, n: int) -> SplitWorkspace:
+    """The workspace for n coordinates, at an initial state of shape (width,)."""
     line = np.zeros(n)
-    return SplitRoom(make_ends(state), np.zeros(state.size), line, line.copy(), np.zeros(n * (n + 1) // 2 + n))
+    return SplitWorkspace(make_ends(state), np.zeros(state.size), line, line.copy(), np.zeros(n * (n + 1) // 2 + n))
 
 
-@inner
-def add(d: int, change: float, room: SplitRoom) -> None:
-    """Component d of the new state changed, with compensation."""
-    change += room.lost[d]
-    old = room.ends.new[d]
-    room.ends.new[d] = old + change
-    room.lost[d] = change - (room.ends.new[d] - old)
+@inline
+def add_compensated(d: int, change: float, workspace: SplitWorkspace) -> None:
+    """Adds to component d of the new state by Kahan's summation."""
+    change += workspace.compensation[d]
+    old = workspace.ends.new[d]
+    workspace.ends.new[d] = old + change
+    workspace.compensation[d] = change - (workspace.ends.new[d] - old)
 
 
-@inner
-def push(phase: Phase, t: float, room: SplitRoom) -> None:
-    """M⁻¹ ṗ at the new positions."""
+@inline
+def update_acceleration(phase: Phase, t: float, workspace: SplitWorkspace) -> None:
+    """q̈ = M⁻¹ ṗ at the new positions, where the factors of M are known."""
     n = phase.degrees
-    momenta(phase, t, room.ends.new[:n], room.ends.new[n : 2 * n], room.spare, room.force)
+    momenta(phase, t, workspace.ends.new[:n], workspace.ends.new[n : 2 * n], workspace.spare, workspace.acceleration)
     first = n * (n + 1) // 2
     for d in range(n):
-        room.factors[first + d] = room.force[d]
-    solve(room.factors, n)
+        workspace.factors[first + d] = workspace.acceleration[d]
+    solve(workspace.factors, n)
     for d in range(n):
-        room.force[d] = room.factors[first + d]
+        workspace.acceleration[d] = workspace.factors[first + d]
 
 
-@inner
-def factorize(phase: Phase, t: float, room: SplitRoom) -> None:
-    """The factors of M, which stay."""
+@inline
+def factorize(phase: Phase, t: float, workspace: SplitWorkspace) -> None:
+    """The factors of M, which is constant."""
     n = phase.degrees
-    push(phase, t, room)
+    update_acceleration(phase, t, workspace)
     for i in range(n * (n + 1) // 2):
-        room.factors[i] = phase.outputs[i]
-    factor(room.factors, n)
+        workspace.factors[i] = phase.outputs[i]
+    factor(workspace.factors, n)
 
 
-@inner
-def advance(phase: Phase, weights: SplitWeights, t: float, h: float, known: int, room: SplitRoom) -> tuple[bool, int]:
-    """All kicks and drifts of a step; `known` says whether the force at the start is at hand.
+@inline
+def advance(
+    phase: Phase, weights: SplitWeights, t: float, h: float, known: int, workspace: SplitWorkspace
+) -> tuple[bool, int]:
+    """All kicks and drifts of a step; `known` says whether the acceleration at its start is known.
 
-    Returns whether it is at hand for the end, and how many forces were computed.
+    Returns whether it is known at the end, and how many were computed.
     """
     n, computed, place = phase.degrees, 0, 0.0
     is_known = known != 0
     for i in range(weights.kicks.size):
         if weights.kicks[i] != 0.0:
             if not is_known:
-                push(phase, t + place * h, room)
+                update_acceleration(phase, t + place * h, workspace)
                 computed += 1
                 is_known = True
             for d in range(n):
-                add(n + d, weights.kicks[i] * h * room.force[d], room)
+                add_compensated(n + d, weights.kicks[i] * h * workspace.acceleration[d], workspace)
         if weights.drifts[i] != 0.0:
             for d in range(n):
-                add(d, weights.drifts[i] * h * room.ends.new[n + d], room)
+                add_compensated(d, weights.drifts[i] * h * workspace.ends.new[n + d], workspace)
             place += weights.drifts[i]
             is_known = False
     return is_known, computed
 
 
-@inner
-def check(n: int, room: SplitRoom) -> int:
+@inline
+def check(n: int, workspace: SplitWorkspace) -> int:
     """Whether the new state is within bounds."""
     for d in range(2 * n):
-        size = abs(room.ends.new[d])
+        size = abs(workspace.ends.new[d])
         if not size <= LARGEST_VALUE:
             return TOO_LARGE if size < np.inf else NOT_FINITE
     return FINE
 
 
 @kernel
-def work(motion: Motion, t: float, h: float, room: SplitRoom) -> int:
+def work(motion: Motion, t: float, h: float, workspace: SplitWorkspace) -> int:
     """∫P dt over the step, by the trapezoidal rule."""
-    ends, n = room.ends, motion.degrees
-    outcome = slope(motion, t, ends.old, ends.old_slope)
+    ends, n = workspace.ends, motion.degrees
+    outcome = rhs(motion, t, ends.old, ends.old_derivative)
     if outcome == FINE:
-        outcome = slope(motion, t + h, ends.new, ends.new_slope)
-    add(2 * n, 0.5 * h * (ends.old_slope[2 * n] + ends.new_slope[2 * n]), room)
+        outcome = rhs(motion, t + h, ends.new, ends.new_derivative)
+    add_compensated(2 * n, 0.5 * h * (ends.old_derivative[2 * n] + ends.new_derivative[2 * n]), workspace)
     return outcome
 
 
@@ -127,34 +134,35 @@ def integrate_split(
     weights: SplitWeights,
     control: Control,
     watch: Watch,
-    room: SplitRoom,
+    workspace: SplitWorkspace,
     times: Floats,
     out: Floats,
 ) -> Result:
     """Steps of one size from times[0] past times[-1]; out[i] becomes (q, q̇, ∫P dt) at times[i].
 
-    The initial state stands in room.ends.old and room.ends.new.
+    The initial state stands in `workspace.ends.old` and `workspace.ends.new`. `times` has shape (samples,), `out` shape
+    (samples, width).
     """
-    t, lost_time, n, plan, ends = times[0], 0.0, motion.degrees, control.plan, room.ends
-    outcome = begin(motion, plan, watch, t, ends.old, ends.old_slope, out)
+    t, time_compensation, n, plan, ends = times[0], 0.0, motion.degrees, control.plan, workspace.ends
+    outcome = begin(motion, plan, watch, t, ends.old, ends.old_derivative, out)
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
-    factorize(phase, t, room)
-    filled, steps, evaluations, piece, is_known = variable(1), 0, 2, variable(0), False
+    factorize(phase, t, workspace)
+    filled, steps, evaluations, piece, is_known = runtime_int(1), 0, 2, runtime_int(0), False
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps, watch)
         if outcome != FINE:
             break
-        piece, t, jumped = entered(plan, piece, t)
+        piece, t, jumped = enter_piece(plan, piece, t)
         if jumped:
-            lost_time, is_known = 0.0, False
+            time_compensation, is_known = 0.0, False
             record(plan, t, ends.old)
-        h, ends_piece = fitted(plan, piece, t, np.inf)
-        is_known, computed = advance(phase, weights, t, h, 1 if is_known else 0, room)
+        h, ends_piece = fit_step(plan, piece, t, np.inf)
+        is_known, computed = advance(phase, weights, t, h, 1 if is_known else 0, workspace)
         evaluations += computed
-        outcome = check(n, room)
+        outcome = check(n, workspace)
         if outcome == FINE and motion.is_powered:
-            outcome = work(motion, t, h, room)
+            outcome = work(motion, t, h, workspace)
             evaluations += 2
         if outcome != FINE:
             break
@@ -165,6 +173,6 @@ def integrate_split(
         for d in range(ends.old.size):
             ends.old[d] = ends.new[d]
         steps += 1
-        t, lost_time = passed(plan, piece, t, h, lost_time, 1 if ends_piece else 0)
+        t, time_compensation = advance_time(plan, piece, t, h, time_compensation, 1 if ends_piece else 0)
         record(plan, t, ends.old)
     return Result(outcome, filled, steps, 0, evaluations, min(t, times[times.size - 1]))

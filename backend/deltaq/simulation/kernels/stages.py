@@ -1,4 +1,4 @@
-"""The stages of implicit methods: their room, and the first guesses that Newton's iteration begins with."""
+"""The stages of implicit methods: their workspace, and the first guesses that Newton's iteration begins with."""
 
 from __future__ import annotations
 
@@ -6,16 +6,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner
-from .linear import Places
+from .compiler import inline
+from .linear import Indices
 from .motion import Floats
 from .phase import Linear
 
 
 class ImplicitWeights(NamedTuple):
-    """A pair of tableaus: `a`, `b`, `c` for positions, `momentum_a`, `momentum_b` for momenta.
+    """A pair of tableaus with s stages: `a`, `b`, `c` for positions, `momentum_a`, `momentum_b` for momenta.
 
-    `product` is momentum_a · a. `error` holds γ₀ and the weights of the stages in the error estimate, if there is one.
+    `a`, `momentum_a` and `product`, which is momentum_a · a, have shape (s, s); `b`, `c` and `momentum_b` shape (s,).
+    `error`, shape (1 + s,) or (0,), holds γ₀ and the weights of the stages in the error estimate, if there is one.
     """
 
     a: Floats
@@ -28,7 +29,7 @@ class ImplicitWeights(NamedTuple):
 
 
 class Start(NamedTuple):
-    """Positions, velocities and momenta at the start of a step."""
+    """`q`, `v` and `p` are positions, velocities and momenta at the start of a step: shape (n,) each."""
 
     q: Floats
     v: Floats
@@ -36,8 +37,12 @@ class Start(NamedTuple):
 
 
 class Stages(NamedTuple):
-    """Positions, velocities, momenta and their rates of all stages; the matrix of the iteration and its room;
-    position and velocity in the middle of the step."""
+    """The s stages of a step, and the arrays of their iteration.
+
+    `q`, `v`, `p` and `r` are positions, velocities, momenta and their rates, `last_v` the velocities of the step
+    before: shape (s, n). `matrix`, shape (s n, s n), `pivots` and `residual`, shape (s n,), are the linear system of
+    the iteration; `spare` has shape (4, n). `centre`, shape (2, n), is position and velocity in the middle of the step.
+    """
 
     q: Floats
     v: Floats
@@ -45,7 +50,7 @@ class Stages(NamedTuple):
     r: Floats
     last_v: Floats
     matrix: Floats
-    places: Places
+    pivots: Indices
     residual: Floats
     linear: Linear
     spare: Floats
@@ -53,16 +58,20 @@ class Stages(NamedTuple):
 
 
 def make_stages(stages: int, n: int) -> Stages:
+    """The workspace of so many stages for n coordinates."""
     size, line, square = stages * n, np.zeros((stages, n)), np.zeros((n, n))
     q, v, p, r, last = line, line.copy(), line.copy(), line.copy(), line.copy()
     linear = Linear(square, square.copy(), square.copy(), square.copy())
-    matrix, places, residual = np.zeros((size, size)), np.zeros(size, dtype=np.int64), np.zeros(size)
-    return Stages(q, v, p, r, last, matrix, places, residual, linear, np.zeros((4, n)), np.zeros((2, n)))
+    matrix, pivots, residual = np.zeros((size, size)), np.zeros(size, dtype=np.int64), np.zeros(size)
+    return Stages(q, v, p, r, last, matrix, pivots, residual, linear, np.zeros((4, n)), np.zeros((2, n)))
 
 
-@inner
-def share_before(c: Floats, x: float, j: int) -> float:
-    """The Lagrange polynomial of the last step's node c[j] − 1 among those before its end, and the end, at x."""
+@inline
+def lagrange_basis_before(c: Floats, x: float, j: int) -> float:
+    """The value at x of the Lagrange basis polynomial of the last step's node c[j] − 1.
+
+    x is in units of that step, from its end. The nodes are those before the end, and the end; `c` has shape (s,).
+    """
     place = c[j] - 1.0
     part = x / place
     for k in range(c.size):
@@ -72,11 +81,11 @@ def share_before(c: Floats, x: float, j: int) -> float:
     return float(part)
 
 
-@inner
+@inline
 def predict(weights: ImplicitWeights, ratio: float, v: Floats, stages: Stages) -> None:
     """First guesses of V: the polynomial through v at the start and the stages of the last step, carried on.
 
-    `ratio` is this step over the last one; 0 means that there was none.
+    `v` has shape (n,). `ratio` is this step over the last one; 0 means that there was none.
     """
     count, n = stages.q.shape
     for i in range(count):
@@ -87,14 +96,17 @@ def predict(weights: ImplicitWeights, ratio: float, v: Floats, stages: Stages) -
         x = weights.c[i] * ratio  # in units of the last step, from its end
         for j in range(count):
             if x > 0.0 and weights.c[j] < 1.0:
-                part = share_before(weights.c, x, j)
+                part = lagrange_basis_before(weights.c, x, j)
                 for d in range(n):
                     stages.v[i, d] += part * (stages.last_v[j, d] - v[d])
 
 
-@inner
-def middle(weights: ImplicitWeights, h: float, q: Floats, stages: Stages) -> None:
-    """The middle of the step by the first guesses, position and velocity, where derivatives serve all stages."""
+@inline
+def midpoint(weights: ImplicitWeights, h: float, q: Floats, stages: Stages) -> None:
+    """Position and velocity in the middle of the step by the first guesses, where derivatives serve all stages.
+
+    `q`, shape (n,), is the position at the start.
+    """
     for d in range(q.size):
         rate = 0.0
         for i in range(weights.b.size):

@@ -6,15 +6,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner, variable
-from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, slope, slope_here
-from .pointer import one_by_one
+from .compiler import inline, runtime_int
+from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, rhs, rhs_at_inputs
+from .pointer import prevent_vectorization
 
 LARGEST_VALUE = 1e15  # beyond, nothing in a mechanical scene has a meaning
 
 
 class Weights(NamedTuple):
-    """A tableau as arrays (see `method.Tableau`); `a` and `c` begin with the second stage."""
+    """A tableau with s stages as arrays (see `method.Tableau`); `a` and `c` begin with the second stage.
+
+    `a` has shape (s − 1, s), `b` shape (s,), `c` shape (s − 1,), `error` shape (estimates, s + 1). Of the continuous
+    extension with e further stages, `dense` has shape (terms, s + 1 + e), `extra_a` shape (e, s + 1 + e), `extra_c`
+    (e,).
+    """
 
     a: Floats
     b: Floats
@@ -25,23 +30,29 @@ class Weights(NamedTuple):
     extra_c: Floats
 
 
-class Room(NamedTuple):
-    """Arrays to work in. Kernels allocate nothing, so that Numba counts no references in the inner loop."""
+class Workspace(NamedTuple):
+    """What a step writes to. Kernels allocate nothing, so that Numba counts no references in the inner loop.
 
-    slopes: Floats  # of all stages
+    `derivatives`, shape (s + 1 + e, width), are the kᵢ of all stages, `stage` the state of one stage, `old` and `new`
+    the states at the ends of the step, `compensation` and `new_compensation` digits of them below their rounding: shape
+    (width,) each. `extension`, shape (3 + terms, width), are the coefficients of the continuous extension.
+    """
+
+    derivatives: Floats  # of all stages
     stage: Floats  # the state of one stage
     old: Floats
     new: Floats
-    lost: Floats  # digits of the old state below its rounding
-    new_lost: Floats
+    compensation: Floats  # digits of the old state below its rounding
+    new_compensation: Floats
     extension: Floats
 
 
-def make_room(state: Floats, weights: Weights) -> Room:
-    width, slopes = state.size, weights.b.size + 1 + weights.extra_c.size
+def make_workspace(state: Floats, weights: Weights) -> Workspace:
+    """The workspace of a method, at an initial state of shape (width,)."""
+    width, derivatives = state.size, weights.b.size + 1 + weights.extra_c.size
     line = np.zeros(width)
-    return Room(
-        np.zeros((slopes, width)),
+    return Workspace(
+        np.zeros((derivatives, width)),
         line.copy(),
         state.copy(),
         line.copy(),
@@ -51,58 +62,67 @@ def make_room(state: Floats, weights: Weights) -> Room:
     )
 
 
-@inner
-def stages(motion: Motion, a: Floats, c: Floats, first: int, t: float, h: float, room: Room) -> int:
-    """Slopes number `first` and on, one for each row of a; returns how it went."""
-    n, old, stage, slopes, inputs = motion.degrees, room.old, room.stage, room.slopes, motion.inputs
+@inline
+def stages(motion: Motion, a: Floats, c: Floats, first: int, t: float, h: float, workspace: Workspace) -> int:
+    """The derivatives kᵢ number `first` and on, one for each row of a; returns the outcome.
+
+    `a` has shape (stages, ≥ first + stages), `c` shape (stages,).
+    """
+    n, old, stage, derivatives, inputs = (
+        motion.degrees,
+        workspace.old,
+        workspace.stage,
+        workspace.derivatives,
+        motion.inputs,
+    )
     for s in range(c.size):
-        for d in range(n):  # no slope depends on ∫P dt
+        for d in range(n):  # no derivative depends on ∫P dt
             value, rate = 0.0, 0.0
             for j in range(first + s):
-                value += a[s, j] * slopes[j, d]
-                rate += a[s, j] * slopes[j, n + d]
+                value += a[s, j] * derivatives[j, d]
+                rate += a[s, j] * derivatives[j, n + d]
             stage[d] = inputs[d] = old[d] + h * value
             stage[n + d] = inputs[n + d] = old[n + d] + h * rate
-        outcome = slope_here(motion, t + c[s] * h, room.slopes[first + s])
+        outcome = rhs_at_inputs(motion, t + c[s] * h, workspace.derivatives[first + s])
         if outcome != FINE:
             return outcome
     return FINE
 
 
-@inner
-def advance(b: Floats, h: float, room: Room) -> int:
-    """The new state from the slopes, with compensation; returns how it went.
+@inline
+def advance(b: Floats, h: float, workspace: Workspace) -> int:
+    """The new state y + h Σ bⱼ kⱼ by Kahan's summation; returns the outcome. `b` has shape (s,).
 
-    Σ bⱼ = 1, so what is summed is how the slopes differ from the first: large weights then round nothing large.
+    Σ bⱼ = 1, so what is summed is how the kⱼ differ from the first: large weights then round nothing large.
     """
-    for d in range(room.old.size):
-        first, change = room.slopes[0, d], 0.0
+    for d in range(workspace.old.size):
+        first, change = workspace.derivatives[0, d], 0.0
         for j in range(1, b.size):
-            change += b[j] * (room.slopes[j, d] - first)
-        change = h * (first + change) + room.lost[d]
-        room.new[d] = room.old[d] + change
-        room.new_lost[d] = change - (room.new[d] - room.old[d])
-        if not abs(room.new[d]) <= LARGEST_VALUE:
-            return NOT_FINITE if np.isnan(room.new[d]) else TOO_LARGE
+            change += b[j] * (workspace.derivatives[j, d] - first)
+        change = h * (first + change) + workspace.compensation[d]
+        workspace.new[d] = workspace.old[d] + change
+        workspace.new_compensation[d] = change - (workspace.new[d] - workspace.old[d])
+        if not abs(workspace.new[d]) <= LARGEST_VALUE:
+            return NOT_FINITE if np.isnan(workspace.new[d]) else TOO_LARGE
     return FINE
 
 
-@inner
-def attempt(motion: Motion, weights: Weights, t: float, h: float, room: Room) -> int:
-    """All stages of one step, the new state and the slope there; returns how it went."""
-    outcome = stages(motion, weights.a, weights.c, variable(1), t, h, room)
+@inline
+def attempt(motion: Motion, weights: Weights, t: float, h: float, workspace: Workspace) -> int:
+    """All stages of one step, the new state and the derivative there; returns the outcome."""
+    outcome = stages(motion, weights.a, weights.c, runtime_int(1), t, h, workspace)
     if outcome == FINE:
-        outcome = advance(weights.b, h, room)
+        outcome = advance(weights.b, h, workspace)
     if outcome == FINE:
-        outcome = slope(motion, t + h, room.new, room.slopes[weights.b.size])
+        outcome = rhs(motion, t + h, workspace.new, workspace.derivatives[weights.b.size])
     return outcome
 
 
-@inner
-def accept(end: int, room: Room) -> None:
-    """The new state becomes the old one."""
-    one_by_one()
-    for d in range(room.old.size):
-        room.old[d] = room.new[d]
-        room.lost[d] = room.new_lost[d]
-        room.slopes[0, d] = room.slopes[end, d]
+@inline
+def accept(end: int, workspace: Workspace) -> None:
+    """The new state becomes the old one; `end` is the row of the derivative at the end of the step."""
+    prevent_vectorization()
+    for d in range(workspace.old.size):
+        workspace.old[d] = workspace.new[d]
+        workspace.compensation[d] = workspace.new_compensation[d]
+        workspace.derivatives[0, d] = workspace.derivatives[end, d]

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inner, kernel
-from .motion import FINE, HELD, Floats, Motion, slope
+from .compiler import inline, kernel
+from .motion import FINE, HELD, Floats, Motion, rhs
 from .pointer import call
 
 NUDGE = 1e-6  # of differences
@@ -23,11 +23,12 @@ AHEAD = 1e-3  # of the longest step: so far ahead it is asked whether a step fai
 
 
 class Switch(NamedTuple):
-    """A compiled function whose outputs are so many switching functions; `inputs` are those of the motion.
+    """A compiled function whose outputs are the switching functions; `inputs` are those of the motion.
 
-    `before` and `after` are their values at the ends of a step, `gradient` ∂s/∂(q, q̇) of one of them, `state` and
-    `rates` room for a state and its slope, `here` for that at the end of a step. `which[0]` tells which one holds the
-    motion, `when[0]` since when.
+    `inputs` has shape (2n + 1 + parameters,). `before`, `after` and `values` are the functions at the ends of a step
+    and elsewhere, shape (functions,). `gradient` is ∂s/∂(q, q̇) of one of them, `middle` the state it is taken at,
+    `state` and `rates` another state and its derivative, `here` the derivative at the end of a step: shape (width,).
+    `which` and `when`, shape (1,), tell which function holds the motion, −1 for none, and since when.
     """
 
     address: int
@@ -47,7 +48,10 @@ class Switch(NamedTuple):
 
 
 def make_switch(addresses: tuple[int, int], count: int, inputs: Floats, width: int) -> Switch:
-    """Room to watch so many switching functions of a state with `width` components."""
+    """The arrays to watch `count` switching functions of a state with `width` components.
+
+    `inputs` has shape (inputs,).
+    """
     before, after, values = np.zeros(count), np.zeros(count), np.zeros(count)
     gradient, middle, state, rates, here = (np.zeros(width) for _ in range(5))
     which, when = np.full(1, -1, dtype=np.int64), np.zeros(1)
@@ -55,8 +59,8 @@ def make_switch(addresses: tuple[int, int], count: int, inputs: Floats, width: i
 
 
 @kernel
-def switching(switch: Switch, degrees: int, t: float, state: Floats, out: Floats) -> None:
-    """The switching functions of a state."""
+def switching_values(switch: Switch, degrees: int, t: float, state: Floats, out: Floats) -> None:
+    """The switching functions of a state, shape (≥ 2n,), into `out`, shape (functions,)."""
     for d in range(2 * degrees):
         switch.inputs[d] = state[d]
     switch.inputs[2 * degrees] = t
@@ -64,34 +68,34 @@ def switching(switch: Switch, degrees: int, t: float, state: Floats, out: Floats
 
 
 @kernel
-def steepen(switch: Switch, degrees: int, t: float, k: int) -> tuple[float, float]:
-    """∂s/∂(q, q̇) of function k at the middle state into `gradient`; returns its square and ∂s/∂t."""
+def switching_gradient(switch: Switch, degrees: int, t: float, k: int) -> tuple[float, float]:
+    """∂s/∂(q, q̇) of function k at the middle state into `gradient`, by differences; returns its square and ∂s/∂t."""
     square = 0.0
     for d in range(2 * degrees):
         at = switch.middle[d]
         nudge = NUDGE * max(1.0, abs(at))
         switch.middle[d] = at + nudge
-        switching(switch, degrees, t, switch.middle, switch.values)
+        switching_values(switch, degrees, t, switch.middle, switch.values)
         ahead = switch.values[k]
         switch.middle[d] = at - nudge
-        switching(switch, degrees, t, switch.middle, switch.values)
+        switching_values(switch, degrees, t, switch.middle, switch.values)
         switch.middle[d] = at
         switch.gradient[d] = (ahead - switch.values[k]) / (2.0 * nudge)
         square += switch.gradient[d] ** 2
     nudge = NUDGE * max(1.0, abs(t))
-    switching(switch, degrees, t + nudge, switch.middle, switch.values)
+    switching_values(switch, degrees, t + nudge, switch.middle, switch.values)
     ahead = switch.values[k]
-    switching(switch, degrees, t - nudge, switch.middle, switch.values)
+    switching_values(switch, degrees, t - nudge, switch.middle, switch.values)
     return square, (ahead - switch.values[k]) / (2.0 * nudge)
 
 
 @kernel
-def rate_beside(motion: Motion, switch: Switch, t: float, off: float, square: float, by_time: float) -> float:
+def switching_rate(motion: Motion, switch: Switch, t: float, off: float, square: float, by_time: float) -> float:
     """ṡ a distance `off` beside s = 0, at the middle state; NaN where it has none."""
     n, total = motion.degrees, by_time
     for d in range(2 * n):
         switch.state[d] = switch.middle[d] + off * switch.gradient[d] / square
-    if slope(motion, t, switch.state, switch.rates) != FINE:
+    if rhs(motion, t, switch.state, switch.rates) != FINE:
         return np.nan
     for d in range(2 * n):
         total += switch.gradient[d] * switch.rates[d]
@@ -102,31 +106,34 @@ def rate_beside(motion: Motion, switch: Switch, t: float, off: float, square: fl
 def is_held(motion: Motion, switch: Switch, t: float, k: int, size: float) -> bool:
     """Whether function k holds the motion at the middle state, which is near its zero; `size` is that of s nearby."""
     n = motion.degrees
-    square, by_time = steepen(switch, n, t, k)
+    square, by_time = switching_gradient(switch, n, t, k)
     if not 0.0 < square < np.inf:
         return False
-    switching(switch, n, t, switch.middle, switch.values)
+    switching_values(switch, n, t, switch.middle, switch.values)
     for d in range(2 * n):
         switch.middle[d] -= switch.values[k] * switch.gradient[d] / square
     off = OFF * max(size, 1e-6)
-    above = rate_beside(motion, switch, t, off, square, by_time)
-    below = rate_beside(motion, switch, t, -off, square, by_time)
+    above = switching_rate(motion, switch, t, off, square, by_time)
+    below = switching_rate(motion, switch, t, -off, square, by_time)
     if not (above < 0.0 and below > 0.0):
         return False
-    closer = rate_beside(motion, switch, t, 0.01 * off, square, by_time)
-    other = rate_beside(motion, switch, t, -0.01 * off, square, by_time)
+    closer = switching_rate(motion, switch, t, 0.01 * off, square, by_time)
+    other = switching_rate(motion, switch, t, -0.01 * off, square, by_time)
     return bool(closer < 0.5 * above and other > 0.5 * below)  # a jump stays, a slope shrinks
 
 
 @kernel
-def held_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats) -> int:
-    """`hold_ahead` where there are switching functions; a call, not a part of every stepping loop."""
+def find_hold_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats) -> int:
+    """`detect_hold_ahead` where there are switching functions; a call, not a part of every stepping loop.
+
+    `state` and `rates`, its derivative, have shape (width,).
+    """
     n = motion.degrees
-    switching(switch, n, t, state, switch.before)
+    switching_values(switch, n, t, state, switch.before)
     for k in range(switch.functions):
         for d in range(2 * n):
             switch.middle[d] = state[d]
-        square, speed = steepen(switch, n, t, k)
+        square, speed = switching_gradient(switch, n, t, k)
         for d in range(2 * n):
             speed += switch.gradient[d] * rates[d]
         if square == 0.0 or speed == 0.0 or -switch.before[k] / speed > reach or switch.before[k] * speed > 0.0:
@@ -141,16 +148,17 @@ def held_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Fl
     return FINE
 
 
-@inner
-def hold_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats) -> int:
-    """HELD if a function that comes to zero within `reach`, as the slope says, holds the motion there, else FINE.
+@inline
+def detect_hold_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats) -> int:
+    """HELD if a function that comes to zero within `reach`, by its rate, holds the motion there, else FINE.
 
-    For the start, and for where a step fails. At a zero, what stays there by itself is not held.
+    `state` and `rates`, its derivative, have shape (width,). For the start, and for where a step fails. At a zero, what
+    stays there by itself is not held.
     """
-    return FINE if switch.functions == 0 else held_ahead(motion, switch, t, reach, state, rates)
+    return FINE if switch.functions == 0 else find_hold_ahead(motion, switch, t, reach, state, rates)
 
 
-@inner
+@inline
 def is_near(switch: Switch) -> bool:
     """Whether a switching function would change its sign within two more steps like the last one.
 
@@ -165,48 +173,59 @@ def is_near(switch: Switch) -> bool:
 
 
 @kernel
-def held_within(motion: Motion, switch: Switch, t: float, h: float, is_fixed: int, old: Floats, new: Floats) -> int:
-    """`hold` where there are switching functions; a call, not a part of every stepping loop."""
+def find_hold_within(
+    motion: Motion, switch: Switch, t: float, h: float, is_fixed: int, old: Floats, new: Floats
+) -> int:
+    """`detect_hold` where there are switching functions; a call, not a part of every stepping loop.
+
+    `old` and `new`, the states at the ends of the step, have shape (width,).
+    """
     n, outcome = motion.degrees, FINE
-    switching(switch, n, t + h, new, switch.after)
+    switching_values(switch, n, t + h, new, switch.after)
     for k in range(switch.functions):
         before, after = switch.before[k], switch.after[k]
         if outcome == FINE and (before * after < 0.0 or (after == 0.0 and before != 0.0)):
             if (
-                slope(motion, t, old, switch.here) == FINE
-                and held_ahead(motion, switch, t, 2.0 * h, old, switch.here) == HELD
+                rhs(motion, t, old, switch.here) == FINE
+                and find_hold_ahead(motion, switch, t, 2.0 * h, old, switch.here) == HELD
             ):
                 outcome, switch.when[0] = HELD, min(switch.when[0], t + h)
                 break
-            switching(switch, n, t, old, switch.before)
+            switching_values(switch, n, t, old, switch.before)
             part = before / (before - after)
             for d in range(2 * n):
                 switch.middle[d] = old[d] + part * (new[d] - old[d])
             if is_held(motion, switch, t + part * h, k, abs(before) + abs(after)):
                 outcome, switch.which[0], switch.when[0] = HELD, k, t + part * h
-    if outcome == FINE and is_fixed != 0 and is_near(switch) and slope(motion, t + h, new, switch.here) == FINE:
-        outcome = held_ahead(motion, switch, t + h, h, new, switch.here)
+    if outcome == FINE and is_fixed != 0 and is_near(switch) and rhs(motion, t + h, new, switch.here) == FINE:
+        outcome = find_hold_ahead(motion, switch, t + h, h, new, switch.here)
     for k in range(switch.functions):
         switch.before[k] = switch.after[k]
     return outcome
 
 
-@inner
-def hold(motion: Motion, switch: Switch, t: float, h: float, is_fixed: int, old: Floats, new: Floats) -> int:
+@inline
+def detect_hold(motion: Motion, switch: Switch, t: float, h: float, is_fixed: int, old: Floats, new: Floats) -> int:
     """HELD if a function that changed its sign in the step holds the motion, else FINE.
 
-    Step control meets every zero closely; behind fixed steps it is asked, too, whether the next one would.
+    `old` and `new`, the states at the ends of the step, have shape (width,). Step control meets every zero closely;
+    behind fixed steps it is asked, too, whether the next one would.
     """
-    return FINE if switch.functions == 0 else held_within(motion, switch, t, h, is_fixed, old, new)
+    return FINE if switch.functions == 0 else find_hold_within(motion, switch, t, h, is_fixed, old, new)
 
 
-@inner
+@inline
 def is_held_before(switch: Switch, t: float, outcome: int) -> bool:
     """Whether the motion was held before a time."""
     return bool(outcome == HELD and switch.when[0] <= t)
 
 
-@inner
-def fallen(motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats, outcome: int) -> int:
-    """HELD if that is why a step failed, else the outcome as it was."""
-    return HELD if hold_ahead(motion, switch, t, reach, state, rates) == HELD else outcome
+@inline
+def held_or_failed(
+    motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats, outcome: int
+) -> int:
+    """HELD if that is why a step failed, else the outcome as it was.
+
+    `state` and `rates`, its derivative, have shape (width,).
+    """
+    return HELD if detect_hold_ahead(motion, switch, t, reach, state, rates) == HELD else outcome

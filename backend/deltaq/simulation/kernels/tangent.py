@@ -12,10 +12,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inner, kernel
-from .motion import FINE, NOT_FINITE, STEP_LIMIT, STEP_UNDERFLOW, Floats, Motion, slope
-from .step import Room, Weights, accept, attempt
-from .step_control import LARGEST_GROWTH, Control, error_norm, first_step, grown, level, shrunk, tells_apart
+from .compiler import inline, kernel
+from .motion import FINE, NOT_FINITE, STEP_LIMIT, STEP_UNDERFLOW, Floats, Motion, rhs
+from .step import Weights, Workspace, accept, attempt
+from .step_control import (
+    LARGEST_GROWTH,
+    Control,
+    controlled_step,
+    error_norm,
+    first_step,
+    is_resolvable,
+    log_error,
+    reduced_step,
+)
 
 NEAR = 1e-8  # size of the deviation, in units of the scales
 FAR, TOO_NEAR = 1000.0, 0.03  # times NEAR: beyond these it is brought to NEAR again
@@ -23,118 +32,138 @@ TINY = 1e-9  # of a stretch
 
 
 class Pair(NamedTuple):
-    """The motion, its neighbour, and the units in which their distance is measured."""
+    """The motion, its neighbour, and the units in which their distance is measured: `scales`, shape (2n,)."""
 
     motion: Motion
     weights: Weights
     control: Control
-    room: Room
-    other: Room
+    workspace: Workspace
+    neighbour: Workspace
     scales: Floats  # shape (2n,)
 
 
-class Pace(NamedTuple):
-    """Where the pair is: `clock` holds the time and the size of the next step, `used` the number of steps."""
+class Progress(NamedTuple):
+    """Where the pair is: `clock`, shape (2,), holds the time and the size of the next step in seconds.
+
+    `used`, shape (1,), is the number of steps.
+    """
 
     clock: Floats
     used: Floats
 
 
 class Trace(NamedTuple):
-    """At the end of each stretch: the state, and the logarithm of the factor by which the deviation grew in it."""
+    """At the end of each stretch: the state, and the logarithm of the factor by which the deviation grew in it.
+
+    `states` has shape (stretches, 2n), `growths` shape (stretches,).
+    """
 
     states: Floats  # shape (stretches, 2n)
     growths: Floats
 
 
 @kernel
-def begin_pair(pair: Pair, pace: Pace, direction: Floats) -> int:
-    """Sets the slopes, the first step, and the neighbour NEAR the motion in a direction."""
-    outcome = slope(pair.motion, pace.clock[0], pair.room.old, pair.room.slopes[0])
+def begin_pair(pair: Pair, progress: Progress, direction: Floats) -> int:
+    """Sets derivatives, a first step, and the neighbour NEAR the motion in a direction; returns the outcome.
+
+    `direction` has shape (2n,).
+    """
+    outcome = rhs(pair.motion, progress.clock[0], pair.workspace.old, pair.workspace.derivatives[0])
     if outcome != FINE:
         return outcome
-    pace.clock[1] = first_step(pair.motion, pair.control, pace.clock[0], pair.room)
-    return place(pair, pace, direction, 0.0)
+    progress.clock[1] = first_step(pair.motion, pair.control, progress.clock[0], pair.workspace)
+    return place_neighbour(pair, progress, direction, 0.0)
 
 
-@inner
-def place(pair: Pair, pace: Pace, direction: Floats, size: float) -> int:
-    """Puts the neighbour NEAR the motion: in its own direction, `size` times nearer, or (0) in the direction given."""
-    room, other = pair.room, pair.other
-    for d in range(room.old.size):
+@inline
+def place_neighbour(pair: Pair, progress: Progress, direction: Floats, size: float) -> int:
+    """Puts the neighbour NEAR the motion: in its own direction, `size` times nearer, or (0) in the direction given.
+
+    `direction` has shape (2n,). Returns the outcome.
+    """
+    workspace, neighbour = pair.workspace, pair.neighbour
+    for d in range(workspace.old.size):
         away = 0.0
         if d < pair.scales.size:
-            away = gap(pair, d) / size if size > 0.0 else NEAR * direction[d] * pair.scales[d]
-        other.old[d] = room.old[d] + away
-        other.lost[d] = room.lost[d] + (away - (other.old[d] - room.old[d]))
-    return slope(pair.motion, pace.clock[0], other.old, other.slopes[0])
+            away = deviation(pair, d) / size if size > 0.0 else NEAR * direction[d] * pair.scales[d]
+        neighbour.old[d] = workspace.old[d] + away
+        neighbour.compensation[d] = workspace.compensation[d] + (away - (neighbour.old[d] - workspace.old[d]))
+    return rhs(pair.motion, progress.clock[0], neighbour.old, neighbour.derivatives[0])
 
 
-@inner
-def gap(pair: Pair, d: int) -> float:
+@inline
+def deviation(pair: Pair, d: int) -> float:
     """One component of the deviation, digits below rounding included."""
-    return float((pair.other.old[d] - pair.room.old[d]) + (pair.other.lost[d] - pair.room.lost[d]))
+    return float(
+        (pair.neighbour.old[d] - pair.workspace.old[d])
+        + (pair.neighbour.compensation[d] - pair.workspace.compensation[d])
+    )
 
 
-@inner
-def distance(pair: Pair) -> float:
-    """Size of the deviation in units of the scales."""
+@inline
+def deviation_size(pair: Pair) -> float:
+    """The size of the deviation in units of the scales."""
     total = 0.0
     for d in range(pair.scales.size):
-        total += (gap(pair, d) / pair.scales[d]) ** 2
+        total += (deviation(pair, d) / pair.scales[d]) ** 2
     return float(np.sqrt(total))
 
 
-@inner
-def step_both(pair: Pair, pace: Pace, left: float) -> int:
-    """One accepted step of at most `left`; the clock says when it ended."""
-    control, room, clock, end = pair.control, pair.room, pace.clock, pair.weights.b.size
+@inline
+def step_both(pair: Pair, progress: Progress, left: float) -> int:
+    """One accepted step of at most `left` seconds for both motions; the clock says when it ended."""
+    control, workspace, clock, end = pair.control, pair.workspace, progress.clock, pair.weights.b.size
     outcome, growth = FINE, LARGEST_GROWTH
     while outcome == FINE:
         h = min(clock[1], left)
-        outcome = attempt(pair.motion, pair.weights, clock[0], h, room)
-        error = error_norm(pair.weights.error, control.tolerance, h, pair.motion.degrees, room)
+        outcome = attempt(pair.motion, pair.weights, clock[0], h, workspace)
+        error = error_norm(pair.weights.error, control.tolerance, h, pair.motion.degrees, workspace)
         if outcome == FINE and error <= 1.0:
-            outcome = attempt(pair.motion, pair.weights, clock[0], h, pair.other)
-            accept(end, room)
-            accept(end, pair.other)
-            proposed = grown(control, h, level(error), level(1e-4), growth)
+            outcome = attempt(pair.motion, pair.weights, clock[0], h, pair.neighbour)
+            accept(end, workspace)
+            accept(end, pair.neighbour)
+            proposed = controlled_step(control, h, log_error(error), log_error(1e-4), growth)
             clock[1] = proposed if h == clock[1] else max(clock[1], proposed)
             clock[0] += h
             return outcome
-        smaller, growth = shrunk(control, h, error if outcome == FINE else np.nan), 1.0
-        if not tells_apart(control, clock[0], smaller):
+        smaller, growth = reduced_step(control, h, error if outcome == FINE else np.nan), 1.0
+        if not is_resolvable(control, clock[0], smaller):
             return STEP_UNDERFLOW if outcome == FINE else outcome
         clock[1], outcome = smaller, FINE
     return outcome
 
 
 @kernel
-def accompany(pair: Pair, pace: Pace, start: float, stretch: float, first: int, count: int, trace: Trace) -> int:
-    """Fills stretches first … first + count − 1 of the trace, which end at start + (k + 1) · stretch."""
+def follow_stretches(
+    pair: Pair, progress: Progress, start: float, stretch: float, first: int, count: int, trace: Trace
+) -> int:
+    """Fills stretches first … first + count − 1 of the trace; returns the outcome.
+
+    Stretch k ends at the time start + (k + 1) · stretch.
+    """
     outcome = FINE
     for k in range(first, first + count):
-        before, renewed = np.log(distance(pair) / NEAR), 0.0
+        before, rescaled = np.log(deviation_size(pair) / NEAR), 0.0
         finish = start + (k + 1) * stretch
-        while outcome == FINE and finish - pace.clock[0] > TINY * stretch:
-            outcome, size = walk(pair, pace, finish)
+        while outcome == FINE and finish - progress.clock[0] > TINY * stretch:
+            outcome, size = advance_pair(pair, progress, finish)
             if outcome == FINE and not TOO_NEAR < size < FAR:
-                renewed += np.log(size)
-                outcome = place(pair, pace, pair.scales, size)
+                rescaled += np.log(size)
+                outcome = place_neighbour(pair, progress, pair.scales, size)
         if outcome != FINE:
             return outcome
-        trace.growths[k] = np.log(distance(pair) / NEAR) + renewed - before
+        trace.growths[k] = np.log(deviation_size(pair) / NEAR) + rescaled - before
         for d in range(pair.scales.size):
-            trace.states[k, d] = pair.room.old[d]
+            trace.states[k, d] = pair.workspace.old[d]
     return FINE
 
 
-@inner
-def walk(pair: Pair, pace: Pace, finish: float) -> tuple[int, float]:
-    """One step towards `finish`, and how many times NEAR the neighbour is away then."""
-    if pace.used[0] >= pair.control.step_limit:
+@inline
+def advance_pair(pair: Pair, progress: Progress, finish: float) -> tuple[int, float]:
+    """One step towards `finish`: the outcome, and how many times NEAR the neighbour is away then."""
+    if progress.used[0] >= pair.control.step_limit:
         return STEP_LIMIT, 1.0
-    outcome = step_both(pair, pace, finish - pace.clock[0])
-    pace.used[0] += 1
-    size = distance(pair) / NEAR
+    outcome = step_both(pair, progress, finish - progress.clock[0])
+    progress.used[0] += 1
+    size = deviation_size(pair) / NEAR
     return (outcome if 0.0 < size < np.inf else NOT_FINITE), size

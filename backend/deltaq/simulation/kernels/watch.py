@@ -12,21 +12,23 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inner, variable
+from .compiler import inline, runtime_int
 from .motion import EVENT, FINE, Floats
 from .pointer import call
 from .switch import Switch, make_switch
 
-PLACES = 9  # extensions have degree 7 at most
+NODES = 9  # extensions have degree 7 at most
 
 
 class Watch(NamedTuple):
     """A flag, and a compiled function with so many outputs (`functions`), all positive as long as nothing has happened.
 
-    `inputs` are those of the motion. `states` receives the states at `times`, `places` (in units of the step) after
-    its start, and `values` what the function says of them. Of each output, `least` is the least value up to the
-    first step that may have fallen through zero, and `closest_times`, `closest_states` are the step with it. `switch`
-    tells where a force that jumps holds the motion.
+    `cancelled`, shape (1,), ends the run when it is not 0. `inputs`, shape (inputs,), are those of the motion. `nodes`,
+    shape (NODES,), are Chebyshev's extreme points in units of a step; `states`, shape (NODES, width), are the states at
+    `times`, shape (NODES,), and `values`, shape (NODES, functions), what the function says of them. Of each output,
+    `least`, shape (functions,), is the least value up to the first step that may have fallen through zero, and
+    `closest_times`, shape (functions, NODES), with `closest_states`, shape (functions, NODES, width), the step that has
+    it. `switch` tells where a force that jumps holds the motion.
     """
 
     cancelled: NDArray[np.int64]  # one number; anything but 0 ends the run
@@ -34,7 +36,7 @@ class Watch(NamedTuple):
     data: int
     functions: int  # 0: no event is watched for
     inputs: Floats
-    places: Floats
+    nodes: Floats
     times: Floats
     states: Floats
     values: Floats
@@ -52,28 +54,31 @@ def make_watch(
     width: int,
     switch: Switch,
 ) -> Watch:
-    """Room to watch so many functions of a state with `width` components, beside the switching functions."""
-    places = 0.5 - 0.5 * np.cos(np.pi * np.arange(PLACES) / (PLACES - 1))
-    times, states = np.zeros(PLACES), np.zeros((PLACES, width))
-    values, least = np.zeros((PLACES, functions)), np.full(functions, np.inf)
-    closest = np.zeros((functions, PLACES)), np.zeros((functions, PLACES, width))
-    return Watch(cancelled, *addresses, functions, inputs, places, times, states, values, least, *closest, switch)
+    """The arrays to watch so many functions of a state with `width` components, beside the switching functions.
+
+    `cancelled` has shape (1,), `inputs` shape (inputs,).
+    """
+    nodes = 0.5 - 0.5 * np.cos(np.pi * np.arange(NODES) / (NODES - 1))
+    times, states = np.zeros(NODES), np.zeros((NODES, width))
+    values, least = np.zeros((NODES, functions)), np.full(functions, np.inf)
+    closest = np.zeros((functions, NODES)), np.zeros((functions, NODES, width))
+    return Watch(cancelled, *addresses, functions, inputs, nodes, times, states, values, least, *closest, switch)
 
 
 def unwatched(cancelled: NDArray[np.int64], switch: Switch | None = None) -> Watch:
-    """A flag alone, or with switching functions."""
+    """A flag of shape (1,) alone, or with switching functions."""
     return make_watch(cancelled, (0, 0), 0, np.zeros(1), 0, switch or make_switch((0, 0), 0, np.zeros(1), 0))
 
 
-@inner
-def look_at(watch: Watch, t: float, h: float) -> None:
-    """The times to take states at, for the step of size h from t."""
-    for k in range(watch.places.size):
-        watch.times[k] = t + watch.places[k] * h
+@inline
+def set_sample_times(watch: Watch, t: float, h: float) -> None:
+    """The times at which states are looked at, for the step of size h from t."""
+    for k in range(watch.nodes.size):
+        watch.times[k] = t + watch.nodes[k] * h
 
 
-@inner
-def seen(watch: Watch, degrees: int) -> int:
+@inline
+def check_events(watch: Watch, degrees: int) -> int:
     """EVENT if a function is no longer positive at one of the states, else FINE."""
     for k in range(watch.times.size):
         for d in range(2 * degrees):
@@ -82,33 +87,33 @@ def seen(watch: Watch, degrees: int) -> int:
         call(watch.address, watch.data, watch.values[k], watch.inputs)
     outcome = FINE
     for j in range(watch.functions):
-        lowest = variable(0)
+        lowest = runtime_int(0)
         for k in range(1, watch.times.size):
             if watch.values[k, j] < watch.values[lowest, j]:
                 lowest = k
         if watch.values[lowest, j] <= 0.0:
             outcome = EVENT
-        least = bottom(watch, lowest, j)
+        least = interpolated_minimum(watch, lowest, j)
         if least < watch.least[j] and watch.least[j] > 0.0:
-            keep(watch, j, least)
+            record_closest(watch, j, least)
     return outcome
 
 
-@inner
-def bottom(watch: Watch, k: int, j: int) -> float:
-    """The least value of function j around place k, by the parabola through its neighbours."""
+@inline
+def interpolated_minimum(watch: Watch, k: int, j: int) -> float:
+    """The least value of function j around node k, by the parabola through its neighbours."""
     middle = watch.values[k, j]
     if k in (0, watch.times.size - 1):
         return float(middle)
-    before, after = watch.places[k] - watch.places[k - 1], watch.places[k + 1] - watch.places[k]
+    before, after = watch.nodes[k] - watch.nodes[k - 1], watch.nodes[k + 1] - watch.nodes[k]
     fall, rise = (middle - watch.values[k - 1, j]) / before, (watch.values[k + 1, j] - middle) / after
     bend = (rise - fall) / (before + after)
     slope = fall + bend * before
     return float(middle - 0.25 * slope * slope / bend) if bend > 0.0 else float(middle)
 
 
-@inner
-def keep(watch: Watch, j: int, least: float) -> None:
+@inline
+def record_closest(watch: Watch, j: int, least: float) -> None:
     """The step looked at is the one in which function j came closest to zero."""
     watch.least[j] = least
     for k in range(watch.times.size):

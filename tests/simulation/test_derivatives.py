@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from deltaq.mechanics.library import load_scene
+from deltaq.simulation.derivatives import accelerations, derivatives, power
 from deltaq.simulation.problem import Floats, Problem
 from deltaq.simulation.service import problem_of
-from deltaq.simulation.slopes import accelerations, power, slopes
 
 SCENES = ["pendulum", "elastic-pendulum", "guided-pendulum", "triple-pendulum", "heavy-top"]
 
@@ -30,7 +30,7 @@ def test_they_solve_the_equations_of_motion(scene: str) -> None:
         mass = lower + np.tril(lower, -1).T
         np.testing.assert_allclose(mass @ found, row[n * (n + 1) // 2 :][:n], rtol=1e-10, atol=1e-10)
         assert np.isfinite(rates).all()
-    np.testing.assert_array_equal(slopes(problem, times, states)[:, :n], states[:, n:])
+    np.testing.assert_array_equal(derivatives(problem, times, states)[:, :n], states[:, n:])
 
 
 def test_power_is_that_of_the_guide() -> None:

@@ -11,15 +11,15 @@ import pytest
 
 from deltaq.api.workers.account import Account, Ledger, QuotaExceeded
 from deltaq.api.workers.job import DeadlineExceeded, Job, Overloaded, WorkerDied, WorkerKilled
-from deltaq.api.workers.lane import Lane, Limits, begins
 from deltaq.api.workers.message import encode_request
-from deltaq.api.workers.occupancy import Lanes
+from deltaq.api.workers.occupancy import Slots
 from deltaq.api.workers.pool import Pool
 from deltaq.api.workers.queue import FairQueue
 from deltaq.api.workers.task import Task
 from deltaq.api.workers.worker import Listener
+from deltaq.api.workers.worker_thread import Limits, WorkerThread, begins
 
-LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, patience=30.0)
+LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, queue_timeout=30.0)
 
 
 def task(name: str, document: object = None, account: Account | None = None) -> Task:
@@ -29,24 +29,24 @@ def task(name: str, document: object = None, account: Account | None = None) -> 
 
 
 def test_task_that_was_cancelled_is_not_begun() -> None:
-    lane, cancelled = Lane(FairQueue(1, Lanes(1, 1)), LIMITS), task("echo")
+    thread, cancelled = WorkerThread(FairQueue(1, Slots(1, 1)), LIMITS), task("echo")
     cancelled.answer.cancel()
-    lane.serve(cancelled)
-    assert (lane.worker, lane.served) == (None, 0)
+    thread.serve(cancelled)
+    assert (thread.worker, thread.served) == (None, 0)
 
 
 def test_client_that_used_up_its_share_while_waiting_gets_no_worker() -> None:
-    lane, debtor = Lane(FairQueue(1, Lanes(1, 1)), LIMITS), Account("one", Ledger(0.5, 10.0))
+    thread, debtor = WorkerThread(FairQueue(1, Slots(1, 1)), LIMITS), Account("one", Ledger(0.5, 10.0))
     debtor.pay(100.0)
-    found = lane.outcome(task("echo", account=debtor))
+    found = thread.outcome(task("echo", account=debtor))
     assert isinstance(found, QuotaExceeded)
-    assert lane.worker is None
+    assert thread.worker is None
 
 
 def test_lane_that_stops_refuses() -> None:
-    lane = Lane(FairQueue(1, Lanes(1, 1)), LIMITS)
-    lane.stop()
-    found = lane.attempt(task("echo"))
+    thread = WorkerThread(FairQueue(1, Slots(1, 1)), LIMITS)
+    thread.stop()
+    found = thread.attempt(task("echo"))
     assert isinstance(found, Overloaded)
     assert str(found) == "the service is stopping"
 
@@ -61,15 +61,15 @@ def test_lane_that_stops_refuses() -> None:
 def test_start_that_fails_is_told_unless_the_service_stops(
     failures: int, told: list[str], monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    lane, left = Lane(FairQueue(1, Lanes(1, 1)), LIMITS), iter(range(failures))
+    thread, left = WorkerThread(FairQueue(1, Slots(1, 1)), LIMITS), iter(range(failures))
 
     def fails(_memory: int, _timeout: float, _niceness: int) -> NoReturn:
         if next(left, None) is None:
-            lane.stop()
+            thread.stop()
         raise EOFError
 
-    monkeypatch.setattr("deltaq.api.workers.lane.start_worker", fails)
-    assert lane.ready_worker() is None
+    monkeypatch.setattr("deltaq.api.workers.worker_thread.start_worker", fails)
+    assert thread.ready_worker() is None
     assert caplog.messages == told
 
 
@@ -82,16 +82,16 @@ def test_start_that_fails_is_told_unless_the_service_stops(
     ],
 )
 def test_end_of_a_worker(number: signal.Signals, kind: type[Exception], text: str) -> None:
-    lane = Lane(FairQueue(1, Lanes(1, 1)), LIMITS)
-    found = lane.attempt(task("end_by_signal", int(number)))
+    thread = WorkerThread(FairQueue(1, Slots(1, 1)), LIMITS)
+    found = thread.attempt(task("end_by_signal", int(number)))
     assert type(found) is kind
     assert str(found) == text
-    assert lane.worker is None
+    assert thread.worker is None
 
 
 @pytest.mark.anyio
 async def test_pool_without_any_worker_refuses_in_the_end() -> None:
-    pool = Pool(1, 1, Limits(memory=2**31, jobs=1, start_timeout=1.0, patience=0.05))
+    pool = Pool(1, 1, Limits(memory=2**31, jobs=1, start_timeout=1.0, queue_timeout=0.05))
     with pytest.raises(Overloaded, match="waited too long"):
         await pool.run(Job("tests.api.workers.jobs:echo", 30.0), None)
     assert pool.state.waiting == 0
@@ -106,7 +106,7 @@ async def test_stop_passes_over_what_was_cancelled() -> None:
     with pytest.raises(asyncio.CancelledError):
         await waiting[0]
     await asyncio.sleep(0)
-    pool._lanes = ()  # none was started
+    pool._threads = ()  # none was started
     pool.stop(0.0)
     with pytest.raises(Overloaded, match="the service is stopping"):
         await waiting[1]

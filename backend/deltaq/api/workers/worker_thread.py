@@ -22,20 +22,23 @@ FIRST_PAUSE, LONGEST_PAUSE = 0.05, 5.0
 
 @dataclass(frozen=True)
 class Limits:
-    """What every worker of a pool is held to: bytes of memory, jobs before it is replaced, seconds, niceness."""
+    """What every worker of a pool is held to: bytes of memory, jobs before it is replaced, and niceness.
+
+    `start_timeout` is how many seconds it may take to start, `queue_timeout` how many a task may wait for it.
+    """
 
     memory: int
     jobs: int
     start_timeout: float
-    patience: float
+    queue_timeout: float
     niceness: int = 0
 
 
-class Lane(Thread):
+class WorkerThread(Thread):
     """Takes tasks from the queue one by one, until the queue is closed."""
 
     def __init__(self, tasks: FairQueue, limits: Limits) -> None:
-        super().__init__(name="deltaq-lane", daemon=True)
+        super().__init__(name="deltaq-worker-thread", daemon=True)
         self.tasks = tasks
         self.limits = limits
         self.worker: Worker | None = None
@@ -46,6 +49,7 @@ class Lane(Thread):
         self.stopping = Event()
 
     def run(self) -> None:
+        """Serve tasks until the queue is closed or the thread is stopped."""
         self.ready_worker()
         while not self.stopping.is_set() and (task := self.tasks.take()) is not None:
             self.serve(task)
@@ -56,7 +60,7 @@ class Lane(Thread):
         self.stopping.set()
 
     def ready_worker(self) -> Worker | None:
-        """The lane's worker, started if need be; tried again until it comes up, or None when the lane is stopped."""
+        """The thread's worker, started if need be; tried again until it comes up; None when the thread is stopped."""
         pause = FIRST_PAUSE
         while self.worker is None and not self.stopping.is_set():
             try:
@@ -76,7 +80,7 @@ class Lane(Thread):
             worker.kill()
 
     def serve(self, task: Task) -> None:
-        """Give the task's future an answer or an error; nothing that happens here may end the lane."""
+        """Give the task's future an answer or an error; nothing that happens here may end the thread."""
         if not begins(task):
             self.tasks.done(task)
             return
@@ -84,7 +88,7 @@ class Lane(Thread):
         try:
             outcome = self.outcome(task)
         except Exception as error:
-            LOGGER.exception("the lane failed")
+            LOGGER.exception("the worker thread failed")
             self.drop_worker()  # it may be in the middle of a reply
             outcome = JobFailed(f"{type(error).__name__}: {error}")
         self.busy = False
@@ -95,7 +99,7 @@ class Lane(Thread):
         self.ready_worker()
 
     def tell(self, task: Task, outcome: bytes | DeltaqError) -> None:
-        """Let the future have it; what has outgrown its lane waits for another one instead."""
+        """Let the future have it; what turned out slow waits for a slow job's slot instead."""
         try:
             if isinstance(outcome, Outgrown):
                 self.tasks.put_back(task)

@@ -1,0 +1,39 @@
+"""The right-hand side at given states: derivatives, accelerations and power, as the integrators have them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .integration import motion_of
+from .kernels.derivatives import evaluate_rhs
+from .problem import Floats, Problem
+
+
+def derivatives(problem: Problem, times: Floats, states: Floats) -> Floats:
+    """d/dt of (q, q̇ and, where power is fed in, ∫P dt); zero where that has no value.
+
+    `times` has shape (states,), `states` shape (states, ≥ 2n); returns shape (states, width), width 2n or 2n + 1.
+    """
+    out = np.zeros((len(times), problem.state.size))
+    rows = np.ascontiguousarray(states[:, : 2 * problem.degrees])
+    evaluate_rhs(motion_of(problem, is_long=False), np.ascontiguousarray(times), rows, out)
+    return out
+
+
+def accelerations(problem: Problem, times: Floats, states: Floats) -> Floats:
+    """q̈ at states (q, q̇, …); zero where it has no value.
+
+    `times` has shape (states,), `states` shape (states, ≥ 2n); returns shape (states, n).
+    """
+    n = problem.degrees
+    return derivatives(problem, times, states)[:, n : 2 * n]
+
+
+def power(problem: Problem, times: Floats, states: Floats) -> Floats:
+    """P = P₀ + p₁·q̈ of all that is not in E + V: other forces, guides and explicit time dependence, in W.
+
+    `times` has shape (states,), `states` shape (states, ≥ 2n); returns shape (states,).
+    """
+    if not problem.model.layout.is_powered:
+        return np.zeros(len(times))
+    return derivatives(problem, times, states)[:, -1]
