@@ -1,4 +1,4 @@
-"""What others may have written is not believed: answers, and kernels, whose files are pickles; the service works on."""
+"""What others may have written is not trusted: answers, and kernels, whose files are pickles; the service works on."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from deltaq.api.workers import kernels
 from deltaq.ownership import UntrustedFileError, require_trusted
 from deltaq.simulation.kernels.compiler import OwnFiles
 
-KEY = "0123456789abcdef" * 2
+KEY, OTHER = "0123456789abcdef" * 2, "fedcba9876543210" * 2
 Spoil = Callable[[Path, Path], object]
 
 
@@ -103,14 +103,78 @@ def test_kernels_that_others_may_have_written_are_not_loaded(tmp_path: Path, spo
     assert not ran.exists()
 
 
-def test_kernels_below_a_folder_of_all_are_not_loaded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("deltaq.simulation.kernels.compiler.config", SimpleNamespace(CACHE_DIR=str(tmp_path)))
-    kept = OwnFiles(str(tmp_path / "kernels"), "kernel", "stamp")
-    (tmp_path / "kernels").mkdir()
-    kept.save("signature", "code")
-    tmp_path.chmod(0o777)
+def moved(place: Path) -> None:
+    """The folder stands elsewhere, in one that all may write, and a link leads there."""
+    shared = place.parent / "shared"
+    shared.mkdir()
+    place.rename(shared / place.name)
+    place.symlink_to(shared / place.name)
+    shared.chmod(0o777)
+
+
+def reached_by_links(place: Path) -> None:
+    """All may write the folder, in which links lead to what is this user's alone."""
+    safe = place.rename(place.with_name("safe"))
+    place.mkdir()
+    for one in safe.iterdir():
+        (place / one.name).symlink_to(one)
+    place.chmod(0o777)
+
+
+WAYS = [
+    pytest.param(lambda way: None, True, id="this user's alone"),
+    pytest.param(lambda way: way.chmod(0o777), False, id="all may write"),
+    pytest.param(lambda way: way.chmod(0o1777), True, id="all may write, and replace what is their own, as in /tmp"),
+    pytest.param(lambda way: (os.chown(way, -1, 65534), way.chmod(0o770)), False, id="a group may write"),
+    pytest.param(given, False, id="of another user"),
+    pytest.param(lambda way: (given(way), way.chmod(0o1777)), False, id="of another user, sticky"),
+    pytest.param(moved, False, id="a link into a folder that all may write"),
+    pytest.param(reached_by_links, False, id="a link in a folder that all may write"),
+    pytest.param(lambda way: (way.rename(f"{way}s"), way.symlink_to(f"{way}s")), True, id="a link of this user"),
+]
+
+
+@pytest.mark.parametrize("depth", [1, 2])
+@pytest.mark.parametrize(("change", "is_safe"), WAYS)
+def test_a_folder_is_trusted_only_where_nobody_else_can_replace_it(
+    tmp_path: Path, depth: int, change: Callable[[Path], object], is_safe: bool
+) -> None:
+    """Whoever may write a folder above a cache can put a cache of his own in its place."""
+    way = tmp_path / "way"
+    folder = way.joinpath(*["folder"] * (depth - 1), "cache")
+    folder.mkdir(parents=True)
+    disk, kernel = Disk(folder / "answers", 100_000), OwnFiles(str(folder / "kernels"), "kernel", "stamp")
+    disk.save(KEY, b"answer")
+    (folder / "kernels").mkdir()
+    kernel.save("signature", "code")
+    change(way)
+    assert disk.load(KEY) == (b"answer" if is_safe else None)
+    disk.save(OTHER, b"other")
+    assert disk.load(OTHER) == (b"other" if is_safe else None)
+    if is_safe:
+        assert kernel.load("signature") == "code"
+        return
+    for load in (lambda: kernel.load("signature"), lambda: require_trusted(folder / "missing")):
+        with pytest.raises(UntrustedFileError):
+            load()
+
+
+def test_what_lies_above_the_home_folder_is_not_looked_at(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As OpenSSH does it; who sets up the machine answers for the folder of all homes."""
+    home = tmp_path / "homes" / "ada"
+    (home / "cache").mkdir(parents=True)
+    home.parent.chmod(0o777)
     with pytest.raises(UntrustedFileError):
-        kept.load("signature")
+        require_trusted(home / "cache")
+    monkeypatch.setattr(ownership.pwd, "getpwuid", lambda number: SimpleNamespace(pw_name="ada", pw_dir=str(home)))
+    ownership._home.cache_clear()
+    try:
+        require_trusted(home / "cache")
+        home.chmod(0o777)
+        with pytest.raises(UntrustedFileError):
+            require_trusted(home / "cache")
+    finally:
+        ownership._home.cache_clear()
 
 
 def test_a_service_whose_kernels_others_may_write_has_a_folder_of_its_own(
@@ -142,7 +206,7 @@ def test_every_kernel_is_kept_in_files_that_are_looked_at() -> None:
 
 def test_a_group_of_one_user_alone_is_he_himself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tmp_path.chmod(0o775)
-    user = SimpleNamespace(pw_name="ada")
+    user = SimpleNamespace(pw_name="ada", pw_dir="/")
     monkeypatch.setattr(ownership.pwd, "getpwuid", lambda number: user)
     for group, members, is_accepted in (
         ("ada", [], True),

@@ -13,7 +13,6 @@ from pickle import UnpicklingError
 from typing import Any, TypeVar, cast
 
 from numba import njit
-from numba.core import config
 from numba.core.caching import IndexDataCacheFile
 
 from ...ownership import require_trusted
@@ -33,7 +32,7 @@ def kernel(function: F) -> F:
 
 
 def inline(function: F) -> F:
-    """A part of a kernel: always inlined, since a call would pass seven words for each array."""
+    """A part of a kernel that is always inlined, since a call would pass seven words for each array."""
     return _compiled(function, forceinline=True)
 
 
@@ -56,10 +55,10 @@ class OwnFiles(IndexDataCacheFile):
         self.folder = Path(folder)
 
     def _load_index(self) -> Any:
-        """Raises NotOursError, also before anything is written."""
-        for place in (getattr(config, "CACHE_DIR", ""), self.folder, self.folder / self._index_name):
+        """Raises UntrustedFileError, also before anything is written."""
+        for place in (self.folder, self.folder / self._index_name):
             with suppress(FileNotFoundError):
-                require_trusted(place or self.folder)
+                require_trusted(place)
         return super()._load_index()  # type: ignore[no-untyped-call]
 
     def _load_data(self, name: str) -> Any:
