@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import errno
 import shutil
+import sys
 from dataclasses import replace
 from pathlib import Path
 from pickle import UnpicklingError
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -17,7 +19,7 @@ from deltaq.api.workers.kernels import are_compiled
 from deltaq.model.model import compile_model
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.kernels import explicit_runge_kutta
-from deltaq.simulation.kernels.compiler import kernel, source_stamp
+from deltaq.simulation.kernels.compiler import OwnFiles, kernel, source_stamp
 from deltaq.simulation.kernels.explicit_runge_kutta import integrate
 from deltaq.simulation.kernels.motion import SMALLEST_PIVOT, factor, solve, solve_small
 from deltaq.simulation.library import get_method
@@ -162,6 +164,25 @@ def test_a_kernel_that_cannot_be_kept_is_run_all_the_same(error: Exception, monk
     for name in ("save", "load"):
         monkeypatch.setattr(compiled._cache._cache_file, name, fails)
     assert compiled(2.5) == 5.0
+
+
+@pytest.mark.parametrize("gone", ["class", "module"])
+def test_kernels_kept_of_classes_that_are_no_more_are_compiled_anew(
+    tmp_path: Path, gone: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An index names the classes of a kernel's arguments, which another version may call otherwise."""
+    module = ModuleType("gone_module")
+    module.Gone = type("Gone", (), {"__module__": "gone_module"})  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "gone_module", module)
+    OwnFiles(str(tmp_path), "kernel", "old").save((module.Gone,), "code")  # type: ignore[attr-defined]
+    if gone == "class":
+        del module.Gone  # type: ignore[attr-defined]
+    else:
+        monkeypatch.delitem(sys.modules, "gone_module")
+    files = OwnFiles(str(tmp_path), "kernel", "new")
+    assert files.load("signature") is None
+    files.save("signature", "new code")
+    assert files.load("signature") == "new code"
 
 
 def test_all_kernels_are_there_before_anything_moves(request: pytest.FixtureRequest) -> None:
