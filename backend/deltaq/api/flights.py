@@ -71,7 +71,10 @@ class Flights:
         self._flights: dict[str, Flight] = {}
 
     async def join(self, key: str, compute: Compute, hear: Hear = ignore) -> bytes:
-        """What `compute` gives; errors reach all who wait. Whoever asked first may go away; the others still wait."""
+        """What `compute` gives; errors reach all who wait. Whoever asked first may go away; the others still wait.
+
+        How long each of them waits is not decided here: see `Pool.asked`.
+        """
         flight = self._flights.get(key) or self._begin(key, compute)
         flight.subscribers.add(hear)
         try:

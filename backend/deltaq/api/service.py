@@ -62,7 +62,7 @@ class Service:
         async def compute(_tell: Hear) -> bytes:
             return await asyncio.to_thread(pack, await self.run(job, document, key))
 
-        with self.pool.asked(key, ACCOUNT.get()):
+        async with self.pool.asked(key, ACCOUNT.get()):
             return await _shared(partial(self.cache.get, key, compute))
 
     async def measurement(self, key: str, job: Job, document: Any, hear: Hear, *, anew: bool) -> bytes:
@@ -87,7 +87,7 @@ class Service:
             return await asyncio.to_thread(pack, measured)
 
         ask = self.cache.renew if anew else self.cache.get
-        with self.laboratory.asked(key, ACCOUNT.get()):
+        async with self.laboratory.asked(key, ACCOUNT.get()):
             return await _shared(partial(ask, key, compute, hear))
 
     async def run(self, job: Job, document: Any, key: str = "") -> bytes:

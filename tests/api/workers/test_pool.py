@@ -16,6 +16,7 @@ from typing import Any
 
 import pytest
 
+from deltaq.api.flights import Flights
 from deltaq.api.workers import worker
 from deltaq.api.workers.account import Account
 from deltaq.api.workers.job import DeadlineExceeded, Job, JobFailed, MemoryExceeded, Overloaded, WorkerDied
@@ -294,7 +295,7 @@ async def test_what_has_begun_is_not_refused(make_pool: MakePool, tmp_path: Path
     assert await running == "open"
 
 
-async def test_what_is_not_as_fast_as_was_thought_waits_for_a_slow_jobs_lane(
+async def test_what_is_not_as_fast_as_was_thought_waits_for_a_slow_jobs_slot(
     make_pool: MakePool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(worker, "MOMENT", 0.1)
@@ -470,15 +471,63 @@ async def test_who_asks_for_what_a_greedy_client_waits_for_waits_at_a_place_of_h
 
     async def ask(key: str, client: str) -> None:
         account = Account(client)
-        with pool.asked(key, account):
+        async with pool.asked(key, account):
             await pool.run(job("echo"), key, account=account, key=key)
         ended.append(key)
 
     asking = [asyncio.create_task(ask(f"a{n}", "greedy")) for n in range(8)]
     await asyncio.sleep(0.02)
-    with pool.asked("a7", Account("modest")), pool.asked("a6", Account("")):  # and one that begins to wait before
+    async with pool.asked("a7", Account("modest")), pool.asked("a6", Account("")):  # one begins to wait before
         (tmp_path / "door").touch()
         await asyncio.gather(holding, *asking)
     assert sorted(ended) == [f"a{n}" for n in range(8)]
     assert {"a7", "a6"} <= set(ended[:4])
     assert len(ended) == 8
+
+
+@pytest.mark.parametrize("clients", [("one", "other"), ("one", "one"), ("", "")], ids=["two", "one", "nameless"])
+async def test_everyone_who_shares_a_computation_waits_for_his_own_time(
+    make_pool: MakePool, tmp_path: Path, clients: tuple[str, str]
+) -> None:
+    """Whoever joins late is not refused with the first, and does not make the first wait for longer."""
+    pool, flights, door = make_pool(1, queue_timeout=0.6), Flights(), tmp_path / "door"
+    holding, loop = await held(pool, door), asyncio.get_running_loop()
+
+    async def ask(client: str) -> tuple[str, float]:
+        begin, account = loop.time(), Account(client)
+        try:
+            async with pool.asked("key", account):
+                answer = await flights.join("key", lambda _: pool.run(job("echo"), 1, account=account, key="key"))
+        except Overloaded as error:
+            return str(error), loop.time() - begin
+        return answer.decode(), loop.time() - begin
+
+    first = asyncio.create_task(ask(clients[0]))
+    await asyncio.sleep(0.4)
+    late = asyncio.create_task(ask(clients[1]))
+    assert (await first)[0] == "waited too long"
+    assert (await first)[1] == pytest.approx(0.6, abs=0.15)
+    last = asyncio.create_task(ask(clients[0]))
+    assert (await late)[0] == "waited too long"
+    assert (await late)[1] == pytest.approx(0.6, abs=0.15)
+    door.touch()
+    assert await holding == "open"
+    assert (await last)[0] == "1"
+
+
+async def test_a_late_one_is_not_refused_once_the_task_has_begun(make_pool: MakePool, tmp_path: Path) -> None:
+    pool, flights, doors = make_pool(1, queue_timeout=0.3), Flights(), [tmp_path / "first", tmp_path / "second"]
+    holding = await held(pool, doors[0])
+
+    async def ask() -> bytes:
+        async with pool.asked("key", Account("one")):
+            return await flights.join("key", lambda _: pool.run(job("wait_at"), str(doors[1]), key="key"))
+
+    first = asyncio.create_task(ask())
+    await asyncio.sleep(0.2)
+    late = asyncio.create_task(ask())
+    doors[0].touch()
+    await holding
+    await asyncio.sleep(0.5)
+    doors[1].touch()
+    assert await asyncio.gather(first, late) == [b'"open"', b'"open"']

@@ -1,4 +1,4 @@
-"""What a lane answers without a worker, and how the end of a worker is told."""
+"""What a thread answers without a worker, and how the end of a worker is told."""
 
 from __future__ import annotations
 
@@ -112,12 +112,14 @@ async def test_stop_passes_over_what_was_cancelled() -> None:
         await waiting[1]
 
 
-def test_what_has_begun_and_waits_again_is_not_refused_any_more() -> None:
-    pool, begun, new = Pool(1, 2, LIMITS), task("echo"), task("echo")
+@pytest.mark.anyio
+async def test_what_has_begun_and_waits_again_is_not_refused_any_more() -> None:
+    pool, begun, new = Pool(1, 2, replace(LIMITS, queue_timeout=0.02)), task("echo"), task("echo")
     begun.answer.set_running_or_notify_cancel()
     for one in (begun, new):
         pool._tasks.put(one)
-        pool._refuse(one)
+        async with asyncio.timeout(None) as limit:
+            await pool._refuse_in_time(one, limit)
     assert (begun.answer.done(), new.answer.done(), pool.state.waiting) == (False, True, 1)
 
 

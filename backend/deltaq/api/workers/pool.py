@@ -1,10 +1,10 @@
-"""The pool: a bounded queue in front of a few lanes, of which slow jobs never get all."""
+"""A bounded queue in front of a few worker threads, of which slow jobs never get all."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import AsyncIterator, Callable, Sequence
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from threading import Event
 from typing import Any
@@ -19,6 +19,7 @@ from .worker import PRELOAD, Listener, start_fork_server
 from .worker_thread import Limits, WorkerThread
 
 FIRST, AGAIN = 0.2, 1.0  # seconds after which one who waits is told so, and told again
+TICK = 0.01  # seconds by which the event loop may call too early
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,20 @@ class PoolState:
     waiting: int
     kills: int
     processor_seconds: float = field(default=0.0, compare=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Asker:
+    """One client who waits for what runs under a key, since when (seconds of the event loop), and his time limit."""
+
+    account: Account
+    since: float
+    limit: asyncio.Timeout
+
+    def refuse(self) -> None:
+        """End his waiting, and nobody else's."""
+        if self.limit.when() is None:
+            self.limit.reschedule(0.0)
 
 
 def _ignore(_said: object) -> None:
@@ -46,17 +61,17 @@ class Pool:
         self._tasks = FairQueue(queue_length, Slots(size + reserve, size))
         self._limits = limits
         self._modules = tuple(modules)
-        self._askers: dict[str, list[Account]] = {}
+        self._askers: dict[str, list[Asker]] = {}
         self._threads = tuple(WorkerThread(self._tasks, limits) for _ in range(size + reserve))
 
     def start(self) -> None:
-        """Start the lanes; returns at once, the workers come up in the background."""
+        """Start the threads; returns at once, the worker processes come up in the background."""
         start_fork_server(self._modules)
         for thread in self._threads:
             thread.start()
 
     def stop(self, timeout: float = 5.0) -> None:
-        """End the lanes: waiting tasks are refused, running ones may finish within `timeout` seconds."""
+        """End the threads: waiting tasks are refused, running ones may finish within `timeout` seconds."""
         for thread in self._threads:
             thread.stop()
         for task in self._tasks.close():
@@ -79,8 +94,8 @@ class Pool:
         has to wait, `wait` hears of its place in the queue: the best one of all who ask for `key`.
 
         InputError as the job raised it; Overloaded, QuotaExceeded, DeadlineExceeded, MemoryExceeded, WorkerDied or
-        JobFailed otherwise. Always ends: with a full queue at once, else after patience where it has not begun by
-        then, and deadlines. When it is cancelled, the worker is freed.
+        JobFailed otherwise. Always ends: with a full queue at once, else after `queue_timeout` where it has not
+        begun by then, and deadlines. When it is cancelled, the worker is freed.
         """
         account.admit()
         loop, gone = asyncio.get_running_loop(), Event()
@@ -92,23 +107,32 @@ class Pool:
             gone.set()
             self._tasks.discard(task)
 
-    @contextmanager
-    def asked(self, key: str, account: Account) -> Iterator[None]:
+    @asynccontextmanager
+    async def asked(self, key: str, account: Account) -> AsyncIterator[None]:
         """As long as somebody asks for what is run under a key, it waits at a place of his, too, if it has to wait.
 
-        So nobody stands behind all that another one has asked for who happened to ask for the same before.
+        So nobody stands behind all that another one has asked for who happened to ask for the same before. Everyone has
+        the whole `queue_timeout` from when he asked, whoever asked first; Overloaded when it is over and the task has
+        not begun.
         """
-        askers = self._askers.setdefault(key, [])
-        askers.append(account)
-        self._share(key, account)
         try:
-            yield
-        finally:
-            askers.remove(account)
-            if not askers:
-                del self._askers[key]
-            if all(one.client != account.client for one in askers):
-                self._tasks.leave(key, account.client)
+            async with asyncio.timeout(None) as limit:
+                asker = Asker(account, asyncio.get_running_loop().time(), limit)
+                askers = self._askers.setdefault(key, [])
+                askers.append(asker)
+                self._share(key, account)
+                try:
+                    yield
+                finally:
+                    askers.remove(asker)
+                    if not askers:
+                        del self._askers[key]
+                    if all(one.account.client != account.client for one in askers):
+                        self._tasks.leave(key, account.client)
+        except TimeoutError:
+            if not limit.expired():
+                raise
+            raise Overloaded("waited too long") from None
 
     def _share(self, key: str, account: Account) -> None:
         """Who may not have a place of his own waits at the other's."""
@@ -118,21 +142,35 @@ class Pool:
 
     async def _answer(self, task: Task, wait: Callable[[Place], object] | None = None) -> bytes:
         self._tasks.put(task)
-        for account in self._askers.get(task.key, ()):
-            self._share(task.key, account)
-        loop, timeout = asyncio.get_running_loop(), self._limits.queue_timeout
-        refusal = loop.call_later(timeout, self._refuse, task)
-        if wait is not None:
-            loop.call_later(FIRST, self._tell_place, task, wait)
+        for asker in self._askers.get(task.key, ()):
+            self._share(task.key, asker.account)
         try:
-            return await asyncio.wait_for(asyncio.wrap_future(task.answer), timeout + 2 * task.job.deadline + 5.0)
+            async with asyncio.timeout(None) as limit:
+                refusing = asyncio.create_task(self._refuse_in_time(task, limit))
+                if wait is not None:
+                    asyncio.get_running_loop().call_later(FIRST, self._tell_place, task, wait)
+                try:
+                    return await asyncio.wrap_future(task.answer)
+                finally:
+                    refusing.cancel()
         except TimeoutError:
             raise Overloaded("no worker came up") from None
-        finally:
-            refusal.cancel()
 
-    def _refuse(self, task: Task) -> None:
-        """Its patience is over. What has begun is not refused any more, also where it has to wait again."""
+    async def _refuse_in_time(self, task: Task, limit: asyncio.Timeout) -> None:
+        """Refuse those whose time is over, and the task with the last of them; the others go on waiting.
+
+        What has begun is not refused any more, also where it has to wait again; `limit` is when it must have ended.
+        """
+        loop, timeout = asyncio.get_running_loop(), self._limits.queue_timeout
+        begin, later = loop.time(), [loop.time() + timeout]
+        while later and not task.answer.running():
+            limit.reschedule(max(later) + 2 * task.job.deadline + 5.0)  # it may be run twice, and workers take time
+            await asyncio.sleep(min(later) - loop.time())
+            ends = {asker: max(asker.since, begin) + timeout for asker in self._askers.get(task.key, ())}
+            later = [end for end in ends.values() if end > loop.time() + TICK]
+            for asker, end in ends.items() if later and not task.answer.running() else ():
+                if end not in later:
+                    asker.refuse()
         if not task.answer.running() and self._tasks.discard(task):
             task.answer.set_exception(Overloaded("waited too long"))
 
@@ -150,6 +188,7 @@ class Pool:
 
     @property
     def state(self) -> PoolState:
+        """How the pool is doing now."""
         return PoolState(
             workers=len(self._threads),
             ready=sum(thread.worker is not None for thread in self._threads),
