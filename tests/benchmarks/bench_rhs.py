@@ -34,7 +34,7 @@ Timing = Callable[[], float]  # nanoseconds per right-hand side
 
 HAND_WRITTEN = r"""
 #include <math.h>
-static void slope(const double *y, double *k, double m1, double m2, double l1, double l2, double g) {
+static void rhs(const double *y, double *k, double m1, double m2, double l1, double l2, double g) {
     double s1 = sin(y[0]), c1 = cos(y[0]), s2 = sin(y[1]), c2 = cos(y[1]);
     double c = c1 * c2 + s1 * s2, s = s1 * c2 - c1 * s2;
     double m11 = (m1 + m2) * l1 * l1, m12 = m2 * l1 * l2 * c, m22 = m2 * l2 * l2;
@@ -47,13 +47,13 @@ static void slope(const double *y, double *k, double m1, double m2, double l1, d
 void rk4(double *y, const double *p, double h, long steps) {
     double a[4], b[4], c[4], d[4], z[4];
     for (long n = 0; n < steps; n++) {
-        slope(y, a, p[0], p[1], p[2], p[3], p[4]);
+        rhs(y, a, p[0], p[1], p[2], p[3], p[4]);
         for (int i = 0; i < 4; i++) z[i] = y[i] + h / 2 * a[i];
-        slope(z, b, p[0], p[1], p[2], p[3], p[4]);
+        rhs(z, b, p[0], p[1], p[2], p[3], p[4]);
         for (int i = 0; i < 4; i++) z[i] = y[i] + h / 2 * b[i];
-        slope(z, c, p[0], p[1], p[2], p[3], p[4]);
+        rhs(z, c, p[0], p[1], p[2], p[3], p[4]);
         for (int i = 0; i < 4; i++) z[i] = y[i] + h * c[i];
-        slope(z, d, p[0], p[1], p[2], p[3], p[4]);
+        rhs(z, d, p[0], p[1], p[2], p[3], p[4]);
         for (int i = 0; i < 4; i++) y[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
     }
 }
@@ -103,13 +103,13 @@ def solve_ivp_over_lambdify(problem: Problem) -> Timing:
     symbols, mass, forcing = lagranges_method(double_pendulum())
     function = sp.lambdify(symbols, [mass, forcing], "numpy", cse=True)
 
-    def slope(t: float, y: np.ndarray) -> np.ndarray:
+    def rhs(t: float, y: np.ndarray) -> np.ndarray:
         matrix, right = function(*y, t, *problem.parameters)
         return np.concatenate([y[2:], np.linalg.solve(matrix, right)[:, 0]])
 
     def timing() -> float:
         start = perf_counter()
-        done = solve_ivp(slope, (0.0, 2.0), problem.state, method="DOP853", rtol=1e-9, atol=1e-9)
+        done = solve_ivp(rhs, (0.0, 2.0), problem.state, method="DOP853", rtol=1e-9, atol=1e-9)
         return (perf_counter() - start) / done.nfev * 1e9
 
     return timing

@@ -86,19 +86,19 @@ def _lambdified(problem: Problem) -> Callable[[float, np.ndarray], np.ndarray]:
     symbols, mass, forcing = lagranges_method(double_pendulum())
     function = sp.lambdify(symbols, [mass, forcing], "numpy", cse=True)
 
-    def slope(t: float, y: np.ndarray) -> np.ndarray:
+    def rhs(t: float, y: np.ndarray) -> np.ndarray:
         matrix, right = function(*y, t, *problem.parameters)
         return np.concatenate([y[2:], np.linalg.solve(matrix, right)[:, 0]])
 
-    return slope
+    return rhs
 
 
 def peers(problem: Problem) -> list[tuple[str, Motion]]:
-    slope, times = _lambdified(problem), np.linspace(0.0, SPAN, SAMPLES)
+    rhs, times = _lambdified(problem), np.linspace(0.0, SPAN, SAMPLES)
 
     def motion(method: str, tolerance: float) -> Motion:
         options = {"rtol": tolerance, "atol": tolerance, "t_eval": times}
-        return lambda: solve_ivp(slope, (0.0, SPAN), problem.state, method=method, **options).y[:2].T
+        return lambda: solve_ivp(rhs, (0.0, SPAN), problem.state, method=method, **options).y[:2].T
 
     return [
         (f"solve_ivp {method} {each:g}", motion(method, each)) for method, tolerances in PEERS for each in tolerances

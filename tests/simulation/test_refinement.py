@@ -20,11 +20,11 @@ STEP, COLUMNS = 0.0125, 8  # of the extrapolation: its own error stays below 1e-
 pytestmark = pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="this processor has no extended precision")
 
 
-def slope_of(problem: Problem) -> Callable[[Extended], Extended]:
+def rhs_of(problem: Problem) -> Callable[[Extended], Extended]:
     """Lagrange's equations of the double pendulum, written by hand."""
     m1, m2, l1, l2, g = (np.longdouble(value) for value in problem.parameters)
 
-    def slope(y: Extended) -> Extended:
+    def rhs(y: Extended) -> Extended:
         a, b, u, v = y
         s, c = np.sin(a - b), np.cos(a - b)
         m11, m12, m22 = (m1 + m2) * l1 * l1, m2 * l1 * l2 * c, m2 * l2 * l2
@@ -33,19 +33,19 @@ def slope_of(problem: Problem) -> Callable[[Extended], Extended]:
         det = m11 * m22 - m12 * m12
         return np.array([u, v, (m22 * f1 - m12 * f2) / det, (m11 * f2 - m12 * f1) / det])
 
-    return slope
+    return rhs
 
 
-def extrapolated(slope: Callable[[Extended], Extended], y: Extended) -> Extended:
+def extrapolated(rhs: Callable[[Extended], Extended], y: Extended) -> Extended:
     """One step of Gragg's extrapolation (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.9)."""
     table: list[list[Extended]] = []
     for k in range(COLUMNS):
         count = 2 * (k + 1)
         h = np.longdouble(STEP) / count
-        last, now = y, y + h * slope(y)
+        last, now = y, y + h * rhs(y)
         for _ in range(count - 1):
-            last, now = now, last + 2 * h * slope(now)
-        row = [(last + now + h * slope(now)) / 2]
+            last, now = now, last + 2 * h * rhs(now)
+        row = [(last + now + h * rhs(now)) / 2]
         for j in range(1, k + 1):
             ratio = np.longdouble(k + 1) / (k + 1 - j)
             row.append(row[j - 1] + (row[j - 1] - table[k - 1][j - 1]) / (ratio * ratio - 1))
@@ -57,9 +57,9 @@ def test_rounding_that_chaos_magnifies_is_told() -> None:
     """Two runs at the finest tolerance differ by less than both are wrong: they share the rounding of the model."""
     problem = problem_of(double_pendulum(), 11.0, 111)
     rows = [np.array([*problem.values, *problem.rates], dtype=np.longdouble)]
-    slope = slope_of(problem)
+    rhs = rhs_of(problem)
     for _ in range(round(problem.t_end / STEP)):
-        rows.append(extrapolated(slope, rows[-1]))
+        rows.append(extrapolated(rhs, rows[-1]))
     exact = np.array(rows[:: round(0.1 / STEP)])[:, :2]
     for tolerance in (1e-9, 1e-10):
         found = simulate(problem, get_method("dop853"), tolerance=tolerance)

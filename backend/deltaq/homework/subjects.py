@@ -16,7 +16,7 @@ def coordinates(solution: Solution) -> tuple[str, ...]:
     return solution.free
 
 
-def whole(_road: Solution) -> tuple[str, ...]:
+def whole(_solution: Solution) -> tuple[str, ...]:
     """The scene as a whole."""
     return ("",)
 

@@ -19,7 +19,7 @@ from .seeds import seeded
 from .solution import Solution
 from .task import Task, task_of, tasks_of
 
-KEPT = 48
+CACHED = 48
 MOST_OPERATIONS = 6000  # of a right answer: beyond it the wrong ones take seconds each
 
 
@@ -108,11 +108,11 @@ def _attempt(task: Task, solution: FaultySolution) -> Parts:
 def workbook_of(document: Mapping[str, object]) -> Workbook:
     """The workbook of {scene, guides?, freeze?, parameters?, seed?}; the same content has the same one."""
     fields = ("scene", "guides", "freeze", "parameters", "seed")
-    return _kept_workbook(json.dumps({field: document.get(field) for field in fields}, sort_keys=True))
+    return _cached_workbook(json.dumps({field: document.get(field) for field in fields}, sort_keys=True))
 
 
-@lru_cache(maxsize=KEPT)
-def _kept_workbook(text: str) -> Workbook:
+@lru_cache(maxsize=CACHED)
+def _cached_workbook(text: str) -> Workbook:
     document = json.loads(text)
     scene, seed = changed_scene(document), document["seed"]
     return Workbook(scene if seed is None else seeded(scene, str(seed)))

@@ -100,12 +100,12 @@ def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[s
     given = read(task, workbook.solution, line.text, line.syntax).parts
     if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.solution).equal:
         return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slip=None)
-    if any(_follows(workbook, task, given, solution) for solution in _roads(workbook, task, wrong)):
+    if any(_follows(workbook, task, given, solution) for solution in _ways_from_wrong_lines(workbook, task, wrong)):
         return replace(verdict, outcome="follow_through", remark="", misconceptions=(), slip=None, counterexample=None)
     return verdict
 
 
-def _roads(workbook: Workbook, task: Task, wrong: Mapping[str, Parts]) -> Iterator[Solution]:
+def _ways_from_wrong_lines(workbook: Workbook, task: Task, wrong: Mapping[str, Parts]) -> Iterator[Solution]:
     """From all wrong lines, then from each of them alone; never from an earlier answer to the same task."""
     others = {name: parts for name, parts in wrong.items() if name != task.id}
     if not others:

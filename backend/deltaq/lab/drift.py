@@ -73,14 +73,14 @@ class Departure:
         return float(np.nan_to_num(self.errors, nan=np.inf).max(initial=0.0))
 
     @cached_property
-    def kept(self) -> int:
+    def before_loss(self) -> int:
         """How many stretches there are before the energy is lost."""
         return int((np.nan_to_num(self.errors, nan=np.inf) <= LOST).cumprod().sum())
 
     @property
     def lost_at(self) -> float | None:
         """When the energy was lost; None if it never was."""
-        return float(self.times[self.kept]) if self.kept < self.times.size else None
+        return float(self.times[self.before_loss]) if self.before_loss < self.times.size else None
 
     @property
     def kind(self) -> Kind:
@@ -116,8 +116,8 @@ class Departure:
 
     @property
     def _last_decade(self) -> np.ndarray:
-        known = np.arange(self.times.size) < self.kept
-        end = self.times[self.kept - 1] if self.kept else 0.0
+        known = np.arange(self.times.size) < self.before_loss
+        end = self.times[self.before_loss - 1] if self.before_loss else 0.0
         return np.asarray(known & (self.times > 0.1 * end))
 
     @property

@@ -52,20 +52,20 @@ def _solved(problem: Problem, times: Floats, name: str, tolerance: float) -> Any
     start = problem.state[: 2 * problem.degrees]
     options = {"t_eval": times, "rtol": max(tolerance, 1e-13), "atol": tolerance}
     with np.errstate(all="ignore"):
-        return solve_ivp(_slope(problem), (0.0, float(times[-1])), start, method=name, **options)
+        return solve_ivp(_rhs(problem), (0.0, float(times[-1])), start, method=name, **options)
 
 
-def _slope(problem: Problem) -> Callable[[float, Floats], Floats]:
+def _rhs(problem: Problem) -> Callable[[float, Floats], Floats]:
     """ẏ = (q̇, M⁻¹ f) with as little around the compiled functions as Python allows."""
     n, motion = problem.degrees, problem.model.motion
     lower, half = np.tril_indices(n), n * (n + 1) // 2
     row, mass = np.zeros((1, motion.inputs)), np.zeros((n, n))
     row[0, 2 * n + 1 :] = problem.parameters
 
-    def slope(t: float, state: Floats) -> Floats:
+    def rhs(t: float, state: Floats) -> Floats:
         row[0, : 2 * n], row[0, 2 * n] = state, t
         out = motion.table(row)[0]
         mass[lower] = mass.T[lower] = out[:half]
         return np.concatenate([state[n:], np.linalg.solve(mass, out[half : half + n])])
 
-    return slope
+    return rhs

@@ -158,11 +158,11 @@ def test_fast_job_that_takes_long_goes_on_where_a_slow_one_has_a_place() -> None
     queue = filled((task("f", "a"), task("g", "b"), task("s", "b", "slow")), Slots(3, 2))
     f, g, s = started(queue)
     assert names((f, g, s)) == "f g s"
-    assert queue.outgrow(s)  # it is a slow one already
-    assert queue.outgrow(f)
-    assert not queue.outgrow(g)
+    assert queue.go_on_as_slow(s)  # it is a slow one already
+    assert queue.go_on_as_slow(f)
+    assert not queue.go_on_as_slow(g)
     queue.done(s)
-    assert queue.outgrow(g)
+    assert queue.go_on_as_slow(g)
 
 
 def test_what_is_put_back_waits_as_a_slow_job_before_its_clients_others() -> None:
@@ -170,7 +170,7 @@ def test_what_is_put_back_waits_as_a_slow_job_before_its_clients_others() -> Non
     slow, fast = started(queue)
     for name in ("f2", "f3"):
         queue.put(task(name, "b"))
-    assert not queue.outgrow(fast)
+    assert not queue.go_on_as_slow(fast)
     queue.done(fast)
     queue.put_back(fast)
     assert names(started(queue)) == "f2"  # the slot is not for slow jobs

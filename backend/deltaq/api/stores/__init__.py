@@ -1,1 +1,1 @@
-"""Where answers are kept: in memory, on disk, and shared by replicas."""
+"""Caches of answers: in memory, on disk, and in a Redis that replicas share."""

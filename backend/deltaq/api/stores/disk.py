@@ -1,4 +1,4 @@
-"""Answers in a folder, which outlive the service and may be shared by several on one machine."""
+"""A cache of answers in a folder, which outlives the service and may be shared by several on one machine."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ...ownership import UntrustedFileError, require_trusted, require_trusted_state
-from .store import sealed, unsealed
+from .store import verified, with_digest
 
 LOGGER = logging.getLogger("deltaq.cache")
-KEPT = 0.9  # part of the room that stays in use when room is made
+FILL = 0.9  # part of `size` that stays in use after an eviction
 _KEY = re.compile(r"[0-9a-f]{32}(\.[a-z]+)?")  # of a kind that can be asked for by its id, or not
 
 
 class Disk:
-    """One file for each answer; those used longest ago go when there are more than `size` bytes.
+    """One file for each answer; the least recently used go when there are more than `size` bytes.
 
-    Answers that others may have written are not given, and none are kept where others may write.
+    Answers that others may have written are not given, and none are written where others may write.
     """
 
     name = "disk"
@@ -31,12 +31,12 @@ class Disk:
         self._written = size  # so that the first answer looks at what is there already
 
     def load(self, key: str) -> bytes | None:
-        """The answer of this key; a damaged one is removed."""
+        """The answer of this key, None if it is missing; a damaged one is removed."""
         if not _KEY.fullmatch(key):  # it may come from an address
             return None
         file = self._file(key)
         try:
-            answer = unsealed(key, self._read(file))
+            answer = verified(key, self._read(file))
             if answer is None:
                 LOGGER.warning("a damaged answer was removed")
                 file.unlink(missing_ok=True)
@@ -50,13 +50,13 @@ class Disk:
         return answer
 
     def save(self, key: str, answer: bytes) -> None:
-        """Keep an answer; it appears whole or not at all."""
-        content = sealed(key, answer)
+        """Stores an answer; its file appears whole or not at all."""
+        content = with_digest(key, answer)
         try:
             self._write(self._file(key), content)
             self._written += len(content)
             if self._written > self.size:
-                self._make_room()
+                self._evict()
         except UntrustedFileError:
             return
         except OSError as error:
@@ -86,17 +86,17 @@ class Disk:
             Path(name).unlink(missing_ok=True)
             raise
 
-    def _make_room(self) -> None:
-        """Remove what was used longest ago, and what somebody began to write and never ended."""
-        files = sorted(self._stand(), reverse=True)  # the newest first
-        left = KEPT * self.size
+    def _evict(self) -> None:
+        """Removes the least recently used answers, and files that somebody began to write and never ended."""
+        files = sorted(self._entries(), reverse=True)  # the newest first
+        left = FILL * self.size
         for _, length, file in files:
             left -= length
             if left < 0.0:
                 file.unlink(missing_ok=True)
-        self._written = int(min(KEPT * self.size, sum(length for _, length, _ in files)))
+        self._written = int(min(FILL * self.size, sum(length for _, length, _ in files)))
 
-    def _stand(self) -> Iterator[tuple[float, int, Path]]:
+    def _entries(self) -> Iterator[tuple[float, int, Path]]:
         """When each file was used last, its length, and the file."""
         for file in self.folder.glob("??/*"):
             try:

@@ -1,4 +1,4 @@
-"""Answers in memory."""
+"""A cache of answers in memory."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ class Memory:
         return len(self._entries)
 
     def load(self, key: str) -> bytes | None:
-        """The answer of this key, if it is there."""
+        """The answer of this key, None if it is missing."""
         if key in self._entries:
             self._entries.move_to_end(key)
         return self._entries.get(key)
 
     def save(self, key: str, answer: bytes) -> None:
-        """Keep an answer, unless it is larger than all the room there is."""
+        """Stores an answer, unless it alone is larger than `size`."""
         if key in self._entries:
             self.used -= _cost(self._entries.pop(key))
         if _cost(answer) > self.size:

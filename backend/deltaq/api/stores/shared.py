@@ -1,4 +1,4 @@
-"""Answers in a Redis, which several replicas share."""
+"""A cache of answers in a Redis, which several replicas share."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from redis import Redis, RedisError
 
-from .store import sealed, unsealed
+from .store import verified, with_digest
 
 LOGGER = logging.getLogger("deltaq.cache")
 LASTING = 30 * 86400  # seconds
@@ -27,13 +27,13 @@ class Shared:
         self._quiet_until = 0.0
 
     def load(self, key: str) -> bytes | None:
-        """The answer of this key; a damaged one counts as missing."""
+        """The answer of this key, None if it is missing or damaged."""
         content = self._tried(lambda: self._redis.get(PREFIX + key))
-        return unsealed(key, content) if isinstance(content, bytes) else None
+        return verified(key, content) if isinstance(content, bytes) else None
 
     def save(self, key: str, answer: bytes) -> None:
-        """Keep an answer."""
-        self._tried(lambda: self._redis.set(PREFIX + key, sealed(key, answer), ex=LASTING))
+        """Stores an answer for LASTING seconds at most."""
+        self._tried(lambda: self._redis.set(PREFIX + key, with_digest(key, answer), ex=LASTING))
 
     def _tried(self, call: Callable[[], object]) -> object:
         """What the call gives; None while Redis is gone, which is tried again after a pause."""

@@ -1,4 +1,4 @@
-"""What a store of answers can do, and the seal by which a damaged answer is known."""
+"""What a store of answers can do, and the digest by which a damaged answer is known."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ DIGEST = 32  # bytes
 
 
 class Store(Protocol):
-    """Keeps answers by key. What cannot be read or written counts as missing; a store never raises."""
+    """Answers by key. What cannot be read or written counts as missing; a store never raises."""
 
     @property
     def name(self) -> str:
@@ -19,16 +19,16 @@ class Store(Protocol):
         """The answer of this key, or None."""
 
     def save(self, key: str, answer: bytes) -> None:
-        """Keep an answer, if possible."""
+        """Stores an answer, if possible."""
 
 
-def sealed(key: str, answer: bytes) -> bytes:
-    """The answer behind a digest of itself and its key, so that it counts under no other."""
+def with_digest(key: str, answer: bytes) -> bytes:
+    """The answer behind a digest (SHA-256) of its key and itself, so that it counts under no other key."""
     return _digest(key, answer) + answer
 
 
-def unsealed(key: str, content: bytes) -> bytes | None:
-    """The answer, or None if not every bit is as it was."""
+def verified(key: str, content: bytes) -> bytes | None:
+    """The answer without its digest; None if that does not fit."""
     answer = content[DIGEST:]
     return answer if content[:DIGEST] == _digest(key, answer) else None
 

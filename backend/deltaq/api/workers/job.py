@@ -22,8 +22,8 @@ class Job:
     A `pure` job has no effect but its answer, so it may be run again when its worker was killed from outside. A
     function that returns an iterator gives parts, the last of which is the answer. `threads` is how many of them the
     job may keep busy. A job whose usual time is more than a MOMENT is `slow`: one worker is never given such a job. One
-    that was thought `fast` and has used more counts as slow from then on; where no slow one has a place, it is stopped,
-    if it is pure, and waits for one. How long jobs take is remembered by their `kind`.
+    that was thought `fast` and has used more counts as slow from then on; where no slot of slow jobs is free, it is
+    stopped, if it is pure, and waits for one. How long jobs take is remembered by their `kind`.
     """
 
     target: str
@@ -45,7 +45,7 @@ class Job:
         return min(self.processor, self.threads * self.deadline)
 
     def within(self, seconds: float) -> Job:
-        """The same with so much processor time for each thread, whose deadline leaves a busy machine twice that."""
+        """The same with so many seconds of processor time for each thread, and twice that by the clock."""
         return replace(self, deadline=2.0 * seconds, processor=self.threads * seconds)
 
 
@@ -61,8 +61,8 @@ class GivenUp(JobError):
     """Nobody waits for the answer any more; its process was killed."""
 
 
-class Outgrown(JobError):
-    """A job that was thought fast is not, and no slow one has a place now; its process was killed."""
+class NotFast(JobError):
+    """A job thought fast has used more than a MOMENT, and no slot of slow ones is free; its process was killed."""
 
 
 class MemoryExceeded(JobError):

@@ -91,7 +91,7 @@ class Occupancy:
             return False
         return pace == "fast" or self._has_slow_slot(client)
 
-    def outgrow(self, task: Task) -> bool:
+    def go_on_as_slow(self, task: Task) -> bool:
         """Whether a task that has run for more than a moment may go on, as a slow one from now on."""
         run = self._runs.get(task)
         if run is None or run.pace == "slow":

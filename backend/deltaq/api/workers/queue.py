@@ -35,7 +35,7 @@ class FairQueue:
         self._count = 0
         self._open = True
         self._by_client: OrderedDict[str, deque[Task]] = OrderedDict()  # whose turn it is stands first
-        self._outgrown: WeakSet[Task] = WeakSet()
+        self._turned_slow: WeakSet[Task] = WeakSet()
         self._idle: list[object] = []
         self._changed = Condition()
 
@@ -81,10 +81,10 @@ class FairQueue:
             self._running.end(task, answered=answered)
             self._changed.notify_all()
 
-    def outgrow(self, task: Task) -> bool:
+    def go_on_as_slow(self, task: Task) -> bool:
         """Whether a task that has run for more than a moment may go on, as a slow one from now on."""
         with self._changed:
-            return self._running.outgrow(task)
+            return self._running.go_on_as_slow(task)
 
     def put_back(self, task: Task) -> None:
         """Let a task that was taken wait again, as a slow one and before its client's others; Overloaded if closed."""
@@ -92,7 +92,7 @@ class FairQueue:
         with self._changed:
             if not self._open:
                 raise Overloaded("the service is stopping")
-            self._outgrown.add(task)
+            self._turned_slow.add(task)
             self._by_client.setdefault(client, deque()).appendleft(task)
             self._count += 1
             self._changed.notify_all()
@@ -104,8 +104,8 @@ class FairQueue:
             if found is None or any(one.answer is found.answer for one in self._by_client.get(account.client, ())):
                 return
             own = replace(found, account=account)
-            if found in self._outgrown:
-                self._outgrown.add(own)
+            if found in self._turned_slow:
+                self._turned_slow.add(own)
             self.put(own)
 
     def leave(self, key: str, client: str) -> None:
@@ -173,7 +173,7 @@ class FairQueue:
         return self._running.has_slot(task.account.client, self._pace_of(task))
 
     def _pace_of(self, task: Task) -> Pace:
-        return "slow" if task in self._outgrown else task.job.pace
+        return "slow" if task in self._turned_slow else task.job.pace
 
     def _in_turn(self) -> Iterator[Task]:
         """The tasks that wait, in the order in which they would be taken if none were kept from it by its pace."""

@@ -12,7 +12,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from threading import Lock
 
-from .job import MOMENT, DeadlineExceeded, GivenUp, Job, Outgrown, WorkerDied, WorkerKilled
+from .job import MOMENT, DeadlineExceeded, GivenUp, Job, NotFast, WorkerDied, WorkerKilled
 from .message import PART
 from .meter import Meter, processor_clock
 from .runner import run
@@ -72,7 +72,7 @@ class Worker:
                 if (unused := job.processor_time - used) <= 0.0:
                     raise DeadlineExceeded(f"no answer within {job.processor_time} s of a processor")
                 if used > MOMENT and not may_go_on():
-                    raise Outgrown(f"no answer within {MOMENT} s of a processor")
+                    raise NotFast(f"no answer within {MOMENT} s of a processor")
                 if not self.connection.poll(min(left, LOOK_UP, max(unused / job.threads, SHORTEST_LOOK))):
                     continue
                 reply = self.connection.recv_bytes()

@@ -10,7 +10,7 @@ from threading import Event, Thread
 
 from ...errors import DeltaqError, InputError
 from .account import QuotaExceeded
-from .job import GivenUp, JobError, JobFailed, Outgrown, Overloaded, WorkerKilled
+from .job import GivenUp, JobError, JobFailed, NotFast, Overloaded, WorkerKilled
 from .message import decode_reply
 from .queue import FairQueue
 from .task import Task
@@ -101,7 +101,7 @@ class WorkerThread(Thread):
     def tell(self, task: Task, outcome: bytes | DeltaqError) -> None:
         """Let the future have it; what turned out slow waits for a slow job's slot instead."""
         try:
-            if isinstance(outcome, Outgrown):
+            if isinstance(outcome, NotFast):
                 self.tasks.put_back(task)
                 return
         except Overloaded as error:
@@ -120,7 +120,7 @@ class WorkerThread(Thread):
 
     def may_go_on(self, task: Task) -> bool:
         """Whether a task that has used more than a moment keeps its worker; one with an effect is never begun twice."""
-        return self.tasks.outgrow(task) or not task.job.pure
+        return self.tasks.go_on_as_slow(task) or not task.job.pure
 
     def pay(self, task: Task, seconds: float) -> None:
         """Charge processor time to the client, and count it."""
@@ -139,7 +139,7 @@ class WorkerThread(Thread):
         self.served += 1
         self.pay(task, worker.meter.seconds)
         if isinstance(outcome, JobError) and not isinstance(outcome, InputError):
-            self.kills += not isinstance(outcome, (GivenUp, Outgrown))
+            self.kills += not isinstance(outcome, (GivenUp, NotFast))
             self.drop_worker()
         return outcome
 

@@ -93,15 +93,15 @@ def _followed(problem: Problem, begin: Floats, end: Floats, states: Floats) -> F
     """Where motions get to, each from its own time to another: the classical method of order 4, all at once."""
     step, n = (end - begin)[:, None] / STEPS, problem.degrees
 
-    def slope(times: Floats, rows: Floats) -> Floats:
+    def rhs(times: Floats, rows: Floats) -> Floats:
         return np.hstack([rows[:, n:], accelerations(problem, times, rows)])
 
     for k in range(STEPS):
         time = begin + k * step[:, 0]
         middle = time + step[:, 0] / 2.0
-        k1 = slope(time, states)
-        k2 = slope(middle, states + step / 2.0 * k1)
-        k3 = slope(middle, states + step / 2.0 * k2)
-        k4 = slope(time + step[:, 0], states + step * k3)
+        k1 = rhs(time, states)
+        k2 = rhs(middle, states + step / 2.0 * k1)
+        k3 = rhs(middle, states + step / 2.0 * k2)
+        k4 = rhs(time + step[:, 0], states + step * k3)
         states = states + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
     return states
