@@ -102,3 +102,23 @@ def test_every_file_that_is_named_is_there(root: Path) -> None:
         ]
         assert linked, page
         assert [name for name in linked if not ((root / page).parent / name).exists()] == [], page
+
+
+def test_every_key_that_is_named_is_one_of_the_page(root: Path) -> None:
+    signs = {"→": "ArrowRight", "←": "ArrowLeft", "↓": "ArrowDown", "↑": "ArrowUp", "Esc": "Escape", "Space": " "}
+    rows = re.findall(r"^\| ([^|]+) \| [^|]+ \|$", (root / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
+    named = [signs.get(key, key.lower()) for row in rows if row != "key" for key in re.split(r", | / ", row)]
+    known = re.findall(r'"([^"]+)"', (root / "frontend" / "model" / "keys.js").read_text(encoding="utf-8"))
+    assert len(named) > 9
+    assert set(named) <= set(known)
+
+
+def test_the_words_of_the_glossary_are_where_it_says(root: Path) -> None:
+    text = (root / "backend" / "README.md").read_text(encoding="utf-8").partition("## Glossary")[2]
+    rows = re.findall(r"^\| ([^|]+) \| [^|]+ \| `([^|]+)` \|$", text, re.MULTILINE)
+    assert len(rows) > 20
+    for words, place in rows:
+        where = root / "backend" / "deltaq" / place
+        files = sorted(where.rglob("*.py")) if where.is_dir() else [where]
+        said = "".join(file.read_text(encoding="utf-8") for file in files).lower().replace("_", " ")
+        assert [word for word in words.split(", ") if word.replace(" ", "") not in said.replace(" ", "")] == [], place
