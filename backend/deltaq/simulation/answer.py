@@ -24,7 +24,7 @@ UNKNOWN_ERROR = 1e-12  # to round by where no error estimate was asked for
 def answer(
     request: Request, choice: Choice, problem: Problem, trajectory: Trajectory, seen: Observation, compile_time: float
 ) -> Document:
-    """The answer to a request. Every number is finite; numbers are rounded to what the error estimate supports."""
+    """The answer to a request as plain data. All numbers are finite, and rounded to what their error supports."""
     errors = trajectory.estimate.errors if trajectory.estimate else np.full(len(trajectory.times), UNKNOWN_ERROR)
     column = WRITERS[request.columns]
     parts: Document = _curves(request, problem, trajectory, seen, errors, column)

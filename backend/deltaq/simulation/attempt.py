@@ -1,4 +1,4 @@
-"""Runs at one resolution, and how resolutions are refined until the wanted accuracy is there or cannot be had."""
+"""Runs at one resolution, and their refinement until the wanted accuracy is reached or refining does not help."""
 
 from __future__ import annotations
 
@@ -27,10 +27,11 @@ BRIEF = 5_000  # right-hand sides; fewer take less time than a second thread nee
 
 @dataclass(frozen=True)
 class Attempt:
-    """Runs at one resolution: the one to return, and what comparing it with the other says.
+    """Runs at one resolution: the one to return, and the error estimate from comparing it with the other.
 
-    `blind` is where the finer run stayed blind, `too_long` where a step that was given is; `discarded` are the runs
-    that were made again because they had been blind. `is_shared`: the coarser run is that of the attempt before.
+    `blind` are the stretches on which the finer run stayed blind; `too_long` is the first stretch for which a step
+    given by the user is too long. `discarded` are runs that were repeated because they had been blind. `is_shared` says
+    that the coarser run is that of the attempt before.
     """
 
     chosen: Run
@@ -43,27 +44,27 @@ class Attempt:
 
     @property
     def own(self) -> tuple[Run, ...]:
-        """All runs made for it."""
+        """All runs that were made for this attempt."""
         return (*self.runs[1 if self.is_shared else 0 :], *self.discarded)
 
     @property
     def is_complete(self) -> bool:
-        """Whether all runs came to the end, or all to the same event, and it is sure which."""
+        """Whether all runs reached the end, or all the same event, and no event is doubtful."""
         return all(run.is_complete for run in self.runs) and self.doubtful is None
 
     @property
     def seen_until(self) -> float:
-        """The time behind which the finer run was blind."""
+        """The time in seconds from which on the finer run was blind; infinite if it nowhere was."""
         return min((each.start for each in self.blind), default=np.inf)
 
     @property
     def doubtful(self) -> EventOccurrence | None:
-        """An event of which it is not sure that it happened."""
+        """An event that may or may not have happened, as far as the errors tell."""
         return None if self.estimate is None else self.estimate.doubtful
 
     @property
     def reached(self) -> float:
-        """How far the motion is what the scene means: up to an event, or to where one is doubtful."""
+        """The time in seconds up to which the motion counts: to its end, an event, or a doubtful event."""
         if self.is_complete:
             return float(self.chosen.result.reached)
         ends = [run.result.reached for run in self.runs]
@@ -88,12 +89,12 @@ class Integrator:
         return run(self.problem, self.method, self.times, self.cancelled, steps)
 
     def coarse(self, step: float) -> Attempt:
-        """One run, without an estimate of its error."""
+        """One run with a fixed step in seconds, without an error estimate."""
         only = self._run(Steps(step))
         return Attempt(only, (only,), None)
 
     def fine(self) -> Attempt:
-        """One run that should meet the tolerance, without an estimate of its error."""
+        """One run that should meet the tolerance, without an error estimate."""
         pieces = self.audit.before(self.tolerance)
         _, fine = self.refinement.pair(self.refinement.first(self.tolerance), pieces)
         only = self._run(replace(fine, pieces=pieces))
@@ -105,7 +106,7 @@ class Integrator:
         return Audit(self.problem, self.method)
 
     def given(self, step: float) -> Attempt:
-        """The run with the step given, compared with a finer one that sees what the audit asks for."""
+        """The run with the step given by the user, compared with a finer run that the audit finds nowhere blind."""
         whole = Pieces.whole(self.problem.t_end)
 
         def compared(pieces: Pieces) -> Attempt:
@@ -135,9 +136,9 @@ class Integrator:
         return replace(found, estimate=larger(of_given, of_fine), discarded=(*found.discarded, third))
 
     def pair(self, resolution: float, pieces: Pieces, before: Attempt | None = None) -> tuple[Attempt, Pieces]:
-        """Two runs compared, of which the finer one is returned, and the pieces in which it saw everything.
+        """Two runs at a resolution; the finer one is returned, with the pieces in which it was nowhere blind.
 
-        The coarser one is the best of the attempt before where that will do.
+        The coarser one is the best of the attempt before where the two can be compared.
         """
         coarse, fine = self.refinement.pair(resolution, pieces)
         known = None if before is None else self._comparable(before, fine)
@@ -171,7 +172,10 @@ class Integrator:
         return replace(found, blind=blind, discarded=discarded), pieces
 
     def rounded(self, found: Attempt) -> Attempt:
-        """The attempt, its estimate not below what rounding does; looked at by one more run where that may matter."""
+        """The attempt with an estimate no smaller than the effect of rounding.
+
+        Where rounding may matter, one more run with a disturbed model measures it.
+        """
         fine = found.runs[-1]
         if found.estimate is None or fine.steps is None or not rounding_matters(self.problem, fine, found.estimate):
             return found
@@ -181,7 +185,7 @@ class Integrator:
         return replace(found, estimate=mended, discarded=(*found.discarded, other))
 
     def is_affordable(self, blind: tuple[Stretch, ...]) -> bool:
-        """Whether the steps that would see fit into the limit."""
+        """Whether steps short enough for the blind stretches stay within the step limit."""
         return sum((each.end - each.start) / each.step for each in blind) < self.problem.step_limit
 
     def _both(self, coarse: Steps, fine: Steps) -> tuple[Run, Run]:
@@ -193,7 +197,7 @@ class Integrator:
         return of_coarse, of_fine
 
     def until(self) -> list[Attempt]:
-        """Pairs of runs, finer and finer, until the error is below the tolerance or refining does not help."""
+        """Pairs of runs, finer and finer, until the estimate meets the tolerance or refining does not help."""
         resolution = self.refinement.first(self.tolerance)
         found, pieces = self.pair(resolution, self.audit.before(self.tolerance))
         attempts = [found]

@@ -77,18 +77,18 @@ class Level:
 
 @dataclass(frozen=True)
 class Audit:
-    """What a method can see of a problem."""
+    """What a method can see of a problem: interval bounds of the forces between the places that it evaluates."""
 
     problem: Problem
     method: Method
 
     @cached_property
     def limit(self) -> float:
-        """The largest swing per step that the method's stages follow."""
+        """The largest swing per step that the stages of the method can follow."""
         return min(LARGEST_SWING, PER_GAP / largest_gap(self.method))
 
     def before(self, tolerance: float) -> Pieces:
-        """The span in pieces, with the largest step in each that sees what time alone does to the forces."""
+        """The span in pieces, each with the largest step that resolves how the forces depend on time alone."""
         leaves = self._leaves(self._threshold(tolerance))
         return Pieces.joined(self.problem.t_end, leaves)
 
@@ -105,7 +105,7 @@ class Audit:
         return None
 
     def after(self, run: Run, tolerance: float) -> tuple[Stretch, ...]:
-        """The stretches of a recorded run on which it was blind."""
+        """The stretches of a recorded run on which it was blind, for a tolerance of the coordinates."""
         path = _path(self.problem, run)
         if len(path.times) < 2:
             return ()
@@ -232,7 +232,7 @@ def _path(problem: Problem, run: Run) -> Path:
 
 
 def largest_gap(method: Method) -> float:
-    """The longest way between neighbouring places at which a method looks, in steps that follow one another."""
+    """The largest distance, in steps, between neighbouring times at which a method evaluates the right-hand side."""
     places = sorted(
         {float(place) % 1.0 for place in getattr(method.tableau, "c", (0,))}
         | {0.0 if method.is_explicit else float(getattr(method.tableau, "c", (0,))[0])}

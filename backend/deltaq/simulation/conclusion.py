@@ -23,7 +23,10 @@ def outcome(
     step: float | None,
     guide_jump: GuideJump | None,
 ) -> Outcome:
-    """What ended the runs comes first, then a horizon (behind which no event is sure), an event, a tolerance missed."""
+    """The status: first what ended the runs, then a horizon, an event, a jump of a guide, a tolerance missed, else ok.
+
+    Behind a horizon no event is certain, so it comes before them.
+    """
     told: dict[str, Number] = {"method": method.id, "t": short(best.reached), "t_end": problem.t_end}
     ended = _failed(problem, method, best, step, told) or _unseen(best, step, told)
     if ended is not None:

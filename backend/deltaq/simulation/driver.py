@@ -32,7 +32,12 @@ def simulate(
     with_error: bool = True,
     cancelled: Flag | None = None,
 ) -> Trajectory:
-    """The motion of a problem with a fixed step, or to a tolerance (exactly one of the two is given)."""
+    """The motion of a problem with a fixed step in seconds, or to a tolerance of its coordinates.
+
+    The tolerance is absolute for coordinates below 1 and relative above. Without `with_error` there is one run and no
+    estimate. `cancelled`, shape (1,), ends the runs when it is not 0. Raises ValueError unless one of step and
+    tolerance is given.
+    """
     if (step is None) == (tolerance is None):
         raise ValueError("give either a step or a tolerance")
     guide_jump = Audit(problem, method).guide_jump()

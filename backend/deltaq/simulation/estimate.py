@@ -52,7 +52,10 @@ class Estimate:
 
 
 def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimate:
-    """The error of one of two runs: `factor` times their difference, over the samples that both have."""
+    """The error of one of two runs, from `factor` times their difference over the samples that both have.
+
+    Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.4 (Richardson extrapolation).
+    """
     n = problem.degrees
     times, states, others = _together(problem, coarse, fine)
     difference = np.abs(others - states)
@@ -77,7 +80,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
 
 
 def larger(one: Estimate, other: Estimate) -> Estimate:
-    """The larger of two estimates of the same motion at every sample."""
+    """The sample-wise maximum of two estimates of the same motion."""
     count = min(len(one.errors), len(other.errors))
     errors = one.errors.copy()
     errors[:count] = np.maximum(errors[:count], other.errors[:count])
@@ -87,9 +90,9 @@ def larger(one: Estimate, other: Estimate) -> Estimate:
 
 
 def rounding_matters(problem: Problem, fine: Run, found: Estimate) -> bool:
-    """Whether ε · (condition of M) · (radians of the motion) · |q| comes near the estimate.
+    """Whether ε · (condition of M) · (radians of the motion) · |q| is comparable to the estimate.
 
-    The error of q̈ from rounded entries of M and f is up to ε times the condition; a motion adds up that of each radian.
+    Rounded entries of M and f change q̈ by up to ε times the condition; the motion adds this up over its radians.
     """
     times, states = fine.times, fine.states.T
     if len(times) < 2 or not fine.conditioning > 0.0:
@@ -102,7 +105,7 @@ def rounding_matters(problem: Problem, fine: Run, found: Estimate) -> bool:
 
 
 def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> Estimate:
-    """The estimate, not below what rounding does: that is what the disturbance of the model did, scaled down."""
+    """The estimate, no smaller than the effect of rounding: the effect of a disturbed model, scaled down to ε."""
     count = min(len(found.errors), len(other.times), len(fine.times))
     moved = np.abs(other.states[:count, : problem.degrees] - fine.states[:count, : problem.degrees]).T
     floor = _known(6.0 * EPSILON / DISTURBANCE * _spread(moved))

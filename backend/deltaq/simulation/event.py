@@ -36,11 +36,11 @@ class Event:
     bend: float
 
     def may_not_be(self, doubt: float) -> bool:
-        """Whether the value turns back before it is as far below zero as it may be wrong."""
+        """Whether the event is uncertain: its value turns back before it is below zero by its error `doubt`."""
         return self.bend > 0.0 and 0.5 * self.fall**2 <= doubt * self.bend
 
     def late_by(self, doubt: float) -> float:
-        """How wrong the time is if the value is wrong by so much: the root of |fall| s − |bend| s²/2 = doubt."""
+        """The error of the time in seconds if the value is wrong by `doubt`: s in |fall| s − |bend| s²/2 = doubt."""
         root = math.sqrt(max(self.fall**2 - 2.0 * abs(self.bend) * doubt, 0.0))
         return 2.0 * doubt / max(abs(self.fall) + root, sys.float_info.min)
 
@@ -116,14 +116,14 @@ def event_values(problem: Problem, times: Floats, states: Floats) -> Floats:
 
 
 def first_event(problem: Problem, watch: Watch, t_end: float) -> Event | None:
-    """The first event that can be seen in what the kernel kept, to rounding; those beyond the end do not count."""
+    """The first event in the steps that the kernel recorded, located to rounding; None if none is before `t_end`."""
     steps = (Step(problem, watch.nodes, watch.times, watch.states), *_closest(problem, watch))
     found = [event for step in steps for event in _falls(step) if event.time <= t_end]
     return min(found, key=lambda event: event.time, default=None)
 
 
 def approaches(problem: Problem, watch: Watch, t_end: float) -> tuple[Approach, ...]:
-    """How close each value came to zero."""
+    """How close the value of each event came to zero, as far as that was before `t_end`."""
     found = (_approach(step, index) for index, step in enumerate(_closest(problem, watch)))
     return tuple(approach for approach in found if approach.time <= t_end)
 

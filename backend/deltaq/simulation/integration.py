@@ -91,7 +91,7 @@ def _newmark(scheme: Newmark, arguments: KernelArguments) -> Result:
 
 
 def motion_of(problem: Problem, *, is_long: bool = True) -> Motion:
-    """The right-hand side of a problem, for kernels; in the machine code that suits a long run or a short one."""
+    """The right-hand side of a problem for kernels, in code for long runs or code that is compiled quickly."""
     motion = problem.model.thorough if is_long else problem.model.motion
     address, data = motion.addresses
     inputs = np.zeros(motion.inputs)
@@ -101,7 +101,7 @@ def motion_of(problem: Problem, *, is_long: bool = True) -> Motion:
 
 
 def watch_of(problem: Problem, flag: Flag) -> Watch:
-    """What may end a run of a problem, for kernels."""
+    """What may end a run of a problem, for kernels: the flag, shape (1,), events, and friction."""
     function, switch = problem.model.events, _switch_of(problem)
     if function is None:
         return unwatched(flag, switch)

@@ -13,7 +13,7 @@ MOST_CLIENTS = 10_000
 
 
 class QuotaExceeded(JobError):
-    """A client has used more than its share; in `seconds` it may ask again."""
+    """A client has used more than its share; it may ask again in `seconds`."""
 
     def __init__(self, client: str, seconds: float) -> None:
         super().__init__(f"more than its share; again in {seconds:.0f} s")
@@ -22,9 +22,10 @@ class QuotaExceeded(JobError):
 
 
 class Ledger:
-    """The debts of all clients: each may owe `credit` seconds, and pays `rate` seconds back per second.
+    """What clients owe, in seconds of processor time: a leaky bucket for each of them.
 
-    So one client gets `rate` processors in the long run, and `credit` seconds of them at once. Used from many threads.
+    A client may owe `credit` seconds, and `rate` seconds are forgiven per second. So one client gets `rate` processors
+    in the long run, and `credit` seconds of them at once. Used from many threads.
     """
 
     def __init__(self, rate: float, credit: float, clock: Callable[[], float] = time.monotonic) -> None:
@@ -35,18 +36,18 @@ class Ledger:
         self._lock = Lock()
 
     def debt(self, client: str) -> float:
-        """What a client owes now."""
+        """What a client owes now, in seconds of processor time."""
         owed, then = self._debts.get(client, (0.0, 0.0))
         return max(0.0, owed - self.rate * (self._clock() - then))
 
     def admit(self, client: str) -> None:
-        """QuotaExceeded if the client owes more than its credit."""
+        """Raises QuotaExceeded if the client owes more than its credit."""
         excess = self.debt(client) - self.credit
         if excess > 0.0:
             raise QuotaExceeded(client, excess / self.rate)
 
     def charge(self, client: str, seconds: float) -> None:
-        """Add to what a client owes."""
+        """Adds to what a client owes."""
         with self._lock:
             self._debts[client] = (self.debt(client) + seconds, self._clock())
             if len(self._debts) > MOST_CLIENTS:
@@ -55,23 +56,23 @@ class Ledger:
 
 @dataclass(frozen=True)
 class Account:
-    """One client and the ledger that it is written in; without a ledger its jobs cost nothing."""
+    """A client and the ledger of its costs; without a ledger its jobs cost nothing."""
 
     client: str
     ledger: Ledger | None = None
     is_in: bool = False
 
     def let_in(self) -> Account:
-        """The same account for what has been admitted and may take its time to begin."""
+        """The same account, which is not refused any more: its request was admitted and may wait long."""
         return replace(self, is_in=True)
 
     def admit(self) -> None:
-        """QuotaExceeded if the client has used more than its share."""
+        """Raises QuotaExceeded if the client has used more than its share."""
         if self.ledger and not self.is_in:
             self.ledger.admit(self.client)
 
     def pay(self, seconds: float) -> None:
-        """Charge processor time."""
+        """Charges processor time, in seconds."""
         if self.ledger:
             self.ledger.charge(self.client, seconds)
 

@@ -16,14 +16,15 @@ MOMENT = 1.0  # seconds of a processor
 class Job:
     """A function named `package.module:function` that turns a JSON document into a JSON document.
 
-    The process that runs it is killed `deadline` seconds after it began, or when it has used `processor` seconds of
-    processor time, whichever is first. The second bound is for what must be over in a moment: a busy machine lets a
-    process wait for longer than such a moment, and that is not the job's fault.
-    A `pure` job has no effect but its answer, so it may be run again when its worker was killed from outside. A
-    function that returns an iterator gives parts, the last of which is the answer. `threads` is how many of them the
-    job may keep busy. A job whose usual time is more than a MOMENT is `slow`: one worker is never given such a job. One
-    that was thought `fast` and has used more counts as slow from then on; where no slot of slow jobs is free, it is
-    stopped, if it is pure, and waits for one. How long jobs take is remembered by their `kind`.
+    Its process is killed `deadline` seconds after the job began, or when it has used `processor` seconds of processor
+    time. The second bound is for short jobs: on a busy machine a process may wait longer than they take, which is not
+    their fault. A `pure` job has no effect but its answer, so it may be run again when its worker was killed from
+    outside. A function that returns an iterator gives parts, the last of which is the answer. `threads` is how many of
+    them the job may keep busy.
+
+    A job that usually takes more than a MOMENT is `slow`; one worker is never given such a job. A `fast` job that has
+    used more counts as slow from then on. If no slot for slow jobs is free then, it is stopped, if it is pure, and
+    waits for one. Durations are remembered by `kind`.
     """
 
     target: str
@@ -36,12 +37,12 @@ class Job:
 
     @property
     def kind(self) -> str:
-        """Jobs of one kind take about as long as each other: those of one name, else of one target."""
+        """Jobs of one kind take about equally long: those of one name, else of one target."""
         return self.name or self.target
 
     @property
     def processor_time(self) -> float:
-        """All processor time that it may use: more than its threads could use before the deadline has no meaning."""
+        """The bound of its processor time in seconds: no more than its threads can use before the deadline."""
         return min(self.processor, self.threads * self.deadline)
 
     def within(self, seconds: float) -> Job:
@@ -50,15 +51,15 @@ class Job:
 
 
 class JobError(DeltaqError):
-    """A job ended without an answer, and its input is not to blame."""
+    """A job ended without an answer, and not because of its input."""
 
 
 class DeadlineExceeded(JobError):
-    """The job took longer than it may, by the clock or of a processor; its process was killed."""
+    """The job exceeded its deadline or its processor time; the process was killed."""
 
 
 class GivenUp(JobError):
-    """Nobody waits for the answer any more; its process was killed."""
+    """Nobody waits for the answer any more; the process was killed."""
 
 
 class NotFast(JobError):
@@ -70,11 +71,11 @@ class MemoryExceeded(JobError):
 
 
 class WorkerDied(JobError):
-    """The process that ran the job is gone, by what the job did."""
+    """The job ended the process that ran it."""
 
 
 class WorkerKilled(WorkerDied):
-    """The process that ran the job was killed from outside; the job may well be run again."""
+    """The process that ran the job was killed from outside; the job may be run again."""
 
 
 class Overloaded(JobError):

@@ -22,7 +22,7 @@ def folder() -> Path:
 
 
 def take_own_folder() -> None:
-    """See that nobody else writes the folder of kernels: where others may, another one of this user is taken.
+    """Uses a folder of kernels that nobody else can write: where others may, one of this user's own.
 
     From theirs nothing would be loaded, and every worker would compile for itself.
     """
@@ -53,14 +53,14 @@ def compiled_kernels() -> int:
 
 
 def mark_as_compiled() -> None:
-    """Note that all kernels are there, for this source and this processor."""
+    """Records that all kernels are compiled, for this source and this processor."""
     with suppress(OSError):
         folder().mkdir(parents=True, exist_ok=True)
         _mark().touch()
 
 
 def are_compiled() -> bool:
-    """Whether all kernels are there, so that loading them is quick."""
+    """Whether all kernels are compiled for this source and this processor, so that loading them is quick."""
     return _mark().exists()
 
 

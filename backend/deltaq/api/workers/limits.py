@@ -38,24 +38,27 @@ def keep_only(*descriptors: int) -> None:
 
 
 def die_first() -> None:
-    """Where all memory of a machine or container is used up, Linux ends a worker, not the service (proc(5))."""
+    """When the memory of a machine or container is exhausted, Linux kills a worker, not the service (proc(5))."""
     with suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
 
 
 def step_back(niceness: int) -> None:
-    """What computes leaves the processors to who answers, as it takes long anyway; 19 at most (nice(2))."""
+    """Lowers the priority of this process by `niceness`, 19 at most (nice(2)), so that the service answers first."""
     os.nice(niceness)
 
 
 def bound_memory(size: int) -> None:
-    """Address space in bytes; beyond it allocations raise MemoryError. To be set after the large imports."""
+    """Bounds the address space in bytes; beyond, allocations raise MemoryError. Call it after the large imports."""
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (size if hard == resource.RLIM_INFINITY else min(size, hard), hard))
 
 
 def bound_processor_time(seconds: float) -> None:
-    """Processor time from now on; beyond it the kernel ends the process, also when nobody is left to kill it."""
+    """Bounds the processor time from now on, in seconds; beyond, the kernel ends the process.
+
+    That holds also when the supervisor is gone.
+    """
     _, hard = resource.getrlimit(resource.RLIMIT_CPU)
     allowed = math.ceil(time.process_time() + seconds) + 1
     resource.setrlimit(resource.RLIMIT_CPU, (allowed if hard == resource.RLIM_INFINITY else min(allowed, hard), hard))

@@ -10,10 +10,10 @@ Clock = Callable[[], float]
 
 
 def processor_clock(pid: int) -> Clock:
-    """Shows the seconds of processor time that a process and all its threads have used; OSError when it is gone.
+    """A clock of the processor time of a process and all its threads, in seconds; it raises OSError when that is gone.
 
-    It is a clock of POSIX (clock_getcpuclockid), which costs 5 µs and is exact to the nanosecond. Where there is none,
-    as on macOS, the clock on the wall stands for it: a process of one thread has used no more.
+    It is clock_getcpuclockid of POSIX, which costs 5 µs and is exact to the nanosecond. Where that is missing, as on
+    macOS, wall-clock time takes its place: a process of one thread has used no more.
     """
     library, number = ctypes.CDLL(None), ctypes.c_int()
     if not hasattr(library, "clock_getcpuclockid") or library.clock_getcpuclockid(pid, ctypes.byref(number)):
@@ -22,7 +22,7 @@ def processor_clock(pid: int) -> Clock:
 
 
 class Meter:
-    """What a process has used since it was last asked for something."""
+    """The processor time that a process has used since `start`."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
@@ -30,13 +30,14 @@ class Meter:
         self._looked = time.monotonic()
 
     def start(self) -> None:
-        """Count from here."""
+        """Counts from here."""
         self._begin = self._read()
 
     @property
     def seconds(self) -> float:
-        """Processor time since the start. Of a process that is gone nobody knows how it spent the time since the last
-        look, so all of it counts.
+        """Processor time since the start, in seconds.
+
+        For a process that is gone, all time since the last reading counts, since nobody knows how it was spent.
         """
         return self._read() - self._begin
 

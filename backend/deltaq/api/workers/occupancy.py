@@ -1,9 +1,13 @@
-"""Which jobs run, which others may begin beside them, and how long they should go on. Guarded by the queue's lock.
+"""Which jobs run, which others may start, and how long they should take. Guarded by the queue's lock.
 
-A process cannot be taken from a job without losing what it has done, so what must stay free is never given away: of
-the slots one is never a client's who has all the others, one is never a slow job's, and of those that slow jobs may
-have one is never a client's who has all the others of them. Where there is one such slot, it is anybody's. The nameless
-client, who asks from the machine itself, may have them all.
+A job that runs keeps its slot until it ends, so some slots are reserved:
+
+- one slot is never given to a client who has all the others;
+- one slot is never given to a slow job;
+- of the slots for slow jobs, one is never given to a client who has all the others of them.
+
+Where there is only one such slot, anybody may have it. The nameless client, who asks from the machine itself, may have
+all of them.
 """
 
 from __future__ import annotations
@@ -47,24 +51,24 @@ class Run:
 
 
 class Durations:
-    """How many seconds jobs of a kind usually take; the recent ones count most."""
+    """The usual duration of each kind of job in seconds, an exponentially weighted mean."""
 
     def __init__(self) -> None:
         self._means: dict[str, float] = {}
 
     def note(self, kind: str, seconds: float) -> None:
-        """One has ended."""
+        """A job of a kind has taken so many seconds."""
         mean = self._means.get(kind, seconds)
         self._means[kind] = mean + RECENT * (seconds - mean)
 
     def usual(self, kind: str) -> float:
-        """The mean of its kind; of a new kind that of all kinds."""
+        """The mean duration of a kind in seconds; of a new kind that of all kinds."""
         of_all = sum(self._means.values()) / len(self._means) if self._means else FIRST_GUESS
         return self._means.get(kind, of_all)
 
 
 class Occupancy:
-    """The jobs that run, in so many slots."""
+    """The jobs that run, and the slots that are left."""
 
     def __init__(self, slots: Slots, clock: Callable[[], float]) -> None:
         self.slots = slots
@@ -76,11 +80,11 @@ class Occupancy:
         return any(run.answer is task.answer for run in self._runs)
 
     def begin(self, task: Task, pace: Pace) -> None:
-        """It runs from now on."""
+        """A task starts."""
         self._runs[task] = Run(task, pace, self._clock())
 
     def end(self, task: Task, *, answered: bool) -> None:
-        """Its slot is free; how long it took is remembered if it came to its end."""
+        """A task has ended, and its slot is free; its duration counts if it was `answered`."""
         run = self._runs.pop(task, None)
         if run is not None and answered:
             self.durations.note(task.job.kind, self._clock() - run.since)
@@ -103,7 +107,7 @@ class Occupancy:
 
     @property
     def left(self) -> list[float]:
-        """Seconds that each job should still take: what takes longer than usual goes on for some time."""
+        """The seconds that each job should still take; a job that takes longer than usual is given a quarter more."""
         return [self._left(run) for run in self._runs.values()]
 
     def _left(self, run: Run) -> float:

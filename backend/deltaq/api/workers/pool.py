@@ -53,7 +53,7 @@ def _ignore(_said: object) -> None:
 
 
 class Pool:
-    """Runs `size` slow jobs at once, each in a process, and with fast ones `reserve` more; `queue_length` may wait."""
+    """Runs `size` slow jobs at a time, each in a process, and `reserve` fast ones more; `queue_length` may wait."""
 
     def __init__(
         self, size: int, queue_length: int, limits: Limits, modules: Sequence[str] = (PRELOAD,), reserve: int = 0
@@ -90,12 +90,12 @@ class Pool:
         wait: Callable[[Place], object] | None = None,
         key: str = "",
     ) -> bytes:
-        """The JSON of the job's answer; `hear` gets its parts before, in the event loop; `account` pays. As long as it
-        has to wait, `wait` hears of its place in the queue: the best one of all who ask for `key`.
+        """The JSON of a job's answer. `hear` receives its parts before, in the event loop; `account` pays.
 
-        InputError as the job raised it; Overloaded, QuotaExceeded, DeadlineExceeded, MemoryExceeded, WorkerDied or
-        JobFailed otherwise. Always ends: with a full queue at once, else after `queue_timeout` where it has not
-        begun by then, and deadlines. When it is cancelled, the worker is freed.
+        While the task waits, `wait` receives its place in the queue: the best one of all who ask for `key`. Raises
+        InputError as the job raised it; else Overloaded, QuotaExceeded, DeadlineExceeded, MemoryExceeded, WorkerDied or
+        JobFailed. It always ends: at once if the queue is full, after `queue_timeout` seconds if the task has not
+        begun, else at its deadline. When it is cancelled, the worker is freed.
         """
         account.admit()
         loop, gone = asyncio.get_running_loop(), Event()
@@ -109,11 +109,11 @@ class Pool:
 
     @asynccontextmanager
     async def asked(self, key: str, account: Account) -> AsyncIterator[None]:
-        """As long as somebody asks for what is run under a key, it waits at a place of his, too, if it has to wait.
+        """While somebody asks for what runs under a key, its task also has a place of his in the queue.
 
-        So nobody stands behind all that another one has asked for who happened to ask for the same before. Everyone has
-        the whole `queue_timeout` from when he asked, whoever asked first; Overloaded when it is over and the task has
-        not begun.
+        So nobody waits behind all that another client has asked for who asked for the same before. Everyone has the
+        whole `queue_timeout` from when he asked, whoever asked first. Raises Overloaded when that is over and the task
+        has not begun.
         """
         try:
             async with asyncio.timeout(None) as limit:

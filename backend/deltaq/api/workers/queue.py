@@ -27,7 +27,7 @@ BEGUN = Place(0, 0.0)
 
 
 class FairQueue:
-    """At most `length` tasks wait; no client but the nameless one may hold more than half of the places."""
+    """Clients take turns. At most `length` tasks wait, at most half of them for one client but the nameless one."""
 
     def __init__(self, length: int, slots: Slots, clock: Callable[[], float] = time.monotonic) -> None:
         self._length = length
@@ -43,7 +43,7 @@ class FairQueue:
         return self._count
 
     def put(self, task: Task) -> None:
-        """Let a task wait; Overloaded if there is no place."""
+        """Adds a task. Raises Overloaded if the queue is full, or its client has half of the places."""
         client = task.account.client
         with self._changed:
             own = self._by_client.get(client, ())
@@ -54,9 +54,9 @@ class FairQueue:
             self._changed.notify_all()
 
     def take(self) -> Task | None:
-        """The next task that may run, waited for; None when the queue is closed. Who takes it says when it is `done`.
+        """Waits for the next task that may run; None when the queue is closed. The taker calls `done` at its end.
 
-        Whoever has begun to wait last takes first: what its worker remembers is the freshest.
+        Of several threads that wait, the one that began last is served first: the caches of its worker are the warmest.
         """
         taker, task = object(), None
         with self._changed:
@@ -76,18 +76,18 @@ class FairQueue:
             return task
 
     def done(self, task: Task, *, answered: bool = False) -> None:
-        """A task that was taken needs its slot no more; `answered` if it came to its end."""
+        """Frees the slot of a task that was taken; `answered` if it came to its end."""
         with self._changed:
             self._running.end(task, answered=answered)
             self._changed.notify_all()
 
     def go_on_as_slow(self, task: Task) -> bool:
-        """Whether a task that has run for more than a moment may go on, as a slow one from now on."""
+        """Whether a task that has used more than a moment may go on, now as a slow one."""
         with self._changed:
             return self._running.go_on_as_slow(task)
 
     def put_back(self, task: Task) -> None:
-        """Let a task that was taken wait again, as a slow one and before its client's others; Overloaded if closed."""
+        """Returns a task to the front of its client's, as a slow one. Raises Overloaded if the queue is closed."""
         client = task.account.client
         with self._changed:
             if not self._open:
@@ -98,7 +98,7 @@ class FairQueue:
             self._changed.notify_all()
 
     def share(self, key: str, account: Account) -> None:
-        """Let what waits under a key wait at a place of this client, too; Overloaded if he can have none."""
+        """Gives the task that waits under a key another place, of this client. Raises Overloaded if there is none."""
         with self._changed:
             found = next((task for task in self._waiting() if task.key == key), None)
             if found is None or any(one.answer is found.answer for one in self._by_client.get(account.client, ())):
@@ -109,14 +109,14 @@ class FairQueue:
             self.put(own)
 
     def leave(self, key: str, client: str) -> None:
-        """Free the place of a client who does not wait any more for what others still wait for."""
+        """Frees the place of a client who no longer waits for what others still wait for."""
         with self._changed:
             for task in [one for one in self._by_client.get(client, ()) if one.key == key]:
                 if sum(one.answer is task.answer for one in self._waiting()) > 1:
                     self._free(task)
 
     def discard(self, task: Task) -> bool:
-        """Free all places of a task that nobody waits for any more; False if it has none."""
+        """Removes a task from all its places; False if it has none."""
         with self._changed:
             alike = [one for one in self._waiting() if one.answer is task.answer]
             for one in alike:
@@ -125,7 +125,7 @@ class FairQueue:
             return bool(alike)
 
     def place_of(self, task: Task) -> Place | None:
-        """Where a task stands, if it waits."""
+        """The place of a task that waits, else None."""
         with self._changed:
             ahead = self._running.left
             for number, one in enumerate(self._in_turn(), 1):
@@ -135,11 +135,11 @@ class FairQueue:
             return None
 
     def is_running(self, task: Task) -> bool:
-        """Whether a thread runs it."""
+        """Whether a task runs."""
         return task in self._running
 
     def close(self) -> list[Task]:
-        """End all waiting; the tasks that are left."""
+        """Closes the queue, and returns the tasks that still waited."""
         with self._changed:
             self._open = False
             left = list(self._waiting())

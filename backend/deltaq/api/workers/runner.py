@@ -37,9 +37,9 @@ def run(connection: Connection, memory: int, niceness: int = 0) -> None:
 
 
 def collect_rarely() -> None:
-    """What the libraries hold is never garbage, and of what a derivation makes most lives as long as the derivation.
+    """Makes garbage collection rare: libraries are never garbage, and most objects of a derivation live as long as it.
 
-    All that is left is looked through after 200 000 objects: some 20 MB at most lie about.
+    A full collection comes after 200 000 objects, so that at most some 20 MB of garbage are left.
     """
     gc.freeze()
     gc.set_threshold(10_000, 10, 2)
@@ -69,7 +69,7 @@ def _streamed(parts: Iterator[Any]) -> Iterator[bytes]:
 
 
 def failure_of(error: BaseException) -> Failure:
-    """Our bug as data; even an exception whose text cannot be made gives one."""
+    """An exception that is our bug, as data; also one whose text cannot be made."""
     kind = type(error).__name__
     try:
         return Failure(kind, f"{kind}: {error}"[:1000], trace_of(error))

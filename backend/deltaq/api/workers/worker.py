@@ -28,7 +28,7 @@ SHORTEST_LOOK = 0.01  # seconds; a process that gets no processor uses up its ti
 
 @dataclass(frozen=True)
 class Listener:
-    """Who waits for an answer: takes its parts, and may go away. Called from the thread that asks the worker."""
+    """Who waits for an answer: receives its parts, and may go away. Called from the thread that asks the worker."""
 
     hear: Callable[[bytes], object]
     has_gone: Callable[[], bool]
@@ -43,7 +43,7 @@ def _always() -> bool:
 
 @dataclass(frozen=True)
 class Worker:
-    """A running process, the pipe to it, and what it has used; used by one thread only."""
+    """A running process, the pipe to it, and the meter of its processor time; used by one thread only."""
 
     process: ForkServerProcess
     connection: Connection
@@ -58,8 +58,8 @@ class Worker:
     ) -> bytes:
         """The reply to the request of a job, within its bounds; its parts go to the listener.
 
-        Whether it `may_go_on` is asked again and again once it has used more than a moment. DeadlineExceeded,
-        WorkerDied, GivenUp when the listener has gone, Outgrown; after an error only kill the worker.
+        `may_go_on` is asked repeatedly once the job has used more than a moment. Raises DeadlineExceeded, WorkerDied,
+        GivenUp when the listener has gone, or NotFast; after an error the worker can only be killed.
         """
         end = time.monotonic() + job.deadline
         self.meter.start()
@@ -84,7 +84,7 @@ class Worker:
         raise DeadlineExceeded(f"no answer within {job.deadline} s")
 
     def cause_of_death(self) -> WorkerDied | DeadlineExceeded:
-        """Why the process is gone; its bound on processor time is a deadline too."""
+        """Why the process is gone; exceeding its processor time counts as a deadline."""
         with _PROCESSES:
             self.process.join(1.0)
             code = self.process.exitcode
@@ -94,7 +94,7 @@ class Worker:
         return kind(f"the worker process ended with exit code {code}")
 
     def kill(self) -> None:
-        """End the process at once and free what it held."""
+        """Kills the process and frees what it held."""
         self.connection.close()
         with _PROCESSES, contextlib.suppress(OSError, ValueError):
             self.process.kill()
@@ -103,7 +103,7 @@ class Worker:
 
 
 def start_worker(memory: int, timeout: float, niceness: int = 0) -> Worker:
-    """A worker that has said it is ready; OSError, EOFError or TimeoutError if it does not come up."""
+    """A worker that has reported to be ready. Raises OSError, EOFError or TimeoutError if it does not come up."""
     ours, theirs = _CONTEXT.Pipe()
     process = _CONTEXT.Process(target=run, args=(theirs, memory, niceness), daemon=True, name="deltaq-worker")
     with _PROCESSES:

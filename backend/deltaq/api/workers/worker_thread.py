@@ -35,7 +35,7 @@ class Limits:
 
 
 class WorkerThread(Thread):
-    """Takes tasks from the queue one by one, until the queue is closed."""
+    """One thread that keeps one worker process alive and gives it tasks, until the queue is closed."""
 
     def __init__(self, tasks: FairQueue, limits: Limits) -> None:
         super().__init__(name="deltaq-worker-thread", daemon=True)
@@ -56,7 +56,7 @@ class WorkerThread(Thread):
         self.drop_worker()
 
     def stop(self) -> None:
-        """End after the task at hand."""
+        """Ends the thread after the present task."""
         self.stopping.set()
 
     def ready_worker(self) -> Worker | None:
@@ -80,7 +80,7 @@ class WorkerThread(Thread):
             worker.kill()
 
     def serve(self, task: Task) -> None:
-        """Give the task's future an answer or an error; nothing that happens here may end the thread."""
+        """Runs a task and gives its future the answer or an error; no exception ends the thread."""
         if not begins(task):
             self.tasks.done(task)
             return
@@ -99,7 +99,7 @@ class WorkerThread(Thread):
         self.ready_worker()
 
     def tell(self, task: Task, outcome: bytes | DeltaqError) -> None:
-        """Let the future have it; what turned out slow waits for a slow job's slot instead."""
+        """Gives the future the outcome; a task that turned out slow is put back instead."""
         try:
             if isinstance(outcome, NotFast):
                 self.tasks.put_back(task)
@@ -110,7 +110,7 @@ class WorkerThread(Thread):
             task.answer.set_result(outcome) if isinstance(outcome, bytes) else task.answer.set_exception(outcome)
 
     def outcome(self, task: Task) -> bytes | DeltaqError:
-        """Run it; once more if it is pure and the worker was killed from outside."""
+        """Runs a task; once more if it is pure and the worker was killed from outside."""
         try:
             task.account.admit()  # others of its tasks may have used up the share meanwhile
             first = self.attempt(task)
@@ -119,7 +119,7 @@ class WorkerThread(Thread):
             return error
 
     def may_go_on(self, task: Task) -> bool:
-        """Whether a task that has used more than a moment keeps its worker; one with an effect is never begun twice."""
+        """Whether a task that has used more than a moment keeps its worker; one with an effect always does."""
         return self.tasks.go_on_as_slow(task) or not task.job.pure
 
     def pay(self, task: Task, seconds: float) -> None:
@@ -128,7 +128,7 @@ class WorkerThread(Thread):
         self.processor_seconds += seconds
 
     def attempt(self, task: Task) -> bytes | DeltaqError:
-        """One try, for which the client pays. A worker that failed otherwise than by wrong input gets no other task."""
+        """Runs a task once, at the client's expense. After any error but wrong input the worker is replaced."""
         worker = self.ready_worker()
         if worker is None:
             return Overloaded("the service is stopping")
@@ -145,7 +145,7 @@ class WorkerThread(Thread):
 
 
 def begins(task: Task) -> bool:
-    """Whether anybody still waits for a task; its future is then under way."""
+    """Whether anybody still waits for a task; if so, its future counts as running."""
     if task.answer.running():  # it has been put back
         return not task.listener.has_gone()
     return task.answer.set_running_or_notify_cancel()
