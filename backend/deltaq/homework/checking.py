@@ -20,7 +20,7 @@ from .workbook import Workbook
 
 
 def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
-    """The verdict on one answer to one task."""
+    """The verdict on one answer to one task: read, compared by numbers, decided exactly, and diagnosed."""
     try:
         reading = read(task, workbook.solution, text, syntax)
     except ExpressionError as error:
@@ -37,7 +37,7 @@ def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
 
 
 def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
-    """Whether an answer is right: numbers that differ settle it, else the exact test does."""
+    """Whether an answer is right. Numbers that differ settle it; else the exact test of the quantity decides."""
     own = task.quantity.equality.fingerprint(given, workbook.sampler)
     right = workbook.fingerprint(task)
     if own == () and task.quantity.form != "set":

@@ -19,7 +19,10 @@ RELATIVE = 1e-6
 
 
 def counterexample(task: Task, given: Parts, right: Parts, solution: Solution) -> Counterexample | None:
-    """The first state at which the two differ; None where none was found or nothing can be evaluated."""
+    """A state at which the answer and the right answer have different values; None where none is found.
+
+    `given` and `right` are the components or residuals of the two; the values are in the units of the scene.
+    """
     for state in _states(solution):
         for of, yours, true in _values(task, given, right, solution, state):
             finite = math.isfinite(yours) and math.isfinite(true)

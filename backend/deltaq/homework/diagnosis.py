@@ -28,7 +28,7 @@ class Diagnosis:
 
 
 def diagnose(workbook: Workbook, task: Task, given: Parts) -> Diagnosis:
-    """A misconception alone, else one slip on the right solution, else a misconception with one slip elsewhere."""
+    """The mistake that leads to exactly this answer: a misconception, else one slip, else both."""
     found = list(islice(_direct(workbook, task, given), MOST_NAMED))
     if found:
         return Diagnosis(tuple(c.solution.id for c in found), tuple(c.solution.about for c in found))
@@ -66,6 +66,6 @@ def _slip(slips: Slips, given: Parts, base: Parts, task: Task, solution: Solutio
 
 
 def own_term(slipped: SlippedParts) -> SlippedParts:
-    """The slip with the term as the student wrote it, so that nothing right is given away."""
+    """The slip with the term as the student wrote it, so that the right term is not revealed."""
     factor = {"sign": -1, "half": sp.Rational(1, 2), "double": 2}.get(slipped.kind, 1)
     return replace(slipped, term=factor * slipped.term)

@@ -21,7 +21,7 @@ RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 def unlike_terms(reading: Reading, scene: Scene, syntax: Syntax) -> Told | None:
-    """What is told of the first term whose dimension differs from that of the terms before it."""
+    """The message on the first term whose dimension differs from that of the terms before it; None if all fit."""
     for text, tree in reading.trees:
         for part in _sums(tree):
             check = DimensionCheck(_units(scene), text, [])
@@ -32,7 +32,7 @@ def unlike_terms(reading: Reading, scene: Scene, syntax: Syntax) -> Told | None:
 
 
 def other_unit(reading: Reading, right: Parts, scene: Scene) -> Told | None:
-    """What is told of an answer whose terms fit together, but whose dimension is not that of the right one."""
+    """The message on an answer whose terms fit together but whose dimension is not that of the right answer."""
     check = DimensionCheck(_units(scene), "", [])
     known = (check.of(parse(plain(part), scene.names).tree) for part in right)
     expected = next((each for each in known if isinstance(each, Dimension)), None)

@@ -22,11 +22,11 @@ PACKAGE = "deltaq.homework.misconceptions"
 
 @dataclass(frozen=True, eq=False)
 class FaultySolution(Solution):
-    """The solution of somebody who gets one law wrong; everything after the mistake is derived rightly from it.
+    """The solution of somebody who gets one law wrong; everything after the mistake is derived correctly from it.
 
-    `about` is what the mistake is made on (a load, a body, a coordinate), "" where there is nothing to choose.
-    `likely` orders mistakes that lead to the same answer: the smaller comes first. What comes before the mistake is
-    taken from the true solution.
+    `about` is what the mistake is made on (a load, a body, a coordinate), "" where there is nothing to choose. `likely`
+    orders mistakes that lead to the same answer: the smaller comes first. What comes before the mistake is taken from
+    the true solution.
     """
 
     true: Solution
@@ -65,26 +65,26 @@ class FaultySolution(Solution):
         return self.true.load_potential(load) if self._comes_before("load_potential") else super().load_potential(load)
 
     def is_conservative(self, load: str) -> bool:
-        """What has a potential is known from the true solution: it is the given force, not the one got wrong."""
+        """Which loads have a potential: those of the true solution, since the forces are given."""
         return self.true.is_conservative(load)
 
     @property
     def rest(self) -> dict[sp.Symbol, sp.Expr] | None:
-        """Small motions are asked for about the true equilibrium."""
+        """The true equilibrium, about which small motions are asked for."""
         return self.true.rest
 
 
 def mistaken(kind: type[FaultySolution]) -> frozenset[str]:
-    """The members of Solution that a misconception states otherwise."""
+    """The members of Solution that a misconception overrides."""
     classes = kind.__mro__[: kind.__mro__.index(FaultySolution)]
     return frozenset(name for one in classes for name in vars(one) if hasattr(Solution, name))
 
 
 @cache
 def premises(law: str) -> frozenset[str]:
-    """The members of Solution that a law asks for, and those that they ask for, by the names in their code; not itself.
+    """The members of Solution that a law uses, directly or through others, by the names in their code; without itself.
 
-    A name that is only that of a field elsewhere counts, too: then something is computed twice, and nothing wrongly.
+    A name that is only that of a field elsewhere counts, too: then something is computed twice, but nothing wrongly.
     """
     found, left = set[str](), {law}
     while left:
@@ -107,6 +107,6 @@ def _names(member: str) -> Iterator[str]:
 
 @cache
 def misconceptions() -> tuple[type[FaultySolution], ...]:
-    """All that stand in `misconceptions/`, the likely ones first."""
+    """All misconceptions of `misconceptions/`, the likely ones first."""
     found = classes_of(PACKAGE, "id").values()
     return tuple(sorted(found, key=lambda kind: (kind.likely, kind.id)))

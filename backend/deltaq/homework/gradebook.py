@@ -37,10 +37,7 @@ Document = dict[str, Any]
 
 
 def standing_after(standing: Mapping[str, T], task: str, outcome: str, answer: Callable[[], T]) -> dict[str, T]:
-    """The wrong answers that stand after one more line, by task, the latest last.
-
-    Each task has its last readable answer: one that is wrong replaces that before it, a right one removes it.
-    """
+    """The wrong answers that later lines may follow from, after one more line: by task, the latest last."""
     if outcome in MISTAKEN:
         return {name: one for name, one in standing.items() if name != task} | {task: answer()}
     if outcome == "correct":
@@ -49,7 +46,7 @@ def standing_after(standing: Mapping[str, T], task: str, outcome: str, answer: C
 
 
 def earned_share(outcome: str, remark: str, follow_through: float) -> float:
-    """The share of its points that an answer earns, taken by itself: 1 if right, 0 if wrong or written again."""
+    """The share of its points that an answer earns by itself: 1 if right, 0 if wrong or repeated."""
     if outcome == "follow_through":
         return 0.0 if remark == "repeated" else follow_through
     return 1.0 if outcome == "correct" else 0.0
@@ -200,14 +197,14 @@ class Gradebook:
 
 
 def refusal(told: str, outcome: str = "invalid") -> Document:
-    """The verdict on a row that has none but a sentence."""
+    """The verdict on a row that cannot be marked: a sentence and no outcome."""
     return {
         "outcome": outcome, "remark": "", "misconception": "", "mistake": "", "understood_as": "", "feedback": told
     }  # fmt: skip
 
 
 def in_order(plan: Plan, graded: Mapping[int, Graded]) -> list[Graded]:
-    """The rows as they stand in the table."""
+    """The marked rows in the order of the table."""
     return [graded[index] for index in range(len(plan.rows))]
 
 

@@ -74,7 +74,7 @@ class Exponent:
 
     @property
     def spread(self) -> float:
-        """What the later half of the values still wanders by."""
+        """The range of the later half of the values, in 1/s."""
         return float(np.ptp(self.values[self.values.size // 2 :]))
 
 

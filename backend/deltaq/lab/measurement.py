@@ -26,7 +26,7 @@ REPEATS, BRIEF = 7, 0.01  # short runs are repeated so often, long ones less
 
 @dataclass(frozen=True)
 class Setting:
-    """How fine: by the local tolerance of a method with step control, or by the step."""
+    """The resolution of a run: the local tolerance of a method with step control, or the step in seconds."""
 
     kind: str
     value: float
@@ -38,7 +38,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Point:
-    """What one run took and gave; without an error if it did not come to the end, and `status` says why."""
+    """What one run cost and its error; None if it did not reach the end, for which `status` gives the reason."""
 
     method: str
     setting: Setting
@@ -74,12 +74,12 @@ class Point:
 
 
 def too_slow(method: str, setting: Setting) -> Point:
-    """A run that is not tried, since the one before took so long."""
+    """A point for a run that is not tried, because the one before took too long."""
     return Point(method, setting, "too_slow", None)
 
 
 def warm(problem: Problem, *methods: Method) -> None:
-    """Loads the kernels of methods, so that no run that is measured has to."""
+    """Loads the kernels of methods, so that no measured run has to."""
     short = replace(problem, t_end=1e-3 * problem.t_end)
     times, flag = np.array([0.0, short.t_end]), np.zeros(1, dtype=np.int64)
     for method in methods:
@@ -87,7 +87,7 @@ def warm(problem: Problem, *methods: Method) -> None:
 
 
 def measure(problem: Problem, method: Method, reference: Reference, setting: Setting, *, repeats: int) -> Point:
-    """The run, and how long it takes. `repeats` 1 measures the time but once."""
+    """Runs a method and measures its time; `repeats` 1 measures once."""
     problem.model.settle()
     flag = np.zeros(1, dtype=np.int64)
 
@@ -103,10 +103,10 @@ def measure(problem: Problem, method: Method, reference: Reference, setting: Set
 
 
 def repeated(again: Callable[[], float], first: float, repeats: int) -> tuple[float, ...]:
-    """The seconds of runs: many where one is short (the first is left out, it warms up), else up to three.
+    """The seconds of several runs: `repeats` of short ones, up to three of long ones.
 
-    Two are enough where both are slow; where the second is not, the first was interrupted. What seems slow is never
-    believed at once.
+    The first of short ones is left out, since it warms up. Two are enough where both are slow; where the second is not,
+    the first was interrupted.
     """
     if first <= BRIEF and repeats > 1:
         return tuple(again() for _ in range(repeats))
@@ -131,12 +131,15 @@ def error_of(values: Floats, reference: Reference) -> float | None:
 
 
 def floor_of(reference: Reference) -> float:
-    """Below this the reference itself is not known."""
+    """The error of the reference itself, below which nothing can be measured."""
     return float(np.max(reference.errors / np.maximum(1.0, np.abs(reference.values).max(axis=1))))
 
 
 def order_of(points: list[Point], x: Callable[[Point], float], floor: float) -> float | None:
-    """The slope −d log(error)/d log(x) where errors are small but not yet rounding (least squares), if it shows."""
+    """The measured order: −d log(error)/d log(x) by least squares, where errors are small but not yet rounding.
+
+    None if too few points show it.
+    """
     chosen = [
         (x(point), point.error)
         for point in points

@@ -53,7 +53,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class Neighbours:
-    """A motion, by the problem that it begins with, and what lies beside it; what is exact is computed once."""
+    """A motion, given by its initial value problem, and how deviations from it grow; exact pairs are computed once."""
 
     problem: Problem
     _known: dict[tuple[float, int], Pair] = field(default_factory=dict)
@@ -92,17 +92,17 @@ class Neighbours:
         return self.varies <= CONSTANT
 
     def exact(self, h: float, steps: int) -> Pair:
-        """The pair as it is, at the times of so many steps h; shorter where it cannot be known."""
+        """The pair by an accurate method at the times of so many steps h; shorter where it cannot be known."""
         if (h, steps) not in self._known:
             self._known[h, steps] = self._pair(get_method(EXACT), h, steps, Steps(h * steps, TOLERANCE))
         return self._known[h, steps]
 
     def by(self, method: Method, h: float, steps: int = STEPS) -> Pair:
-        """The pair as a method with the fixed step h has it."""
+        """The pair by a method with the fixed step h."""
         return self._pair(method, h, steps, Steps(h))
 
     def is_kept(self, true: Run, found: Run, count: int) -> bool:
-        """Whether the motion found is of one kind with the true one: its J takes the same values equally often.
+        """Whether two motions are of one kind: their Jacobians take the same values equally often.
 
         A motion that is a little late is still the same; one that has lost its energy is another.
         """
@@ -112,7 +112,7 @@ class Neighbours:
         )
 
     def is_at_start(self, found: Run, count: int) -> bool:
-        """Whether the linearization at the start holds on the first samples of a run, however long it is."""
+        """Whether the linearization at the start holds on the first samples of a run."""
         places = np.unique(np.linspace(0, min(count, len(found.times)) - 1, PLACES).astype(int))
         matrices = self._alike(self._jacobians(found.times[places], found.states[places]))
         size = np.linalg.norm(self._alike(self.linear.jacobian))

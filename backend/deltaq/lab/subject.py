@@ -39,7 +39,7 @@ class Subject:
 
     @property
     def described(self) -> Document:
-        """What of the subject belongs into every result."""
+        """The entries about the subject that every result has."""
         values = zip((p.name for p in self.scene.parameters), self.problem.parameters, strict=True)
         starts = zip(self.scene.free, self.problem.values, self.problem.rates, strict=True)
         return {

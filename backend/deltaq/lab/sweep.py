@@ -24,7 +24,7 @@ Runner = Callable[[Setting], Point]
 
 
 def fixed_steps(problem: Problem) -> tuple[Setting, ...]:
-    """Steps, halved from one to the next; they divide the time between two samples."""
+    """Steps, each half of the one before, that divide the time between two samples."""
     between = problem.t_end / (SAMPLES - 1)
     fastest = spectrum(problem, 0.0, problem.state).size
     least = max(1, round(between * fastest / ROUGHEST))
@@ -32,7 +32,7 @@ def fixed_steps(problem: Problem) -> tuple[Setting, ...]:
 
 
 def settings_of(problem: Problem, method: Method) -> tuple[Setting, ...]:
-    """From coarse to fine, by what the method is steered with."""
+    """The settings of a method from coarse to fine: tolerances if it has step control, else steps."""
     if method.is_adaptive:
         return tuple(Setting("tolerance", tolerance) for tolerance in TOLERANCES)
     return fixed_steps(problem)
@@ -40,7 +40,7 @@ def settings_of(problem: Problem, method: Method) -> tuple[Setting, ...]:
 
 @dataclass
 class Track:
-    """One method on its way from coarse to fine."""
+    """The runs of one method, from coarse to fine."""
 
     name: str
     settings: Sequence[Setting]

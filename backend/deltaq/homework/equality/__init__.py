@@ -29,7 +29,7 @@ class Match:
 
 
 class Equality(Protocol):
-    """What every module here offers."""
+    """What every module of this folder offers."""
 
     def fingerprint(self, parts: Parts, sampler: Sampler, /) -> Fingerprint | None:
         """Numbers that equal answers share; None: cannot be told from numbers, (): the answer says nothing."""
@@ -39,7 +39,7 @@ class Equality(Protocol):
 
 
 def weakest(outcomes: Sequence[bool | None]) -> bool | None:
-    """All true: true; one false: false; else undecided."""
+    """The conjunction of decisions: false if one is false, else undecided if one is, else true."""
     if False in outcomes:
         return False
     return None if None in outcomes else True

@@ -24,7 +24,7 @@ NOTHING = 1e-12
 
 
 def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
-    """The reduced rows at every point: all invertible combinations share them."""
+    """The reduced row echelon form of (A, b) at every point, which all invertible combinations share."""
     rows = [sampler.rows(part) for part in parts]
     if not all(defined(row) for each in rows for row in each):
         return None
@@ -62,7 +62,7 @@ def same(given: Parts, right: Parts, solution: Solution) -> Match:
 
 
 def system_of(parts: Parts, solution: Solution) -> tuple[sp.Matrix, sp.Matrix]:
-    """A and b of residuals A q̈ + b."""
+    """The matrix A and the column b of residuals A q̈ + b."""
     accelerations = [solution.acceleration(q) for q in solution.free]
     still = dict.fromkeys(accelerations, solution.zero)
     matrix = sp.Matrix([[part.diff(a) for a in accelerations] for part in parts])

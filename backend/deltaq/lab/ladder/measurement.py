@@ -49,7 +49,7 @@ class RungRun:
 
     @property
     def outcome(self) -> Outcome:
-        """How it ended; a motion within the tolerance is sound even if it is too small to have a digit of its own."""
+        """How the run ended; ok if it met the tolerance, even if the motion is too small to have a digit of its own."""
         found = self.trajectory
         return OK if found.tolerance_reached and found.event is None else found.outcome
 
@@ -60,11 +60,11 @@ class RungRun:
 
     @property
     def gives_out(self) -> bool:
-        """Whether it ends for reasons of the computation, which a coarser one may not meet."""
+        """Whether the computation ended it (steps, Newton's method), which a coarser one may avoid."""
         return self.outcome.code in ("step_limit", "step_underflow", "newton_failed", "stiff")
 
     def is_sound(self, full: Yardstick, tolerance: float) -> bool:
-        """Whether its own integration errs by far less than is allowed of it, as long as the full motion is known.
+        """Whether the error of its integration is far below `tolerance`, as long as the full motion is known.
 
         It may have missed a tolerance far below that, over thousands of turns; and what becomes of it later is no
         matter.
@@ -72,7 +72,7 @@ class RungRun:
         return CERTAIN * full.uncertainty(self.floor_until(full.end)) <= tolerance * full.size
 
     def floor_until(self, end: float) -> float:
-        """The error of the integration as far as a time, in the measure of its tolerance."""
+        """The error of the integration up to a time in seconds: absolute for coordinates below 1, relative above."""
         found = self.trajectory.estimate
         if found is None:
             return self.floor
@@ -82,7 +82,7 @@ class RungRun:
         return found.worst * min(1.0, part)
 
     def sure_until(self, limit: float) -> float:
-        """Up to when its error stays within a limit, in the measure of its tolerance."""
+        """The time in seconds up to which that error stays within a limit."""
         found = self.trajectory.estimate
         if found is None or found.worst <= limit:
             return self.trajectory.trusted_until
@@ -104,7 +104,7 @@ class RungRun:
 
 
 def run_rung(scene: Scene, span: float, cancelled: Flag, accuracy: Accuracy = USUAL) -> RungRun:
-    """The motion of a scene by the method that suits it."""
+    """The motion of a scene over `span` seconds, by the method that suits it."""
     problem = replace(problem_of(scene, span, accuracy.samples), step_limit=STEP_LIMIT)
     problem.model.settle()
     choice = choose(AUTO, scene, problem, None, accuracy.tolerance)
@@ -113,7 +113,7 @@ def run_rung(scene: Scene, span: float, cancelled: Flag, accuracy: Accuracy = US
 
 
 def run_beside(scene: Scene, full: Yardstick, cancelled: Flag) -> RungRun:
-    """The motion of a rung beside the full one: as finely as that, or else as finely as it can be had to its end."""
+    """The motion of a rung with the accuracy of the full motion, or else the finest with which it gets to the end."""
     wanted = (replace(full.accuracy, tolerance=each) for each in _tolerances(full.accuracy.tolerance))
     runs = (run_rung(scene, full.problem.t_end, cancelled, each) for each in wanted)
     return _longest(runs, full.end, lambda each: each.trajectory.trusted_until)
@@ -134,7 +134,7 @@ def _longest(runs: Iterator[RungRun], end: float, known: Callable[[RungRun], flo
 
 
 def full_run(scene: Scene, span: float, cancelled: Flag, allowed: float = np.inf, needed: float = np.inf) -> RungRun:
-    """The motion that others are measured against, with an error `allowed` of these, as far as it is `needed`.
+    """The reference motion over `span` seconds, with an error far below `allowed`, as far as it is `needed`.
 
     It is computed anew where it is small in its units or has many turns, and where small errors grow in it; and more
     coarsely where rounding lets no finer one get far.
@@ -150,7 +150,7 @@ def full_run(scene: Scene, span: float, cancelled: Flag, allowed: float = np.inf
 
 
 def yardstick(full: RungRun, tolerance: float = np.inf, limit: float = np.inf) -> Yardstick:
-    """The full motion up to a limit, as long as its digits can be trusted and are far finer than `tolerance`."""
+    """The full motion up to `limit` seconds, as long as its error is far below `tolerance`."""
     (times, states), problem = full.sampled, full.problem
     end = min(limit, full.trajectory.trusted_until)
     count, floor = int(np.count_nonzero(times <= end)), full.floor_until(end)
@@ -172,7 +172,7 @@ def _sure(full: RungRun, found: Yardstick, tolerance: float) -> Yardstick:
 
 
 def deviation(full: Yardstick, rung: RungRun, back: Back) -> Deviation | None:
-    """How far the rung is from the full motion; None if not even one sample can be compared."""
+    """How far a rung is from the full motion; None if no sample can be compared."""
     if not len(full.times) or not len(rung.sampled[0]):
         return None
     errors = full.errors(back(seen(rung)).values)
@@ -189,7 +189,7 @@ def deviation(full: Yardstick, rung: RungRun, back: Back) -> Deviation | None:
 
 
 def seen(rung: RungRun) -> Motion:
-    """Values and rates of all coordinates of the rung's own scene."""
+    """Values and rates of all coordinates of the rung's own scene along its run."""
     (times, states), n, free = rung.sampled, rung.problem.degrees, rung.problem.model.layout.free
     observed = rung.problem.model.observe(rung.problem.inputs(times, states))
     values = _named(free, states[:, :n]) | dict(observed.values)
@@ -202,7 +202,7 @@ def _named(names: tuple[str, ...], columns: Floats) -> dict[str, Floats]:
 
 
 def cost(rung: RungRun, repeats: int, cancelled: Flag) -> Cost:
-    """What the rung takes: the run that meets the tolerance, repeated; medians and quartiles."""
+    """What the run of a rung costs: medians and quartiles of so many repeats."""
     method = rung.choice.method
     runs = [
         simulate(rung.problem, method, tolerance=rung.accuracy.tolerance, with_error=False, cancelled=cancelled).cost

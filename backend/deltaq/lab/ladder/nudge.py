@@ -27,7 +27,7 @@ GROWS = 100.0  # times the nudge: what a motion makes of it in which nothing gro
 
 
 def nudged(scene: Scene, full: Yardstick, way: int) -> Scene:
-    """The scene with all initial values and rates a little off."""
+    """The scene with all initial values and rates changed by about 10⁻⁶; `way` is one of WAYS."""
     n = len(scene.free)
     parts = np.array([_part(way * 2 * n + k) for k in range(2 * n)])
     values, rates = parts[:n] * _steps(full), parts[n:] * _steps(full) / full.problem.t_end
@@ -36,7 +36,7 @@ def nudged(scene: Scene, full: Yardstick, way: int) -> Scene:
 
 
 def allowed(before: float, tolerance: float, full: Yardstick) -> float:
-    """The error allowed after a nudge, as a part of the extent: the tolerance, or what grows only as the nudge does."""
+    """The error allowed after a nudge, relative to the extent: the tolerance, or what grows only as the nudge does."""
     return max(tolerance, before + GROWS * float(np.max(_steps(full) / full.units)))
 
 

@@ -28,7 +28,7 @@ LEAST = 1e-3  # of the way: less apart than that is together
 
 
 def determined_until(full: Yardstick) -> float:
-    """When the motion comes to a state beyond which it does not depend continuously on its start; else infinity."""
+    """The time in seconds at which the motion stops to depend continuously on its start; infinite if it never does."""
     times = _passages(full)
     return float(np.min(times[~_goes_on(full, times)], initial=np.inf)) if len(times) else np.inf
 

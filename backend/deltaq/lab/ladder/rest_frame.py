@@ -27,7 +27,7 @@ Placed = TypeVar("Placed", Point, Body)
 
 
 def in_rest_frame(scene: Scene) -> Scene:
-    """The scene with the velocity taken out that all its bodies share, whatever their coordinates; else as it is."""
+    """The scene in the frame in which its bodies have no common velocity; the same scene if there is none."""
     if not any("t" in field.expression.names for field in expressions(scene)):
         return scene
     velocity = _velocity(scene)

@@ -30,7 +30,7 @@ REGULAR = 1e10  # condition of M
 
 @dataclass(frozen=True)
 class Steady:
-    """The forces on a scene that stands still but for its cyclic coordinates, whose momenta are given."""
+    """The forces on a scene at rest except for its cyclic coordinates, whose momenta are given."""
 
     scene: Scene
     full: Yardstick

@@ -32,12 +32,12 @@ def _complexity(rung: Rung, deviation: Deviation, tolerance: float) -> tuple[int
 
 
 def lasts(until: float, end: float) -> bool:
-    """Whether a comparison goes on as long as the full motion, which an event may end."""
+    """Whether a comparison until `until` covers the full motion, which ends at `end` (seconds)."""
     return until >= WHOLE * end
 
 
 def is_within(deviation: Deviation | None, tolerance: float, full: Yardstick) -> bool:
-    """Where the full motion stands still, only what stands still with it is."""
+    """Whether a rung is within the tolerance to the end; where the full motion rests, only a rung that rests is."""
     if deviation is None or not full.end > 0.0 or not lasts(deviation.until, full.end):
         return False
     if deviation.relative is None:
