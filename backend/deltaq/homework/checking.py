@@ -1,4 +1,4 @@
-"""Checking one answer: read, compared by numbers, decided exactly, and what went wrong looked for."""
+"""Checking one answer: it is read, compared by numbers, decided exactly, and diagnosed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Terms whose units do not fit together, or not to what is asked for: the first thing to say about such an answer."""
+"""Dimensions of an answer: terms that cannot be added, and a unit other than the one asked for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said of an answer: its verdict as a document, the texts in one language."""
+"""A verdict as a document, with its texts in one language."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One kind of thing that can be asked for."""
+"""A quantity that can be asked for: its form, its kind of equality, and its value by a solution."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What came out of a table of answers: as CSV, and by task and person, with the mistakes that come up most."""
+"""The graded table as CSV, and totals by task and person with the most frequent mistakes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said of a task: its statement, hints and right answer, the texts in one language."""
+"""A task as a document: statement, hints and right answer, with its texts in one language."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a quantity can be asked of in a scene: its bodies, its coordinates, the scene as a whole (""), or nothing."""
+"""What a quantity is asked of: bodies, coordinates, or the scene as a whole ("")."""
 
 from __future__ import annotations
 

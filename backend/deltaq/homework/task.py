@@ -1,4 +1,4 @@
-"""Tasks: what a scene lets one ask."""
+"""Tasks: what can be asked about a scene."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the checker says."""
+"""The verdict on an answer."""
 
 from __future__ import annotations
 

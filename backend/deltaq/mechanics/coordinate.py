@@ -1,4 +1,4 @@
-"""Generalized coordinates."""
+"""Generalized coordinates, with initial values and ranges."""
 
 from __future__ import annotations
 

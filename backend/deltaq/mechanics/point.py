@@ -1,4 +1,4 @@
-"""Named positions."""
+"""Named places r(q, t) without mass."""
 
 from __future__ import annotations
 

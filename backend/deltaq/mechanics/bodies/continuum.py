@@ -1,4 +1,4 @@
-"""The continuum."""
+"""Continua, with the kinetic energy ∫ ½ v·v dm."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The particle."""
+"""Particles, with the kinetic energy m/2 v·v."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rigid body."""
+"""Rigid bodies, with the kinetic energy m/2 v·v + ½ Σ Jₖ ωₖ²."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The pendulum of n links."""
+"""The pendulum of n links, the double pendulum among them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The damper."""
+"""Linear dampers between two places, with R = c/2 ṡ²."""
 
 from __future__ import annotations
 

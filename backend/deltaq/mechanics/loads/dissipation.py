@@ -1,4 +1,4 @@
-"""The dissipation function."""
+"""Dissipation functions R(q, q̇, t), with Qᵢ = −∂R/∂q̇ᵢ."""
 
 from __future__ import annotations
 

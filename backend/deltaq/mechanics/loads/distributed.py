@@ -1,4 +1,4 @@
-"""The distributed force."""
+"""Forces distributed over a continuum, with δW = ∫ f·δr dS."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The single force."""
+"""Forces on a point, with δW = F·δr."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Gravity."""
+"""Gravity, with δW = ∫ g·δr dm on every body."""
 
 from __future__ import annotations
 

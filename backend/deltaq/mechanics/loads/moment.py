@@ -1,4 +1,4 @@
-"""The free moment."""
+"""Moments on an angle, with δW = M δφ."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The potential."""
+"""Potential energies given as functions, with δW = −δV."""
 
 from __future__ import annotations
 

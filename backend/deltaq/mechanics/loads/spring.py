@@ -1,4 +1,4 @@
-"""The spring."""
+"""Linear springs between two places, with V = k/2 (s − s₀)²."""
 
 from __future__ import annotations
 
