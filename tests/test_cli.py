@@ -19,7 +19,7 @@ import httpx
 import pytest
 
 from deltaq import __version__
-from deltaq.api.wire.simulation import SimulationAnswer
+from deltaq.contract.simulation import SimulationAnswer
 from deltaq.api.workers.kernels import mark_as_compiled
 from deltaq.bench import benchmark_names, run_benchmarks
 from deltaq.cli import main

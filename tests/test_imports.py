@@ -17,12 +17,16 @@ MAY_KNOW = {
     "derivation": {"language", "mechanics"},
     "narration": {"language", "mechanics", "derivation"},
     "model": {"language", "mechanics"},
-    "simulation": {"language", "mechanics", "model"},
-    "lab": {"language", "mechanics", "model", "simulation"},
+    "contract": set(),
+    "simulation": {"language", "mechanics", "model", "contract"},
+    "lab": {"language", "mechanics", "model", "simulation", "contract"},
     "homework": {"language", "mechanics", "derivation", "narration"},
     "handout": {"language", "mechanics", "derivation", "narration"},
-    "commands": {"mechanics", "narration", "simulation", "lab", "homework", "handout", "api"},
-    "api": {"language", "mechanics", "derivation", "narration", "model", "simulation", "lab", "homework", "handout"},
+    "commands": {"mechanics", "narration", "simulation", "lab", "homework", "handout", "contract", "api"},
+    "api": {
+        *("language", "mechanics", "derivation", "narration", "model", "simulation", "lab", "homework", "handout"),
+        "contract",
+    },
 }
 # Who may know the modules beside the packages.
 BESIDE = {
@@ -46,7 +50,7 @@ FORBIDDEN = {
     },
     "numba": {"language", "mechanics", "derivation", "narration", "homework", "api", "handout"},
     "fastapi": set(MAY_KNOW) - {"api"},
-    "pydantic": set(MAY_KNOW) - {"api"},
+    "pydantic": set(MAY_KNOW) - {"api", "contract"},
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 

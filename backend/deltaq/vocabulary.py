@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
+# The languages of the texts.
+Language = Literal["de", "en"]
+# The method that chooses one.
+AUTO = "auto"
 # How a computation of a motion ended.
 Status = Literal[
     "ok",

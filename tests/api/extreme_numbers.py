@@ -17,7 +17,7 @@ from typing import Any
 import httpx
 from tests.serving import served
 
-from deltaq.api.wire.document import EXAMPLE
+from deltaq.contract.document import EXAMPLE
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.writing import write_scene
 

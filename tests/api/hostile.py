@@ -24,7 +24,7 @@ import httpx
 from tests.hostile import CANARY, KINDS
 from tests.serving import PATIENT, served
 
-from deltaq.api.wire.document import EXAMPLE
+from deltaq.contract.document import EXAMPLE
 
 LINES = tuple(chain(*KINDS.values()))
 LONGEST = 30.0  # seconds, of which most are spent in a queue

@@ -14,9 +14,9 @@ import pytest
 from fastapi import FastAPI
 
 from deltaq.api.marking import BUSY_PAUSE, Marking
-from deltaq.api.wire.verdict import TableAnswer
 from deltaq.api.workers.account import QuotaExceeded
 from deltaq.api.workers.job import DeadlineExceeded, JobFailed, MemoryExceeded, Overloaded
+from deltaq.contract.verdict import TableAnswer
 from deltaq.errors import Problem, UnknownNameError
 from deltaq.homework.gradebook import Plan, Row, Target, refusal
 

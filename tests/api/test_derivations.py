@@ -8,8 +8,8 @@ import httpx
 import pytest
 from fastapi import FastAPI
 
-from deltaq.api.wire.derivation import DerivationAnswer, DerivationRequest, Formulation
 from deltaq.cli import main
+from deltaq.contract.derivation import DerivationAnswer, DerivationRequest, Formulation
 from deltaq.derivation.engine import formulation_names
 from deltaq.mechanics.library import scene_ids
 

@@ -11,7 +11,7 @@ import pytest
 
 import deltaq
 from deltaq.api.app import create_app
-from deltaq.api.wire.document import SceneBody, SceneLoad
+from deltaq.contract.document import SceneBody, SceneLoad
 from deltaq.mechanics.document import examine
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.writing import write_scene

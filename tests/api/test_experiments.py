@@ -48,7 +48,7 @@ async def test_every_experiment_has_a_call_and_every_call_an_experiment(client: 
 
 
 def test_every_question_is_that_of_an_experiment() -> None:
-    assert classes_of("deltaq.api.wire.experiments", "experiment").keys() <= set(experiment_ids())
+    assert classes_of("deltaq.contract.experiments", "experiment").keys() <= set(experiment_ids())
 
 
 @pytest.mark.parametrize("name", SMALL)

@@ -18,8 +18,8 @@ import pytest
 from tests.serving import PATIENT, served
 
 from deltaq.api.app import create_app
-from deltaq.api.wire.document import EXAMPLE
-from deltaq.api.wire.scene import TOML_EXAMPLE
+from deltaq.contract.document import EXAMPLE
+from deltaq.contract.scene import TOML_EXAMPLE
 from deltaq.settings import Settings
 
 PACKAGE = "deltaq_client"

@@ -6,9 +6,9 @@ import httpx
 import pytest
 from fastapi import FastAPI
 
-from deltaq.api.wire.check import CheckRequest
-from deltaq.api.wire.task import TaskList
-from deltaq.api.wire.verdict import VerdictAnswer
+from deltaq.contract.check import CheckRequest
+from deltaq.contract.task import TaskList
+from deltaq.contract.verdict import VerdictAnswer
 
 pytestmark = pytest.mark.anyio
 API = "/api/v1"

@@ -3,7 +3,7 @@ from __future__ import annotations
 import httpx
 import pytest
 
-from deltaq.api.wire.proof import ProofAnswer, ProofList
+from deltaq.contract.proof import ProofAnswer, ProofList
 
 pytestmark = pytest.mark.anyio
 PROOF = "/api/v1/proofs/dalembert-lagrange"

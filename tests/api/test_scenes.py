@@ -6,7 +6,7 @@ from typing import Any
 import httpx
 import pytest
 
-from deltaq.api.wire.document import EXAMPLE
+from deltaq.contract.document import EXAMPLE
 from deltaq.mechanics.library import load_scene, scene_ids
 
 pytestmark = pytest.mark.anyio

@@ -5,7 +5,7 @@ from typing import Any
 import httpx
 import pytest
 
-from deltaq.api.wire.simulation import SimulationAnswer
+from deltaq.contract.simulation import SimulationAnswer
 from deltaq.mechanics.library import load_scene, scene_ids
 
 pytestmark = pytest.mark.anyio

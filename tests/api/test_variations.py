@@ -5,7 +5,7 @@ from typing import Any
 import httpx
 import pytest
 
-from deltaq.api.wire.variation import VariationAnswer, VariationRequest
+from deltaq.contract.variation import VariationAnswer, VariationRequest
 
 pytestmark = pytest.mark.anyio
 VARIATIONS = "/api/v1/variations"

@@ -14,7 +14,7 @@ from typing import Any
 
 from tests.api.hostile import Walk, sample
 
-from deltaq.api.wire.document import EXAMPLE
+from deltaq.contract.document import EXAMPLE
 
 MEGABYTE = 2**20 - 2**10  # with room for what stands around it
 Json = dict[str, Any]

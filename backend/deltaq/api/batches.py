@@ -9,10 +9,10 @@ import time
 from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from typing import TypeVar
 
+from ..contract.verdict import VerdictAnswer, VerdictProblem
 from ..errors import InputError, Problem
 from ..narration.catalog import message, text
-from .languages import Language
-from .wire.verdict import VerdictAnswer, VerdictProblem
+from ..vocabulary import Language
 from .workers.account import QuotaExceeded
 from .workers.job import DeadlineExceeded, MemoryExceeded, Overloaded
 

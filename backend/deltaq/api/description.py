@@ -8,8 +8,8 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
 
+from ..contract.problem import ProblemDocument
 from .samples import samples
-from .wire.problem import ProblemDocument
 
 SUMMARY = "Analytical mechanics, derived and simulated"
 DESCRIPTION = """Derives Lagrange's equations of the second kind step by step, simulates the motion, checks answers, and

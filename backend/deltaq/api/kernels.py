@@ -7,8 +7,8 @@ import logging
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..simulation.choice import AUTO
 from ..simulation.library import families, get_method
+from ..vocabulary import AUTO
 from .workers.job import Job, JobError, Overloaded
 from .workers.kernels import are_compiled, mark_as_compiled
 from .workers.pool import Pool

@@ -18,8 +18,8 @@ from ..errors import InputError, Problem
 from ..homework.gradebook import Document, Gradebook, Plan, refusal
 from ..homework.results import Graded, results_csv, totals
 from ..narration.catalog import message, text
+from ..vocabulary import Language
 from .batches import OUT_OF_TIME, TOO_LARGE
-from .languages import Language
 from .streams import event
 from .workers.account import QuotaExceeded
 from .workers.job import DeadlineExceeded, MemoryExceeded, Overloaded

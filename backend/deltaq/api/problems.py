@@ -19,7 +19,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from ..errors import MOST_PROBLEMS, DeltaqError, InputError, Problem, UnknownNameError
 from ..narration.catalog import text
 from ..narration.problems import described
-from .languages import Language, language_of
+from ..vocabulary import Language
+from .languages import language_of
 from .strict_json import JsonError
 from .validation import problems_of
 from .workers.account import QuotaExceeded

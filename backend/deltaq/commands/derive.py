@@ -44,7 +44,7 @@ def _derived(question: dict[str, Any]) -> dict[str, Any]:
     from ..api.jobs import derive
     from ..api.routes.derivations import derivation_id
     from ..api.validation import checked
-    from ..api.wire.derivation import DerivationRequest
+    from ..contract.derivation import DerivationRequest
 
     request = checked(question, DerivationRequest)
     return derive({"id": derivation_id(request), "request": request})
@@ -52,7 +52,7 @@ def _derived(question: dict[str, Any]) -> dict[str, Any]:
 
 def _exported(question: dict[str, Any], form: str) -> str:
     from ..api.validation import checked
-    from ..api.wire.export import ExportRequest
+    from ..contract.export import ExportRequest
     from ..handout.service import export_request
 
     return str(export_request({**checked(question, ExportRequest), "form": form})["text"])

@@ -17,7 +17,7 @@ from ..simulation.method import Method
 from ..simulation.problem import Problem
 from ..simulation.request import read_request
 from ..simulation.service import problem_of
-from .bounds import LONGEST, SHORTEST, SPAN
+from ..contract.bounds import LONGEST, SHORTEST, SPAN
 from .report import Document
 
 COMMON = ("scene", "guides", "freeze", "parameters", "initial", "t_end", "lang")

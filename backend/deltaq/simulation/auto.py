@@ -10,7 +10,8 @@ import numpy as np
 from ..language.tree import Call, Node, walk
 from ..mechanics.contributions import Contribution
 from ..mechanics.scene import Scene
-from .choice import AUTO, Choice
+from ..vocabulary import AUTO
+from .choice import Choice
 from .library import get_method
 from .problem import Problem
 from .run import Steps, run

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..vocabulary import AUTO
 from .library import get_method
 from .method import Method
-
-AUTO = "auto"
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,8 @@ from pydantic import BaseModel
 
 from ...errors import UnknownNameError
 from ...mechanics.library import load_scene
-from ..languages import Language, language_of
+from ...vocabulary import Language
+from ..languages import language_of
 
 PREFIX = "/api/v1"
 SceneId = Annotated[str, Path(description="a built-in scene", examples=["pendulum"])]

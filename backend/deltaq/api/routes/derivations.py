@@ -10,13 +10,13 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Request, Response
 
+from ...contract.derivation import DerivationAnswer, DerivationRequest
 from ...errors import Problem, UnknownNameError
 from ..body import StrictRoute
 from ..costs import expected
 from ..responses import packed
 from ..samples import BY_ID
 from ..service import Service, service_of
-from ..wire.derivation import DerivationAnswer, DerivationRequest
 from ..workers.job import Job
 from .common import COMPUTING, PREFIX, failures, question_of
 

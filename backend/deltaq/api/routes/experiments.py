@@ -6,7 +6,7 @@ Figures have no language: charts are drawn from them in each that is asked for; 
 of who began it. Where an experiment has to wait, its stream tells first what place it has in the queue: `waiting`, with
 `place` (1: the next, 0: begun) and the `seconds` until it should begin.
 
-There is a call for whatever stands in `lab/experiments/`; what may be asked of it stands in `wire/experiments/`.
+There is a call for whatever stands in `lab/experiments/`; what may be asked of it stands in `contract/experiments/`.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from ..problems import report_of
 from ..responses import packed
 from ..service import Service, service_of, unpack
 from ..streams import MEDIA_TYPE, events
-from ..wire.experiment import ExperimentAnswer, ExperimentRequest
+from ...contract.experiment import ExperimentAnswer, ExperimentRequest
 from ..workers.job import Job
 from .common import COMPUTING, question_of
 
@@ -58,7 +58,7 @@ ANSWERS: dict[int | str, dict[str, Any]] = {
 def _router() -> APIRouter:
     """A call for each experiment there is."""
     router = APIRouter(prefix="/experiments", tags=["experiments"], route_class=StrictRoute)
-    questions = classes_of("deltaq.api.wire.experiments", "experiment")
+    questions = classes_of("deltaq.contract.experiments", "experiment")
     for identifier in experiment_ids():
         asked = questions.get(identifier)
         router.add_api_route(

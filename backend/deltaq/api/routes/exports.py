@@ -7,10 +7,10 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Request, Response
 
+from ...contract.export import ExportRequest, Form
 from ..body import StrictRoute
 from ..costs import expected
 from ..service import service_of, unpack
-from ..wire.export import ExportRequest, Form
 from ..workers.job import Job
 from .common import COMPUTING, question_of
 

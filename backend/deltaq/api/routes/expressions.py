@@ -11,10 +11,10 @@ from dataclasses import replace
 
 from fastapi import APIRouter, Request, Response
 
+from ...contract.expression import ExpressionAnswer, ExpressionRequest, ExpressionsAnswer, ExpressionsRequest
 from ..body import StrictRoute
 from ..responses import packed
 from ..service import service_of
-from ..wire.expression import ExpressionAnswer, ExpressionRequest, ExpressionsAnswer, ExpressionsRequest
 from ..workers.job import Job
 from .common import COMPUTING, question_of
 

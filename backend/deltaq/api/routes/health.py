@@ -8,10 +8,10 @@ from typing import Any
 from fastapi import APIRouter, Request, Response
 
 from ... import __version__
+from ...contract.health import CacheHealth, Health, Readiness, Version, WorkerHealth
 from ..body import HeadedRoute
 from ..metrics import MEDIA_TYPE
 from ..service import service_of, source_digest
-from ..wire.health import CacheHealth, Health, Readiness, Version, WorkerHealth
 from ..workers.job import Overloaded
 from .common import failures
 

@@ -10,6 +10,17 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request, Response
 from starlette.responses import StreamingResponse
 
+from ...contract.check import BatchRequest, CheckRequest, LinesRequest, ReadingRequest, SingleCheck, TableRequest
+from ...contract.task import (
+    AssignmentAnswer,
+    AssignmentRequest,
+    SolutionAnswer,
+    SolutionRequest,
+    StackRequest,
+    TaskList,
+    TasksRequest,
+)
+from ...contract.verdict import BatchAnswer, LinesAnswer, MotionAnswer, ReadingAnswer, TableAnswer, VerdictAnswer
 from ...homework.gradebook import Plan
 from ..batches import LONGEST as BATCH_LONGEST
 from ..batches import checked
@@ -22,17 +33,6 @@ from ..problems import report_of
 from ..responses import packed
 from ..service import pack, service_of, unpack
 from ..streams import MEDIA_TYPE as EVENTS
-from ..wire.check import BatchRequest, CheckRequest, LinesRequest, ReadingRequest, SingleCheck, TableRequest
-from ..wire.task import (
-    AssignmentAnswer,
-    AssignmentRequest,
-    SolutionAnswer,
-    SolutionRequest,
-    StackRequest,
-    TaskList,
-    TasksRequest,
-)
-from ..wire.verdict import BatchAnswer, LinesAnswer, MotionAnswer, ReadingAnswer, TableAnswer, VerdictAnswer
 from ..workers.job import Job
 from .common import COMPUTING, LANGUAGE, SceneId, failures, question_of
 

@@ -6,12 +6,13 @@ from typing import Any
 
 from fastapi import APIRouter, Request, Response
 
+from ...contract.method import MethodList
 from ...narration.catalog import text
 from ...simulation.library import get_method, method_ids
+from ...vocabulary import Language
 from ..body import HeadedRoute
-from ..languages import Language, language_of
+from ..languages import language_of
 from ..responses import tagged
-from ..wire.method import MethodList
 from .common import LANGUAGE, failures
 
 router = APIRouter(prefix="/methods", tags=["methods"], route_class=HeadedRoute)

@@ -6,12 +6,12 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path, Request, Response
 
+from ...contract.proof import ProofAnswer, ProofList
 from ...narration.catalog import keys, text
 from ..body import StrictRoute
 from ..languages import language_of
 from ..responses import packed, tagged
 from ..service import service_of
-from ..wire.proof import ProofAnswer, ProofList
 from ..workers.job import Job
 from .common import LANGUAGE, failures
 

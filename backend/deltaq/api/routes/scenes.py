@@ -7,6 +7,8 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Request, Response
 
+from ...contract.document import EXAMPLE, GivenDraft, SceneDocument
+from ...contract.scene import TOML_EXAMPLE, SceneList, SceneText, SceneValidity
 from ...errors import Problem, RequestError
 from ...mechanics.library import family_of, load_scene, scene_ids
 from ...mechanics.scene import Scene
@@ -17,8 +19,6 @@ from ..body import BodyError, StrictRoute, demand_kind
 from ..languages import language_of
 from ..responses import JSON, tagged
 from ..service import service_of
-from ..wire.document import EXAMPLE, GivenDraft, SceneDocument
-from ..wire.scene import TOML_EXAMPLE, SceneList, SceneText, SceneValidity
 from ..workers.job import Job
 from .common import LANGUAGE, SceneId, failures
 

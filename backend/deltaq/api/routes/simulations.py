@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
+from ...contract.simulation import SimulationAnswer, SimulationRequest
 from ..body import StrictRoute
 from ..costs import expected
 from ..responses import packed
 from ..service import service_of
-from ..wire.simulation import SimulationAnswer, SimulationRequest
 from ..workers.job import Job
 from .common import COMPUTING, question_of
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
+from ...contract.variation import VariationAnswer, VariationRequest
 from ..body import StrictRoute
 from ..languages import language_of
 from ..responses import packed
 from ..service import service_of
-from ..wire.variation import VariationAnswer, VariationRequest
 from ..workers.job import Job
 from .common import failures
 

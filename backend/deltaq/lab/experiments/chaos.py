@@ -14,8 +14,8 @@ import numpy as np
 
 from ...simulation.problem import Floats, Problem
 from ...simulation.reference import Reference, reference
-from ..bounds import APART as APART_BOUNDS
-from ..bounds import CHAOS_LONGEST, CHAOS_SPAN, FLIP_POINTS, USUAL_FLIPS
+from ...contract.bounds import APART as APART_BOUNDS
+from ...contract.bounds import CHAOS_LONGEST, CHAOS_SPAN, FLIP_POINTS, USUAL_FLIPS
 from ..charts.chaos import charts
 from ..divergence import Followed, followed, rhythm_of, solved, twins
 from ..experiment import Experiment

@@ -20,7 +20,7 @@ from ...simulation.problem import Problem
 from ...simulation.run import Run, Steps
 from ...simulation.run import run as run_once
 from ...simulation.stiffness import spectrum
-from ..bounds import DRIFT_STEPS, LOCAL_TOLERANCES, USUAL_DRIFT
+from ...contract.bounds import DRIFT_STEPS, LOCAL_TOLERANCES, USUAL_DRIFT
 from ..charts.energy_drift import charts
 from ..drift import departure, energy_scale, sample_times
 from ..experiment import Experiment

@@ -17,7 +17,7 @@ from ...simulation.integration import Flag
 from ...simulation.library import get_method
 from ...simulation.method import Method
 from ...simulation.run import run as run_once
-from ..bounds import TOLERANCES_OF_MODEL
+from ...contract.bounds import TOLERANCES_OF_MODEL
 from ..charts.fidelity import charts
 from ..experiment import Experiment
 from ..ladder.climb import climb

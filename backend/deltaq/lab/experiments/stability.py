@@ -22,7 +22,7 @@ from ...simulation.library import get_method
 from ...simulation.method import Method
 from ...simulation.problem import Problem
 from ...simulation.stability import Complexes
-from ..bounds import AT
+from ...contract.bounds import AT
 from ..charts.stability import charts
 from ..experiment import Experiment
 from ..failure import failure

@@ -15,7 +15,7 @@ import numpy as np
 from ...language.tree import Name, walk
 from ...mechanics.requests import inside
 from ...simulation.fields import Fields
-from ..bounds import MAP_POINTS, USUAL_MAP
+from ...contract.bounds import MAP_POINTS, USUAL_MAP
 from ..charts.stability_map import charts
 from ..experiment import Experiment
 from ..monodromy import Axis, Plane, StabilityMap

@@ -12,13 +12,14 @@ from ...mechanics.mass import total_mass
 from ...mechanics.scene import Scene
 from ...model.operations import operations
 from ...simulation.auto import choose
-from ...simulation.choice import AUTO, Choice
+from ...simulation.choice import Choice
 from ...simulation.driver import simulate
 from ...simulation.integration import Flag
 from ...simulation.outcome import OK, Outcome
 from ...simulation.problem import Floats, Problem
 from ...simulation.service import problem_of
 from ...simulation.trajectory import Trajectory
+from ...vocabulary import AUTO
 from .distance import Accuracy, Yardstick
 from .findings import Cost, Deviation, Timing
 from .metric import particles, radians

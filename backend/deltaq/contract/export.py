@@ -6,9 +6,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from ...simulation.request import LARGEST_SPAN
 from .base import AskedLanguage, InitialValues, SceneWithChanges, examples
 from .derivation import ROAD, Formulation
+from .simulation import LARGEST_SPAN
 
 Form = Literal["latex", "markdown", "python"]
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from ...lab.bounds import LONGEST, SHORTEST, SPAN
+from .bounds import LONGEST, SHORTEST, SPAN
 from .base import Answer, AskedLanguage, InitialValues, Names, SceneWithChanges, examples
 
 

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from ....lab.bounds import DRIFT_STEPS, LOCAL_TOLERANCES, USUAL_DRIFT
+from ..bounds import DRIFT_STEPS, LOCAL_TOLERANCES, USUAL_DRIFT
 from ..base import examples
 from ..experiment import ExperimentRequest, MethodIds
 

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from pydantic import ConfigDict, Field
 
-from ....lab.bounds import MAP_POINTS, USUAL_MAP
+from ..bounds import MAP_POINTS, USUAL_MAP
 from ..base import Name, Request, examples
 from ..experiment import ExperimentRequest
 

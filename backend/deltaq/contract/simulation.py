@@ -8,11 +8,13 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 from typing_extensions import TypeAliasType
 
-from ...simulation.choice import AUTO
-from ...simulation.request import DEFAULT_SAMPLES, LARGEST_SPAN, PARTS, SAMPLES, TOLERANCES
-from ...vocabulary import Status
+from ..vocabulary import AUTO, Status
 from .base import Answer, AskedLanguage, InitialValues, Name, Names, SceneWithChanges, examples
 
+LARGEST_SPAN = 1e5  # seconds of motion
+SAMPLES, DEFAULT_SAMPLES = (2, 20001), 501
+TOLERANCES = (1e-13, 1e-1)
+PARTS = ("coordinates", "rates", "positions", "loads", "energy", "error")
 Written = Literal["numbers", "base64"]
 Base64 = Annotated[str, Field(json_schema_extra={"contentEncoding": "base64"})]
 

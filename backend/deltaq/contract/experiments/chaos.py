@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from ....lab.bounds import APART, CHAOS_LONGEST, CHAOS_SPAN, FLIP_POINTS, SHORTEST, USUAL_FLIPS
+from ..bounds import APART, CHAOS_LONGEST, CHAOS_SPAN, FLIP_POINTS, SHORTEST, USUAL_FLIPS
 from ..base import examples
 from ..experiment import ExperimentRequest
 

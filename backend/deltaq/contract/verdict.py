@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ...vocabulary import Outcome, PartOutcome, SlipKind
+from ..vocabulary import Outcome, PartOutcome, SlipKind
 from .base import Answer
 from .document import GivenScene
 

@@ -1,4 +1,4 @@
-"""What all wire models share."""
+"""What all requests and answers share."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from ..languages import Language
+from ..vocabulary import Language
 from .document import SceneReference
 
 

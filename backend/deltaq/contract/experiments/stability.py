@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from ....lab.bounds import AT
+from ..bounds import AT
 from ..base import examples
 from ..experiment import ExperimentRequest, MethodIds
 

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from ...vocabulary import CurlOutcome, Stability
+from ..vocabulary import CurlOutcome, Stability
 from .base import Answer
 
 

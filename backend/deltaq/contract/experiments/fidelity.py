@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from ....lab.bounds import TOLERANCES_OF_MODEL
+from ..bounds import TOLERANCES_OF_MODEL
 from ..base import examples
 from ..experiment import ExperimentRequest
 

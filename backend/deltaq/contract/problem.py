@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ...vocabulary import Severity
+from ..vocabulary import Severity
 from .base import Answer
 
 

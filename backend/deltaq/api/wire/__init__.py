@@ -1,1 +1,0 @@
-"""What goes over the wire: request and answer bodies, as OpenAPI shows them."""
