@@ -19,10 +19,10 @@ import httpx
 import pytest
 
 from deltaq import __version__
-from deltaq.contract.simulation import SimulationAnswer
 from deltaq.api.workers.kernels import mark_as_compiled
 from deltaq.bench import benchmark_names, run_benchmarks
 from deltaq.cli import main
+from deltaq.contract.simulation import SimulationAnswer
 
 COMMAND = [sys.executable, "-m", "deltaq.cli"]
 

@@ -97,12 +97,13 @@ def coupled(root: Path) -> dict[str, Any]:
 
 def test_the_api_knows_what_was_added(copy: Path, root: Path) -> None:
     answer = {"value": "-m*l^2*dot(phi)^2/2 - m*g*l*cos(phi)"}
-    scenes, methods, derivation, experiment, menu, verdict = asked(
+    scenes, methods, derivation, experiment, refused, menu, verdict = asked(
         copy,
         ("GET", "/scenes", None),
         ("GET", "/methods?lang=de", None),
         ("POST", "/derivations", {"scene": coupled(root), "lang": "en"}),
         ("POST", "/experiments/eigenvalues", {"scene": "pendulum", "initial": {"phi": {"value": 0.0}}, "lang": "de"}),
+        ("POST", "/experiments/eigenvalues", {"scene": "pendulum", "digits": 99, "lang": "en"}),
         ("GET", "/catalogs/de?sections=labs", None),
         ("POST", "/checks", {"scene": "pendulum", "task": "lagrangian", "answer": answer, "lang": "en"}),
     )
@@ -114,6 +115,9 @@ def test_the_api_knows_what_was_added(copy: Path, root: Path) -> None:
     (chart,) = experiment["charts"]
     assert (chart["title"], chart["caption"]) == ("Eigenwerte", "Der Bewegung, linearisiert an ihrem Anfang.")
     assert sorted(experiment["imaginary"]) == pytest.approx([-math.sqrt(9.81), math.sqrt(9.81)], rel=1e-6)
+    assert [(one["pointer"], one["message"]) for one in refused["problems"]] == [
+        ("/digits", "The value must be at most 15.")
+    ]
     assert "eigenvalues" in menu["labs"]["experiments"]
     assert verdict["misconception"] == "energies-swapped"
     assert verdict["feedback"] == "Not right yet. Which of the two energies is positive in L?"

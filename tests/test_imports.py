@@ -21,7 +21,7 @@ MAY_KNOW = {
     "simulation": {"language", "mechanics", "model", "contract"},
     "lab": {"language", "mechanics", "model", "simulation", "contract"},
     "homework": {"language", "mechanics", "derivation", "narration"},
-    "handout": {"language", "mechanics", "derivation", "narration"},
+    "handout": {"language", "mechanics", "derivation", "narration", "contract"},
     "commands": {"mechanics", "narration", "simulation", "lab", "homework", "handout", "contract", "api"},
     "api": {
         *("language", "mechanics", "derivation", "narration", "model", "simulation", "lab", "homework", "handout"),

@@ -25,6 +25,8 @@ Status = Literal[
     "tolerance_missed",
     "guide_jumps",
 ]
+# The same of a run among many, which was not tried where the one before took too long.
+TriedStatus = Literal[Status, "too_slow"]
 # The same of a simpler model in the ladder, whose derivation may be refused.
 RungStatus = Literal[Status, "refused"]
 # What the linearization says of a state of rest.

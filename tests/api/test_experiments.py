@@ -7,14 +7,16 @@ import csv
 import io
 import json
 import time
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Iterator
 from datetime import UTC, datetime
 from typing import Any
 
 import httpx
 import pytest
 from fastapi import FastAPI
+from pydantic import BaseModel
 
+from deltaq.contract.experiment import ExperimentAnswer, request_of
 from deltaq.lab.library import experiment_ids, get_experiment
 from deltaq.narration.catalog import keys, text
 from deltaq.packages import classes_of
@@ -47,8 +49,27 @@ async def test_every_experiment_has_a_call_and_every_call_an_experiment(client: 
     assert calls == set(experiment_ids())
 
 
-def test_every_question_is_that_of_an_experiment() -> None:
-    assert classes_of("deltaq.contract.experiments", "experiment").keys() <= set(experiment_ids())
+def test_every_experiment_has_its_contract_and_every_contract_an_experiment() -> None:
+    assert classes_of("deltaq.contract.experiments", "experiment").keys() == set(experiment_ids())
+    for name in experiment_ids():
+        experiment = get_experiment(name)
+        assert (experiment.id, experiment.request) == (name, request_of(name))
+        assert request_of(name).answer is not ExperimentAnswer
+
+
+def undeclared(found: object, where: str = "") -> Iterator[str]:
+    """Where an answer has members that its declaration does not name."""
+    if isinstance(found, BaseModel):
+        yield from (f"{where}/{name}" for name in found.model_extra or ())
+        found = {name: getattr(found, name) for name in type(found).model_fields}
+        if "scene" in found and isinstance(found["scene"], dict):
+            del found["scene"]  # a document, which another declaration describes
+    if isinstance(found, dict):
+        for name, member in found.items():
+            yield from undeclared(member, f"{where}/{name}")
+    elif isinstance(found, tuple):
+        for entry in found:
+            yield from undeclared(entry, where)
 
 
 @pytest.mark.parametrize("name", SMALL)
@@ -62,6 +83,9 @@ async def test_an_answer_has_its_charts_with_words_in_the_language_asked_for(
         assert answer["experiment"] == name
         assert answer["scene"] == SMALL[name]["scene"]
         assert answer["charts"]
+        declared = request_of(name).answer.model_validate_json(response.content)
+        assert list(undeclared(declared)) == []
+        assert declared.model_dump(mode="json", exclude_unset=True) == answer
         for chart in answer["charts"]:
             assert chart["title"]
             assert "{" not in chart["caption"] + chart["title"]

@@ -14,7 +14,7 @@ import pytest
 from deltaq.lab.charts.chaos import charts
 from deltaq.lab.charts.words import words
 from deltaq.lab.divergence import Followed, followed, rhythm_of, twins
-from deltaq.lab.experiments.chaos import horizon, run
+from deltaq.lab.experiments.chaos import EXPERIMENT, horizon
 from deltaq.lab.flips import Plane, first_flip
 from deltaq.lab.lyapunov import Exponent, Judgement, Reason, Verdict, exponent_of, irregularity, judge
 from deltaq.mechanics.document import read_scene
@@ -177,7 +177,7 @@ def wild(t_end: float = 30.0) -> Problem:
 
 
 def results(question: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    yield from (report.result for report in run(question))
+    yield from (report.result for report in EXPERIMENT.run(question))
 
 
 QUESTIONS: dict[str, dict[str, Any]] = {

@@ -11,6 +11,7 @@ from typing import Any
 import plotly.graph_objects as go
 import pytest
 
+from deltaq.contract.experiment import ExperimentRequest
 from deltaq.lab.charts.chart import look
 from deltaq.lab.charts.words import called, spoken, words
 from deltaq.lab.experiment import drawn
@@ -108,7 +109,7 @@ def test_charts_write_symbols_and_the_words_of_the_scene() -> None:
     result = {"names": names}
     assert [called(result, name) for name in ("omega", "omega, phi", "other")] == ["ω", "ω, q₂", "other"]
     assert [spoken(called(result, "suspension"), lang) for lang in ("de", "en", "fr")] == ["Feder", "spring", "Feder"]
-    subject = subject_of({"scene": "elastic-pendulum"})
+    subject = subject_of(ExperimentRequest(scene="elastic-pendulum"))
     assert {name: subject.described["names"][name] for name in ("phi", "l", "suspension")} == {
         "phi": "q₂",
         "l": "ℓ",

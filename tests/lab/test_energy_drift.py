@@ -12,7 +12,7 @@ from deltaq.errors import RequestError
 from deltaq.lab.charts.energy_drift import charts
 from deltaq.lab.charts.words import words
 from deltaq.lab.drift import LOST, Departure, sample_times
-from deltaq.lab.experiments.energy_drift import run
+from deltaq.lab.experiments.energy_drift import EXPERIMENT
 from deltaq.narration.catalog import text
 from deltaq.simulation.library import get_method, method_ids
 
@@ -39,7 +39,7 @@ Lines = dict[str, dict[str, Any]]
 
 
 def lines_of(scene: object, **more: object) -> Lines:
-    found = list(run({"scene": scene, "methods": list(method_ids()), **more}))[-1].result["lines"]
+    found = list(EXPERIMENT.run({"scene": scene, "methods": list(method_ids()), **more}))[-1].result["lines"]
     assert isinstance(found, list)
     return {line["method"]: line for line in found}
 
@@ -164,7 +164,7 @@ def test_samples_stand_at_whole_steps_inside_the_span() -> None:
 @pytest.mark.parametrize("steps", [pytest.param(10, id="too few"), pytest.param(10**7, id="too many")])
 def test_the_number_of_steps_is_bounded(steps: int) -> None:
     with pytest.raises(RequestError) as caught:
-        next(run({"scene": "pendulum", "steps": steps}))
+        next(EXPERIMENT.run({"scene": "pendulum", "steps": steps}))
     (problem,) = caught.value.problems
     assert (problem.code, problem.pointer) == ("request-outside", "/steps")
     assert problem.parameters["max"] == 1_000_000

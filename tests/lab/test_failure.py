@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from deltaq.errors import RequestError
-from deltaq.lab.experiments.stability import run, stiffness_of
+from deltaq.lab.experiments.stability import EXPERIMENT, stiffness_of
 from deltaq.lab.failure import FLOW, LINEARIZATION, failure, growth_in_a_step
 from deltaq.lab.neighbours import Neighbours
 from deltaq.lab.region import region
@@ -116,7 +116,7 @@ FAR = [
 def test_what_grows_by_itself_is_no_failure_of_the_method(scene: str, initial: dict[str, object]) -> None:
     """Where the linearization changes nothing is predicted; a step is measured, or a reason is given why not."""
     methods = ["symplectic-euler", "rk4"]
-    result = list(run({"scene": scene, "initial": initial, "methods": methods, "stiffness": ""}))[-1].result
+    result = list(EXPERIMENT.run({"scene": scene, "initial": initial, "methods": methods, "stiffness": ""}))[-1].result
     rows = result["methods"]
     assert isinstance(rows, list)
     assert float(str(result["varies"])) > 0.05
@@ -138,7 +138,7 @@ def test_the_step_of_failure_on_a_large_swing() -> None:
     0.25 s (done apart, NumPy); truly deviations grow like t there.
     """
     large = {"scene": "pendulum", "initial": {"phi": {"value": 2.8}}, "methods": ["stormer-verlet"], "t_end": 5.0}
-    rows = list(run(large))[-1].result["methods"]
+    rows = list(EXPERIMENT.run(large))[-1].result["methods"]
     assert isinstance(rows, list)
     assert 0.24 < rows[0]["measured"] < 0.26
 
@@ -146,7 +146,7 @@ def test_the_step_of_failure_on_a_large_swing() -> None:
 @pytest.mark.parametrize("method", ["rk4", "implicit-midpoint"])
 def test_at_an_unstable_rest_growth_is_not_the_methods(method: str) -> None:
     upright = {"scene": "pendulum", "initial": {"phi": {"value": 3.1}}, "at": "rest", "methods": [method]}
-    rows = list(run(upright))[-1].result["methods"]
+    rows = list(EXPERIMENT.run(upright))[-1].result["methods"]
     assert isinstance(rows, list)
     (row,) = rows
     assert row["measured"] is None
@@ -183,7 +183,7 @@ def test_the_stiffness_of_a_scene(scene: str, expected: str) -> None:
 
 
 def test_what_stiffness_costs_explicit_methods_and_not_implicit_ones() -> None:
-    found = list(run({"scene": "quarter-car", "methods": ["rk4"]}))[-1].result
+    found = list(EXPERIMENT.run({"scene": "quarter-car", "methods": ["rk4"]}))[-1].result
     series = found["series"]
     assert isinstance(series, list)
     spent = {(row["method"], row["factor"]): row["evaluations"] for row in series if row["status"] == "ok"}
@@ -206,11 +206,11 @@ def test_rest_is_where_no_force_is_left() -> None:
 @pytest.mark.parametrize(("scene", "is_rest"), [("atwood", False), ("pendulum", True)])
 def test_where_every_place_is_like_another_rest_is_not_missed(scene: str, *, is_rest: bool) -> None:
     """What falls with constant acceleration has no rest, and the same linearization wherever it is."""
-    result = next(run({"scene": scene, "at": "rest", "methods": ["rk4"]})).result
+    result = next(EXPERIMENT.run({"scene": scene, "at": "rest", "methods": ["rk4"]})).result
     assert (result["rest"], result["at"]) == (is_rest, "rest")
 
 
 def test_a_scene_without_rest_says_so() -> None:
     with pytest.raises(RequestError) as caught:
-        next(run({"scene": "swinging-atwood", "at": "rest"}))
+        next(EXPERIMENT.run({"scene": "swinging-atwood", "at": "rest"}))
     assert [(problem.code, problem.pointer) for problem in caught.value.problems] == [("lab-no-rest", "/at")]

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from deltaq.errors import RequestError, UnknownNameError
-from deltaq.lab.experiments.convergence import run as converge
+from deltaq.lab.experiments.convergence import EXPERIMENT as CONVERGENCE
+from deltaq.lab.experiments.work_precision import EXPERIMENT as WORK_PRECISION
 from deltaq.lab.experiments.work_precision import cheapest
-from deltaq.lab.experiments.work_precision import run as work_precision
 from deltaq.lab.measurement import Point, Setting, error_of, order_of
 from deltaq.lab.report import Document, Report
 from deltaq.lab.sweep import Track, sweep
@@ -31,7 +31,7 @@ def points_of(result: Mapping[str, object], method: str) -> list[Document]:
 
 @pytest.fixture(scope="module")
 def converged() -> Document:
-    return last(converge({"scene": "elastic-pendulum", "t_end": 4.0}))
+    return last(CONVERGENCE.run({"scene": "elastic-pendulum", "t_end": 4.0}))
 
 
 @pytest.mark.parametrize("method", method_ids())
@@ -53,16 +53,16 @@ def test_the_reference_states_its_own_error(converged: Document) -> None:
 def test_a_step_too_large_is_kept_with_its_reason() -> None:
     """A stiff spring: explicit methods diverge with the steps that implicit ones take."""
     stiff = {"scene": "elastic-pendulum", "t_end": 4.0, "parameters": {"k": 5e4}, "methods": ["rk4", "radau-5"]}
-    found = last(converge(stiff))
+    found = last(CONVERGENCE.run(stiff))
     failed = [point for point in points_of(found, "rk4") if point["error"] is None]
     assert {point["status"] for point in failed} <= {"diverged", "too_slow", "step_limit"}
-    reports = list(converge({**stiff, "parameters": {"k": 5e6}}))
+    reports = list(CONVERGENCE.run({**stiff, "parameters": {"k": 5e6}}))
     statuses = {str(point["status"]) for point in points_of(reports[-1].result, "rk4")}
     assert statuses - {"ok"}
 
 
 def test_every_report_says_how_far_it_is_and_keeps_what_was_found() -> None:
-    reports = list(work_precision({"scene": "pendulum", "t_end": 2.0, "methods": ["heun", "dop853"]}))
+    reports = list(WORK_PRECISION.run({"scene": "pendulum", "t_end": 2.0, "methods": ["heun", "dop853"]}))
     done = [report.done for report in reports]
     assert done == sorted(done)
     assert done[-1] == reports[-1].total
@@ -72,7 +72,7 @@ def test_every_report_says_how_far_it_is_and_keeps_what_was_found() -> None:
 
 
 def test_the_cheapest_run_meets_the_tolerance_and_none_that_meets_it_is_cheaper() -> None:
-    found = last(work_precision({"scene": "double-pendulum", "t_end": 2.0, "methods": ["rk4", "dop853", "heun"]}))
+    found = last(WORK_PRECISION.run({"scene": "double-pendulum", "t_end": 2.0, "methods": ["rk4", "dop853", "heun"]}))
     points, best = found["points"], found["cheapest"]
     assert isinstance(points, list)
     assert isinstance(best, list)
@@ -84,7 +84,7 @@ def test_the_cheapest_run_meets_the_tolerance_and_none_that_meets_it_is_cheaper(
 
 
 def test_peers_go_through_the_same_harness() -> None:
-    found = last(work_precision({"scene": "pendulum", "t_end": 1.0, "methods": ["dop853"], "peers": True}))
+    found = last(WORK_PRECISION.run({"scene": "pendulum", "t_end": 1.0, "methods": ["dop853"], "peers": True}))
     names = {point["method"] for point in found["points"]}  # type: ignore[union-attr]
     assert {"scipy-DOP853", "scipy-Radau", "scipy-LSODA", "scipy-RK45", "scipy-BDF"} <= names
     errors = [point["error"] for point in points_of(found, "scipy-DOP853")]
@@ -104,7 +104,7 @@ def test_bad_input_is_told_at_its_place(
     request_: dict[str, object], kind: type[RequestError], code: str, pointer: str
 ) -> None:
     with pytest.raises(kind) as caught:
-        next(work_precision({"scene": "pendulum", **request_}))
+        next(WORK_PRECISION.run({"scene": "pendulum", **request_}))
     assert [(problem.code, problem.pointer) for problem in caught.value.problems] == [(code, pointer)]
 
 
@@ -128,7 +128,7 @@ def test_no_run_is_more_accurate_than_the_reference() -> None:
     """Its own methods give back its own errors: zero, if they take the same steps."""
     times, values = np.array([0.0, 1.0]), np.array([[0.1], [0.2]])
     assert error_of(values, Reference(times, values, np.array([0.0, 3e-12]), ("a", "b"))) == 3e-12
-    found = last(work_precision({"scene": "double-pendulum", "t_end": 5.0, "methods": ["dop853", "gauss-6"]}))
+    found = last(WORK_PRECISION.run({"scene": "double-pendulum", "t_end": 5.0, "methods": ["dop853", "gauss-6"]}))
     reference, points = found["reference"], found["points"]
     assert isinstance(reference, dict)
     assert isinstance(points, list)
@@ -155,7 +155,7 @@ def test_what_takes_too_long_is_said_once_and_not_tried() -> None:
 @pytest.mark.parametrize("method", ["dop853", "dormand-prince-54", "radau-5"])
 def test_settings_that_take_the_same_steps_do_not_end_a_track(method: str) -> None:
     """On a short span one step between two samples is enough for several tolerances: finer ones still gain."""
-    found = last(work_precision({"scene": "pendulum", "t_end": 1.0, "methods": [method]}))
+    found = last(WORK_PRECISION.run({"scene": "pendulum", "t_end": 1.0, "methods": [method]}))
     errors = [point["error"] for point in points_of(found, method)]
     assert min(error for error in errors if isinstance(error, float)) < 1e-12
 

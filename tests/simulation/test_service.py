@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from tests.simulation.scenes import double_pendulum, oscillator
 
+from deltaq.contract.simulation import COLUMNS
 from deltaq.errors import InputError, Problem, RequestError, SceneError, UnknownNameError
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.writing import write_scene
@@ -21,7 +22,6 @@ from deltaq.simulation.columns import WRITERS
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.outcome import codes
-from deltaq.simulation.request import COLUMNS
 from deltaq.simulation.service import problem_of, run
 
 FIELDS = {

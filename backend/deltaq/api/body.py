@@ -18,12 +18,12 @@ from starlette.requests import ClientDisconnect
 from starlette.routing import Match
 from starlette.types import Receive, Scope, Send
 
+from ..contract.reading import validated
 from ..settings import Settings
 from .clients import ACCOUNT, METER
 from .ending import Ending
 from .presence import CLIENT_GONE, while_present
 from .strict_json import loads
-from .validation import validated
 from .workers.account import Account
 
 T = TypeVar("T")

@@ -74,7 +74,7 @@ def warm(document: Document) -> Document:
 
 def experiment(document: Document) -> Iterator[Document]:
     """Parts with the charts so far, not more often than they can be looked at; then the result, which has no words."""
-    given = {key: value for key, value in document.items() if key != "experiment" and value is not None}
+    given = {key: value for key, value in document.items() if key != "experiment"}
     found, shown, result = get_experiment(document["experiment"]), 0.0, {}
     for report in found.run(given):
         result = report.result
@@ -90,7 +90,7 @@ def draw_charts(document: Document) -> Document:
     return result | {"charts": _charts(get_experiment(result["experiment"]), result, document["lang"])}
 
 
-def _charts(found: Experiment, result: Document, lang: str) -> list[Chart]:
+def _charts(found: Experiment[Any], result: Document, lang: str) -> list[Chart]:
     charts: list[Chart] = import_module("deltaq.lab.experiment").drawn(found, result, text, lang)
     return charts
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import accumulate
 from typing import Any
@@ -16,13 +16,13 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from ..contract.reading import problems_of
 from ..errors import MOST_PROBLEMS, DeltaqError, InputError, Problem, UnknownNameError
 from ..narration.catalog import text
 from ..narration.problems import described
 from ..vocabulary import Language
 from .languages import language_of
 from .strict_json import JsonError
-from .validation import problems_of
 from .workers.account import QuotaExceeded
 from .workers.job import DeadlineExceeded, JobError, JobFailed, MemoryExceeded, Overloaded, WorkerKilled
 
@@ -135,8 +135,13 @@ def report_of(error: Exception) -> Report:
     if kind in _TEMPORARY:
         seconds = max(RETRY_AFTER, math.ceil(getattr(error, "seconds", 0.0)))
         return Report(kind, parameters={"seconds": seconds}, headers={"Retry-After": str(seconds)})
-    problems = problems_of(error) if isinstance(error, RequestValidationError) else getattr(error, "problems", ())
+    problems = _findings(error) if isinstance(error, RequestValidationError) else getattr(error, "problems", ())
     return Report(kind, tuple(problems))
+
+
+def _findings(error: RequestValidationError) -> Iterator[Problem]:
+    """What FastAPI found wrong; it says first whether with body, query or path."""
+    return problems_of({**finding, "loc": finding["loc"][1:]} for finding in error.errors())
 
 
 def _http_report(error: HTTPException) -> Report:

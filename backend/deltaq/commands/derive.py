@@ -43,16 +43,16 @@ def _derived(question: dict[str, Any]) -> dict[str, Any]:
     """What POST /derivations answers to the same question, with the same id."""
     from ..api.jobs import derive
     from ..api.routes.derivations import derivation_id
-    from ..api.validation import checked
     from ..contract.derivation import DerivationRequest
+    from ..contract.reading import checked
 
     request = checked(question, DerivationRequest)
     return derive({"id": derivation_id(request), "request": request})
 
 
 def _exported(question: dict[str, Any], form: str) -> str:
-    from ..api.validation import checked
     from ..contract.export import ExportRequest
+    from ..contract.reading import checked
     from ..handout.service import export_request
 
     return str(export_request({**checked(question, ExportRequest), "form": form})["text"])

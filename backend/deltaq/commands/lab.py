@@ -53,7 +53,6 @@ def run(options: argparse.Namespace) -> None:
             )
     experiment = get_experiment(options.experiment)
     question, result = question_of(options), dict[str, Any]()
-    question.pop("fresh", None)  # here nothing is kept, and all is measured anew
     for report in _with_progress(experiment.run(question)):
         result = report.result
     charts = drawn(experiment, result, text, options.lang)

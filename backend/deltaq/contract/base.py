@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, ValidationInfo
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from ..vocabulary import Language
 from .document import SceneReference
@@ -32,8 +35,39 @@ def items(**bounds: Any) -> Any:
     return Field(strict=False, fail_fast=True, **bounds)
 
 
+def outside(value: float, low: float, high: float) -> PydanticCustomError:
+    """That a number is out of bounds that no schema can tell, since they depend on other fields."""
+    return PydanticCustomError("request-outside", "out of bounds", {"value": value, "min": low, "max": high})
+
+
+@dataclass(frozen=True)
+class NotAbove:
+    """The bound of a positive number by another field of the request, which is declared before it.
+
+    `usual` is the bound where the other field cannot be read.
+    """
+
+    field: str
+    usual: float
+
+    def bound(self, document: Mapping[str, object]) -> float:
+        """The largest value that a document leaves."""
+        found = document.get(self.field)
+        return float(found) if isinstance(found, int | float) and 0 < found <= self.usual else self.usual
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_after_validator_function(self._checked, handler(source))
+
+    def _checked(self, value: float | None, info: ValidationInfo) -> float | None:
+        most = info.data.get(self.field)
+        if value is not None and most is not None and value > most:
+            raise outside(value, 0.0, most)
+        return value
+
+
 Name = Annotated[str, Field(min_length=1, max_length=64)]
 ExpressionText = Annotated[str, Field(min_length=1, max_length=2000)]
+Pair = Annotated[tuple[float, ...], Field(min_length=2, max_length=2)]
 
 
 class GuideChange(Request):
@@ -48,6 +82,11 @@ class InitialValue(Request):
 
     value: float | None = Field(None, description="at t = 0", examples=[0.5])
     rate: float | None = Field(None, description="its derivative at t = 0", examples=[0.0])
+
+    @property
+    def given(self) -> dict[str, float]:
+        """What is not left out."""
+        return {name: value for name, value in (("value", self.value), ("rate", self.rate)) if value is not None}
 
 
 Names = Annotated[tuple[Name, ...], items(max_length=32)]
@@ -72,3 +111,19 @@ class SceneWithChanges(Request):
     guides: Guides = ()
     freeze: Frozen = ()
     parameters: Values = Field({})
+
+    @property
+    def given_guides(self) -> tuple[dict[str, str], ...]:
+        """The guides as plain data."""
+        return tuple({"coordinate": guide.coordinate, "value": guide.value} for guide in self.guides)
+
+
+class SceneWithInitialValues(SceneWithChanges):
+    """A scene with its changes, and where its motion begins."""
+
+    initial: InitialValues = Field({})
+
+    @property
+    def given_initial(self) -> dict[str, dict[str, float]]:
+        """What is given of the initial values, by coordinate."""
+        return {name: one.given for name, one in self.initial.items()}

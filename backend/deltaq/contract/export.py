@@ -6,17 +6,16 @@ from typing import Literal
 
 from pydantic import Field
 
-from .base import AskedLanguage, InitialValues, SceneWithChanges, examples
+from .base import AskedLanguage, SceneWithInitialValues, examples
 from .derivation import ROAD, Formulation
 from .simulation import LARGEST_SPAN
 
 Form = Literal["latex", "markdown", "python"]
 
 
-class ExportRequest(SceneWithChanges):
+class ExportRequest(SceneWithInitialValues):
     """Which scene to export, what to change before, and in which language."""
 
-    initial: InitialValues = Field({})
     t_end: float = Field(10.0, gt=0, le=LARGEST_SPAN, description="seconds that the program simulates")
     formulation: Formulation = Field("dalembert-lagrange", description=ROAD)
     substeps: bool = Field(default=True, description="whether a document tells the substeps, too")

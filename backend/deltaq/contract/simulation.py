@@ -2,43 +2,42 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal, Self, get_args
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 from typing_extensions import TypeAliasType
 
 from ..vocabulary import AUTO, Status
-from .base import Answer, AskedLanguage, InitialValues, Name, Names, SceneWithChanges, examples
+from .base import Answer, AskedLanguage, Name, NotAbove, SceneWithInitialValues, examples, items, outside
 
-LARGEST_SPAN = 1e5  # seconds of motion
-SAMPLES, DEFAULT_SAMPLES = (2, 20001), 501
-TOLERANCES = (1e-13, 1e-1)
-PARTS = ("coordinates", "rates", "positions", "loads", "energy", "error")
+LARGEST_SPAN = 1e5  # seconds
+SHORTEST = 1e-250  # seconds; parts of less are no longer different numbers
+USUAL_TOLERANCE = 1e-6
+Part = Literal["coordinates", "rates", "positions", "loads", "energy", "error"]
+PARTS: tuple[Part, ...] = get_args(Part)
 Written = Literal["numbers", "base64"]
+COLUMNS: tuple[Written, ...] = get_args(Written)
 Base64 = Annotated[str, Field(json_schema_extra={"contentEncoding": "base64"})]
 
 
-class SimulationRequest(SceneWithChanges):
+class SimulationRequest(SceneWithInitialValues):
     """What to simulate, how long, and how accurately."""
 
-    initial: InitialValues = Field({})
     t_end: float = Field(gt=0, le=LARGEST_SPAN, description="seconds", examples=[10.0])
-    samples: int = Field(
-        DEFAULT_SAMPLES,
-        ge=SAMPLES[0],
-        le=SAMPLES[1],
-        description="number of samples, evenly spaced, both ends included",
-    )
+    samples: int = Field(501, ge=2, le=20001, description="number of samples, evenly spaced, both ends included")
     method: Name = Field(AUTO, description="a method of GET /methods, or auto", examples=["dop853"])
     tolerance: float | None = Field(
-        None,
-        ge=TOLERANCES[0],
-        le=TOLERANCES[1],
-        description="wanted error of the coordinates: absolute below 1, relative above",
+        None, ge=1e-13, le=1e-1, description="wanted error of the coordinates: absolute below 1, relative above"
     )
-    step: float | None = Field(None, gt=0, description="fixed step in seconds, instead of a tolerance")
-    include: Names = Field((), description=f"the parts wanted, of {', '.join(PARTS)}; all if empty", examples=[[]])
+    step: Annotated[
+        float | None,
+        Field(gt=0, description="fixed step in seconds, instead of a tolerance"),
+        NotAbove("t_end", LARGEST_SPAN),
+    ] = None
+    include: Annotated[tuple[Part, ...], items(max_length=32)] = Field(
+        (), description=f"the parts wanted, of {', '.join(PARTS)}; all if empty", examples=[[]]
+    )
     columns: Written = Field(
         "numbers", description="how arrays are written; base64: little-endian doubles, components of a vector together"
     )
@@ -49,11 +48,23 @@ class SimulationRequest(SceneWithChanges):
         {"scene": "pendulum", "t_end": 5.0, "method": "rk4", "step": 0.01, "initial": {"phi": {"value": 1.0}}},
     )
 
+    @field_validator("t_end", "step")
+    @classmethod
+    def _can_be_parted(cls, seconds: float | None) -> float | None:
+        if seconds is not None and seconds < SHORTEST:
+            raise outside(seconds, SHORTEST, LARGEST_SPAN)
+        return seconds
+
     @model_validator(mode="after")
     def _one_accuracy(self) -> Self:
         if self.step is not None and self.tolerance is not None:
-            raise PydanticCustomError("request-step-and-tolerance", "either step or tolerance")
+            raise PydanticCustomError("request-step-and-tolerance", "either step or tolerance", {"at": "/tolerance"})
         return self
+
+    @property
+    def wanted_tolerance(self) -> float | None:
+        """The tolerance; the usual one where nothing is said of the accuracy, none where there is a step."""
+        return USUAL_TOLERANCE if self.step is None and self.tolerance is None else self.tolerance
 
 
 # As `columns` of the answer says: numbers, or little-endian doubles where base64 was asked for.

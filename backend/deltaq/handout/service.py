@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import cast
 
-from ..derivation.engine import USUAL
-from ..mechanics.changes import change
-from ..mechanics.initial import with_initial
-from ..mechanics.requests import requested_scene
+from ..contract.export import ExportRequest
+from ..contract.reading import read
+from ..mechanics.requests import begun_scene
 from ..mechanics.scene import Scene
-from ..narration.catalog import language_in
+from ..narration.catalog import language_of
 from .document import handout_of
 from .latex import latex_file
 from .markdown import markdown_file
@@ -24,36 +22,25 @@ SUFFIXES: Mapping[str, str] = MappingProxyType({"latex": "tex", "markdown": "md"
 def export_request(document: Mapping[str, object]) -> Document:
     """{text, name}: the file, and what it may be called. Raises InputError for what cannot be read.
 
-    `document`: {form, scene, guides?, freeze?, parameters?, initial?, t_end?, formulation?, substeps?, lang?}, already
-    checked for types.
+    `document`: the fields of an ExportRequest, and `form`.
     """
     form = str(document["form"])
-    scene = _scene_of(document)
-    return {"text": _WRITERS[form](scene, document), "name": f"{scene.id}.{SUFFIXES[form]}"}
+    asked = read(ExportRequest, {name: value for name, value in document.items() if name != "form"})
+    scene = begun_scene(asked)
+    return {"text": _WRITERS[form](scene, asked), "name": f"{scene.id}.{SUFFIXES[form]}"}
 
 
-def _scene_of(document: Mapping[str, object]) -> Scene:
-    freeze = cast("list[str]", document.get("freeze") or [])
-    scene, parameters = requested_scene(document["scene"], cast("dict[str, float]", document.get("parameters") or {}))
-    initial = cast("dict[str, dict[str, float | None]]", document.get("initial") or {})
-    given = {name: {key: one for key, one in values.items() if one is not None} for name, values in initial.items()}
-    begun = with_initial(scene, given, freeze)
-    return change(begun, cast("list[dict[str, str]]", document.get("guides") or []), freeze, parameters)
-
-
-def _told(write: Callable[..., str]) -> Callable[[Scene, Mapping[str, object]], str]:
-    def told(scene: Scene, document: Mapping[str, object]) -> str:
-        formulation, substeps = str(document.get("formulation") or USUAL), document.get("substeps") is not False
-        return write(handout_of(scene, language_in(document), formulation, substeps=substeps))
+def _told(write: Callable[..., str]) -> Callable[[Scene, ExportRequest], str]:
+    def told(scene: Scene, asked: ExportRequest) -> str:
+        return write(handout_of(scene, language_of(asked.lang), asked.formulation, substeps=asked.substeps))
 
     return told
 
 
-def _program(scene: Scene, document: Mapping[str, object]) -> str:
-    language = language_in(document)
-    return script(scene, language, float(cast("float", document.get("t_end") or 10.0)))
+def _program(scene: Scene, asked: ExportRequest) -> str:
+    return script(scene, language_of(asked.lang), asked.t_end)
 
 
-_WRITERS: Mapping[str, Callable[[Scene, Mapping[str, object]], str]] = MappingProxyType(
+_WRITERS: Mapping[str, Callable[[Scene, ExportRequest], str]] = MappingProxyType(
     {"latex": _told(latex_file), "markdown": _told(markdown_file), "python": _program}
 )

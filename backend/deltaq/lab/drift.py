@@ -8,12 +8,12 @@ Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, IX.8.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
+from ..contract.experiments.energy_drift import DriftVerdict as Kind
 from ..simulation.library import get_method
 from ..simulation.problem import Floats, Problem
 from ..simulation.reference import require_motion
@@ -32,17 +32,6 @@ BAND = 1.5  # the last decade of a band is at most so many times as wide as the 
 DRIFTS, CLEAR = 0.25, 0.9  # a trend beneath a band: its part of the band, and how much of the means it must explain
 UNLIKE = 0.4  # its halves may differ from it by that part; those of a slow beat differ more
 LINEAR = (0.8, 1.25)  # powers of the time
-
-
-class Kind(StrEnum):
-    """What becomes of the energy."""
-
-    LOST = "lost"
-    ROUNDING = "rounding"
-    BOUNDED = "bounded"
-    LINEAR = "linear"
-    GROWS = "grows"
-    UNCLEAR = "unclear"  # neither a band nor growth can be told from so short a run
 
 
 @dataclass(frozen=True)

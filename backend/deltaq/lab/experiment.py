@@ -4,27 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, TypeVar
 
+from ..contract.experiment import ExperimentRequest
+from ..contract.reading import read
 from .charts.chart import Chart
 from .charts.words import Say, called, spoken, words
 from .report import Document, Report
 
+R = TypeVar("R", bound=ExperimentRequest)
+
 
 @dataclass(frozen=True)
-class Experiment:
-    """What is measured, and how it is shown.
+class Experiment(Generic[R]):
+    """What is asked, how it is measured, and how it is shown.
 
-    `run` reads a request and reports until it is done; it raises InputError for what cannot be read. `charts` draws
-    a result, also an unfinished one.
+    `measure` takes what was asked and reports until it is done; it raises InputError for names that do not exist.
+    `charts` draws a result, also an unfinished one.
     """
 
-    id: str
-    run: Callable[[Mapping[str, object]], Iterator[Report]]
+    request: type[R]
+    measure: Callable[[R], Iterator[Report]]
     charts: Callable[[Document, Say], list[Chart]]
 
+    @property
+    def id(self) -> str:
+        """As its contract names it."""
+        return self.request.experiment
 
-def drawn(experiment: Experiment, result: Document, text: Callable[..., str], language: str) -> list[Chart]:
+    def run(self, document: Mapping[str, object]) -> Iterator[Report]:
+        """The reports on the request in a document. Raises RequestError with all that is wrong with its fields."""
+        yield from self.measure(read(self.request, document))
+
+
+def drawn(experiment: Experiment[Any], result: Document, text: Callable[..., str], language: str) -> list[Chart]:
     """The charts of a result; each says which scene with which values it is about.
 
     `text(language, key, **parameters)` has the words.

@@ -11,12 +11,14 @@ Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
+from typing import Final
 
 import numpy as np
 
+from ..contract.experiments.stability import Basis, Cause
 from ..simulation.kernels.motion import FINE, NEWTON_FAILED, STEP_LIMIT
 from ..simulation.method import Method
 from ..simulation.problem import Floats
@@ -30,7 +32,8 @@ FASTER = 1.5  # times the rate at which deviations grow by themselves: less is a
 ALONG = 600  # steps in one run along a motion that the linearization changes on
 FEWEST = 80  # steps that a deviation stays small, else it grows by ten percent in each
 ENOUGH = 2 * FEWEST  # steps for which it must stay small by itself to tell
-LINEARIZATION, FLOW = "linearization", "flow"  # what a method is held against
+LINEARIZATION: Final = "linearization"  # what a method is held against
+FLOW: Final = "flow"
 
 
 class Verdict(Enum):
@@ -76,7 +79,7 @@ class Grid:
         return 0.5 * (low + high), last
 
 
-GRIDS = {LINEARIZATION: Grid(1e-3, 1e2, 24, 2e-3), FLOW: Grid(3e-3, 1e1, 12, 1e-2)}
+GRIDS: Mapping[Basis, Grid] = {LINEARIZATION: Grid(1e-3, 1e2, 24, 2e-3), FLOW: Grid(3e-3, 1e1, 12, 1e-2)}
 
 
 @dataclass(frozen=True)
@@ -90,8 +93,8 @@ class Failure:
     bound: float | None
     predicted: float | None
     measured: float | None
-    cause: str
-    basis: str = LINEARIZATION
+    cause: Cause
+    basis: Basis = LINEARIZATION
     reason: str = ""
     limit: float | None = None
 
@@ -109,7 +112,7 @@ def failure(neighbours: Neighbours, method: Method) -> Failure:
     """Where a method with fixed steps fails on a motion."""
     if neighbours.fastest == 0.0:
         return Failure(largest_stable_step(method.tableau, neighbours.eigenvalues), math.inf, math.inf, "")
-    basis = LINEARIZATION if neighbours.is_constant else FLOW
+    basis: Basis = LINEARIZATION if neighbours.is_constant else FLOW
     bound, predicted = _predicted(neighbours, method) if basis == LINEARIZATION else (None, None)
     trial = _Trial(neighbours, method, basis)
     limit, verdict = GRIDS[basis].first(trial.verdict, neighbours.fastest)
@@ -145,12 +148,12 @@ class _Trial:
 
     neighbours: Neighbours
     method: Method
-    basis: str
+    basis: Basis
 
     def verdict(self, h: float) -> Verdict:
         return self._by_linearization(h) if self.basis == LINEARIZATION else self._along_the_motion(h)
 
-    def cause(self, h: float) -> str:
+    def cause(self, h: float) -> Cause:
         """How the run at a step that fails ended."""
         if not math.isfinite(h):
             return ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import Problem, UnknownNameError
 from ..packages import names_of
@@ -20,11 +20,11 @@ def experiment_ids() -> tuple[str, ...]:
     return tuple(name.replace("_", "-") for name in names_of(PACKAGE))
 
 
-def get_experiment(identifier: str) -> Experiment:
+def get_experiment(identifier: str) -> Experiment[Any]:
     """The experiment of this id, and no other, is imported. Raises UnknownNameError if there is none."""
     if identifier not in experiment_ids():
         near = get_close_matches(identifier, experiment_ids(), n=1)
         told = {"name": identifier[:64], "suggestion": near[0] if near else "", "known": ", ".join(experiment_ids())}
         raise UnknownNameError(Problem("unknown-experiment", parameters=told))
-    found: Experiment = import_module(f"{PACKAGE}.{identifier.replace('-', '_')}").EXPERIMENT
+    found: Experiment[Any] = import_module(f"{PACKAGE}.{identifier.replace('-', '_')}").EXPERIMENT
     return found

@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 
+from ..contract.experiments.chaos import ChaosReason as Reason
+from ..contract.experiments.chaos import ChaosVerdict as Verdict
 from ..simulation.problem import Floats
 from .divergence import IN_PERIOD, Followed
 
@@ -30,25 +31,6 @@ IRREGULAR, REGULAR = 0.7, 0.4  # 0–1 test: beyond, below
 FLAT = 0.02  # growth in a typical period that may pass for none
 TREND, CHANGE = 4.0, 0.02  # t of a trend of the mean square speed, and its size: the motion has not settled
 AT_REST = 1e-9  # of the scales
-
-
-class Verdict(StrEnum):
-    """What a motion is found to be."""
-
-    REGULAR = "regular"
-    CHAOTIC = "chaotic"
-    UNDECIDED = "undecided"
-
-
-class Reason(StrEnum):
-    """Why there is no verdict."""
-
-    NONE = ""
-    ENDED = "ended"  # the motion ended before its time
-    SHORT = "short"  # too little could be followed
-    UNSETTLED = "unsettled"  # still decaying or growing
-    WIDE = "wide"  # the interval holds both zero and clear growth
-    DISAGREE = "disagree"  # exponent and 0–1 test
 
 
 @dataclass(frozen=True)

@@ -2,40 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from ..contract.experiment import ExperimentRequest
 from ..errors import Problem as Mistake
-from ..errors import RequestError, UnknownNameError
+from ..errors import UnknownNameError
 from ..language.spelling import in_unicode, latex_of
-from ..mechanics.requests import inside
+from ..mechanics.requests import begun_scene, inside
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import plainly
-from ..simulation.fields import Fields
 from ..simulation.library import get_method, method_ids
 from ..simulation.method import Method
 from ..simulation.problem import Problem
-from ..simulation.request import read_request
 from ..simulation.service import problem_of
-from ..contract.bounds import LONGEST, SHORTEST, SPAN
 from .report import Document
-
-COMMON = ("scene", "guides", "freeze", "parameters", "initial", "t_end", "lang")
 
 
 @dataclass(frozen=True)
 class Subject:
-    """A scene with the values wanted, on [0, t_end]; `request` is what else was asked for."""
+    """A scene with the values wanted, on [0, t_end]."""
 
     scene: Scene
     problem: Problem
-    request: Fields
-
-    def finish(self, *known: str) -> None:
-        """Raises RequestError with all that is wrong with the other fields, unknown ones included."""
-        self.request.reject_all_but((*COMMON, *known))
-        if self.request.problems:
-            raise RequestError(*self.request.problems)
 
     @property
     def described(self) -> Document:
@@ -59,21 +48,11 @@ def _names(scene: Scene) -> Document:
     return words | {name: in_unicode(symbol or latex_of(name)) for name, symbol in latex.items()}
 
 
-def subject_of(document: Mapping[str, object], samples: int = 501, span: float = SPAN) -> Subject:
-    """The subject that a request names. Raises InputError for what cannot be read.
-
-    `document`: {scene: id or document, guides?, freeze?, parameters?, initial?, t_end?, lang?} and fields of its own.
-    """
-    fields = Fields(document)
-    t_end = fields.number("t_end", SHORTEST, LONGEST, closed=True)
-    if fields.problems:
-        raise RequestError(*fields.problems)
-    common = {key: document[key] for key in COMMON if key in document}
-    request = read_request(common | {"t_end": t_end or span, "samples": samples})
-    scene = replace(request.scene, events=())  # it is about the equations, as if nothing ended the motion
+def subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:
+    """The subject that a request names. Raises InputError where there is no such scene, or none with these values."""
+    scene = replace(begun_scene(request), events=())  # it is about the equations, as if nothing ended the motion
     with inside("/scene"):
-        problem = problem_of(scene, request.t_end, samples)
-    return Subject(scene, problem, fields)
+        return Subject(scene, problem_of(scene, request.t_end, samples))
 
 
 def bounded(subject: Subject, step_limit: int) -> Problem:
@@ -81,10 +60,10 @@ def bounded(subject: Subject, step_limit: int) -> Problem:
     return replace(subject.problem, step_limit=step_limit)
 
 
-def methods_of(fields: Fields, default: tuple[str, ...] = ()) -> tuple[Method, ...]:
+def methods_of(names: Sequence[str], default: tuple[str, ...] = ()) -> tuple[Method, ...]:
     """The methods asked for, all if none is named. Raises UnknownNameError with the place in the list."""
     found = []
-    for index, name in enumerate(fields.names("methods") or default or method_ids()):
+    for index, name in enumerate(names or default or method_ids()):
         try:
             found.append(get_method(name))
         except UnknownNameError as error:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import cast
+from typing import Protocol, cast
 
 from ..errors import InputError, Problem, RequestError
 from .changes import change
 from .document import read_scene
+from .initial import with_initial
 from .library import family_of, load_scene
 from .scene import Scene
 
@@ -36,6 +37,32 @@ def changed_scene(document: Mapping[str, object]) -> Scene:
     parameters = cast("Mapping[str, float]", document.get("parameters") or {})
     scene, values = requested_scene(document["scene"], parameters)
     return change(scene, guides, freeze, values)
+
+
+class BegunScene(Protocol):
+    """What a request says of its scene where a motion begins: `contract.base.SceneWithInitialValues` is one."""
+
+    @property
+    def scene(self) -> object: ...
+
+    @property
+    def given_guides(self) -> Sequence[Mapping[str, str]]: ...
+
+    @property
+    def freeze(self) -> Sequence[str]: ...
+
+    @property
+    def parameters(self) -> Mapping[str, float]: ...
+
+    @property
+    def given_initial(self) -> Mapping[str, Mapping[str, float]]: ...
+
+
+def begun_scene(asked: BegunScene) -> Scene:
+    """The scene that a request means, its changes applied and its motion begun where the request says."""
+    scene, parameters = requested_scene(asked.scene, asked.parameters)
+    begun = with_initial(scene, asked.given_initial, asked.freeze)
+    return change(begun, asked.given_guides, asked.freeze, parameters)
 
 
 def _named(identifier: str, parameters: Mapping[str, float]) -> tuple[Scene, Mapping[str, float]]:

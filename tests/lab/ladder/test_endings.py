@@ -11,7 +11,7 @@ import pytest
 from tests.lab.ladder.climbing import climbed
 from tests.lab.ladder.observers import Observer
 
-from deltaq.lab.experiments import fidelity
+from deltaq.lab.experiments.fidelity import EXPERIMENT
 from deltaq.lab.ladder.centre import starting
 from deltaq.lab.ladder.ending import DIGITS, EVENT, PASSAGE, START, WHOLE, known
 from deltaq.lab.ladder.findings import FULL
@@ -139,15 +139,15 @@ def test_an_event_is_told() -> None:
 
 def test_the_lab_tells_how_long_and_why() -> None:
     scene, meets = straight_atwood(1)
-    *_, last = fidelity.run({"scene": write_scene(scene), "t_end": 2.0 * meets})
+    *_, last = EXPERIMENT.run({"scene": write_scene(scene), "t_end": 2.0 * meets})
     assert (last.result["least"], last.result["ending"]) == ("frozen:theta", PASSAGE)
     assert last.result["until"] == pytest.approx(meets, rel=0.01)
 
 
 def test_the_lab_comes_to_an_end_where_the_motion_cannot_begin() -> None:
-    *_, last = fidelity.run(
+    *_, last = EXPERIMENT.run(
         {"scene": write_scene(starting(load_scene("heavy-top"), {"theta": (0.0, 0.0)})), "t_end": 1.0}
     )
     assert (last.result["least"], last.result["ending"], last.result["points"]) == ("", START, [])
     assert last.done == last.total
-    assert fidelity.EXPERIMENT.charts(last.result, lambda key, **_: key) == []
+    assert EXPERIMENT.charts(last.result, lambda key, **_: key) == []

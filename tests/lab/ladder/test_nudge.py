@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from tests.lab.ladder.climbing import climbed
 
-from deltaq.lab.experiments import fidelity
+from deltaq.lab.experiments.fidelity import EXPERIMENT
 from deltaq.lab.ladder.findings import FULL
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
@@ -149,7 +149,7 @@ def test_the_exact_rung_stays_exact_over_hundreds_of_turns() -> None:
 
 def test_the_lab_tells_it() -> None:
     scene = write_scene(starting(load_scene("spring-pendulum"), **STRAIGHT))
-    *_, last = fidelity.run({"scene": scene, "t_end": LONG})
+    *_, last = EXPERIMENT.run({"scene": scene, "t_end": LONG})
     told = {one["rung"]: one for one in last.result["measured"]}
     assert told["frozen:phi"]["survives"] is False
     assert told["frozen:phi"]["nudged"] > 0.5

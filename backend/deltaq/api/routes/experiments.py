@@ -21,9 +21,8 @@ from typing import Any
 from fastapi import APIRouter, Request, Response
 from starlette.responses import StreamingResponse
 
+from ...contract.experiment import ExperimentRequest, request_of
 from ...lab.library import experiment_ids
-from ...narration.catalog import text
-from ...packages import classes_of
 from ..body import StrictRoute
 from ..ending import Ending
 from ..flights import Hear, ignore
@@ -32,7 +31,6 @@ from ..problems import report_of
 from ..responses import packed
 from ..service import Service, service_of, unpack
 from ..streams import MEDIA_TYPE, events
-from ...contract.experiment import ExperimentAnswer, ExperimentRequest
 from ..workers.job import Job
 from .common import COMPUTING, question_of
 
@@ -58,16 +56,15 @@ ANSWERS: dict[int | str, dict[str, Any]] = {
 def _router() -> APIRouter:
     """A call for each experiment there is."""
     router = APIRouter(prefix="/experiments", tags=["experiments"], route_class=StrictRoute)
-    questions = classes_of("deltaq.contract.experiments", "experiment")
     for identifier in experiment_ids():
-        asked = questions.get(identifier)
+        asked = request_of(identifier)
         router.add_api_route(
             f"/{identifier}",
-            _call_of(identifier, asked or ExperimentRequest),
+            _call_of(identifier, asked),
             methods=["POST"],
             name=identifier.replace("-", "_"),
-            description=getdoc(asked) if asked else text("en", f"labs.experiments.{identifier}.summary"),
-            response_model=ExperimentAnswer,
+            description=getdoc(asked),
+            response_model=asked.answer,
             responses=COMPUTING | ANSWERS,
             openapi_extra=ANEW,
         )

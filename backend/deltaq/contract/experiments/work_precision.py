@@ -1,4 +1,4 @@
-"""Work and precision: what may be asked."""
+"""Work and precision."""
 
 from __future__ import annotations
 
@@ -7,13 +7,31 @@ from typing import ClassVar
 from pydantic import Field
 
 from ..base import examples
-from ..experiment import ExperimentRequest, MethodIds
+from ..experiment import ExperimentAnswer, ExperimentRequest, Machine, MethodIds, MethodRun, ReferenceMotion
+
+
+class CheapestRun(MethodRun):
+    """Of the runs within an error, the one that took least time."""
+
+    wanted: float = Field(description="the error")
+
+
+class WorkPrecisionAnswer(ExperimentAnswer):
+    """Errors over times and over right-hand sides, and which method is the cheapest for each error."""
+
+    reference: ReferenceMotion
+    machine: Machine
+    repeats: int = Field(description="how often a run was measured at most")
+    points: tuple[MethodRun, ...] = Field(description="every run, also one that failed")
+    orders: dict[str, float] = Field(description="by method, p of error ∝ evaluations^−p where it shows")
+    cheapest: tuple[CheapestRun, ...] = Field(description="for errors from 0.1 down, as far as any run came")
 
 
 class WorkPrecisionRequest(ExperimentRequest):
     """Speed against accuracy: the error of each method against time and right-hand sides."""
 
     experiment: ClassVar[str] = "work-precision"
+    answer: ClassVar[type[ExperimentAnswer]] = WorkPrecisionAnswer
 
     methods: MethodIds = ()
     peers: bool = Field(default=False, description="whether SciPy's integrators take part, where SciPy is installed")

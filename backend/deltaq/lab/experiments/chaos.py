@@ -7,15 +7,14 @@ Source: see `lab.divergence`, `lab.lyapunov` and `lab.flips`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
+from ...contract.experiments.chaos import ChaosRequest
 from ...simulation.problem import Floats, Problem
 from ...simulation.reference import Reference, reference
-from ...contract.bounds import APART as APART_BOUNDS
-from ...contract.bounds import CHAOS_LONGEST, CHAOS_SPAN, FLIP_POINTS, USUAL_FLIPS
 from ..charts.chaos import charts
 from ..divergence import Followed, followed, rhythm_of, solved, twins
 from ..experiment import Experiment
@@ -33,14 +32,10 @@ SHOWN, SCANTY = 200, 0.05  # points of a curve of the exponent; the part of it w
 FIRST, LAST = 2, 39  # reports that the exponent is done at
 
 
-def run(document: Mapping[str, object]) -> Iterator[Report]:
-    """Further fields: apart (first distance of the twins), map (whether), count (points on a side of the map)."""
-    subject = subject_of(document, SAMPLES, CHAOS_SPAN)
-    apart = subject.request.number("apart", *APART_BOUNDS, closed=True) or APART
-    with_map, count = subject.request.flag("map"), subject.request.whole("count", *FLIP_POINTS, USUAL_FLIPS)
-    subject.request.number("t_end", 0.0, CHAOS_LONGEST)
-    subject.finish("apart", "map", "count")
-    problem, total = subject.problem, 40 + 10 * with_map
+def run(request: ChaosRequest) -> Iterator[Report]:
+    """Twins, exponent and horizon, then the map where it is wanted."""
+    subject, apart = subject_of(request, SAMPLES), request.apart or APART
+    problem, total = subject.problem, 40 + 10 * request.map
     result = subject.described | {"apart": apart, "twins": _twins(problem, apart)}
     yield Report(1, total, result)
     for part, done in _measured(problem):
@@ -48,8 +43,8 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
         yield Report(done, total, result)
     result = result | {"horizon": horizon(problem)}
     yield Report(40, total, result)
-    if with_map:
-        for part in _map(subject, count):
+    if request.map:
+        for part in _map(subject, request.count):
             result = result | {"map": part}
             yield Report(total, total, result)
 
@@ -146,4 +141,4 @@ def _told(time: float) -> float | None:
     return significant(time, 3) if math.isfinite(time) else -1.0
 
 
-EXPERIMENT = Experiment("chaos", run, charts)
+EXPERIMENT = Experiment(ChaosRequest, run, charts)

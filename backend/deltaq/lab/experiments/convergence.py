@@ -6,9 +6,10 @@ Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import partial
 
+from ...contract.experiments.convergence import ConvergenceRequest
 from ...simulation.library import get_method
 from ...simulation.reference import reference
 from ..charts.convergence import charts
@@ -22,11 +23,9 @@ from .work_precision import described
 STEP_LIMIT = 400_000
 
 
-def run(document: Mapping[str, object]) -> Iterator[Report]:
-    """Further fields: methods (ids, all if empty)."""
-    subject = subject_of(document, SAMPLES)
-    methods = methods_of(subject.request)
-    subject.finish("methods")
+def run(request: ConvergenceRequest) -> Iterator[Report]:
+    """Every method from coarse to fine."""
+    subject, methods = subject_of(request, SAMPLES), methods_of(request.methods)
     problem = bounded(subject, STEP_LIMIT)
     trusted, settings = reference(problem), fixed_steps(problem)
     warm(problem, *methods)
@@ -48,4 +47,4 @@ def _found(tracks: list[Track], floor: float) -> Document:
     }
 
 
-EXPERIMENT = Experiment("convergence", run, charts)
+EXPERIMENT = Experiment(ConvergenceRequest, run, charts)

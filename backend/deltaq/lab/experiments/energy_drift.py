@@ -9,18 +9,18 @@ Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, IX.8; Benettin,
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
+from ...contract.experiments.energy_drift import MOST_STEPS, EnergyDriftRequest
 from ...simulation.method import Method
 from ...simulation.outcome import outcome_of
 from ...simulation.problem import Problem
 from ...simulation.run import Run, Steps
 from ...simulation.run import run as run_once
 from ...simulation.stiffness import spectrum
-from ...contract.bounds import DRIFT_STEPS, LOCAL_TOLERANCES, USUAL_DRIFT
 from ..charts.energy_drift import charts
 from ..drift import departure, energy_scale, sample_times
 from ..experiment import Experiment
@@ -37,17 +37,13 @@ QUICK = 20_000  # steps of a first run, from which the time of the whole one is 
 LONGEST_RUN = 12.0  # seconds
 
 
-def run(document: Mapping[str, object]) -> Iterator[Report]:
-    """Further fields: methods (ids), steps (1e3 to 1e6), step (seconds), tolerance (local, of variable steps)."""
-    subject = subject_of(document)
-    methods = methods_of(subject.request, (*METHODS, *VARIABLE))
-    count = subject.request.whole("steps", *DRIFT_STEPS, USUAL_DRIFT)
-    step = subject.request.number("step", 0.0, 1e3)
-    tolerance = subject.request.number("tolerance", *LOCAL_TOLERANCES, closed=True) or LOCAL_TOLERANCE
-    subject.finish("methods", "steps", "step", "tolerance")
-    size = step or _usual_step(subject.problem)
-    problem = replace(subject.problem, t_end=count * size, step_limit=4 * DRIFT_STEPS[1])
-    head = subject.described | {"t_end": count * size, "steps": count, "step": size, "tolerance": tolerance}
+def run(request: EnergyDriftRequest) -> Iterator[Report]:
+    """One method after the other."""
+    subject, methods = subject_of(request), methods_of(request.methods, (*METHODS, *VARIABLE))
+    size, tolerance = request.step or _usual_step(subject.problem), request.tolerance or LOCAL_TOLERANCE
+    span = request.steps * size
+    problem = replace(subject.problem, t_end=span, step_limit=4 * MOST_STEPS)
+    head = subject.described | {"t_end": span, "steps": request.steps, "step": size, "tolerance": tolerance}
     warm(problem, *methods)
     scale, result = energy_scale(problem, PERIODS * PER_PERIOD * size), head | {"lines": []}
     yield Report(0, len(methods), result)
@@ -96,4 +92,4 @@ def _quick(problem: Problem, method: Method, steps: Steps) -> Run:
     return run_once(short, method, np.linspace(0.0, problem.t_end, 1000), np.zeros(1, dtype=np.int64), steps)
 
 
-EXPERIMENT = Experiment("energy-drift", run, charts)
+EXPERIMENT = Experiment(EnergyDriftRequest, run, charts)

@@ -7,17 +7,17 @@ and only one of them may be worth it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import asdict
 from functools import partial
 
 import numpy as np
 
+from ...contract.experiments.fidelity import FidelityRequest
 from ...simulation.integration import Flag
 from ...simulation.library import get_method
 from ...simulation.method import Method
 from ...simulation.run import run as run_once
-from ...contract.bounds import TOLERANCES_OF_MODEL
 from ..charts.fidelity import charts
 from ..experiment import Experiment
 from ..ladder.climb import climb
@@ -35,11 +35,9 @@ TOLERANCE, REPEATS = 0.01, 5
 COARSE = 8  # settings of each method, from coarse to fine
 
 
-def run(document: Mapping[str, object]) -> Iterator[Report]:
-    """Further fields: tolerance (relative error allowed of the least rung)."""
-    subject = subject_of(document)
-    tolerance = subject.request.number("tolerance", *TOLERANCES_OF_MODEL, closed=True) or TOLERANCE
-    subject.finish("tolerance")
+def run(request: FidelityRequest) -> Iterator[Report]:
+    """The ladder from the full model on, then the full model by several methods."""
+    subject, tolerance = subject_of(request), request.tolerance or TOLERANCE
     result = subject.described | {"tolerance": tolerance, "machine": machine(), "repeats": REPEATS}
     result |= {"taken": measured(REPEATS)}
     result |= {"rungs": [], "measured": [], "growth": [], "points": [], "least": ""}
@@ -134,4 +132,4 @@ def _point(full: Yardstick, method: Method, flag: Flag, setting: Setting) -> Poi
     return Point(method.id, setting, "ok", error, evaluations, count, seconds)
 
 
-EXPERIMENT = Experiment("fidelity", run, charts)
+EXPERIMENT = Experiment(FidelityRequest, run, charts)

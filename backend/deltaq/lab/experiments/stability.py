@@ -9,9 +9,10 @@ Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2–IV.3.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
+from ...contract.experiments.stability import StabilityRequest
 from ...errors import Problem as Mistake
 from ...errors import RequestError
 from ...language.tree import Name
@@ -22,7 +23,6 @@ from ...simulation.library import get_method
 from ...simulation.method import Method
 from ...simulation.problem import Problem
 from ...simulation.stability import Complexes
-from ...contract.bounds import AT
 from ..charts.stability import charts
 from ..experiment import Experiment
 from ..failure import failure
@@ -37,22 +37,18 @@ FACTORS = tuple(10.0 ** (k / 2) for k in range(11))  # of the stiffness: 1 to 10
 TOLERANCE, STEP_LIMIT = 1e-4, 300_000
 
 
-def run(document: Mapping[str, object]) -> Iterator[Report]:
-    """Further fields: methods (ids), at (state or rest), stiffness (a parameter; that of the first spring if empty)."""
-    subject = subject_of(document)
-    methods = methods_of(subject.request)
-    wanted = subject.request.text("stiffness", "")
-    at = subject.request.one_of("at", AT)
-    subject.finish("methods", "stiffness", "at")
-    stiffness = wanted or stiffness_of(subject.scene)
+def run(request: StabilityRequest) -> Iterator[Report]:
+    """One method after the other, then the series over the stiffness."""
+    subject, methods = subject_of(request), methods_of(request.methods)
+    stiffness = request.stiffness or stiffness_of(subject.scene)
     place = parameter_of(subject, stiffness, "/stiffness") if stiffness else -1
     problem = bounded(subject, STEP_LIMIT)
-    neighbours, is_rest = _place(problem, at)
+    neighbours, is_rest = _place(problem, request.at)
     if not math.isfinite(neighbours.varies):
         raise RequestError(Mistake("no-motion"))
     total = len(methods) + (len(FACTORS) * len(STIFFENED) if stiffness else 0)
-    head = _spectrum(neighbours.eigenvalues) | {"at": at, "rest": is_rest, "varies": significant(neighbours.varies, 2)}
-    head |= {"taken": measured(1)}
+    head = _spectrum(neighbours.eigenvalues) | {"at": request.at, "rest": is_rest}
+    head |= {"varies": significant(neighbours.varies, 2), "taken": measured(1)}
     result = subject.described | head | {"methods": [], "stiffness": stiffness, "series": []}
     for done, method in enumerate(methods, 1):
         result = appended(result, "methods", _row(neighbours, method))
@@ -143,4 +139,4 @@ def _stiffened(subject: Subject, place: int, factor: float, name: str) -> Docume
     }
 
 
-EXPERIMENT = Experiment("stability", run, charts)
+EXPERIMENT = Experiment(StabilityRequest, run, charts)

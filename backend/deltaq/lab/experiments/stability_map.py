@@ -7,15 +7,16 @@ Source: see `lab.monodromy`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from time import perf_counter
 
 import numpy as np
 
+from ...contract.experiments.stability_map import MapAxis, StabilityMapRequest
+from ...errors import Problem as Mistake
+from ...errors import RequestError
 from ...language.tree import Name, walk
 from ...mechanics.requests import inside
-from ...simulation.fields import Fields
-from ...contract.bounds import MAP_POINTS, USUAL_MAP
 from ..charts.stability_map import charts
 from ..experiment import Experiment
 from ..monodromy import Axis, Plane, StabilityMap
@@ -26,13 +27,12 @@ from ..subject import Subject, parameter_of, subject_of
 COARSEST = 8
 
 
-def run(document: Mapping[str, object]) -> Iterator[Report]:
-    """Further fields: x and y, each {parameter, from, to, count?}."""
-    subject = subject_of(document)
-    first, second = (_axis(subject, key) for key in ("x", "y"))
-    if first.parameter == second.parameter and first.parameter:
-        subject.request.complain("request-same-parameter", "/y/parameter", name=first.parameter)
-    subject.finish("x", "y")
+def run(request: StabilityMapRequest) -> Iterator[Report]:
+    """The map, rough at first."""
+    subject, first, second = subject_of(request), _axis(request.x), _axis(request.y)
+    if first.parameter == second.parameter:
+        told = {"name": first.parameter}
+        raise RequestError(Mistake("request-same-parameter", "/y/parameter", parameters=told))
     for key, axis in (("x", first), ("y", second)):
         parameter_of(subject, axis.parameter, f"/{key}/parameter")
     plane = Plane(subject.problem, first, second, _periods(subject, first, second))
@@ -49,21 +49,8 @@ def _strides() -> list[int]:
     return [2**k for k in range(COARSEST.bit_length() - 1, -1, -1)]
 
 
-def _axis(subject: Subject, key: str) -> Axis:
-    """An axis as asked for; problems are collected below its key."""
-    given = subject.request.document.get(key)
-    fields = Fields(given if isinstance(given, Mapping) else {})
-    if not isinstance(given, Mapping):
-        subject.request.complain("missing-field", f"/{key}", field=key)
-        return Axis("", (0.0, 1.0))
-    name, count = fields.text("parameter", ""), fields.whole("count", *MAP_POINTS, USUAL_MAP)
-    low = fields.number("from", -1e9, 1e9, closed=True, required=True)
-    high = fields.number("to", -1e9, 1e9, closed=True, required=True)
-    if low is not None and high is not None and not low < high:
-        fields.complain("request-outside", "/to", value=high, min=low, max=1e9)
-    fields.reject_all_but(("parameter", "from", "to", "count"))
-    subject.request.problems += [problem.below(f"/{key}") for problem in fields.problems]
-    return Axis(name, tuple(map(float, np.linspace(low or 0.0, high or 1.0, count))))
+def _axis(asked: MapAxis) -> Axis:
+    return Axis(asked.parameter, tuple(map(float, np.linspace(asked.start, asked.to, asked.count))))
 
 
 def _periods(subject: Subject, first: Axis, second: Axis) -> np.ndarray:
@@ -91,4 +78,4 @@ def _told(found: StabilityMap) -> Document:
     }
 
 
-EXPERIMENT = Experiment("stability-map", run, charts)
+EXPERIMENT = Experiment(StabilityMapRequest, run, charts)

@@ -7,9 +7,10 @@ Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import partial
 
+from ...contract.experiments.work_precision import WorkPrecisionRequest
 from ...simulation.problem import Problem
 from ...simulation.reference import Reference, reference
 from ..charts.work_precision import charts
@@ -24,11 +25,9 @@ STEP_LIMIT = 1_000_000
 WANTED = tuple(10.0 ** (-k / 4) for k in range(4, 49))  # tolerances that the cheapest method is told for
 
 
-def run(document: Mapping[str, object]) -> Iterator[Report]:
-    """Further fields: methods (ids, all if empty), peers (whether SciPy's integrators take part)."""
-    subject = subject_of(document, SAMPLES)
-    methods, with_peers = methods_of(subject.request), subject.request.flag("peers")
-    subject.finish("methods", "peers")
+def run(request: WorkPrecisionRequest) -> Iterator[Report]:
+    """Every method from coarse to fine."""
+    subject, methods = subject_of(request, SAMPLES), methods_of(request.methods)
     problem = bounded(subject, STEP_LIMIT)
     trusted = reference(problem)
     warm(problem, *methods)
@@ -36,7 +35,7 @@ def run(document: Mapping[str, object]) -> Iterator[Report]:
         Track(method.id, settings_of(problem, method), partial(measure, problem, method, trusted, repeats=REPEATS))
         for method in methods
     ]
-    tracks += peer_tracks(problem, trusted) if with_peers else []
+    tracks += peer_tracks(problem, trusted) if request.peers else []
     head = subject.described | {"reference": described(trusted, problem), "machine": machine(), "repeats": REPEATS}
     head |= {"taken": measured(REPEATS)}
     for done, total in sweep(tracks, trusted):
@@ -72,4 +71,4 @@ def cheapest(points: list[Point], tolerance: float) -> Document | None:
     return None if best is None else {"wanted": significant(tolerance), **best.described}
 
 
-EXPERIMENT = Experiment("work-precision", run, charts)
+EXPERIMENT = Experiment(WorkPrecisionRequest, run, charts)

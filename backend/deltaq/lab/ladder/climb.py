@@ -9,6 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
+from ...contract.experiment import LONGEST
+from ...contract.experiments.fidelity import LARGEST_ERROR, Ending
 from ...errors import InputError, Problem, RequestError
 from ...mechanics.scene import Scene
 from ...simulation.integration import Flag
@@ -25,7 +27,7 @@ from .simplification import SimplificationContext
 from .verdict import is_within, lasts, least
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0)
-MOST_AMPLITUDES, MOST_REPEATS, LARGEST_SPAN = 8, 25, 1000.0
+MOST_AMPLITUDES, MOST_REPEATS = 8, 25
 ROUNDING = 1e-10  # an error below it says nothing of a slope
 
 
@@ -60,8 +62,8 @@ def climb(
 def _check(span: float, amplitudes: Sequence[float], tolerance: float, repeats: int) -> None:
     """Raises RequestError with every number that is out of bounds."""
     bounds = [
-        ("/t_end", span, 0.0, LARGEST_SPAN),
-        ("/tolerance", tolerance, 0.0, 10.0),
+        ("/t_end", span, 0.0, LONGEST),
+        ("/tolerance", tolerance, 0.0, LARGEST_ERROR),
         ("/repeats", repeats, 0, MOST_REPEATS),
         ("/amplitudes", len(amplitudes), -1, MOST_AMPLITUDES),
         *((f"/amplitudes/{index}", each, 0.0, 10.0) for index, each in enumerate(amplitudes)),
@@ -80,7 +82,7 @@ class _Climb:
     context: SimplificationContext
     centre: Centre | None
     full: Yardstick
-    ending: str
+    ending: Ending
     tolerance: float
     amplitudes: tuple[float, ...]
     repeats: int

@@ -5,23 +5,25 @@ The words are told to programs; `labs.fidelity.ending` in the catalogs has the s
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 
+from ...contract.experiments.fidelity import Ending
 from .distance import Yardstick
 from .measurement import RungRun, yardstick
 from .passages import determined_until
 from .verdict import lasts
 
-WHOLE = ""
-START = "start"  # it cannot begin: the coordinates fail in the initial state, or a law has no value there
-PASSAGE = "passage"  # it comes to a state behind which it is not determined
-DIGITS = "digits"  # the error of the computation is no longer far below the one that is allowed
-EVENT = "event"
-ENDED = "ended"  # in another way, as its outcome says: it grows beyond bounds, or comes to rest
-ENDINGS = (START, PASSAGE, DIGITS, EVENT, ENDED)
+WHOLE: Final = ""
+START: Final = "start"  # it cannot begin: the coordinates fail in the initial state, or a law has no value there
+PASSAGE: Final = "passage"  # it comes to a state behind which it is not determined
+DIGITS: Final = "digits"  # the error of the computation is no longer far below the one that is allowed
+EVENT: Final = "event"
+ENDED: Final = "ended"  # in another way, as its outcome says: it grows beyond bounds, or comes to rest
 
 
-def known(run: RungRun, tolerance: float) -> tuple[Yardstick, str]:
+def known(run: RungRun, tolerance: float) -> tuple[Yardstick, Ending]:
     """The full motion as long as it is determined and far more accurate than `tolerance`, and why no longer."""
     full = yardstick(run, tolerance)
     passage = determined_until(full)
@@ -30,7 +32,7 @@ def known(run: RungRun, tolerance: float) -> tuple[Yardstick, str]:
     return full, _ending(run, full)
 
 
-def _ending(run: RungRun, full: Yardstick) -> str:
+def _ending(run: RungRun, full: Yardstick) -> Ending:
     if not full.end > 0.0:
         return DIGITS if run.trajectory.reached > 0.0 else START
     if lasts(full.end, run.problem.t_end):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ...contract.experiments.fidelity import Ending
 from ...errors import Problem
 from ...model.operations import Operations
 from ...simulation.outcome import Outcome
@@ -140,7 +141,7 @@ class Least:
     tolerance: float
     rung: str | None
     until: float
-    ending: str
+    ending: Ending
 
 
 Finding = Ladder | Measured | Growth | Least

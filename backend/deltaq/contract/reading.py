@@ -1,0 +1,142 @@
+"""Reading requests, and what Pydantic finds wrong with one as our own problems: codes and parameters, no echo of it.
+
+A call of the API says of a bound which side was passed; what Python, the shell and a worker are told names both.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, TypeAdapter, ValidationError
+
+from ..errors import MOST_PROBLEMS, Parameter, Problem, RequestError, escaped
+from .base import NotAbove, Request
+
+R = TypeVar("R", bound=Request)
+Location = tuple[int | str, ...]
+
+CODES: Mapping[str, str] = MappingProxyType(
+    {
+        "missing": "missing-field",
+        "extra_forbidden": "unknown-field",
+        "model_type": "request-not-object",
+        "model_attributes_type": "request-not-object",
+        "dict_type": "request-not-object",
+        "list_type": "request-not-array",
+        "tuple_type": "request-not-array",
+        "string_type": "request-not-text",
+        "float_type": "request-not-number",
+        "float_parsing": "request-not-number",
+        "int_type": "request-not-integer",
+        "int_parsing": "request-not-integer",
+        "int_from_float": "request-not-integer",
+        "bool_type": "request-not-boolean",
+        "bool_parsing": "request-not-boolean",
+        "finite_number": "request-not-finite",
+        "greater_than_equal": "request-too-small",
+        "greater_than": "request-not-above",
+        "less_than_equal": "request-too-large",
+        "less_than": "request-not-below",
+        "literal_error": "request-not-one-of",
+        "string_too_long": "request-text-too-long",
+        "string_too_short": "request-text-too-short",
+        "too_long": "request-too-many",
+        "too_short": "request-too-few",
+        "request-scene-type": "request-scene-type",
+        "request-step-and-tolerance": "request-step-and-tolerance",
+        "request-outside": "request-outside",
+    }
+)
+SIDES = ("gt", "ge", "lt", "le")  # of a bound, as Pydantic calls them
+OUTSIDE = frozenset({"greater_than", "greater_than_equal", "less_than", "less_than_equal"})
+OF_FIELDS = frozenset({"missing-field", "unknown-field"})  # problems whose sentence names the field
+FILLING = frozenset({*SIDES, "min_length", "max_length", "expected", "value", "min", "max"})  # what sentences speak of
+_QUOTED = re.compile(r"'([^']*)'")
+
+
+def read(model: type[R], document: Mapping[str, object]) -> R:
+    """The request in a document; a field that is null was not given. Raises RequestError with all that is wrong.
+
+    What is wrong with the fields of the request is told before what is wrong further inside.
+    """
+    given = {name: value for name, value in document.items() if value is not None or name == "scene"}
+    try:
+        return model.model_validate(given)
+    except ValidationError as error:
+        problems = [_told(finding, model, given) for finding in error.errors(include_url=False)]
+        raise RequestError(*sorted(problems, key=lambda one: one.pointer.count("/"))[: MOST_PROBLEMS + 1]) from None
+
+
+def checked(question: Mapping[str, object], model: type[BaseModel]) -> dict[str, Any]:
+    """A request as a call of the API takes it. Raises RequestError for what that would refuse."""
+    found: BaseModel = validated(question, TypeAdapter(model))
+    return found.model_dump()
+
+
+def validated(document: object, wanted: TypeAdapter[Any]) -> Any:
+    """What is wanted, made of a document. Raises RequestError with some more problems than are told, at most."""
+    try:
+        return wanted.validate_python(document)
+    except ValidationError as error:
+        findings = error.errors(include_url=False, include_input=False)[: MOST_PROBLEMS + 1]
+        raise RequestError(*problems_of(findings)) from None
+
+
+def problems_of(findings: Iterable[Mapping[str, Any]]) -> Iterator[Problem]:
+    """One problem for each finding; `loc` says where in the body it is."""
+    for finding in findings:
+        is_empty = (finding["type"], finding["loc"]) == ("missing", ())  # there is no body
+        code = "request-not-object" if is_empty else CODES.get(finding["type"], "request-invalid")
+        yield Problem(code, pointer(finding["loc"]), parameters=_parameters(code, finding))
+
+
+def pointer(location: Location) -> str:
+    """JSON pointer (RFC 6901) of a place in a document, as Pydantic tells it."""
+    return "".join(f"/{escaped(str(part))}" for part in location if part != "[key]")
+
+
+def _told(finding: Mapping[str, Any], model: type[BaseModel], document: Mapping[str, object]) -> Problem:
+    """A finding as Python is told it: with both bounds, and at the field that is to be left out."""
+    kind, location = finding["type"], finding["loc"]
+    if kind in OUTSIDE:
+        parameters = _outside(finding, _bounds(model, location, document))
+        return Problem("request-outside", pointer(location), parameters=parameters)
+    (problem,) = problems_of([finding])
+    if problem.code == "request-not-boolean":
+        return Problem("request-not-flag", problem.pointer)
+    if problem.code == "request-not-number" and type(finding["input"]) is int:  # of more than 308 digits
+        return Problem("request-not-finite", problem.pointer)
+    return problem if location else problem.below(str(finding.get("ctx", {}).get("at", "")))
+
+
+def _outside(finding: Mapping[str, Any], bounds: Mapping[str, float]) -> dict[str, Parameter]:
+    """The number and both bounds, whole ones where the field is."""
+    (bound,) = (value for side, value in finding["ctx"].items() if side in SIDES)
+    low, high = bounds.get("gt", bounds.get("ge", 0)), bounds.get("lt", bounds.get("le", 0))
+    if isinstance(bound, float):
+        return {"value": float(finding["input"]), "min": float(low), "max": float(high)}
+    return {"value": str(finding["input"])[:20], "min": low, "max": high}
+
+
+def _bounds(model: type[BaseModel], location: Location, document: Mapping[str, object]) -> dict[str, float]:
+    """The bounds of a field by their sides, as its declaration has them."""
+    field = next(one for name, one in model.model_fields.items() if (one.alias or name) == location[0])
+    if len(location) > 1 and isinstance(field.annotation, type):
+        return _bounds(field.annotation, location[1:], document)
+    found = {side: getattr(one, side) for one in field.metadata for side in SIDES if hasattr(one, side)}
+    for one in field.metadata:
+        if isinstance(one, NotAbove):
+            found["le"] = one.bound(document)
+    return found
+
+
+def _parameters(code: str, finding: Mapping[str, Any]) -> dict[str, Any]:
+    """What fills the sentence; of the words that are allowed Pydantic makes an English enumeration."""
+    if code in OF_FIELDS:
+        return {"field": str(finding["loc"][-1])[:64]}
+    found = {name: value for name, value in finding.get("ctx", {}).items() if name in FILLING}
+    words = _QUOTED.findall(str(found.get("expected", "")))
+    return {**found, "expected": ", ".join(words)} if words else found

@@ -1,0 +1,100 @@
+"""Requests are read by their declarations, whoever asks: each bound is held, and told with the field it belongs to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from pydantic import TypeAdapter
+
+from deltaq.contract.base import Request
+from deltaq.contract.reading import read, validated
+from deltaq.errors import Problem, RequestError
+from deltaq.narration.catalog import LANGUAGES, message
+from deltaq.packages import modules_of
+
+SIDES = {
+    "minimum": ("ge", "request-too-small", -1),
+    "maximum": ("le", "request-too-large", 1),
+    "exclusiveMinimum": ("gt", "request-not-above", 0),
+    "exclusiveMaximum": ("lt", "request-not-below", 0),
+}
+
+
+def requests() -> Iterator[type[Request]]:
+    """All bodies that the API takes: requests with an example."""
+    for package in ("deltaq.contract", "deltaq.contract.experiments"):
+        for module in modules_of(package):
+            kinds = [kind for kind in vars(module).values() if isinstance(kind, type) and issubclass(kind, Request)]
+            yield from (kind for kind in kinds if kind.__module__ == module.__name__ and examples(kind))
+
+
+def examples(kind: type[Request]) -> list[dict[str, Any]]:
+    return (kind.model_config.get("json_schema_extra") or {}).get("examples", [])  # type: ignore[union-attr,return-value]
+
+
+def bounds(kind: type[Request]) -> Iterator[tuple[str, str, float, dict[str, Any]]]:
+    """Each bound of each number of a request: field, keyword of JSON Schema, bound, and the schema that has it."""
+    for name, field in kind.model_json_schema()["properties"].items():
+        for schema in (field, *field.get("anyOf", ())):
+            yield from ((name, side, schema[side], schema) for side in SIDES if side in schema)
+
+
+CASES = [
+    pytest.param(kind, *case, id=f"{kind.__name__} {case[0]} {case[1]}") for kind in requests() for case in bounds(kind)
+]
+
+
+def beyond(side: str, bound: float, schema: dict[str, Any]) -> float:
+    """The least number that is out of bounds, or one close to it."""
+    step = SIDES[side][2]
+    return bound + step if schema["type"] == "integer" or not bound else bound * (1 + step * 1e-3)
+
+
+def told(kind: type[Request], document: dict[str, Any]) -> tuple[Problem, Problem]:
+    """What Python is told of a document, and what a call of the API is."""
+    found = []
+    for reading in (lambda: read(kind, document), lambda: validated(document, TypeAdapter(kind))):
+        with pytest.raises(RequestError) as caught:
+            reading()
+        found += caught.value.problems
+    return tuple(found)  # type: ignore[return-value]
+
+
+@pytest.mark.parametrize(("kind", "field", "side", "bound", "schema"), CASES)
+def test_a_number_out_of_bounds_is_told_with_both_of_them_or_with_the_one_that_was_passed(
+    kind: type[Request], field: str, side: str, bound: float, schema: dict[str, Any]
+) -> None:
+    short, code, _ = SIDES[side]
+    value = beyond(side, bound, schema)
+    own, called = told(kind, examples(kind)[0] | {field: value})
+    assert (own.code, own.pointer) == ("request-outside", f"/{field}")
+    assert float(own.parameters["value"]) == value
+    limits = {own.parameters["min"], own.parameters["max"]}
+    assert limits >= {schema[one] for one in SIDES if one in schema}
+    assert own.parameters["min"] < own.parameters["max"]
+    assert (called.code, called.pointer, called.parameters[short]) == (code, f"/{field}", bound)
+    for problem in (own, called):
+        assert all("{" not in message(language, problem) for language in LANGUAGES)
+
+
+@pytest.mark.parametrize(("kind", "field", "side", "bound", "schema"), CASES)
+def test_a_closed_bound_itself_may_be_asked_for(
+    kind: type[Request], field: str, side: str, bound: float, schema: dict[str, Any]
+) -> None:
+    if side in ("minimum", "maximum"):
+        assert getattr(read(kind, examples(kind)[0] | {"tolerance": None} | {field: bound}), field) == bound
+
+
+@pytest.mark.parametrize("kind", list(requests()), ids=lambda kind: kind.__name__)
+def test_every_example_is_a_request_and_a_field_that_is_null_was_not_given(kind: type[Request]) -> None:
+    for document in examples(kind):
+        empty = dict.fromkeys(kind.model_fields.keys() - document.keys())
+        assert read(kind, {**empty, **document}) == read(kind, document)
+
+
+@pytest.mark.parametrize("kind", list(requests()), ids=lambda kind: kind.__name__)
+def test_an_unknown_field_is_refused(kind: type[Request]) -> None:
+    for problem in told(kind, examples(kind)[0] | {"speed": 1}):
+        assert problem == Problem("unknown-field", "/speed", parameters={"field": "speed"})
