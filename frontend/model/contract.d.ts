@@ -233,6 +233,18 @@ export interface components {
             lang?: ("de" | "en") | null;
         };
         /**
+         * Begin
+         * @description Value and rate of a coordinate where the motion began.
+         */
+        Begin: {
+            /** Value */
+            value: number;
+            /** Rate */
+            rate: number;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * Best
          * @description Where the error is smallest.
          */
@@ -275,6 +287,79 @@ export interface components {
         } & {
             [key: string]: unknown;
         };
+        /**
+         * ChaosAnswer
+         * @description How fast motions part, whether that is chaos, and how long each tolerance predicts.
+         */
+        ChaosAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Apart
+             * @description how far the twins were apart at first
+             */
+            apart: number;
+            twins: components["schemas"]["TwinRuns"];
+            exponent: components["schemas"]["LyapunovExponent"];
+            horizon: components["schemas"]["PredictionHorizon"];
+            /**
+             * Map
+             * @description where it was asked for
+             */
+            map?: components["schemas"]["FlipMap"] | components["schemas"]["NoFlipMap"] | null;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * ChaosReason
+         * @description Why there is no verdict.
+         * @enum {string}
+         */
+        ChaosReason: "" | "ended" | "short" | "unsettled" | "wide" | "disagree";
         /**
          * ChaosRequest
          * @description Twin runs, Lyapunov exponent, and the horizon of prediction against the tolerance.
@@ -362,6 +447,12 @@ export interface components {
             count?: number;
         };
         /**
+         * ChaosVerdict
+         * @description What a motion is found to be.
+         * @enum {string}
+         */
+        ChaosVerdict: "regular" | "chaotic" | "undecided";
+        /**
          * Chapter
          * @description Steps that belong together.
          */
@@ -402,6 +493,58 @@ export interface components {
             layout: {
                 [key: string]: unknown;
             };
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * CheapestRun
+         * @description Of the runs within an error, the one that took least time.
+         */
+        CheapestRun: {
+            /** Method */
+            method: string;
+            /**
+             * Tolerance
+             * @description local tolerance of variable steps
+             */
+            tolerance?: number | null;
+            /**
+             * Step
+             * @description fixed step in seconds
+             */
+            step?: number | null;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "too_slow";
+            /**
+             * Error
+             * @description largest of any coordinate: absolute below 1, relative above
+             */
+            error: number | null;
+            /**
+             * Evaluations
+             * @description of the right-hand side
+             */
+            evaluations: number;
+            /** Steps */
+            steps: number;
+            /**
+             * Time
+             * @description seconds, the median of the repeated runs
+             */
+            time: number;
+            /**
+             * Times
+             * @description seconds of each of them, ascending
+             */
+            times: number[];
+            /**
+             * Wanted
+             * @description the error
+             */
+            wanted: number;
         } & {
             [key: string]: unknown;
         };
@@ -540,6 +683,73 @@ export interface components {
              * @description of a momentum; else empty
              */
             coordinate: string;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * ConvergenceAnswer
+         * @description Errors over steps, and the orders that they show.
+         */
+        ConvergenceAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            reference: components["schemas"]["ReferenceMotion"];
+            /**
+             * Points
+             * @description every run, also one that failed
+             */
+            points: components["schemas"]["MethodRun"][];
+            /**
+             * Orders
+             * @description by method, where one shows
+             */
+            orders: {
+                [key: string]: components["schemas"]["OrderOfConvergence"];
+            };
         } & {
             [key: string]: unknown;
         };
@@ -964,6 +1174,79 @@ export interface components {
             [key: string]: unknown;
         };
         /**
+         * DriftLine
+         * @description The departure of one method; of one that would take too long there is no more than that.
+         */
+        DriftLine: {
+            /** Method */
+            method: string;
+            /** Symplectic */
+            symplectic: boolean;
+            /**
+             * Variable
+             * @description whether its steps are
+             */
+            variable: boolean;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "too_slow";
+            /**
+             * T
+             * @description ends of the stretches of time
+             * @default []
+             */
+            t?: number[];
+            /**
+             * Error
+             * @description largest departure in each, in parts of the energy
+             * @default []
+             */
+            error?: number[];
+            verdict?: components["schemas"]["DriftVerdict"] | null;
+            /**
+             * Largest
+             * @description the largest departure; null where one is no number
+             */
+            largest?: number | null;
+            /**
+             * Lost At
+             * @description when nothing was left of the balance
+             */
+            lost_at?: number | null;
+            /**
+             * Growth
+             * @description p of error ∝ t^p, where it shows
+             */
+            growth?: number | null;
+            /**
+             * Growth Interval
+             * @description of about 95 %
+             */
+            growth_interval?: number[] | null;
+            /** Steps */
+            steps?: number | null;
+            /**
+             * Evaluations
+             * @description of the right-hand side
+             */
+            evaluations?: number | null;
+            /**
+             * Time
+             * @description seconds
+             */
+            time?: number | null;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * DriftVerdict
+         * @description What becomes of the energy.
+         * @enum {string}
+         */
+        DriftVerdict: "lost" | "rounding" | "bounded" | "linear" | "grows" | "unclear";
+        /**
          * Energy
          * @description Energies at the samples in joule, the work of the other forces, and the balance kinetic + potential − work.
          */
@@ -981,6 +1264,77 @@ export interface components {
              * @description largest departure of the balance from its start
              */
             drift: number;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * EnergyDriftAnswer
+         * @description How the energy balance of each method departs from its start.
+         */
+        EnergyDriftAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Steps
+             * @description how many
+             */
+            steps: number;
+            /**
+             * Step
+             * @description seconds
+             */
+            step: number;
+            /**
+             * Tolerance
+             * @description local tolerance of variable steps
+             */
+            tolerance: number;
+            /** Lines */
+            lines: components["schemas"]["DriftLine"][];
         } & {
             [key: string]: unknown;
         };
@@ -1204,23 +1558,17 @@ export interface components {
             [key: string]: unknown;
         };
         /**
-         * ExperimentAnswer
-         * @description What was found, as numbers and as charts. Members besides these depend on the experiment.
+         * ExponentialReading
+         * @description Growth read as e^(rate t).
          */
-        ExperimentAnswer: {
+        ExponentialReading: {
+            /** Rate */
+            rate: number;
             /**
-             * Experiment
-             * @example work-precision
+             * Misfit
+             * @description of its logarithm, root mean square
              */
-            experiment: string;
-            /** Scene */
-            scene: string;
-            /** T End */
-            t_end: number;
-            /** Charts */
-            charts: components["schemas"]["Chart"][];
-            /** @description where the answer has times */
-            taken?: components["schemas"]["Measured"] | null;
+            misfit: number;
         } & {
             [key: string]: unknown;
         };
@@ -1446,6 +1794,68 @@ export interface components {
             lang?: ("de" | "en") | null;
         };
         /**
+         * FailingStep
+         * @description A method, its region of stability, and the step at which it fails.
+         *
+         *     Of steps null stands for every step, and for one that cannot be told; `basis` and `reason` say which.
+         */
+        FailingStep: {
+            /** Method */
+            method: string;
+            /** Implicit */
+            implicit: boolean;
+            /**
+             * Region
+             * @description lines |R(z)| = 1 of points [Re z, Im z]
+             */
+            region: number[][][];
+            /**
+             * Bound
+             * @description the largest step for which nothing grows
+             */
+            bound: number | null;
+            /**
+             * Predicted
+             * @description the step of failure, by the linearization
+             */
+            predicted: number | null;
+            /**
+             * Measured
+             * @description the same, by running the method
+             */
+            measured: number | null;
+            /**
+             * Deviation
+             * @description (measured − predicted) / predicted
+             */
+            deviation: number | null;
+            /**
+             * Cause
+             * @description how the failing run ended
+             * @enum {string}
+             */
+            cause: "" | "grows" | "newton_failed";
+            /**
+             * Basis
+             * @description what the method was held against
+             * @enum {string}
+             */
+            basis: "linearization" | "flow";
+            /**
+             * Reason
+             * @description why no step could be measured
+             * @enum {string}
+             */
+            reason: "" | "motion-lost" | "motion-spreads" | "motion-unknown";
+            /**
+             * Limit
+             * @description the step from which on that is so
+             */
+            limit: number | null;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * FamilyEntry
          * @description The whole number that chooses the member of a family, its bounds and the usual value.
          */
@@ -1461,6 +1871,112 @@ export interface components {
             max: number;
             /** Value */
             value: number;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * FidelityAnswer
+         * @description The models there are, each with its cost and its error, and the least that will do.
+         */
+        FidelityAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Tolerance
+             * @description relative error allowed of the least rung
+             */
+            tolerance: number;
+            machine: components["schemas"]["Machine"];
+            /**
+             * Repeats
+             * @description how often a run was measured
+             */
+            repeats: number;
+            /**
+             * Rungs
+             * @description the full model first
+             */
+            rungs: components["schemas"]["LadderRung"][];
+            /**
+             * Amplitudes
+             * @description factors of the initial deviation from the centre
+             */
+            amplitudes: number[];
+            /**
+             * Centre
+             * @description coordinates at rest or in steady motion; empty where there is none
+             */
+            centre: {
+                [key: string]: number;
+            };
+            /** Measured */
+            measured: components["schemas"]["MeasuredRung"][];
+            /** Growth */
+            growth: components["schemas"]["RungGrowth"][];
+            /**
+             * Points
+             * @description the full model by several methods, roughly and finely
+             */
+            points: components["schemas"]["MethodRun"][];
+            /**
+             * Least
+             * @description id of the least rung that will do; empty where that cannot be told
+             */
+            least: string;
+            /**
+             * Until
+             * @description up to when that is said, in seconds
+             */
+            until: number;
+            /**
+             * Ending
+             * @enum {string}
+             */
+            ending: "" | "start" | "passage" | "digits" | "event" | "ended";
         } & {
             [key: string]: unknown;
         };
@@ -1538,6 +2054,35 @@ export interface components {
              * @description relative error allowed of the least rung; 0.01 if empty
              */
             tolerance?: number | null;
+        };
+        /**
+         * FlipMap
+         * @description When something turns over, by the angles that the motion begins from at rest.
+         */
+        FlipMap: {
+            x: components["schemas"]["FlipSide"];
+            y: components["schemas"]["FlipSide"];
+            /** T End */
+            t_end: number;
+            /**
+             * Times
+             * @description −1: not in time; null: not known
+             */
+            times: (number | null)[][];
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * FlipSide
+         * @description A coordinate and its values along a side of the map.
+         */
+        FlipSide: {
+            /** Coordinate */
+            coordinate: string;
+            /** Values */
+            values: number[];
+        } & {
+            [key: string]: unknown;
         };
         /**
          * Forcing
@@ -1670,6 +2215,16 @@ export interface components {
             [key: string]: unknown;
         };
         /**
+         * GrowthReadings
+         * @description How deviations grow, read in two ways.
+         */
+        GrowthReadings: {
+            exponential: components["schemas"]["ExponentialReading"];
+            power: components["schemas"]["PowerReading"];
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * GuideChange
          * @description A coordinate made a given function of time.
          */
@@ -1771,6 +2326,36 @@ export interface components {
              * @description whether it is kinetic + potential energy
              */
             equals_energy: boolean;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * LadderRung
+         * @description A model: what is left out, and the scene that this leads to.
+         */
+        LadderRung: {
+            /**
+             * Id
+             * @example frozen:y
+             */
+            id: string;
+            /**
+             * Parts
+             * @description none: the full model
+             */
+            parts: components["schemas"]["Simplification"][];
+            /**
+             * Degrees
+             * @description of freedom
+             */
+            degrees: number;
+            /** @description null where there is no such scene */
+            scene: components["schemas"]["SceneDocument"] | null;
+            /**
+             * Refused
+             * @description why not
+             */
+            refused: components["schemas"]["Refusal"][];
         } & {
             [key: string]: unknown;
         };
@@ -1896,6 +2481,71 @@ export interface components {
             [key: string]: unknown;
         };
         /**
+         * LyapunovExponent
+         * @description The largest Lyapunov exponent in 1/s, with a verdict; without numbers where too little could be followed.
+         */
+        LyapunovExponent: {
+            /**
+             * Status
+             * @description ok, or how the motion ended before its time
+             * @enum {string}
+             */
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps";
+            /**
+             * Span
+             * @description seconds that were followed
+             */
+            span: number;
+            /**
+             * Confidence
+             * @description of the interval
+             */
+            confidence: number;
+            /** T */
+            t: number[];
+            /**
+             * Values
+             * @description the mean rate up to each time
+             */
+            values: number[];
+            /**
+             * Last
+             * @description the exponent
+             */
+            last: number | null;
+            /**
+             * Spread
+             * @description what the later half of the values still wanders by
+             */
+            spread: number | null;
+            /** Interval */
+            interval: number[] | null;
+            /**
+             * Transient
+             * @description seconds at the beginning that do not count
+             */
+            transient: number | null;
+            growth?: components["schemas"]["GrowthReadings"] | null;
+            verdict: components["schemas"]["ChaosVerdict"];
+            /** @description why there is no verdict; else empty */
+            reason: components["schemas"]["ChaosReason"];
+            second_indicator: components["schemas"]["SecondIndicator"];
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * Machine
+         * @description What the times were measured on.
+         */
+        Machine: {
+            /** Processor */
+            processor: string;
+            /** Cores */
+            cores: number;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * MapAxis
          * @description A parameter and its range.
          */
@@ -1924,6 +2574,18 @@ export interface components {
              * @default 200
              */
             count?: number;
+        };
+        /**
+         * MapSide
+         * @description A parameter and its values along a side of the map.
+         */
+        MapSide: {
+            /** Parameter */
+            parameter: string;
+            /** Values */
+            values: number[];
+        } & {
+            [key: string]: unknown;
         };
         /**
          * MarkedLine
@@ -2047,6 +2709,67 @@ export interface components {
             [key: string]: unknown;
         };
         /**
+         * MeasuredRung
+         * @description A model held against the full one; what could not be measured is missing.
+         */
+        MeasuredRung: {
+            /**
+             * Rung
+             * @description its id
+             */
+            rung: string;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "refused";
+            /**
+             * Largest
+             * @description distance from the full motion, in metres
+             */
+            largest?: number | null;
+            /**
+             * Until
+             * @description how long both could be compared, in seconds
+             */
+            until?: number | null;
+            /**
+             * Error
+             * @description the distance as a part of the extent of the full motion
+             */
+            error?: number | null;
+            /**
+             * Survives
+             * @description whether the verdict stands after a nudge of the initial values
+             */
+            survives?: boolean | null;
+            /**
+             * Nudged
+             * @description the error after it
+             */
+            nudged?: number | null;
+            operations?: components["schemas"]["RungOperations"] | null;
+            /** Method */
+            method?: string | null;
+            /**
+             * Evaluations
+             * @description of the right-hand side
+             */
+            evaluations?: number | null;
+            /**
+             * Time
+             * @description seconds: median and quartiles
+             */
+            time?: number[] | null;
+            /**
+             * Per Evaluation
+             * @description seconds, the median
+             */
+            per_evaluation?: number | null;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * MethodEntry
          * @description A method and its properties.
          */
@@ -2086,6 +2809,53 @@ export interface components {
         MethodList: {
             /** Methods */
             methods: components["schemas"]["MethodEntry"][];
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * MethodRun
+         * @description One run of a method; it was steered by a tolerance or by a step.
+         */
+        MethodRun: {
+            /** Method */
+            method: string;
+            /**
+             * Tolerance
+             * @description local tolerance of variable steps
+             */
+            tolerance?: number | null;
+            /**
+             * Step
+             * @description fixed step in seconds
+             */
+            step?: number | null;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "too_slow";
+            /**
+             * Error
+             * @description largest of any coordinate: absolute below 1, relative above
+             */
+            error: number | null;
+            /**
+             * Evaluations
+             * @description of the right-hand side
+             */
+            evaluations: number;
+            /** Steps */
+            steps: number;
+            /**
+             * Time
+             * @description seconds, the median of the repeated runs
+             */
+            time: number;
+            /**
+             * Times
+             * @description seconds of each of them, ascending
+             */
+            times: number[];
         } & {
             [key: string]: unknown;
         };
@@ -2149,6 +2919,19 @@ export interface components {
             [key: string]: unknown;
         };
         /**
+         * NoFlipMap
+         * @description Why there is no map.
+         */
+        NoFlipMap: {
+            /**
+             * Missing
+             * @constant
+             */
+            missing: "angles";
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * Numeric
          * @description Concrete functions for the comparison of difference quotient and derivative.
          */
@@ -2192,6 +2975,18 @@ export interface components {
             };
         };
         /**
+         * OrderOfConvergence
+         * @description p of error ∝ step^p.
+         */
+        OrderOfConvergence: {
+            /** Measured */
+            measured: number;
+            /** Theory */
+            theory: number;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * OwnSymbol
          * @description A name in the results that the scene does not have.
          */
@@ -2232,6 +3027,53 @@ export interface components {
              * @default 0.5
              */
             follow_through?: number;
+        };
+        /**
+         * PowerReading
+         * @description Growth read as t^power.
+         */
+        PowerReading: {
+            /** Power */
+            power: number;
+            /**
+             * Misfit
+             * @description of its logarithm, root mean square
+             */
+            misfit: number;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * PredictedSpan
+         * @description How long a tolerance predicts the motion.
+         */
+        PredictedSpan: {
+            /** Tolerance */
+            tolerance: number;
+            /** T */
+            t: number;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * PredictionHorizon
+         * @description The time that each tolerance predicts.
+         */
+        PredictionHorizon: {
+            /** Points */
+            points: components["schemas"]["PredictedSpan"][];
+            /**
+             * Per Digit
+             * @description seconds that one more digit buys (least squares)
+             */
+            per_digit: number | null;
+            /**
+             * Known Until
+             * @description how far the motion is known at all
+             */
+            known_until: number;
+        } & {
+            [key: string]: unknown;
         };
         /**
          * ProblemEntry
@@ -2453,6 +3295,45 @@ export interface components {
             lang?: ("de" | "en") | null;
         };
         /**
+         * ReferenceMotion
+         * @description The motion that errors were measured against: two unlike methods of high order agree on it.
+         */
+        ReferenceMotion: {
+            /** Methods */
+            methods: string[];
+            /**
+             * Error
+             * @description in the measure of a tolerance: absolute below 1, relative above
+             */
+            error: number;
+            /**
+             * T
+             * @description how far it is known, in seconds
+             */
+            t: number;
+            /**
+             * Complete
+             * @description whether that is the whole span
+             */
+            complete: boolean;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * Refusal
+         * @description Why there is no such model.
+         */
+        Refusal: {
+            /** Code */
+            code: string;
+            /** Parameters */
+            parameters: {
+                [key: string]: string | number;
+            };
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * RouthFunction
          * @description L − Σ p q̇ over the cyclic coordinates, whose constant momenta it holds instead of their rates.
          */
@@ -2474,6 +3355,44 @@ export interface components {
             momenta: {
                 [key: string]: string;
             };
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * RungGrowth
+         * @description How the error of a model grows with the amplitude: error ∝ amplitude^slope.
+         */
+        RungGrowth: {
+            /**
+             * Rung
+             * @description its id
+             */
+            rung: string;
+            /**
+             * Relative
+             * @description the error for each of the amplitudes
+             */
+            relative: (number | null)[];
+            /** Slope */
+            slope: number | null;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * RungOperations
+         * @description The arithmetic of one right-hand side.
+         */
+        RungOperations: {
+            /** Additions */
+            additions: number;
+            /** Multiplications */
+            multiplications: number;
+            /** Functions */
+            functions: number;
+            /** Solving */
+            solving: number;
+            /** Total */
+            total: number;
         } & {
             [key: string]: unknown;
         };
@@ -3055,6 +3974,47 @@ export interface components {
             [key: string]: unknown;
         };
         /**
+         * SecondIndicator
+         * @description A witness that sees the motion alone.
+         */
+        SecondIndicator: {
+            /**
+             * Name
+             * @constant
+             */
+            name: "0-1 test";
+            /**
+             * Value
+             * @description K: near 0 regular, near 1 chaotic; null where it was not asked
+             */
+            value: number | null;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * Simplification
+         * @description One thing that is left out.
+         */
+        Simplification: {
+            /**
+             * Kind
+             * @example frozen
+             */
+            kind: string;
+            /**
+             * Parameters
+             * @description what it is done to
+             * @example {
+             *       "coordinate": "y"
+             *     }
+             */
+            parameters: {
+                [key: string]: string;
+            };
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * SimulationAnswer
          * @description The trajectory at the samples that were reached; parts that were not asked for are missing.
          */
@@ -3235,7 +4195,7 @@ export interface components {
              * @default []
              * @example []
              */
-            include?: string[];
+            include?: ("coordinates" | "rates" | "positions" | "loads" | "energy" | "error")[];
             /**
              * Columns
              * @description how arrays are written; base64: little-endian doubles, components of a vector together
@@ -3371,6 +4331,161 @@ export interface components {
              * @description language of the texts; else Accept-Language decides
              */
             lang?: ("de" | "en") | null;
+        };
+        /**
+         * StabilityAnswer
+         * @description The scene's eigenvalues, the step at which each method fails, and what a stiffness costs.
+         */
+        StabilityAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Eigenvalues
+             * @description [Re λ, Im λ] in 1/s
+             */
+            eigenvalues: number[][];
+            /**
+             * At
+             * @description where the scene was to be linearized
+             * @enum {string}
+             */
+            at: "state" | "rest";
+            /**
+             * Rest
+             * @description whether it rests there
+             */
+            rest: boolean;
+            /**
+             * Varies
+             * @description how much the linearization changes along the motion
+             */
+            varies: number;
+            /** Methods */
+            methods: components["schemas"]["FailingStep"][];
+            /**
+             * Stiffness
+             * @description the parameter of the series; empty where there is none
+             */
+            stiffness: string;
+            /** Series */
+            series: components["schemas"]["StiffRun"][];
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * StabilityMapAnswer
+         * @description The largest Floquet multiplier at each point of a plane.
+         */
+        StabilityMapAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            x: components["schemas"]["MapSide"];
+            y: components["schemas"]["MapSide"];
+            /**
+             * Growth
+             * @description |μ|, row by row; null where there is none
+             */
+            growth: (number | null)[][];
+            /**
+             * Stable
+             * @description the part of the plane where nothing grows
+             */
+            stable: number;
+            /**
+             * Time
+             * @description seconds that the map took
+             */
+            time: number;
+        } & {
+            [key: string]: unknown;
         };
         /**
          * StabilityMapRequest
@@ -3652,6 +4767,38 @@ export interface components {
             sources: string[];
             /** Substeps */
             substeps: components["schemas"]["Step"][];
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * StiffRun
+         * @description What a tolerance costs at some stiffness.
+         */
+        StiffRun: {
+            /** Method */
+            method: string;
+            /**
+             * Factor
+             * @description of the stiffness
+             */
+            factor: number;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps";
+            /**
+             * Evaluations
+             * @description of the right-hand side
+             */
+            evaluations: number;
+            /**
+             * Time
+             * @description seconds
+             */
+            time: number;
+            /** Error */
+            error: number | null;
         } & {
             [key: string]: unknown;
         };
@@ -3969,6 +5116,18 @@ export interface components {
             [key: string]: unknown;
         };
         /**
+         * TwinRuns
+         * @description The distance of two motions that begin close to each other.
+         */
+        TwinRuns: {
+            /** T */
+            t: number[];
+            /** Distance */
+            distance: number[];
+        } & {
+            [key: string]: unknown;
+        };
+        /**
          * ValueFunctional
          * @description The functional that takes the value of the expression at an instant: I(x) = x(t₀).
          */
@@ -4221,6 +5380,84 @@ export interface components {
             version: string;
             /** Source */
             source: string;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * WorkPrecisionAnswer
+         * @description Errors over times and over right-hand sides, and which method is the cheapest for each error.
+         */
+        WorkPrecisionAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            reference: components["schemas"]["ReferenceMotion"];
+            machine: components["schemas"]["Machine"];
+            /**
+             * Repeats
+             * @description how often a run was measured at most
+             */
+            repeats: number;
+            /**
+             * Points
+             * @description every run, also one that failed
+             */
+            points: components["schemas"]["MethodRun"][];
+            /**
+             * Orders
+             * @description by method, p of error ∝ evaluations^−p where it shows
+             */
+            orders: {
+                [key: string]: number;
+            };
+            /**
+             * Cheapest
+             * @description for errors from 0.1 down, as far as any run came
+             */
+            cheapest: components["schemas"]["CheapestRun"][];
         } & {
             [key: string]: unknown;
         };
