@@ -147,7 +147,7 @@ def test_help_lists_the_settings(arguments: list[str]) -> None:
     assert re.search(r"\n  DELTAQ_QUEUE_LENGTH +jobs that may wait before others are refused \[1024\]\n", ended.stdout)
 
 
-@pytest.mark.parametrize("module", ["fastapi", "uvicorn", "sympy", "numpy", "asyncio"])
+@pytest.mark.parametrize("module", ["fastapi", "pydantic", "uvicorn", "sympy", "numpy", "asyncio"])
 def test_command_line_itself_loads_nothing_heavy(module: str) -> None:
     code = f"import deltaq.cli, sys; sys.exit({module!r} in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
