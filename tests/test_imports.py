@@ -15,7 +15,7 @@ MAY_KNOW = {
     "language": set(),
     "mechanics": {"language"},
     "derivation": {"language", "mechanics"},
-    "narration": {"language", "mechanics", "derivation"},
+    "narration": {"language", "mechanics", "derivation", "contract"},
     "model": {"language", "mechanics"},
     "contract": set(),
     "simulation": {"language", "mechanics", "model", "contract"},

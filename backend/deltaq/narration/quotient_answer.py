@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import cast
 
 import sympy as sp
 
+from ..contract.variation import Numeric
 from ..derivation.difference_quotient import SIZES, Quotients, compare
 from ..derivation.functional import Functional
 from ..derivation.functional_values import Motion, line_of
@@ -22,18 +22,14 @@ from .variation_request import Question
 Document = dict[str, object]
 
 
-def quotient_answer(question: Question, document: Mapping[str, object]) -> Document:
-    """`numeric`: {functions: {x: text}, direction: {x: text}, t?, parameters?} → h, quotients, errors' parts, curves.
-
-    Keys of `direction` are the functions' names. Raises RequestError for what is missing or has no value.
-    """
+def quotient_answer(question: Question, numeric: Numeric | None) -> Document:
+    """Concrete functions → h, quotients, errors' parts, curves. RequestError for what is missing or has no value."""
     functional = question.functional
-    numeric = cast("Mapping[str, object] | None", document.get("numeric"))
     if numeric is None:
         raise RequestError(Problem("missing-field", "/numeric", parameters={"field": "numeric"}))
     if len(functional.trees) > 1:
         raise RequestError(Problem("not-scalar", "/expression"))
-    motion, time = _motion(functional, numeric), cast("float", numeric.get("t") or 0.0)
+    motion, time = _motion(functional, numeric), numeric.t
     compared = compare(line_of(functional, motion, time))
     if not (math.isfinite(compared.value) and math.isfinite(compared.derivative)):
         raise RequestError(Problem("value-undefined", "/numeric"))
@@ -42,9 +38,9 @@ def quotient_answer(question: Question, document: Mapping[str, object]) -> Docum
     return {"value": compared.value, "derivative": compared.derivative, "h": list(SIZES), **kinds, "curves": drawn}
 
 
-def _motion(functional: Functional, numeric: Mapping[str, object]) -> Motion:
+def _motion(functional: Functional, numeric: Numeric) -> Motion:
     names = Names(tuple(s for s in functional.names.symbols if s.kind == "parameter"))
-    given = cast("Mapping[str, float]", numeric.get("parameters") or {})
+    given = numeric.parameters
     wanted = {symbol.name for symbol in names.symbols if symbol.kind == "parameter"}
     problems = [
         *(
@@ -58,13 +54,13 @@ def _motion(functional: Functional, numeric: Mapping[str, object]) -> Motion:
     ]
     if problems:
         raise RequestError(*problems)
-    functions, directions = (_functions(functional, numeric, part, names) for part in ("functions", "direction"))
-    return Motion(functions, directions, {name: float(value) for name, value in given.items()})
+    functions = _functions(functional, numeric.functions, "functions", names)
+    directions = _functions(functional, numeric.direction, "direction", names)
+    return Motion(functions, directions, given)
 
 
-def _functions(functional: Functional, numeric: Mapping[str, object], part: str, names: Names) -> dict[str, sp.Expr]:
+def _functions(functional: Functional, texts: Mapping[str, str], part: str, names: Names) -> dict[str, sp.Expr]:
     """Each function as an expression of the time."""
-    texts = cast("Mapping[str, str]", numeric[part])
     return {x: _function(texts, x, f"/numeric/{part}/{x}", names) for x in functional.functions}
 
 

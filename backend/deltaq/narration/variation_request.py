@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import cast
 
-from ..derivation.domain import Ends, Instant, Interval
+from ..contract.variation import IntegralFunctional, NamedFunction, ValueFunctional, VariationRequest
+from ..derivation.domain import Instant, Interval
 from ..derivation.functional import Functional
 from ..errors import ExpressionError, InputError, Problem, RequestError
 from ..language.expression import Expression
@@ -15,8 +15,6 @@ from ..language.parser import Syntax, parse
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..language.tree import Node, Rate, Vector, walk
-
-Document = Mapping[str, object]
 
 
 @dataclass(frozen=True)
@@ -27,12 +25,11 @@ class Question:
     directions: Mapping[str, str]
 
 
-def read_question(document: Document) -> Question:
-    """The question of a request {expression, syntax?, functions, direction?, parameters?, functional?}."""
-    names = _names(document)
-    syntax = cast("Syntax", document.get("syntax") or "plain")
-    tree = _parsed(str(document["expression"]), names, syntax, "/expression").tree
-    domain = _domain(cast("Document | None", document.get("functional")), names, syntax)
+def read_question(asked: VariationRequest) -> Question:
+    """The question of a request. Raises RequestError for names and expressions that cannot be read."""
+    names = _names(asked)
+    tree = _parsed(asked.expression, names, asked.syntax, "/expression").tree
+    domain = _domain(asked.functional, names, asked.syntax)
     components = tree.components if isinstance(tree, Vector) else (tree,)
     problems = [*_component_problems(components, domain)]
     if problems:
@@ -41,17 +38,18 @@ def read_question(document: Document) -> Question:
     if not functional.along:
         known = ", ".join(names.coordinates)
         raise RequestError(Problem("nothing-varied", "/expression", parameters={"names": known}))
-    return Question(functional, _directions(document, names))
+    return Question(functional, _directions(asked.direction, names))
 
 
-def _names(document: Document) -> Names:
+def _names(asked: VariationRequest) -> Names:
     """Functions behave like coordinates. Raises RequestError for names that cannot be or are taken."""
     symbols: list[Symbol] = []
     problems: list[Problem] = []
-    for field, kind in (("functions", "coordinate"), ("parameters", "parameter")):
-        entries = cast("Sequence[object]", document.get(field) or ())
-        for index, entry in enumerate(entries):
-            symbol = _symbol(entry, cast("Kind", kind))
+    for field, wanted in (
+        ("functions", [_symbol(entry, "coordinate") for entry in asked.functions]),
+        ("parameters", [_symbol(entry, "parameter") for entry in asked.parameters]),
+    ):
+        for index, symbol in enumerate(wanted):
             problems += _name_problems(symbol.name, symbols, f"/{field}/{index}")
             symbols.append(symbol)
     if problems:
@@ -59,9 +57,8 @@ def _names(document: Document) -> Names:
     return Names(tuple(symbols))
 
 
-def _symbol(entry: object, kind: Kind) -> Symbol:
-    given = entry if isinstance(entry, Mapping) else {"name": entry}
-    return Symbol(str(given["name"]), kind, str(given.get("latex") or ""))
+def _symbol(entry: str | NamedFunction, kind: Kind) -> Symbol:
+    return Symbol(entry, kind) if isinstance(entry, str) else Symbol(entry.name, kind, entry.latex or "")
 
 
 def _name_problems(name: str, known: Sequence[Symbol], pointer: str) -> Iterator[Problem]:
@@ -73,9 +70,8 @@ def _name_problems(name: str, known: Sequence[Symbol], pointer: str) -> Iterator
         yield from (problem.below(pointer) for problem in error.problems)
 
 
-def _directions(document: Document, names: Names) -> Mapping[str, str]:
+def _directions(given: Sequence[str], names: Names) -> Mapping[str, str]:
     """Each function with the name of its direction."""
-    given = [str(name) for name in cast("Sequence[object]", document.get("direction") or ())]
     if not given:
         return dict.fromkeys(names.coordinates, "")
     if len(given) != len(names.coordinates):
@@ -120,22 +116,24 @@ def _order_problems(integrand: Node) -> Iterator[Problem]:
         )
 
 
-def _domain(document: Document | None, names: Names, syntax: Syntax) -> Instant | Interval | None:
+def _domain(
+    asked: ValueFunctional | IntegralFunctional | None, names: Names, syntax: Syntax
+) -> Instant | Interval | None:
     """Where the functional looks: an instant, an interval, or anywhere."""
-    if document is None:
+    if asked is None:
         return None
-    if document["kind"] == "value":
-        return Instant(_constant(document, "at", names, syntax))
-    lower, upper = (_constant(document, end, names, syntax) for end in ("from", "to"))
+    if isinstance(asked, ValueFunctional):
+        return Instant(_constant(asked.at, "at", names, syntax))
+    lower, upper = (_constant(asked.start, "from", names, syntax), _constant(asked.to, "to", names, syntax))
     if lower == upper:
         raise RequestError(Problem("empty-interval", "/functional/to"))
-    return Interval(lower, upper, cast("Ends", document.get("ends") or "fixed"))
+    return Interval(lower, upper, asked.ends)
 
 
-def _constant(document: Document, field: str, names: Names, syntax: Syntax) -> Node:
+def _constant(text: str, field: str, names: Names, syntax: Syntax) -> Node:
     """An instant: a number or an expression of parameters."""
     pointer = f"/functional/{field}"
-    expression = _parsed(str(document[field]), names, syntax, pointer)
+    expression = _parsed(text, names, syntax, pointer)
     moving = sorted(expression.names & {*names.coordinates, "t"})
     if moving:
         raise RequestError(Problem("instant-not-constant", pointer, parameters={"name": moving[0]}))

@@ -5,10 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from typing import cast
 
 import sympy as sp
 
+from ..contract.reading import read
+from ..contract.variation import VariationRequest
 from ..derivation.differential_expression import direction
 from ..derivation.domain import Instant, Interval
 from ..derivation.formula import Explicit, Formula
@@ -19,7 +20,7 @@ from ..errors import ExpressionError, Problem, RequestError
 from ..language.names import Names
 from ..language.plain_printer import plain
 from ..language.spelling import latex_of, spell_rate
-from .catalog import language_in
+from .catalog import language_of
 from .function_notation import FunctionNotation, FunctionSymbols, FunctionTypography
 from .marks import Wrap, in_class, unmarked
 from .narrator import Narrator
@@ -33,12 +34,10 @@ Document = dict[str, object]
 def vary_request(document: Mapping[str, object]) -> Document:
     """The first variation of what the request names. Raises InputError for what cannot be read.
 
-    `document`: {expression, syntax?, functions, direction?, parameters?, functional?, include?, numeric?, lang?},
-    already checked for types. `functional` is {kind: "value", at} or {kind: "integral", from, to, ends}, where the ends
-    are "fixed" or "free", or one of both, the lower first: "fixed-free".
+    `document`: the fields of a VariationRequest.
     """
-    question = read_question(document)
-    language = language_in(document)
+    asked = read(VariationRequest, document)
+    question, language = read_question(asked), language_of(asked.lang)
     try:
         derivation = vary(question.functional)
     except ExpressionError as error:
@@ -52,8 +51,8 @@ def vary_request(document: Mapping[str, object]) -> Document:
         "chapters": Narrator(language, _notation(question, in_class)).chapters(derivation),
         "result": _result(question, clean),
     }
-    if "quotient" in cast("list[str]", document.get("include") or []):
-        answer["quotient"] = quotient_answer(question, document)
+    if "quotient" in asked.include:
+        answer["quotient"] = quotient_answer(question, asked.numeric)
     return answer
 
 
