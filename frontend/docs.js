@@ -40,7 +40,7 @@ function update() {
   const { place, catalog, groups } = get();
   dressed(place, dark.matches);
   if (!catalog.page) return;
-  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.reference) });
+  const t = translator({ ...catalog.page, ...catalog.reference });
   document.title = `δq · ${t("place.docs")}`;
   const session = { language: speech.speak, move: mover(store) };
   const choose = (/** @type {string} */ sample) => set({ sample });

@@ -1,6 +1,14 @@
 import type katexModule from "katex";
 
 declare global {
+  /** What comes from outside is not known until somebody has looked. */
+  interface JSON {
+    parse(text: string): unknown;
+  }
+  interface Body {
+    json(): Promise<unknown>;
+  }
+
   /** Set by the classic script vendor/katex/dist/katex.min.js (half the bytes of its ES module). */
   var katex: typeof katexModule;
 

@@ -50,7 +50,7 @@ function update() {
   const { place, catalog, scene, trajectory, substeps } = store.get();
   dressed(place, dark.matches);
   if (!catalog.page) return;
-  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture) });
+  const t = translator({ ...catalog.page, ...catalog.lecture });
   const own = [proof && `${PROVING}=${encodeURIComponent(proof)}`, substeps ? "" : `${SUBSTEPS}=no`].filter(Boolean);
   const shared = writePlace(place);
   const address = `${location.pathname}${shared}${own.length ? `${shared ? "&" : "?"}${own.join("&")}` : ""}${location.hash}`;

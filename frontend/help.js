@@ -25,9 +25,9 @@ function update() {
   dressed(place, dark.matches);
   if (!catalog.page) return;
   const t = translator({
-    .../** @type {object} */ (catalog.page),
-    .../** @type {object} */ (catalog.lecture),
-    .../** @type {object} */ (catalog.guide),
+    ...catalog.page,
+    ...catalog.lecture,
+    ...catalog.guide,
   });
   document.title = `δq · ${t("place.help")}`;
   const session = { language: speech.speak, move: mover(store) };

@@ -55,7 +55,7 @@ let classroom = null;
 const staging = createStaging(root, clock);
 const reach = createReach(root);
 
-/** @param {string} lang */
+/** @param {import("./model/types.js").Lang} lang */
 async function speak(lang) {
   exercise.move({ lang });
   const catalog = await api.catalog(lang, "exercises").catch(() => null);
@@ -64,7 +64,7 @@ async function speak(lang) {
 
 const session = {
   move: exercise.move,
-  /** @param {string} lang */
+  /** @param {import("./model/types.js").Lang} lang */
   async language(lang) {
     set({ marked: null });
     await Promise.all([speak(lang), exercise.load()]);
@@ -130,7 +130,7 @@ function view() {
     classroom,
     keys: offered.keys,
     shortcuts: offered.shortcuts,
-    t: translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.exercises) }),
+    t: translator({ ...catalog.page, ...catalog.exercises }),
     draftOf: (key) => (key === entry?.key ? state.draft : progress.draft(key)),
     ownStep: (step) => (state.own ? stepAddress(OWN, step, state.asked.place) + fragment : ""),
     link: (patch) => location.pathname + writeAsked({ ...state.asked, ...patch }) + (own() ? fragment : ""),

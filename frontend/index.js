@@ -26,7 +26,7 @@ const motions = createMotions(samples.ask, { still: () => still.matches, always:
 
 const move = mover(store);
 
-/** @param {string} lang */
+/** @param {import("./model/types.js").Lang} lang */
 async function language(lang) {
   move({ lang });
   const catalog = await api.catalog(lang, "start").catch(() => null);
@@ -37,7 +37,7 @@ function update() {
   const { place, catalog, scenes } = get();
   dressed(place, dark.matches);
   if (!catalog.page) return;
-  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.start) });
+  const t = translator({ ...catalog.page, ...catalog.start });
   document.title = t("title");
   render(page({ state: { place }, session: { language, move }, scenes, t }), root);
   motions.watch(root);

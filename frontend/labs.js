@@ -15,7 +15,7 @@ import {
 } from "./model/labs/question.js";
 import { experiment, file } from "./model/labs/stream.js";
 import { createWatch, motionOf, written } from "./model/labs/watch.js";
-import { completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
+import { asTyped, completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { createStore, mover } from "./model/store.js";
 import { caveatsOf } from "./model/trajectory.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
@@ -28,7 +28,7 @@ import { createMotion } from "./view/labs/motion.js";
 import { page, showOpen } from "./view/labs/page.js";
 import { createCharts } from "./view/labs/plotly.js";
 
-/** @typedef {import("./model/labs/stream.js").Chart} Chart */
+/** @typedef {import("./model/labs/chart.js").Chart} Chart */
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -49,7 +49,7 @@ const move = mover(store);
 const lang = () => get().place.lang;
 
 /** A scene for a request: its id, or the viewer's own as a document. @param {string} id */
-const documentOf = (id) => (id === OWN && own ? own : id);
+const documentOf = (id) => (id === OWN && own ? asTyped(own) : id);
 
 const bench = createBench(
   {
@@ -96,7 +96,7 @@ function watch(wish) {
 }
 
 /** @param {string} name */
-const section = (name) => /** @type {Record<string, unknown>} */ (get().catalog[name] ?? {});
+const section = (name) => get().catalog[name] ?? {};
 /** Every experiment that there are words for, in their order. */
 const labs = () => Object.keys(/** @type {{experiments?: object}} */ (section("labs")).experiments ?? {});
 const speech = () => translator({ ...section("page"), labs: section("labs"), ladder: section("ladder") });
@@ -134,15 +134,13 @@ async function fetchFile(accept) {
   );
 }
 
-/** A rung as a scene of its own. @param {object} scene */
+/** A rung as a scene of its own. @param {import("./model/own.js").SceneDocument} scene */
 async function open(scene) {
   const { lang, theme } = get().place;
-  location.assign(
-    `/scene${writePlace({ ...HOME, lang, theme })}${await fragmentOf(/** @type {import("./model/own.js").SceneDocument} */ (scene))}`,
-  );
+  location.assign(`/scene${writePlace({ ...HOME, lang, theme })}${await fragmentOf(scene)}`);
 }
 
-/** @param {string} wanted */
+/** @param {import("./model/types.js").Lang} wanted */
 async function speak(wanted) {
   move({ lang: wanted });
   const catalog = await api.catalog(wanted, "labs", "ladder", "methods").catch(() => null);
@@ -151,7 +149,7 @@ async function speak(wanted) {
 
 const session = {
   move,
-  /** @param {string} wanted */
+  /** @param {import("./model/types.js").Lang} wanted */
   async language(wanted) {
     await speak(wanted);
     void bench.retell();

@@ -64,7 +64,7 @@ function update() {
   const { place, catalog } = get();
   dressed(place, dark.matches);
   if (!catalog.page || !catalog.lecture) return;
-  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.lecture) });
+  const t = translator({ ...catalog.page, ...catalog.lecture });
   document.title = `δq · ${t("presenter")}`;
   render(page({ ...get(), state: { place }, session: actions, t }), root);
   history.replaceState(

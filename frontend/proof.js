@@ -36,7 +36,7 @@ const reach = createReach(root);
 /** @returns {import("./model/catalog.js").Translate} */
 function texts() {
   const { page: everywhere = {}, lecture: here = {} } = store.get().catalog;
-  return translator({ .../** @type {object} */ (everywhere), .../** @type {object} */ (here) });
+  return translator({ ...everywhere, ...here });
 }
 
 const lecture = createLater(async () => {

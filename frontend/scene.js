@@ -49,12 +49,12 @@ async function present() {
   (await aside.lecture.want()).present();
 }
 
-/** @returns {import("./view/page.js").View} */
 function view() {
   const state = store.get();
-  const section = (/** @type {string} */ name) => /** @type {Record<string, unknown>} */ (state.catalog[name] ?? {});
+  const section = (/** @type {string} */ name) => state.catalog[name] ?? {};
   const methods = translator(section("methods"));
-  return {
+  /** @type {import("./view/page.js").View} */
+  const view = {
     state,
     session,
     clock,
@@ -62,7 +62,6 @@ function view() {
     scrub: motion.scrub,
     setSpeed: (speed) => session.move({ speed }),
     instruments: motion.instruments,
-    why: motion.instruments?.why,
     fullscreen: toggleFullscreen,
     enterLecture,
     editor: aside.editor.part,
@@ -79,6 +78,7 @@ function view() {
     follow,
     reload: () => void session.start(state.place),
   };
+  return { ...view, why: motion.instruments?.why(view) };
 }
 
 function update() {

@@ -90,7 +90,7 @@ function update() {
   const { place, catalog, call, draft } = get();
   dressed(place, dark.matches);
   if (!catalog.page) return;
-  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.reference) });
+  const t = translator({ ...catalog.page, ...catalog.reference });
   document.title = `δq · ${t("trial")}`;
   const session = { language: speech.speak, move: mover(store) };
   render(page({ ...get(), ...actions, state: { place }, session, t }), root);

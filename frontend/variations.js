@@ -34,7 +34,7 @@ const lab = createLab(
 
 const move = mover(store);
 
-/** @param {string} lang */
+/** @param {import("./model/types.js").Lang} lang */
 async function speak(lang) {
   move({ lang });
   const catalog = await api.catalog(lang, "variations").catch(() => null);
@@ -53,7 +53,7 @@ const session = {
   move,
   goTo,
   go() {},
-  /** @param {string} lang */
+  /** @param {import("./model/types.js").Lang} lang */
   async language(lang) {
     await speak(lang);
     lab.again();
@@ -98,7 +98,7 @@ function update() {
   const { place, catalog } = get();
   dressed(place, dark.matches);
   if (!catalog.page) return;
-  const t = translator({ .../** @type {object} */ (catalog.page), .../** @type {object} */ (catalog.variations) });
+  const t = translator({ ...catalog.page, ...catalog.variations });
   document.title = `δq · ${t("place.variations")}`;
   render(page({ state: { place }, asking: lab.get(), lab, session, t, link, follow, size: chartSize() }), root);
   observe();

@@ -1,6 +1,12 @@
 /** The API as functions; every failure comes back as an `ApiError` whose `failure` can be shown as sentences. */
 
+import { tableOf } from "./own.js";
+
 /** @typedef {import("./types.js").Failure} Failure */
+/** @typedef {import("./types.js").Lang} Lang */
+/** @template {string} P @typedef {import("./types.js").Sent<P>} Sent */
+/** @template {string} P @typedef {import("./types.js").Answered<P>} Answered */
+/** @template {string} P @typedef {import("./types.js").Got<P>} Got */
 
 export class ApiError extends Error {
   /** @param {Failure} failure */
@@ -19,15 +25,18 @@ const UNREACHABLE = { title: "", detail: "", problems: [], status: 0 };
  * @returns {Failure}
  */
 export function failureOf(status, body) {
-  const given = /** @type {Record<string, unknown>} */ (body && typeof body === "object" ? body : {});
+  const given = tableOf(body) ?? {};
   const problems = Array.isArray(given.problems) ? given.problems : [];
   return {
     status,
     title: typeof given.title === "string" ? given.title : "",
     detail: typeof given.detail === "string" ? given.detail : "",
-    problems: problems.filter((problem) => typeof problem?.message === "string"),
+    problems: problems.filter(isProblem),
   };
 }
+
+/** @param {unknown} one @returns {one is import("./types.js").Problem} */
+const isProblem = (one) => typeof tableOf(one)?.message === "string";
 
 const PAUSE = 1000;
 const LONGEST = 8000;
@@ -49,7 +58,7 @@ const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 /**
  * The same call, asked again until it answers: without its texts a page has nothing to say, not even what is wrong.
  * What the server refuses it will refuse again.
- * @template {any[]} A @template R
+ * @template {unknown[]} A @template R
  * @param {(...given: A) => Promise<R>} call @param {typeof pause} wait @returns {(...given: A) => Promise<R>}
  */
 function insistent(call, wait) {
@@ -75,7 +84,7 @@ function insistent(call, wait) {
  * @param {string} [base]
  */
 export function createApi(send, wait = pause, base = "/api/v1") {
-  /** @param {string} path @param {RequestInit} [options] */
+  /** What is answered is taken to be as the API describes it. @template A @param {string} path @param {RequestInit} [options] @returns {Promise<A>} */
   async function call(path, options) {
     const response = await send(base + path, options).catch((error) => {
       if (error?.name === "AbortError") throw error;
@@ -83,44 +92,43 @@ export function createApi(send, wait = pause, base = "/api/v1") {
     });
     const body = await response.json().catch(() => null);
     if (!response.ok || body === null) throw new ApiError(failureOf(response.status, body));
-    return body;
+    return /** @type {A} */ (body);
   }
 
-  /** @param {string} path @param {object} body @param {AbortSignal} [signal] */
-  const post = (path, body, signal) =>
-    call(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body), signal });
+  /** @template A @param {string} path @param {string} type @param {string} body @param {AbortSignal} [signal] @returns {Promise<A>} */
+  const put = (path, type, body, signal) =>
+    call(path, { method: "POST", headers: { "content-type": type }, body, signal });
+
+  /** @template {string} P @param {P} path @param {Sent<P>} body @param {AbortSignal} [signal] @returns {Promise<Answered<P>>} */
+  const post = (path, body, signal) => put(path, "application/json", JSON.stringify(body), signal);
 
   return {
     post,
-    /** @param {{summaries?: boolean}} [options] @returns {Promise<{scenes: import("./types.js").SceneEntry[]}>} */
+    /** @param {{summaries?: boolean}} [options] @returns {Promise<Got<"/scenes">>} */
     scenes: ({ summaries = false } = {}) => call(`/scenes?summaries=${summaries}`),
-    /** @param {string} id @param {string} lang of what may go wrong @param {number} [n] members of a chain, 0 for the usual @returns {Promise<import("./types.js").Scene>} */
+    /** @param {string} id @param {Lang} lang of what may go wrong @param {number} [n] members of a chain, 0 for the usual @returns {Promise<import("./types.js").Scene>} */
     scene: (id, lang, n = 0) => call(`/scenes/${encodeURIComponent(id)}?lang=${lang}${n ? `&n=${n}` : ""}`),
-    /** OpenAPI @returns {Promise<Record<string, any>>} */
+    /** OpenAPI @returns {Promise<import("./reference.js").Description>} */
     description: () => call("/openapi.json"),
-    /** @returns {Promise<{methods: import("./types.js").Method[]}>} */
+    /** @returns {Promise<Got<"/methods">>} */
     methods: () => call("/methods"),
-    /** @param {string} lang @param {string[]} sections  besides those of every page @returns {Promise<import("./types.js").Catalog>} */
+    /** @type {(lang: Lang, ...sections: string[]) => Promise<import("./types.js").Catalog>} `sections` besides those of every page */
     catalog: insistent((lang, ...sections) => call(`/catalogs/${lang}?sections=${["page", ...sections]}`), wait),
-    /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Derivation>} */
+    /** @param {Sent<"/derivations">} body @param {AbortSignal} [signal] */
     derive: (body, signal) => post("/derivations", body, signal),
-    /** @param {object} scene @param {string} lang @param {AbortSignal} [signal] @returns {Promise<{valid: boolean, problems: import("./types.js").Problem[]}>} */
-    validate: (scene, lang, signal) => post(`/scenes/validate?lang=${lang}`, scene, signal),
-    /** @param {string} text @param {string} lang @returns {Promise<{scene: import("./own.js").SceneDocument}>} */
-    readToml: (text, lang) =>
-      call(`/scenes/toml?lang=${lang}`, {
-        method: "POST",
-        headers: { "content-type": "application/toml" },
-        body: text,
-      }),
-    /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<{expressions: {latex: string}[]}>} */
+    /** @param {import("./own.js").SceneDocument} scene @param {Lang} lang @param {AbortSignal} [signal] @returns {Promise<Answered<"/scenes/validate">>} */
+    validate: (scene, lang, signal) =>
+      put(`/scenes/validate?lang=${lang}`, "application/json", JSON.stringify(scene), signal),
+    /** @param {string} text @param {Lang} lang @returns {Promise<Answered<"/scenes/toml">>} */
+    readToml: (text, lang) => put(`/scenes/toml?lang=${lang}`, "application/toml", text),
+    /** @param {Sent<"/expressions/batch">} body @param {AbortSignal} [signal] */
     typeset: (body, signal) => post("/expressions/batch", body, signal),
-    /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<any>} */
-    vary: (body, signal) => post("/variations", body, signal),
-    /** @param {string} id @param {string} lang @returns {Promise<import("./types.js").Derivation>} */
+    /** @param {Sent<"/variations">} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Variation>} */
+    vary: (body, signal) => put("/variations", "application/json", JSON.stringify(body), signal),
+    /** @param {string} id @param {Lang} lang @returns {Promise<Got<"/proofs/{identifier}">>} */
     proof: (id, lang) => call(`/proofs/${id}?lang=${lang}`),
-    /** @param {object} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Trajectory>} */
-    simulate: (body, signal) => post("/simulations", body, signal),
+    /** @param {Sent<"/simulations">} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Trajectory>} */
+    simulate: (body, signal) => put("/simulations", "application/json", JSON.stringify(body), signal),
   };
 }
 

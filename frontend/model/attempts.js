@@ -2,6 +2,9 @@
 
 import { ApiError } from "./api.js";
 
+/** What the server found wrong; nothing, where it could not be asked. @param {unknown} error */
+export const problemsIn = (error) => (error instanceof ApiError ? error.failure.problems : []);
+
 /** @param {import("./state.js").Store} store @returns {import("./state.js").Attempt} */
 export function createAttempts({ get, set }) {
   /** @param {keyof import("./state.js").State["failures"]} part @param {import("./types.js").Failure | null} failure */

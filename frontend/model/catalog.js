@@ -1,5 +1,7 @@
 /** Texts by key, from the catalogs that the backend shares. */
 
+import { tableOf } from "./own.js";
+
 /** @typedef {(key: string, parameters?: Record<string, string | number>) => string} Translate */
 
 /**
@@ -17,13 +19,10 @@ export function translator(section) {
 
 /** @param {Record<string, unknown>} section @param {string} key */
 function nested(section, key) {
-  return key
-    .split(".")
-    .reduce(
-      /** @param {any} node @param {string} part */ (node, part) =>
-        node && typeof node === "object" ? node[part] : null,
-      /** @type {any} */ (section),
-    );
+  /** @type {unknown} */
+  let node = section;
+  for (const part of key.split(".")) node = tableOf(node)?.[part];
+  return node;
 }
 
 /** @param {string} text @param {Record<string, string | number>} parameters */
@@ -32,17 +31,17 @@ function filled(text, parameters) {
 }
 
 /**
- * The text in the asked language, else in English, else in any.
- * @param {Record<string, string> | undefined} texts @param {string} lang
+ * The text in the asked language, else in English, else in any; one that stands for all languages as it is.
+ * @param {string | Record<string, string> | null | undefined} texts @param {string} lang
  */
 export function inLanguage(texts, lang) {
-  if (!texts) return "";
+  if (!texts || typeof texts === "string") return texts || "";
   return texts[lang] ?? texts.en ?? Object.values(texts)[0] ?? "";
 }
 
 /**
  * What a point, body or load is called: its label, else the word for the kind of what has no name of its own, else the name.
- * @param {Record<string, Record<string, string>> | undefined} labels @param {string} name @param {string} lang @param {Translate} t
+ * @param {import("./types.js").Scene["labels"]} labels @param {string} name @param {string} lang @param {Translate} t
  */
 export function called(labels, name, lang, t) {
   const label = inLanguage(labels?.[name], lang);

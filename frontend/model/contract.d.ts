@@ -3,7 +3,759 @@
  * Do not make direct changes to the file.
  */
 
-export type paths = Record<string, never>;
+export interface paths {
+    "/api/v1/catalogs/{lang}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * All sentences of a language by sections (rules, errors, statuses, page, methods …), or only some sections
+         * @description All sentences of a language by sections (rules, errors, statuses, page, methods …), or only some sections.
+         */
+        get: operations["get_catalog"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/derivations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Derive the equations of motion of a scene, step by step
+         * @description Derive the equations of motion of a scene, step by step.
+         */
+        post: operations["derive"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/derivations/{identifier}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * A derivation that was asked for before
+         * @description A derivation that was asked for before. It never changes; one that is no longer kept must be asked for again.
+         */
+        get: operations["get_derivation"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/chaos": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Twin runs, Lyapunov exponent, and the horizon of prediction against the tolerance
+         * @description Twin runs, Lyapunov exponent, and the horizon of prediction against the tolerance.
+         */
+        post: operations["chaos"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/convergence": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Order of convergence
+         * @description Order of convergence: the error of each method against its step.
+         */
+        post: operations["convergence"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/energy-drift": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Departure of the energy balance over many steps, symplectic methods against others
+         * @description Departure of the energy balance over many steps, symplectic methods against others.
+         *
+         *     The span is the number of steps times the step.
+         */
+        post: operations["energy_drift"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/fidelity": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The least model that will do
+         * @description The least model that will do: simpler models of the scene, each with its cost and its error.
+         */
+        post: operations["fidelity"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/stability": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Regions of stability with the eigenvalues of the scene, steps of failure, and a series over a stiffness
+         * @description Regions of stability with the eigenvalues of the scene, steps of failure, and a series over a stiffness.
+         */
+        post: operations["stability"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/stability-map": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Floquet multipliers over two parameters of a scene that something drives periodically
+         * @description Floquet multipliers over two parameters of a scene that something drives periodically.
+         */
+        post: operations["stability_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/work-precision": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Speed against accuracy
+         * @description Speed against accuracy: the error of each method against time and right-hand sides.
+         */
+        post: operations["work_precision"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/exports/{form}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The derivation as a LaTeX or Markdown file, or a Python program that computes the motion with SciPy
+         * @description The derivation as a LaTeX or Markdown file, or a Python program that computes the motion with SciPy.
+         */
+        post: operations["export_derivation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/expressions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * What a text means
+         * @description What a text means: LaTeX, and plain text that can be read back.
+         */
+        post: operations["typeset"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/expressions/batch": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * What each of several texts means
+         * @description What each of several texts means; one that cannot be read says why and spoils no other.
+         */
+        post: operations["typeset_all"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/health": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Whether the service is alive
+         * @description Whether the service is alive: status, version, workers and cache.
+         */
+        get: operations["health"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/ready": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Whether a request would be computed now
+         * @description Whether a request would be computed now: 503 while no worker is up or the queue is full.
+         */
+        get: operations["ready"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/version": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The version of δq, and a digest of its code, scenes and texts
+         * @description The version of δq, and a digest of its code, scenes and texts; replicas of one digest share a cache.
+         */
+        get: operations["version"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Latencies by route, queue, workers, cache and kernels in the exposition format of Prometheus
+         * @description Latencies by route, queue, workers, cache and kernels in the exposition format of Prometheus.
+         */
+        get: operations["metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scenes/{identifier}/tasks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The tasks of a built-in scene
+         * @description The tasks of a built-in scene.
+         */
+        get: operations["list_tasks_of_scene"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tasks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The tasks of a scene that the request brings or changes
+         * @description The tasks of a scene that the request brings or changes.
+         */
+        post: operations["list_tasks"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tasks/stack": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Tasks as questions of STACK (Moodle XML)
+         * @description Tasks as questions of STACK (Moodle XML): input, model answer, feedback tree made of the misconceptions.
+         */
+        post: operations["export_stack"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/assignments": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The tasks of an assignment
+         * @description The tasks of an assignment; with `individual` the seed draws the student's own values.
+         */
+        post: operations["open_assignment"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/checks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check one answer
+         * @description Check one answer: any equivalent form is right, and a mistake is looked for where it is not.
+         */
+        post: operations["check"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/checks/reading": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * What an answer is understood as, while it is written
+         * @description What an answer is understood as, while it is written; without a verdict.
+         */
+        post: operations["read_answer"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/checks/motion": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The scene that moves as an answer says
+         * @description The scene that moves as an answer says: simulated beside the right one, it shows what a mistake does.
+         */
+        post: operations["answered_motion"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tasks/solution": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The right answer to a task
+         * @description The right answer to a task.
+         */
+        post: operations["solve_task"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/checks/lines": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check a whole working line by line
+         * @description Check a whole working line by line: the first mistake, and what follows correctly from it.
+         */
+        post: operations["check_lines"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/checks/batch": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check several answers, of the same or of different scenes
+         * @description Check several answers, of the same or of different scenes. One that takes too long is left undecided.
+         */
+        post: operations["check_batch"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/checks/table": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Mark the answers of a class
+         * @description Mark the answers of a class. Rows come as they are marked where `Accept` asks for text/event-stream.
+         *
+         *     The events: `begun` with the number of `rows`; `row`, as in `rows`, with its `index`; `waiting` with the `seconds`
+         *     until it goes on, where the service is busy; `totals` of what is marked so far; then `result`, which is all but
+         *     `rows`, or `problem`. text/csv gives the table of results. One answer that takes too long is left undecided, and
+         *     without a stream what is not marked within 40 s.
+         *
+         *     A task earns its points once: of several answers of a student the best counts. With a column `line` the rows of a
+         *     student on a scene are a working in the order of these numbers, and what follows correctly from the last answer to
+         *     each task before earns its share. A row that makes no sense says so, with its `row` and `column`.
+         */
+        post: operations["check_table"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/methods": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The integration methods by rising order, titles in the language asked for
+         * @description The integration methods by rising order, titles in the language asked for.
+         */
+        get: operations["list_methods"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/proofs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The proofs there are, titles in the language asked for
+         * @description The proofs there are, titles in the language asked for.
+         */
+        get: operations["list_proofs"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/proofs/{identifier}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * A proof by its id
+         * @description A proof by its id: `dalembert-lagrange` leads from d'Alembert's principle to Lagrange's equations.
+         */
+        get: operations["get_proof"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scenes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The built-in scenes, titles in all languages
+         * @description The built-in scenes, titles in all languages.
+         */
+        get: operations["list_scenes"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scenes/validate": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Whether a scene document describes a mechanical system, and all that is wrong with it
+         * @description Whether a scene document describes a mechanical system, and all that is wrong with it.
+         */
+        post: operations["validate_scene"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scenes/toml": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * A scene document written in TOML, as JSON
+         * @description A scene document written in TOML, as JSON. Whether it describes a mechanical system, `/scenes/validate` says.
+         */
+        post: operations["read_toml_scene"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scenes/{identifier}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The document of a built-in scene, format 1
+         * @description The document of a built-in scene, format 1; of a family the member with `n` links, or its usual one.
+         */
+        get: operations["get_scene"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/simulations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Simulate a scene
+         * @description Simulate a scene. A run that fails is an answer too: it says how far it came, why, and what to do.
+         */
+        post: operations["simulate"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/variations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Vary an expression or functional
+         * @description Vary an expression or functional: by the definition and by the chain rule, each step verified.
+         */
+        post: operations["vary"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+}
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
@@ -15,10 +767,8 @@ export interface components {
             /**
              * Syntax
              * @description how it is written
-             * @default plain
-             * @enum {string}
              */
-            syntax?: "plain" | "latex";
+            syntax?: components["schemas"]["AnswerTextSyntax"];
             /**
              * Value
              * @description the answer
@@ -78,8 +828,6 @@ export interface components {
             parameters?: {
                 [key: string]: number;
             } | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * AssignedTaskEntry
@@ -90,8 +838,6 @@ export interface components {
             /** Symbols */
             symbols: components["schemas"]["TaskSymbol"][];
             task: components["schemas"]["TaskEntry"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * AssignmentAnswer
@@ -106,8 +852,6 @@ export interface components {
             follow_through: number;
             /** Tasks */
             tasks: components["schemas"]["AssignedTaskEntry"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * AssignmentDocument
@@ -141,8 +885,6 @@ export interface components {
              * @description one after the other
              */
             tasks: components["schemas"]["AssignedTaskDocument"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * AssignmentRequest
@@ -195,8 +937,6 @@ export interface components {
         BatchAnswer: {
             /** Verdicts */
             verdicts: components["schemas"]["VerdictAnswer"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * BatchRequest
@@ -253,8 +993,6 @@ export interface components {
             h: number;
             /** Error */
             error: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * BestAnswer
@@ -268,8 +1006,6 @@ export interface components {
             outcome: "correct" | "wrong" | "undecided" | "invalid" | "follow_through";
             /** Points */
             points: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * CacheHealth
@@ -284,8 +1020,6 @@ export interface components {
             hits: number;
             /** Misses */
             misses: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ChaosAnswer
@@ -377,44 +1111,35 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["ChaosRequestParameters"];
             /**
              * Initial
              * @description where the motion begins, by coordinate
-             * @default {}
              * @example {
              *       "phi": {
              *         "value": 0.5
              *       }
              *     }
              */
-            initial?: {
-                [key: string]: components["schemas"]["InitialValue"];
-            };
+            initial?: components["schemas"]["ChaosRequestInitial"];
             /**
              * T End
              * @description seconds of motion
-             * @default 30
              */
             t_end?: number;
             /**
@@ -425,7 +1150,6 @@ export interface components {
             /**
              * Fresh
              * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
-             * @default false
              */
             fresh?: boolean;
             /**
@@ -436,13 +1160,11 @@ export interface components {
             /**
              * Map
              * @description whether to map the times at which angles turn over
-             * @default false
              */
             map?: boolean;
             /**
              * Count
              * @description points on a side of the map
-             * @default 96
              */
             count?: number;
         };
@@ -466,8 +1188,6 @@ export interface components {
             title: string;
             /** Steps */
             steps: components["schemas"]["Step"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Chart
@@ -493,8 +1213,6 @@ export interface components {
             layout: {
                 [key: string]: unknown;
             };
-        } & {
-            [key: string]: unknown;
         };
         /**
          * CheapestRun
@@ -583,27 +1301,22 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["CheckRequestParameters"];
             /**
              * Seed
              * @description draws each student's own parameter values
@@ -621,7 +1334,6 @@ export interface components {
             /**
              * Previous
              * @description the student's own earlier lines: what follows from a wrong one is told
-             * @default []
              */
             previous?: components["schemas"]["AnsweredTask"][];
             /**
@@ -656,8 +1368,6 @@ export interface components {
                     number
                 ];
             };
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ConservedQuantity
@@ -683,8 +1393,6 @@ export interface components {
              * @description of a momentum; else empty
              */
             coordinate: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ConvergenceAnswer
@@ -774,44 +1482,35 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["ConvergenceRequestParameters"];
             /**
              * Initial
              * @description where the motion begins, by coordinate
-             * @default {}
              * @example {
              *       "phi": {
              *         "value": 0.5
              *       }
              *     }
              */
-            initial?: {
-                [key: string]: components["schemas"]["InitialValue"];
-            };
+            initial?: components["schemas"]["ConvergenceRequestInitial"];
             /**
              * T End
              * @description seconds of motion
-             * @default 10
              * @example 10
              */
             t_end?: number;
@@ -823,13 +1522,11 @@ export interface components {
             /**
              * Fresh
              * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
-             * @default false
              */
             fresh?: boolean;
             /**
              * Methods
              * @description methods of GET /methods; all if empty
-             * @default []
              * @example [
              *       "rk4",
              *       "dop853"
@@ -856,8 +1553,6 @@ export interface components {
              * @example phi
              */
             coordinate: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Cost
@@ -889,8 +1584,6 @@ export interface components {
              * @description of the right-hand side, in the run that is returned
              */
             run_evaluations: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * CounterexampleAnswer
@@ -914,8 +1607,6 @@ export interface components {
             yours: number;
             /** Right */
             right: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Curl
@@ -934,8 +1625,6 @@ export interface components {
                 string,
                 string
             ];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Curves
@@ -957,8 +1646,6 @@ export interface components {
             direction: {
                 [key: string]: (number | null)[];
             };
-        } & {
-            [key: string]: unknown;
         };
         /**
          * DerivationAnswer
@@ -986,8 +1673,6 @@ export interface components {
             /** Chapters */
             chapters: components["schemas"]["Chapter"][];
             result: components["schemas"]["DerivationResult"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * DerivationRequest
@@ -1018,34 +1703,27 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["DerivationRequestParameters"];
             /**
              * Formulation
              * @description which road leads to the equations
-             * @default dalembert-lagrange
-             * @enum {string}
              */
-            formulation?: "dalembert-lagrange" | "hamilton";
+            formulation?: components["schemas"]["DerivationRequestFormulation"];
             /**
              * Lang
              * @description language of the texts; else Accept-Language decides
@@ -1098,8 +1776,6 @@ export interface components {
             routh: components["schemas"]["RouthFunction"] | null;
             /** Symbols */
             symbols: components["schemas"]["OwnSymbol"][];
-        } & {
-            [key: string]: unknown;
         };
         Draft: components["schemas"]["SceneId"] | components["schemas"]["SceneDocument"] | {
             [key: string]: unknown;
@@ -1170,8 +1846,6 @@ export interface components {
              * @description in metres, or a parameter by its name
              */
             offset?: number | string | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * DriftLine
@@ -1264,8 +1938,6 @@ export interface components {
              * @description largest departure of the balance from its start
              */
             drift: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * EnergyDriftAnswer
@@ -1361,44 +2033,35 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["EnergyDriftRequestParameters"];
             /**
              * Initial
              * @description where the motion begins, by coordinate
-             * @default {}
              * @example {
              *       "phi": {
              *         "value": 0.5
              *       }
              *     }
              */
-            initial?: {
-                [key: string]: components["schemas"]["InitialValue"];
-            };
+            initial?: components["schemas"]["EnergyDriftRequestInitial"];
             /**
              * T End
              * @description seconds of motion
-             * @default 10
              * @example 10
              */
             t_end?: number;
@@ -1410,13 +2073,11 @@ export interface components {
             /**
              * Fresh
              * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
-             * @default false
              */
             fresh?: boolean;
             /**
              * Methods
              * @description methods of GET /methods; all if empty
-             * @default []
              * @example [
              *       "rk4",
              *       "dop853"
@@ -1426,7 +2087,6 @@ export interface components {
             /**
              * Steps
              * @description how many
-             * @default 100000
              */
             steps?: number;
             /**
@@ -1482,8 +2142,6 @@ export interface components {
              * @description elsewhere
              */
             complex_modes: components["schemas"]["ComplexMode"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * EquilibriumValue
@@ -1502,8 +2160,6 @@ export interface components {
              * @description the value in this scene
              */
             number: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ErrorEstimate
@@ -1529,8 +2185,6 @@ export interface components {
              * @description whether the error stays below it; null where nothing was estimated
              */
             reached: boolean | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * EventAnswer
@@ -1554,8 +2208,6 @@ export interface components {
              * @description null where it was not asked for, or where the event itself is doubtful
              */
             error: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ExponentialReading
@@ -1588,57 +2240,45 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["ExportRequestParameters"];
             /**
              * Initial
              * @description where the motion begins, by coordinate
-             * @default {}
              * @example {
              *       "phi": {
              *         "value": 0.5
              *       }
              *     }
              */
-            initial?: {
-                [key: string]: components["schemas"]["InitialValue"];
-            };
+            initial?: components["schemas"]["ExportRequestInitial"];
             /**
              * T End
              * @description seconds that the program simulates
-             * @default 10
              */
             t_end?: number;
             /**
              * Formulation
              * @description which road leads to the equations
-             * @default dalembert-lagrange
-             * @enum {string}
              */
-            formulation?: "dalembert-lagrange" | "hamilton";
+            formulation?: components["schemas"]["ExportRequestFormulation"];
             /**
              * Substeps
              * @description whether a document tells the substeps, too
-             * @default true
              */
             substeps?: boolean;
             /**
@@ -1662,8 +2302,6 @@ export interface components {
              * @example l*sin(phi)
              */
             plain: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ExpressionOutcome
@@ -1682,8 +2320,6 @@ export interface components {
             plain: string;
             /** Problems */
             problems: components["schemas"]["ProblemEntry"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ExpressionRequest
@@ -1703,14 +2339,11 @@ export interface components {
             /**
              * Syntax
              * @description how it is written
-             * @default plain
-             * @enum {string}
              */
-            syntax?: "plain" | "latex";
+            syntax?: components["schemas"]["ExpressionRequestSyntax"];
             /**
              * Material
              * @description material coordinates that may be used besides
-             * @default []
              * @example []
              */
             material?: string[];
@@ -1739,14 +2372,11 @@ export interface components {
             /**
              * Syntax
              * @description how it is written
-             * @default plain
-             * @enum {string}
              */
-            syntax?: "plain" | "latex";
+            syntax?: components["schemas"]["ExpressionTextSyntax"];
             /**
              * Material
              * @description material coordinates that may be used besides
-             * @default []
              * @example []
              */
             material?: string[];
@@ -1758,8 +2388,6 @@ export interface components {
         ExpressionsAnswer: {
             /** Expressions */
             expressions: components["schemas"]["ExpressionOutcome"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ExpressionsRequest
@@ -1871,8 +2499,6 @@ export interface components {
             max: number;
             /** Value */
             value: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * FidelityAnswer
@@ -1997,44 +2623,35 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["FidelityRequestParameters"];
             /**
              * Initial
              * @description where the motion begins, by coordinate
-             * @default {}
              * @example {
              *       "phi": {
              *         "value": 0.5
              *       }
              *     }
              */
-            initial?: {
-                [key: string]: components["schemas"]["InitialValue"];
-            };
+            initial?: components["schemas"]["FidelityRequestInitial"];
             /**
              * T End
              * @description seconds of motion
-             * @default 10
              * @example 10
              */
             t_end?: number;
@@ -2046,7 +2663,6 @@ export interface components {
             /**
              * Fresh
              * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
-             * @default false
              */
             fresh?: boolean;
             /**
@@ -2101,8 +2717,6 @@ export interface components {
             latex: string;
             /** Terms */
             terms: components["schemas"]["Term"][][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Formula
@@ -2116,8 +2730,6 @@ export interface components {
             plain: string;
             /** Latex */
             latex: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * FrequentMistake
@@ -2138,8 +2750,6 @@ export interface components {
             count: number;
             /** Students */
             students: string[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * GeneralizedForces
@@ -2152,8 +2762,6 @@ export interface components {
             conservative: components["schemas"]["CoordinateSum"][];
             /** Nonconservative */
             nonconservative: components["schemas"]["CoordinateSum"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * GradedRow
@@ -2211,8 +2819,6 @@ export interface components {
             feedback: string;
             /** Answer */
             answer: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * GrowthReadings
@@ -2256,8 +2862,6 @@ export interface components {
             version: string;
             workers: components["schemas"]["WorkerHealth"];
             cache: components["schemas"]["CacheHealth"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * InitialValue
@@ -2302,10 +2906,8 @@ export interface components {
             /**
              * Ends
              * @description whether the functions are prescribed at both ends, or at the lower and at the upper one
-             * @default fixed
-             * @enum {string}
              */
-            ends?: "fixed" | "free" | "fixed-free" | "free-fixed";
+            ends?: components["schemas"]["IntegralFunctionalEnds"];
         };
         /**
          * JacobiEnergy
@@ -2326,8 +2928,6 @@ export interface components {
              * @description whether it is kinetic + potential energy
              */
             equals_energy: boolean;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * LadderRung
@@ -2375,8 +2975,6 @@ export interface components {
             points: number;
             /** Of */
             of: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * LinesRequest
@@ -2408,27 +3006,22 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["LinesRequestParameters"];
             /**
              * Seed
              * @description draws each student's own parameter values
@@ -2440,13 +3033,7 @@ export interface components {
              * @description tasks and answers, one after the other
              */
             lines: components["schemas"]["AnsweredTask"][];
-            /**
-             * @description how points are given
-             * @default {
-             *       "points": {},
-             *       "follow_through": 0.5
-             *     }
-             */
+            /** @description how points are given */
             scheme?: components["schemas"]["PointScheme"];
             /**
              * Lang
@@ -2477,8 +3064,6 @@ export interface components {
             potential: components["schemas"]["Formula"] | null;
             /** Curl */
             curl: components["schemas"]["Curl"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * LyapunovExponent
@@ -2571,7 +3156,6 @@ export interface components {
             /**
              * Count
              * @description points on this side
-             * @default 200
              */
             count?: number;
         };
@@ -2632,8 +3216,6 @@ export interface components {
             points: number;
             /** Of */
             of: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * MassMatrix
@@ -2653,8 +3235,6 @@ export interface components {
             latex: string;
             /** Terms */
             terms: components["schemas"]["Term"][][][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * MaterialCoordinate
@@ -2679,8 +3259,6 @@ export interface components {
              * @example l
              */
             to: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Measured
@@ -2705,8 +3283,6 @@ export interface components {
             repetitions: number;
             /** Processors */
             processors: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * MeasuredRung
@@ -2799,8 +3375,6 @@ export interface components {
             adaptive: boolean;
             /** Symplectic */
             symplectic: boolean;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * MethodList
@@ -2809,8 +3383,6 @@ export interface components {
         MethodList: {
             /** Methods */
             methods: components["schemas"]["MethodEntry"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * MethodRun
@@ -2876,8 +3448,6 @@ export interface components {
             shape: {
                 [key: string]: number;
             };
-        } & {
-            [key: string]: unknown;
         };
         /**
          * MotionAnswer
@@ -2885,8 +3455,6 @@ export interface components {
          */
         MotionAnswer: {
             scene: components["schemas"]["SceneDocument"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * NamedFunction
@@ -2915,8 +3483,6 @@ export interface components {
             id: string;
             /** Title */
             title: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * NoFlipMap
@@ -2959,20 +3525,16 @@ export interface components {
             /**
              * T
              * @description the instant, unless the functional says where to look
-             * @default 0
              */
             t?: number;
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["NumericParameters"];
         };
         /**
          * OrderOfConvergence
@@ -3005,8 +3567,6 @@ export interface components {
             kind: "momentum";
             /** Coordinate */
             coordinate: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * PointScheme
@@ -3016,15 +3576,11 @@ export interface components {
             /**
              * Points
              * @description by task id
-             * @default {}
              */
-            points?: {
-                [key: string]: number;
-            };
+            points?: components["schemas"]["PointSchemePoints"];
             /**
              * Follow Through
              * @description share of the points for a right consequence
-             * @default 0.5
              */
             follow_through?: number;
         };
@@ -3110,14 +3666,12 @@ export interface components {
              * @default error
              * @enum {string}
              */
-            severity?: "error" | "warning";
+            severity: "error" | "warning";
             /**
              * Message
              * @description the problem in the language asked for
              */
             message: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ProofAnswer
@@ -3133,8 +3687,6 @@ export interface components {
             title: string;
             /** Chapters */
             chapters: components["schemas"]["Chapter"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ProofEntry
@@ -3148,8 +3700,6 @@ export interface components {
             id: string;
             /** Title */
             title: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ProofList
@@ -3158,8 +3708,6 @@ export interface components {
         ProofList: {
             /** Proofs */
             proofs: components["schemas"]["ProofEntry"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Quotient
@@ -3175,8 +3723,6 @@ export interface components {
             one_sided: components["schemas"]["QuotientErrors"];
             central: components["schemas"]["QuotientErrors"];
             curves: components["schemas"]["Curves"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * QuotientErrors
@@ -3197,8 +3743,6 @@ export interface components {
              * @description where theory expects the smallest error; null if the error only falls
              */
             predicted: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Readiness
@@ -3210,8 +3754,6 @@ export interface components {
              * @constant
              */
             ready: true;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ReadingAnswer
@@ -3230,8 +3772,6 @@ export interface components {
             plain: string;
             /** Problems */
             problems: components["schemas"]["VerdictProblem"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ReadingRequest
@@ -3253,27 +3793,22 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["ReadingRequestParameters"];
             /**
              * Seed
              * @description draws each student's own parameter values
@@ -3355,8 +3890,6 @@ export interface components {
             momenta: {
                 [key: string]: string;
             };
-        } & {
-            [key: string]: unknown;
         };
         /**
          * RungGrowth
@@ -3455,8 +3988,6 @@ export interface components {
              * @description of a continuum, by unit of the material coordinates
              */
             density?: string | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneCoordinate
@@ -3500,8 +4031,6 @@ export interface components {
              * @description largest value of the slider
              */
             max?: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneDocument
@@ -3580,7 +4109,6 @@ export interface components {
             /**
              * Format
              * @description of the document; 1 if empty
-             * @default 1
              */
             format?: number | null;
             /**
@@ -3654,8 +4182,6 @@ export interface components {
             } | null;
             /** @description how it is drawn */
             drawing?: components["schemas"]["SceneDrawing"] | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneDrawing
@@ -3677,8 +4203,6 @@ export interface components {
              * @description from back to front
              */
             elements?: components["schemas"]["DrawnElement"][] | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneEntry
@@ -3714,8 +4238,6 @@ export interface components {
             degrees_of_freedom: number;
             /** @description of a chain: how many members it may have */
             family?: components["schemas"]["FamilyEntry"] | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneEvent
@@ -3746,8 +4268,6 @@ export interface components {
              * @description the body or point it happens to
              */
             at?: string | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneGuide
@@ -3766,8 +4286,6 @@ export interface components {
              * @example y0*sin(omega*t)
              */
             value: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * @description id of a built-in scene
@@ -3781,8 +4299,6 @@ export interface components {
         SceneList: {
             /** Scenes */
             scenes: components["schemas"]["SceneEntry"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneLoad
@@ -3880,8 +4396,6 @@ export interface components {
              * @description of a distributed load, by unit of the material coordinates
              */
             density?: string[] | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneParameter
@@ -3926,8 +4440,6 @@ export interface components {
              * @description whether formulas may rely on its being positive; true if empty
              */
             positive?: boolean | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ScenePoint
@@ -3949,8 +4461,6 @@ export interface components {
              *     ]
              */
             position: string[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneText
@@ -3958,8 +4468,6 @@ export interface components {
          */
         SceneText: {
             scene: components["schemas"]["SceneDocument"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SceneValidity
@@ -3970,8 +4478,6 @@ export interface components {
             valid: boolean;
             /** Problems */
             problems: components["schemas"]["ProblemEntry"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SecondIndicator
@@ -4054,7 +4560,7 @@ export interface components {
              * @default numbers
              * @enum {string}
              */
-            columns?: "numbers" | "base64";
+            columns: "numbers" | "base64";
             t: components["schemas"]["Column"];
             /** Coordinates */
             coordinates?: {
@@ -4093,8 +4599,6 @@ export interface components {
              */
             condition: number | null;
             cost: components["schemas"]["Cost"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SimulationRequest
@@ -4126,40 +4630,32 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["SimulationRequestParameters"];
             /**
              * Initial
              * @description where the motion begins, by coordinate
-             * @default {}
              * @example {
              *       "phi": {
              *         "value": 0.5
              *       }
              *     }
              */
-            initial?: {
-                [key: string]: components["schemas"]["InitialValue"];
-            };
+            initial?: components["schemas"]["SimulationRequestInitial"];
             /**
              * T End
              * @description seconds
@@ -4169,13 +4665,11 @@ export interface components {
             /**
              * Samples
              * @description number of samples, evenly spaced, both ends included
-             * @default 501
              */
             samples?: number;
             /**
              * Method
              * @description a method of GET /methods, or auto
-             * @default auto
              * @example dop853
              */
             method?: string;
@@ -4192,17 +4686,14 @@ export interface components {
             /**
              * Include
              * @description the parts wanted, of coordinates, rates, positions, loads, energy, error; all if empty
-             * @default []
              * @example []
              */
             include?: ("coordinates" | "rates" | "positions" | "loads" | "energy" | "error")[];
             /**
              * Columns
              * @description how arrays are written; base64: little-endian doubles, components of a vector together
-             * @default numbers
-             * @enum {string}
              */
-            columns?: "numbers" | "base64";
+            columns?: components["schemas"]["SimulationRequestColumns"];
             /**
              * Lang
              * @description language of the texts; else Accept-Language decides
@@ -4222,27 +4713,22 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["SingleCheckParameters"];
             /**
              * Seed
              * @description draws each student's own parameter values
@@ -4260,7 +4746,6 @@ export interface components {
             /**
              * Previous
              * @description the student's own earlier lines: what follows from a wrong one is told
-             * @default []
              */
             previous?: components["schemas"]["AnsweredTask"][];
         };
@@ -4273,8 +4758,6 @@ export interface components {
             plain: string[];
             /** Latex */
             latex: string[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SolutionRequest
@@ -4293,27 +4776,22 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["SolutionRequestParameters"];
             /**
              * Seed
              * @description draws each student's own parameter values
@@ -4515,44 +4993,35 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["StabilityMapRequestParameters"];
             /**
              * Initial
              * @description where the motion begins, by coordinate
-             * @default {}
              * @example {
              *       "phi": {
              *         "value": 0.5
              *       }
              *     }
              */
-            initial?: {
-                [key: string]: components["schemas"]["InitialValue"];
-            };
+            initial?: components["schemas"]["StabilityMapRequestInitial"];
             /**
              * T End
              * @description seconds of motion
-             * @default 10
              * @example 10
              */
             t_end?: number;
@@ -4564,7 +5033,6 @@ export interface components {
             /**
              * Fresh
              * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
-             * @default false
              */
             fresh?: boolean;
             /** @description to the right */
@@ -4592,44 +5060,35 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["StabilityRequestParameters"];
             /**
              * Initial
              * @description where the motion begins, by coordinate
-             * @default {}
              * @example {
              *       "phi": {
              *         "value": 0.5
              *       }
              *     }
              */
-            initial?: {
-                [key: string]: components["schemas"]["InitialValue"];
-            };
+            initial?: components["schemas"]["StabilityRequestInitial"];
             /**
              * T End
              * @description seconds of motion
-             * @default 10
              * @example 10
              */
             t_end?: number;
@@ -4641,13 +5100,11 @@ export interface components {
             /**
              * Fresh
              * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
-             * @default false
              */
             fresh?: boolean;
             /**
              * Methods
              * @description methods of GET /methods; all if empty
-             * @default []
              * @example [
              *       "rk4",
              *       "dop853"
@@ -4657,10 +5114,8 @@ export interface components {
             /**
              * At
              * @description where the scene is linearized: state or rest
-             * @default state
-             * @enum {string}
              */
-            at?: "state" | "rest";
+            at?: components["schemas"]["StabilityRequestAt"];
             /**
              * Stiffness
              * @description parameter that is made larger; a spring's if empty
@@ -4686,27 +5141,22 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["StackRequestParameters"];
             /**
              * Seed
              * @description draws each student's own parameter values
@@ -4716,7 +5166,6 @@ export interface components {
             /**
              * Tasks
              * @description all if empty
-             * @default []
              */
             tasks?: string[];
             /**
@@ -4767,8 +5216,6 @@ export interface components {
             sources: string[];
             /** Substeps */
             substeps: components["schemas"]["Step"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * StiffRun
@@ -4821,8 +5268,6 @@ export interface components {
              * @description to each of `tasks`, in their order
              */
             answers: (components["schemas"]["BestAnswer"] | null)[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Sum
@@ -4838,8 +5283,6 @@ export interface components {
             latex: string;
             /** Terms */
             terms: components["schemas"]["Term"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * TableAnswer
@@ -4864,8 +5307,6 @@ export interface components {
              * @description the rows as a table, written as the one that was sent
              */
             csv: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * TableRequest
@@ -4907,10 +5348,8 @@ export interface components {
             /**
              * Encoding
              * @description base64: the bytes of a file as a spreadsheet wrote it, in UTF-8, UTF-16 or Windows-1252
-             * @default text
-             * @enum {string}
              */
-            encoding?: "text" | "base64";
+            encoding?: components["schemas"]["TableRequestEncoding"];
             /** @description whose tasks are answered, by number or by id */
             assignment?: components["schemas"]["AssignmentDocument"] | null;
             /** @description of the rows that name none, where there is no assignment */
@@ -4962,8 +5401,6 @@ export interface components {
             hints: string[];
             /** @description the chapter of the derivation that answers it */
             solution: components["schemas"]["TaskSolution"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * TaskList
@@ -4975,8 +5412,6 @@ export interface components {
             symbols: components["schemas"]["TaskSymbol"][];
             /** Tasks */
             tasks: components["schemas"]["TaskEntry"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * TaskSolution
@@ -4994,8 +5429,6 @@ export interface components {
              * @description ids of the steps that may show the answer, the likeliest first
              */
             steps: string[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * TaskSymbol
@@ -5012,8 +5445,6 @@ export interface components {
             unit: string;
             /** Value */
             value: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * TaskTotals
@@ -5037,8 +5468,6 @@ export interface components {
              * @description the most frequent first
              */
             mistakes: components["schemas"]["FrequentMistake"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * TasksRequest
@@ -5059,27 +5488,22 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["TasksRequestParameters"];
             /**
              * Seed
              * @description draws each student's own parameter values
@@ -5112,8 +5536,6 @@ export interface components {
              *     ]
              */
             sources: string[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * TwinRuns
@@ -5165,8 +5587,6 @@ export interface components {
                 [key: string]: unknown;
             };
             quotient?: components["schemas"]["Quotient"] | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * VariationRequest
@@ -5243,10 +5663,8 @@ export interface components {
             /**
              * Syntax
              * @description how it is written
-             * @default plain
-             * @enum {string}
              */
-            syntax?: "plain" | "latex";
+            syntax?: components["schemas"]["VariationRequestSyntax"];
             /**
              * Functions
              * @description the functions of time; their rates are dot(x), ddot(x)
@@ -5258,7 +5676,6 @@ export interface components {
             /**
              * Direction
              * @description names of the directions v; δ of each function if empty
-             * @default []
              * @example [
              *       "v"
              *     ]
@@ -5267,7 +5684,6 @@ export interface components {
             /**
              * Parameters
              * @description everything else that is constant
-             * @default []
              * @example [
              *       "l"
              *     ]
@@ -5281,7 +5697,6 @@ export interface components {
             /**
              * Include
              * @description quotient: difference quotients of the concrete functions against the derivative
-             * @default []
              */
             include?: "quotient"[];
             /** @description the concrete functions */
@@ -5308,8 +5723,6 @@ export interface components {
             plain: string[];
             /** Latex */
             latex: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * VerdictAnswer
@@ -5352,8 +5765,6 @@ export interface components {
             /** Offset */
             offset: number | null;
             counterexample: components["schemas"]["CounterexampleAnswer"] | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * VerdictProblem
@@ -5368,8 +5779,6 @@ export interface components {
             length: number | null;
             /** Message */
             message: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Version
@@ -5380,8 +5789,6 @@ export interface components {
             version: string;
             /** Source */
             source: string;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * WorkPrecisionAnswer
@@ -5482,44 +5889,35 @@ export interface components {
             /**
              * Guides
              * @description coordinates to be made functions of time
-             * @default []
              */
             guides?: components["schemas"]["GuideChange"][];
             /**
              * Freeze
              * @description coordinates to be held constant
-             * @default []
              * @example []
              */
             freeze?: string[];
             /**
              * Parameters
              * @description values of parameters
-             * @default {}
              * @example {
              *       "l": 0.8
              *     }
              */
-            parameters?: {
-                [key: string]: number;
-            };
+            parameters?: components["schemas"]["WorkPrecisionRequestParameters"];
             /**
              * Initial
              * @description where the motion begins, by coordinate
-             * @default {}
              * @example {
              *       "phi": {
              *         "value": 0.5
              *       }
              *     }
              */
-            initial?: {
-                [key: string]: components["schemas"]["InitialValue"];
-            };
+            initial?: components["schemas"]["WorkPrecisionRequestInitial"];
             /**
              * T End
              * @description seconds of motion
-             * @default 10
              * @example 10
              */
             t_end?: number;
@@ -5531,13 +5929,11 @@ export interface components {
             /**
              * Fresh
              * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
-             * @default false
              */
             fresh?: boolean;
             /**
              * Methods
              * @description methods of GET /methods; all if empty
-             * @default []
              * @example [
              *       "rk4",
              *       "dop853"
@@ -5547,7 +5943,6 @@ export interface components {
             /**
              * Peers
              * @description whether SciPy's integrators take part, where SciPy is installed
-             * @default false
              */
             peers?: boolean;
         };
@@ -5568,8 +5963,6 @@ export interface components {
             kills: number;
             /** Processor Seconds */
             processor_seconds: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ProblemDocument
@@ -5595,9 +5988,263 @@ export interface components {
             detail: string;
             /** Problems */
             problems: components["schemas"]["ProblemEntry"][];
-        } & {
-            [key: string]: unknown;
         };
+        /**
+         * DerivationRequestParameters
+         * @default {}
+         */
+        DerivationRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * DerivationRequestFormulation
+         * @default dalembert-lagrange
+         * @enum {string}
+         */
+        DerivationRequestFormulation: "dalembert-lagrange" | "hamilton";
+        /**
+         * ChaosRequestParameters
+         * @default {}
+         */
+        ChaosRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * ChaosRequestInitial
+         * @default {}
+         */
+        ChaosRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * ConvergenceRequestParameters
+         * @default {}
+         */
+        ConvergenceRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * ConvergenceRequestInitial
+         * @default {}
+         */
+        ConvergenceRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * EnergyDriftRequestParameters
+         * @default {}
+         */
+        EnergyDriftRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * EnergyDriftRequestInitial
+         * @default {}
+         */
+        EnergyDriftRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * FidelityRequestParameters
+         * @default {}
+         */
+        FidelityRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * FidelityRequestInitial
+         * @default {}
+         */
+        FidelityRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * StabilityRequestParameters
+         * @default {}
+         */
+        StabilityRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * StabilityRequestInitial
+         * @default {}
+         */
+        StabilityRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * StabilityRequestAt
+         * @default state
+         * @enum {string}
+         */
+        StabilityRequestAt: "state" | "rest";
+        /**
+         * StabilityMapRequestParameters
+         * @default {}
+         */
+        StabilityMapRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * StabilityMapRequestInitial
+         * @default {}
+         */
+        StabilityMapRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * WorkPrecisionRequestParameters
+         * @default {}
+         */
+        WorkPrecisionRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * WorkPrecisionRequestInitial
+         * @default {}
+         */
+        WorkPrecisionRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * ExportRequestParameters
+         * @default {}
+         */
+        ExportRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * ExportRequestInitial
+         * @default {}
+         */
+        ExportRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * ExportRequestFormulation
+         * @default dalembert-lagrange
+         * @enum {string}
+         */
+        ExportRequestFormulation: "dalembert-lagrange" | "hamilton";
+        /**
+         * ExpressionRequestSyntax
+         * @default plain
+         * @enum {string}
+         */
+        ExpressionRequestSyntax: "plain" | "latex";
+        /**
+         * TasksRequestParameters
+         * @default {}
+         */
+        TasksRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * StackRequestParameters
+         * @default {}
+         */
+        StackRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * CheckRequestParameters
+         * @default {}
+         */
+        CheckRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * ReadingRequestParameters
+         * @default {}
+         */
+        ReadingRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * SolutionRequestParameters
+         * @default {}
+         */
+        SolutionRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * LinesRequestParameters
+         * @default {}
+         */
+        LinesRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * TableRequestEncoding
+         * @default text
+         * @enum {string}
+         */
+        TableRequestEncoding: "text" | "base64";
+        /**
+         * SimulationRequestParameters
+         * @default {}
+         */
+        SimulationRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * SimulationRequestInitial
+         * @default {}
+         */
+        SimulationRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * SimulationRequestColumns
+         * @default numbers
+         * @enum {string}
+         */
+        SimulationRequestColumns: "numbers" | "base64";
+        /**
+         * VariationRequestSyntax
+         * @default plain
+         * @enum {string}
+         */
+        VariationRequestSyntax: "plain" | "latex";
+        /**
+         * IntegralFunctionalEnds
+         * @default fixed
+         * @enum {string}
+         */
+        IntegralFunctionalEnds: "fixed" | "free" | "fixed-free" | "free-fixed";
+        /**
+         * NumericParameters
+         * @default {}
+         */
+        NumericParameters: {
+            [key: string]: number;
+        };
+        /**
+         * SingleCheckParameters
+         * @default {}
+         */
+        SingleCheckParameters: {
+            [key: string]: number;
+        };
+        /**
+         * AnswerTextSyntax
+         * @default plain
+         * @enum {string}
+         */
+        AnswerTextSyntax: "plain" | "latex";
+        /**
+         * PointSchemePoints
+         * @default {}
+         */
+        PointSchemePoints: {
+            [key: string]: number;
+        };
+        /**
+         * ExpressionTextSyntax
+         * @default plain
+         * @enum {string}
+         */
+        ExpressionTextSyntax: "plain" | "latex";
     };
     responses: never;
     parameters: never;
@@ -5606,4 +6253,948 @@ export interface components {
     pathItems: never;
 }
 export type $defs = Record<string, never>;
-export type operations = Record<string, never>;
+export interface operations {
+    get_catalog: {
+        parameters: {
+            query?: {
+                /** @description only these, by commas */
+                sections?: string;
+            };
+            header?: never;
+            path: {
+                /** @description language: de or en */
+                lang: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": {
+                        [key: string]: {
+                            [key: string]: unknown;
+                        };
+                    };
+                };
+            };
+        };
+    };
+    derive: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DerivationRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DerivationAnswer"];
+                };
+            };
+        };
+    };
+    get_derivation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description the id that the derivation came with */
+                identifier: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DerivationAnswer"];
+                };
+            };
+        };
+    };
+    chaos: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ChaosRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    convergence: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ConvergenceRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    energy_drift: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["EnergyDriftRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    fidelity: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FidelityRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    stability: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StabilityRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    stability_map: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StabilityMapRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    work_precision: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WorkPrecisionRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    export_derivation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description kind of file */
+                form: "latex" | "markdown" | "python";
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ExportRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/x-tex": string;
+                    "text/markdown": string;
+                    "text/x-python": string;
+                };
+            };
+        };
+    };
+    typeset: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ExpressionRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExpressionAnswer"];
+                };
+            };
+        };
+    };
+    typeset_all: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ExpressionsRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExpressionsAnswer"];
+                };
+            };
+        };
+    };
+    health: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Health"];
+                };
+            };
+        };
+    };
+    ready: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Readiness"];
+                };
+            };
+        };
+    };
+    version: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Version"];
+                };
+            };
+        };
+    };
+    metrics: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+        };
+    };
+    list_tasks_of_scene: {
+        parameters: {
+            query?: {
+                /** @description draws parameter values for one student */
+                seed?: string | null;
+                /** @description language of the texts; else Accept-Language decides */
+                lang?: ("de" | "en") | null;
+            };
+            header?: never;
+            path: {
+                /** @description a built-in scene */
+                identifier: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TaskList"];
+                };
+            };
+        };
+    };
+    list_tasks: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TasksRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TaskList"];
+                };
+            };
+        };
+    };
+    export_stack: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StackRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/xml": string;
+                    "text/xml": string;
+                };
+            };
+        };
+    };
+    open_assignment: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AssignmentRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AssignmentAnswer"];
+                };
+            };
+        };
+    };
+    check: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CheckRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerdictAnswer"];
+                };
+            };
+        };
+    };
+    read_answer: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ReadingRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReadingAnswer"];
+                };
+            };
+        };
+    };
+    answered_motion: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ReadingRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MotionAnswer"];
+                };
+            };
+        };
+    };
+    solve_task: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SolutionRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SolutionAnswer"];
+                };
+            };
+        };
+    };
+    check_lines: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LinesRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LinesAnswer"];
+                };
+            };
+        };
+    };
+    check_batch: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BatchRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BatchAnswer"];
+                };
+            };
+        };
+    };
+    check_table: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TableRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TableAnswer"];
+                    "text/event-stream": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    list_methods: {
+        parameters: {
+            query?: {
+                /** @description language of the texts; else Accept-Language decides */
+                lang?: ("de" | "en") | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MethodList"];
+                };
+            };
+        };
+    };
+    list_proofs: {
+        parameters: {
+            query?: {
+                /** @description language of the texts; else Accept-Language decides */
+                lang?: ("de" | "en") | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProofList"];
+                };
+            };
+        };
+    };
+    get_proof: {
+        parameters: {
+            query?: {
+                /** @description language of the texts; else Accept-Language decides */
+                lang?: ("de" | "en") | null;
+            };
+            header?: never;
+            path: {
+                /** @description id of the proof */
+                identifier: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProofAnswer"];
+                };
+            };
+        };
+    };
+    list_scenes: {
+        parameters: {
+            query?: {
+                /** @description whether to tell what each is about */
+                summaries?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SceneList"];
+                };
+            };
+        };
+    };
+    validate_scene: {
+        parameters: {
+            query?: {
+                /** @description language of the texts; else Accept-Language decides */
+                lang?: ("de" | "en") | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SceneDocument"] | {
+                    [key: string]: unknown;
+                };
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SceneValidity"];
+                };
+            };
+        };
+    };
+    read_toml_scene: {
+        parameters: {
+            query?: {
+                /** @description language of the texts; else Accept-Language decides */
+                lang?: ("de" | "en") | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/toml": string;
+                "application/octet-stream": string;
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SceneText"];
+                };
+            };
+        };
+    };
+    get_scene: {
+        parameters: {
+            query?: {
+                /** @description members of a chain */
+                n?: number | null;
+                /** @description language of the texts; else Accept-Language decides */
+                lang?: ("de" | "en") | null;
+            };
+            header?: never;
+            path: {
+                /** @description a built-in scene */
+                identifier: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SceneDocument"];
+                };
+            };
+        };
+    };
+    simulate: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SimulationRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SimulationAnswer"];
+                };
+            };
+        };
+    };
+    vary: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VariationRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VariationAnswer"];
+                };
+            };
+        };
+    };
+}

@@ -1,5 +1,6 @@
 /** The derivation on the page: that of its scene, in its language, by its road. */
 
+import { OWN } from "./own.js";
 import { sceneOf } from "./request.js";
 import { linesOf, moved } from "./reveal.js";
 import { mover } from "./store.js";
@@ -21,7 +22,12 @@ export function createDerivations(store, api, attempt) {
       return sceneOf(get()) === scene && place.lang === lang && place.formulation === formulation && place.n === n;
     };
     await attempt("derivation", async () => {
-      const derivation = await api.derive({ scene, lang, formulation, ...(n ? { parameters: { n } } : {}) });
+      const derivation = await api.derive({
+        scene: scene ?? OWN,
+        lang,
+        formulation,
+        ...(n ? { parameters: { n } } : {}),
+      });
       if (!isWanted()) return;
       const lines = linesOf(derivation.chapters);
       set({ derivation, lines });

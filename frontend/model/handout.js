@@ -2,7 +2,7 @@
 
 import { ApiError } from "./api.js";
 import { linesOf } from "./reveal.js";
-import { completed, OWN } from "./own.js";
+import { asTyped, completed, OWN } from "./own.js";
 import { sampled, samplesFor } from "./sampling.js";
 import { mover } from "./store.js";
 import { readChanges } from "./values.js";
@@ -43,7 +43,8 @@ export function createHandout(store, api, own) {
   async function derived() {
     const { lang, scene, n, formulation, set: changes } = get().place;
     const { parameters: values, initial } = readChanges(changes);
-    const asked = scene === OWN ? own : scene;
+    const asked = scene === OWN && own ? asTyped(own) : scene;
+    /** @type {Record<string, number>} */
     const parameters = n ? { n } : {};
     const [{ chapters }, document, trajectory] = await Promise.all([
       api.derive({ scene: asked, lang, formulation, parameters }),
@@ -78,7 +79,7 @@ export function createHandout(store, api, own) {
   return {
     load,
     move,
-    /** @param {string} lang */
+    /** @param {import("./types.js").Lang} lang */
     async language(lang) {
       move({ lang });
       await load();

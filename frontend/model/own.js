@@ -1,7 +1,8 @@
 /** The viewer's own scene: how it travels in an address, and how it is kept in the browser. */
 
 /** @typedef {import("./types.js").Scene} Scene */
-/** @typedef {Record<string, any>} SceneDocument  as typed: nothing in it can be relied upon */
+/** @typedef {Record<string, unknown>} SceneDocument  as typed: nothing in it can be relied upon */
+/** @typedef {import("./types.js").Contract} Contract */
 /** @typedef {{getItem: (key: string) => string | null, setItem: (key: string, value: string) => void}} Keeper */
 /**
  * @typedef {object} Draft
@@ -93,8 +94,9 @@ export function keepDraft(keeper, draft) {
 }
 
 /** @param {unknown} value @returns {Record<string, string>} */
-const texts = (value) => (typeof value === "string" ? { en: value, de: value } : (tableOf(value) ?? {}));
-/** @param {unknown} value @returns {any[]} */
+const texts = (value) =>
+  typeof value === "string" ? { en: value, de: value } : /** @type {Record<string, string>} */ (tableOf(value) ?? {});
+/** @param {unknown} value @returns {SceneDocument[]} */
 const rows = (value) => (Array.isArray(value) ? value.filter((row) => tableOf(row)) : []);
 
 const GREEK =
@@ -116,7 +118,7 @@ export function latexOfName(name) {
   return letter(head) + (indices.length ? `_{${indices.map(letter).join(",")}}` : "");
 }
 
-/** @param {any} row */
+/** @param {SceneDocument} row */
 const typeset = (row) => ({ ...row, latex: row.latex || latexOfName(String(row.name ?? "")) });
 
 /**
@@ -124,7 +126,7 @@ const typeset = (row) => ({ ...row, latex: row.latex || latexOfName(String(row.n
  * @param {SceneDocument} given @returns {Scene}
  */
 export function completed(given) {
-  return {
+  return /** @type {Scene} */ ({
     ...given,
     id: OWN,
     title: texts(given.title),
@@ -137,10 +139,16 @@ export function completed(given) {
     loads: named(rows(given.loads)),
     guides: rows(given.guides),
     drawing: given.drawing ?? null,
-  };
+  });
 }
 
-/** Loads without a name are called by their kind, and counted if there are more. @param {any[]} loads */
+/** What is typed goes to the server as it is, which says what is wrong with it. @param {SceneDocument} given */
+export const asTyped = (given) => /** @type {Contract["SceneDocument"]} */ (given);
+
+/** A document as the server writes it: nothing in it is left to be understood. @param {Contract["SceneDocument"]} given */
+export const asWritten = (given) => /** @type {Scene} */ (given);
+
+/** Loads without a name are called by their kind, and counted if there are more. @param {SceneDocument[]} loads */
 function named(loads) {
   return loads.map((load, i) => {
     const alike = loads.filter((other) => other.kind === load.kind).length;

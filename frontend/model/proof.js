@@ -54,7 +54,7 @@ export function createProof(store, api) {
       move({ step, part });
       set({ overlay: "" });
     },
-    /** @param {string} lang */
+    /** @param {import("./types.js").Lang} lang */
     async language(lang) {
       move({ lang });
       await load();

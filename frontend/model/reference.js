@@ -1,6 +1,16 @@
 /** The description of the API as a page can show it: calls by subject, each with its fields, an example and its answers. */
 
-/** @typedef {Record<string, any>} Json */
+/**
+ * OpenAPI 3.1, as far as it is shown.
+ * @typedef {{$ref?: string, type?: string, anyOf?: Schema[], enum?: unknown[], items?: Schema, properties?: Record<string, Schema>,
+ *   required?: string[], examples?: unknown[], description?: string}} Schema
+ * @typedef {{name: string, in: string, required?: boolean, description?: string, schema: Schema, example?: unknown}} Parameter
+ * @typedef {{operationId: string, tags: string[], summary?: string, description?: string, parameters?: Parameter[],
+ *   requestBody?: {content: Record<string, {schema: Schema}>}, responses?: Record<string, {description?: string}>,
+ *   "x-codeSamples": Sample[]}} Operation
+ * @typedef {{info: {version: string}, tags: {name: string, description: string}[], paths: Record<string, Record<string, Operation>>,
+ *   components: {schemas: Record<string, Schema>}}} Description
+ */
 /** @typedef {{name: string, kind: string, text: string, required: boolean}} Field */
 /** @typedef {{lang: string, source: string}} Sample */
 /** @typedef {{name: string, place: string, text: string, required: boolean, choices: string[], example: string}} Input  a part of the address */
@@ -11,28 +21,28 @@
 /** Where the samples of the description say the service is. */
 const ANYWHERE = "http://localhost:8000";
 
-/** @param {Json} description  OpenAPI 3.1 @param {string} origin where the service is @returns {Group[]} */
+/** @param {Description} description @param {string} origin where the service is @returns {Group[]} */
 export function groupsOf(description, origin) {
   /** @type {Map<string, Call[]>} */
-  const groups = new Map(description.tags.map((/** @type {Json} */ { name }) => [name, []]));
+  const groups = new Map(description.tags.map(({ name }) => [name, []]));
   for (const [path, methods] of Object.entries(description.paths)) {
-    for (const [method, operation] of Object.entries(/** @type {Json} */ (methods))) {
+    for (const [method, operation] of Object.entries(methods)) {
       groups.get(operation.tags[0])?.push(callOf(description, method, path, operation, origin));
     }
   }
-  return description.tags.map((/** @type {Json} */ { name, description: text }) => ({
+  return description.tags.map(({ name, description: text }) => ({
     subject: name,
     text,
-    calls: groups.get(name),
+    calls: groups.get(name) ?? [],
   }));
 }
 
-/** @param {Json} description @param {string} method @param {string} path @param {Json} operation @param {string} origin @returns {Call} */
+/** @param {Description} description @param {string} method @param {string} path @param {Operation} operation @param {string} origin @returns {Call} */
 function callOf(description, method, path, operation, origin) {
   const [type, body] = Object.entries(operation.requestBody?.content ?? {})[0] ?? ["", null];
   const schema = body ? resolved(description, body.schema) : null;
   const parameters = operation.parameters ?? [];
-  const given = parameters.map((/** @type {Json} */ one) =>
+  const given = parameters.map((one) =>
     field(description, one.name, one.schema, one.required === true, one.description),
   );
   return {
@@ -44,7 +54,7 @@ function callOf(description, method, path, operation, origin) {
     inputs: parameters.map(inputOf),
     type,
     examples: (schema?.examples ?? []).map(written),
-    samples: operation["x-codeSamples"].map((/** @type {Sample} */ { lang, source }) => ({
+    samples: operation["x-codeSamples"].map(({ lang, source }) => ({
       lang,
       source: source.replaceAll(ANYWHERE, origin),
     })),
@@ -58,21 +68,21 @@ function callOf(description, method, path, operation, origin) {
 /** @param {unknown} example  a body, as it is written */
 const written = (example) => (typeof example === "string" ? example : JSON.stringify(example, null, 2));
 
-/** @param {Json} parameter @returns {Input} */
+/** @param {Parameter} parameter @returns {Input} */
 function inputOf({ name, in: place, required = false, description: text = "", schema, example }) {
   const kinds = [schema, ...(schema.anyOf ?? [])];
-  const choices = kinds.flatMap((kind) => kind.enum ?? (kind.type === "boolean" ? ["true", "false"] : []));
+  const choices = kinds.flatMap((kind) => kind.enum?.map(String) ?? (kind.type === "boolean" ? ["true", "false"] : []));
   const shown = example ?? schema.examples?.[0] ?? (required ? choices[0] : undefined);
   return { name, place, text, required, choices, example: String(shown ?? "") };
 }
 
-/** @param {Json} description @param {Json} schema @returns {Json} */
+/** @param {Description} description @param {Schema} schema @returns {Schema} */
 function resolved(description, schema) {
   const name = schema?.$ref?.split("/").at(-1);
   return name ? description.components.schemas[name] : (schema ?? {});
 }
 
-/** @param {Json} description @param {Json | null} schema @returns {Field[]} */
+/** @param {Description} description @param {Schema | null} schema @returns {Field[]} */
 function fieldsOf(description, schema) {
   const needed = new Set(schema?.required ?? []);
   return Object.entries(schema?.properties ?? {}).map(([name, one]) =>
@@ -80,7 +90,7 @@ function fieldsOf(description, schema) {
   );
 }
 
-/** @param {Json} description @param {string} name @param {Json} schema @param {boolean} required @param {string} [text] @returns {Field} */
+/** @param {Description} description @param {string} name @param {Schema} schema @param {boolean} required @param {string} [text] @returns {Field} */
 const field = (description, name, schema, required, text = "") => ({
   name,
   kind: kindOf(description, schema),
@@ -88,14 +98,12 @@ const field = (description, name, schema, required, text = "") => ({
   required,
 });
 
-/** @param {Json} description @param {Json} schema @returns {string} */
+/** @param {Description} description @param {Schema} schema @returns {string} */
 function kindOf(description, schema) {
   const { type, anyOf, enum: values, items, $ref } = schema ?? {};
   if ($ref) return kindOf(description, resolved(description, schema));
   if (anyOf)
-    return [...new Set(anyOf.map((/** @type {Json} */ one) => kindOf(description, one)))]
-      .filter((kind) => kind !== "null")
-      .join(" | ");
+    return [...new Set(anyOf.map((one) => kindOf(description, one)))].filter((kind) => kind !== "null").join(" | ");
   if (values) return values.join(" | ");
   return type === "array" ? `[${items ? kindOf(description, items) : ""}]` : (type ?? "any");
 }

@@ -1,6 +1,6 @@
 /** What is asked of the server about the motion. */
 
-import { OWN } from "./own.js";
+import { asTyped, OWN } from "./own.js";
 import { samplesFor } from "./sampling.js";
 
 /** Samples per second to begin with, the step where one is asked for, and the parts of the answer that are shown. */
@@ -11,7 +11,7 @@ const MOST = 20001;
 const PARTS = ["coordinates", "rates", "positions", "loads", "energy", "error"];
 
 /** What requests call the scene: its id, or the whole of it. @param {import("./state.js").State} state */
-export const sceneOf = ({ place, own }) => (place.scene === OWN ? own : place.scene);
+export const sceneOf = ({ place, own }) => (place.scene === OWN ? own && asTyped(own) : place.scene);
 
 /**
  * @param {import("./state.js").State} state @param {import("./types.js").Changes} changes @param {string} chosen method, "" for the automatic choice
@@ -21,7 +21,7 @@ export function requestOf(state, changes, chosen) {
   const method = state.methods.find((candidate) => candidate.id === chosen);
   const fixed = method?.adaptive === false;
   return {
-    scene: sceneOf(state),
+    scene: sceneOf(state) ?? OWN,
     ...changes,
     parameters: { ...changes.parameters, ...(n ? { n } : {}) },
     t_end: duration,

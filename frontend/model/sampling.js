@@ -9,7 +9,8 @@ import { blendAt, hermiteAt, scalarAt, spanAt } from "./interpolation.js";
 import { leastRange, usual } from "./trajectory.js";
 
 /** @typedef {import("./types.js").Trajectory} Trajectory */
-/** @typedef {{t_end: number, samples: number, step?: number}} Asked  of a request, what is looked at here */
+/** @typedef {import("./types.js").Sent<"/simulations">} Request */
+/** @typedef {Pick<Request, "t_end" | "step"> & {samples: number}} Asked  of a request, what is looked at here */
 /** @typedef {{values: readonly number[], rates?: readonly number[], low: number, high: number, range: number}} Quantity  shown from low to high, to a scale on which `range` fills the plot */
 
 /** The server sends 20001 samples at most; this is one more than a prime number. */
@@ -181,10 +182,10 @@ export function samplesNeeded(trajectory, { samples, step }) {
 /**
  * A motion that is asked for until its samples show it. Each answer is handed on, and says whether it is too coarse:
  * then curves through its samples are not the motion.
- * @param {(request: any, signal?: AbortSignal) => Promise<Trajectory>} simulate
+ * @param {(request: Request, signal?: AbortSignal) => Promise<Trajectory>} simulate
  */
 export function sampled(simulate) {
-  /** @template {Asked} R @param {R} request @param {AbortSignal} [signal] @returns {Promise<Trajectory>} */
+  /** @template {Request & Asked} R @param {R} request @param {AbortSignal} [signal] @returns {Promise<Trajectory>} */
   async function ask(request, signal) {
     for (let [asked, round] = [request, 1]; ; round += 1) {
       const { trajectory, again } = judged(await simulate(asked, signal), asked, round);

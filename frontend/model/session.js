@@ -83,13 +83,13 @@ export function createSession(store, api, clock) {
     start: createStart(store, api, attempt, speech, subject.choose),
     /** Texts that are wanted from now on. */
     need: speech.need,
-    /** @param {string} lang */
+    /** @param {import("./types.js").Lang} lang */
     async language(lang) {
       await speech.speak(lang);
       await derive();
       simulations.ask();
     },
-    /** @param {string} formulation the road to the equations */
+    /** @param {import("./types.js").Formulation} formulation the road to the equations */
     async formulate(formulation) {
       move({ formulation });
       await derive();

@@ -53,7 +53,7 @@ export function createSimulations({ get, set }, api, clock, attempt) {
 
   /** The viewer's own scene changes on the page together with its motion. @param {Request} request */
   function shownWith({ scene }) {
-    if (scene === null || typeof scene === "string" || scene === shown) return {};
+    if (typeof scene === "string" || scene === shown) return {};
     shown = scene;
     return { scene: completed(scene) };
   }

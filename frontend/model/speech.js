@@ -12,7 +12,7 @@ export function createSpeech({ get, set }, api, attempt, always = []) {
   let asked = 0;
   let spoken = 0;
 
-  /** @param {string} lang */
+  /** @param {import("./types.js").Lang} lang */
   async function speak(lang) {
     set({ place: { ...get().place, lang } });
     const turn = (asked += 1);

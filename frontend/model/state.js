@@ -32,7 +32,7 @@ export const NO_FAILURES = { page: null, scene: null, derivation: null, simulati
 
 /** @type {State} */
 export const START = {
-  place: HOME,
+  place: { ...HOME, lang: "en" },
   catalog: {},
   scenes: [],
   methods: [],

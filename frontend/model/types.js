@@ -1,40 +1,70 @@
 /**
  * The shapes of what the API sends, made of its description (contract.d.ts), and of what the parts of the
  * page hand to each other.
- *
- * @typedef {import("./contract.js").components["schemas"]} Contract
- * @typedef {{name: string, latex: string, unit: string, value: number, rate: number,
- *   min?: number | null, max?: number | null}} Coordinate
- * @typedef {{name: string, latex: string, unit: string, value: number,
- *   min?: number | null, max?: number | null}} Parameter
- * @typedef {{name: string, position: string[]}} Point
- * @typedef {{name: string, kind: string, mass?: string, position: string[]}} Body
- * @typedef {{kind: string, name: string, at?: string, latex?: string, acceleration?: string[],
- *   from?: string, to?: string, moment?: string}} Load
- * @typedef {{coordinate: string, value: string}} Guide
- * @typedef {{name: string, value: string, at?: string}} SceneEvent
- * @typedef {{kind: string, at?: string, from?: string, to?: string, load?: string, coordinate?: string,
- *   direction?: string, radius?: number | string, width?: number, height?: number, offset?: number, label?: string}} Element
- * @typedef {{vertical?: "up" | "down", view?: number[] | null, elements?: Element[]}} Drawing
+ */
+
+/** @typedef {import("./contract.js").components["schemas"]} Contract */
+/** @typedef {import("./contract.js").paths} Paths */
+
+/**
+ * What is sent to an address below /api/v1 by POST.
+ * @template {string} P
+ * @typedef {`/api/v1${P}` extends infer A extends keyof Paths
+ *   ? Paths[A] extends {post: {requestBody: {content: {"application/json": infer Body}}}} ? Body : never : never} Sent
+ */
+/**
+ * What an address below /api/v1 answers to POST.
+ * @template {string} P
+ * @typedef {`/api/v1${P}` extends infer A extends keyof Paths
+ *   ? Paths[A] extends {post: {responses: {200: {content: {"application/json": infer Body}}}}} ? Body : never : never} Answered
+ */
+/**
+ * The same to GET.
+ * @template {string} P
+ * @typedef {`/api/v1${P}` extends infer A extends keyof Paths
+ *   ? Paths[A] extends {get: {responses: {200: {content: {"application/json": infer Body}}}}} ? Body : never : never} Got
+ */
+/**
+ * What may be left out of a document, but is there in what the page shows.
+ * @template T @template {keyof T} Members
+ * @typedef {Omit<T, Members> & {[M in Members]-?: NonNullable<T[M]>}} Having
+ */
+/**
+ * Columns of numbers: the page never asks for the other form, base64.
+ * @template T
+ * @typedef {{[M in keyof T]: Exclude<T[M], string>}} InNumbers
+ */
+
+/**
+ * What is left out of a document rather than null.
+ * @template T
+ * @typedef {{[M in keyof T]: Exclude<T[M], null>}} WithoutNull
+ */
+
+/**
+ * @typedef {Having<Contract["SceneCoordinate"], "latex" | "unit" | "value" | "rate">} Coordinate
+ * @typedef {Having<Contract["SceneParameter"], "latex" | "unit" | "value">} Parameter
+ * @typedef {Contract["ScenePoint"]} Point
+ * @typedef {Having<Contract["SceneBody"], "name">} Body
+ * @typedef {WithoutNull<Having<Contract["SceneLoad"], "name">> & {latex?: string}} Load
+ * @typedef {WithoutNull<Contract["DrawnElement"]>} Element
+ * @typedef {Omit<Contract["SceneDrawing"], "elements"> & {elements?: Element[] | null}} Drawing
  * @typedef {Record<string, string>} Texts  text by language
+ * @typedef {Exclude<Contract["DerivationRequest"]["lang"], null | undefined>} Lang
+ * @typedef {NonNullable<Contract["DerivationRequest"]["formulation"]>} Formulation
  * @typedef {Contract["SceneEntry"]} SceneEntry
- * @typedef {{id: string, title: Texts, summary: Texts, dimension: number, coordinates: Coordinate[],
- *   parameters: Parameter[], points: Point[], bodies: Body[], loads: Load[], guides?: Guide[], events?: SceneEvent[], labels?: Record<string, Texts>,
- *   drawing?: Drawing | null}} Scene
+ * @typedef {{title: Texts, summary: Texts, coordinates: Coordinate[], parameters: Parameter[], points: Point[], bodies: Body[],
+ *   loads: Load[], drawing?: Drawing | null}} Whole
+ * @typedef {Omit<Having<Contract["SceneDocument"], "id" | "dimension">, keyof Whole> & Whole} Scene  as the API writes it: with all that its document may leave to be understood
  * @typedef {Contract["FamilyEntry"]} Family
  * @typedef {Contract["Step"]} Step
  * @typedef {Contract["Chapter"]} Chapter
- * @typedef {{id: string, chapters: Chapter[],
- *   result?: {equations?: {coordinate: string, plain: string, latex: string}[], points?: Record<string, {plain: string[]}>,
- *     positions?: Record<string, {plain: string[]}>, virtual_work?: {terms: {plain: string, sources: string[]}[]}}}} Derivation
- * @typedef {{id: string, title?: string, adaptive?: boolean, order?: number}} Method
- * @typedef {{kinetic: number[], potential: number[], balance: number[]}} Energy
- * @typedef {{status: string, reason?: string | null, remedy?: string | null, event?: {name: string, t: number} | null, t: number[],
- *   coordinates: Record<string, number[]>, rates: Record<string, number[]>,
- *   positions: Record<string, number[][]>, loads?: Record<string, number[][]>, energy?: Energy,
- *   error?: {estimate?: (number | null)[] | null, horizon?: number | null},
- *   cost?: {steps?: number, rejected?: number, rhs_evaluations?: number, wall_time?: number},
- *   trusted_until?: number, method: string, coarse?: boolean}} Trajectory  coarse: its samples do not show all of the motion
+ * @typedef {Pick<Contract["DerivationAnswer"], "id" | "chapters"> & {result?: Contract["DerivationResult"]}} Derivation  of a scene, with its results, or a general proof
+ * @typedef {Contract["MethodEntry"]} Method
+ * @typedef {InNumbers<Omit<Contract["Energy"], "drift">>} Energy
+ * @typedef {Omit<Contract["SimulationAnswer"], "t" | "coordinates" | "rates" | "positions" | "loads" | "energy"> & {t: number[],
+ *   coordinates: Record<string, number[]>, rates: Record<string, number[]>, positions: Record<string, number[][]>,
+ *   loads?: Record<string, number[][]> | null, energy?: Energy | null, coarse?: boolean}} Trajectory  with what the page always asks to be included; coarse: its samples do not show all of the motion
  * @typedef {{value: number, rate: number}} Initial
  * @typedef {{initial: Record<string, Initial>, parameters: Record<string, number>}} Changes
  * @typedef {{t: number, coordinates: Record<string, number>, rates: Record<string, number>,
@@ -45,8 +75,12 @@
  * @typedef {{key: string, latex: string, at: Pixel, className: string, start?: boolean, opacity?: number}} Label  start: the label begins at its place instead of being centred
  * @typedef {{shapes: Shape[], labels: Label[]}} Figure
  * @typedef {Contract["ProblemEntry"]} Problem
- * @typedef {{title: string, detail: string, problems: {message: string, pointer?: string}[], status: number}} Failure
- * @typedef {Record<string, string | Record<string, unknown>>} Catalog
+ * @typedef {Omit<Contract["ProblemDocument"], "type">} Failure
+ * @typedef {Got<"/catalogs/{lang}">} Catalog
+ * @typedef {{plain: string | string[], latex: string}} Written
+ * @typedef {Written & {function: string, plain: string, vanishes: boolean, at: string[], condition: Written | null}} BoundaryTerm
+ * @typedef {Omit<Contract["VariationAnswer"], "result"> & {result: {first_variation: Written, euler_lagrange?: Written[],
+ *   boundary_terms?: BoundaryTerm[]}}} Variation
  * @typedef {"derivation" | "plots" | "values"} Panel
  * @typedef {"" | "form" | "json" | "toml"} Editing  which side of the editor is open
  * @typedef {"" | "overview" | "help" | "black" | "jump" | "share"} Overlay  what lies above the page
@@ -54,8 +88,9 @@
  * @typedef {"" | "substeps"} Pace  whether a lecture goes on by steps or by substeps
  * @typedef {"" | "plots" | "nothing"} Beside  what stands beside a step in a lecture, besides the drawing or without it
  * @typedef {"" | "figure" | "derivation"} Shown  what a frame of another page shows; "" for both
- * @typedef {{scene: string, step: string, lang: string, theme: string, method: string, n: number, formulation: string,
+ * @typedef {{scene: string, step: string, lang: Lang, theme: string, method: string, n: number, formulation: Formulation,
  *   duration: number, speed: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside,
- *   vary: string, set: string, at: number, with: string, runs: string, show: Shown, why: string}} Place  what the address says
+ *   vary: string, set: string, at: number, with: string, runs: string, show: Shown, why: string}} Place  what is shown
+ * @typedef {Omit<Place, "lang"> & {lang: Lang | ""}} Address  what an address says of it: perhaps no language
  */
 export {};

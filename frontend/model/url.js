@@ -1,8 +1,9 @@
 /** Every state of the page has an address: reading it and writing it. */
 
 /** @typedef {import("./types.js").Place} Place */
+/** @typedef {import("./types.js").Address} Address */
 
-/** @type {Place} */
+/** @type {Address} */
 export const HOME = {
   scene: "",
   step: "",
@@ -28,14 +29,22 @@ export const HOME = {
   why: "",
 };
 
-const LANGUAGES = ["de", "en"];
+/** @type {readonly import("./types.js").Lang[]} */
+export const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
+/** @type {readonly import("./types.js").Formulation[]} */
 export const FORMULATIONS = ["dalembert-lagrange", "hamilton"];
+/** @type {readonly import("./types.js").Panel[]} */
 const PANELS = ["derivation", "plots", "values"];
+/** @type {readonly import("./types.js").Editing[]} */
 const EDITING = ["form", "json", "toml"];
+/** @type {readonly import("./types.js").Showing[]} */
 const VIEWS = ["lecture"];
+/** @type {readonly import("./types.js").Pace[]} */
 const PACES = ["substeps"];
+/** @type {readonly import("./types.js").Beside[]} */
 const BESIDES = ["plots", "nothing"];
+/** @type {readonly import("./types.js").Shown[]} */
 const SHOWN = ["figure", "derivation"];
 /** How many seconds of the motion pass in one of the viewer's. */
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
@@ -44,7 +53,7 @@ const MOST = 99;
 
 /**
  * @param {string} query e.g. "?scene=pendulum&step=position:bob"
- * @returns {Place}
+ * @returns {Address}
  */
 export function readPlace(query) {
   const given = new URLSearchParams(query);
@@ -59,27 +68,25 @@ export function readPlace(query) {
     formulation: oneOf(FORMULATIONS, given.get("formulation"), HOME.formulation),
     duration: seconds > 0 && seconds <= LONGEST ? seconds : HOME.duration,
     speed: SPEEDS.find((speed) => speed === Number(given.get("speed"))) ?? HOME.speed,
-    panel: /** @type {import("./types.js").Panel} */ (oneOf(PANELS, given.get("panel"), HOME.panel)),
-    edit: /** @type {import("./types.js").Editing} */ (
-      given.get("edit") === "" ? "form" : oneOf(EDITING, given.get("edit"), HOME.edit)
-    ),
-    view: /** @type {import("./types.js").Showing} */ (oneOf(VIEWS, given.get("view"), HOME.view)),
+    panel: oneOf(PANELS, given.get("panel"), HOME.panel),
+    edit: given.get("edit") === "" ? "form" : oneOf(EDITING, given.get("edit"), HOME.edit),
+    view: oneOf(VIEWS, given.get("view"), HOME.view),
     part: whole(given.get("part")),
-    pace: /** @type {import("./types.js").Pace} */ (oneOf(PACES, given.get("pace"), HOME.pace)),
-    beside: /** @type {import("./types.js").Beside} */ (oneOf(BESIDES, given.get("beside"), HOME.beside)),
+    pace: oneOf(PACES, given.get("pace"), HOME.pace),
+    beside: oneOf(BESIDES, given.get("beside"), HOME.beside),
     vary: slug(given.get("vary")),
     set: slug(given.get("set")),
     at: Math.max(0, Math.min(LONGEST, Number(given.get("at")) || 0)),
     with: slug(given.get("with")),
     runs: slug(given.get("runs")),
-    show: /** @type {import("./types.js").Shown} */ (oneOf(SHOWN, given.get("show"), HOME.show)),
+    show: oneOf(SHOWN, given.get("show"), HOME.show),
     why: slug(given.get("why")),
   };
 }
 
 /**
  * The query of a place; what is as usual is left out, so that addresses stay short.
- * @param {Place} place
+ * @param {Address} place
  */
 export function writePlace(place) {
   const query = Object.entries(place)
@@ -94,7 +101,7 @@ export const PAGES = ["scene", "variations", "proof", "labs", "homework", "docs"
 /** Pages that show whichever scene one comes from. */
 const ABOUT_A_SCENE = ["scene", "labs", "homework"];
 
-/** A page in the same language and appearance, about the same scene. @param {string} name @param {Pick<Place, "lang" | "theme"> & Partial<Place>} reader */
+/** A page in the same language and appearance, about the same scene. @param {string} name @param {Pick<Address, "lang" | "theme"> & Partial<Address>} reader */
 export function pageAddress(name, { lang, theme, scene = "" }) {
   return `/${name}${writePlace({ ...HOME, lang, theme, scene: ABOUT_A_SCENE.includes(name) ? scene : "" })}`;
 }
@@ -102,9 +109,9 @@ export function pageAddress(name, { lang, theme, scene = "" }) {
 /** @param {string | null} value */
 const whole = (value) => Math.max(0, Math.min(MOST, Math.trunc(Number(value)) || 0));
 
-/** @param {string[]} allowed @param {string | null} value @param {string} otherwise */
-function oneOf(allowed, value, otherwise) {
-  return value !== null && allowed.includes(value) ? value : otherwise;
+/** @template {string} T @param {readonly T[]} allowed @param {string | null} value @param {T} otherwise @returns {T} */
+export function oneOf(allowed, value, otherwise) {
+  return allowed.find((one) => one === value) ?? otherwise;
 }
 
 /** @param {string | null} value */
@@ -114,9 +121,10 @@ function slug(value) {
 
 /**
  * The language to start with: asked for, else the first known one the browser prefers.
- * @param {string} asked @param {readonly string[]} preferred
+ * @param {Address["lang"]} asked @param {readonly string[]} preferred @returns {import("./types.js").Lang}
  */
 export function startLanguage(asked, preferred) {
-  const known = preferred.map((tag) => tag.slice(0, 2).toLowerCase()).find((tag) => LANGUAGES.includes(tag));
+  const wanted = preferred.map((tag) => tag.slice(0, 2).toLowerCase());
+  const known = wanted.map((tag) => LANGUAGES.find((one) => one === tag)).find(Boolean);
   return asked || known || "en";
 }

@@ -55,7 +55,7 @@ export function createAside({ root, store, api, session, send, changed, play }) 
     telling = window.setTimeout(async () => {
       const { summary } = await import("./summary.js");
       const { scene, trajectory: settled, catalog, place } = get();
-      const words = translator(/** @type {Record<string, unknown>} */ (catalog.page ?? {}));
+      const words = translator(catalog.page ?? {});
       const element = root.querySelector("#motion");
       if (element && scene && settled?.t.length) element.textContent = summary(scene, settled, words, place.lang);
     }, REST);

@@ -5,7 +5,7 @@ import { live } from "lit-html/directives/live.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
 import { OWN } from "../model/own.js";
-import { PAGES, pageAddress } from "../model/url.js";
+import { LANGUAGES, PAGES, pageAddress } from "../model/url.js";
 
 /** @typedef {import("./page.js").View} View */
 /** @typedef {{state: Pick<View["state"], "place">, session: Pick<View["session"], "language" | "move">, t: View["t"]}} Appearance */
@@ -176,7 +176,7 @@ export function appearance({ state, session, t }) {
 export function language({ state, session, t }) {
   return html`
     <div class="segments" role="group" aria-label=${t("language.choose")}>
-      ${["de", "en"].map(
+      ${LANGUAGES.map(
         (lang) => html`
         <button aria-pressed=${String(state.place.lang === lang)} lang=${lang} title=${t(`language.${lang}`)}
           @click=${() => session.language(lang)}>${lang.toUpperCase()}</button>`,

@@ -53,7 +53,7 @@ export function createMotion({ root, state, clock, session, still, update }) {
   /** The moment as a sentence, for those who do not see it. @param {number} t @param {string} values */
   function moment(t, values) {
     const { catalog, place } = state();
-    return translator(/** @type {Record<string, unknown>} */ (catalog.page ?? {}))("drawing.moment", {
+    return translator(catalog.page ?? {})("drawing.moment", {
       time: fixed(t, 2, place.lang),
       values,
     });

@@ -10,7 +10,7 @@ import { values } from "./values.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
 import { OWN } from "../model/own.js";
-import { FORMULATIONS } from "../model/url.js";
+import { FORMULATIONS, oneOf } from "../model/url.js";
 
 /**
  * @typedef {object} View  what views may know and do
@@ -27,7 +27,7 @@ import { FORMULATIONS } from "../model/url.js";
  * @property {() => void} fullscreen
  * @property {() => void} reload
  * @property {((view: View) => unknown) | undefined} overlays  once one has been asked for
- * @property {ReturnType<typeof import("./figure/why.js").createWhy>} [why]  with the instruments
+ * @property {ReturnType<ReturnType<typeof import("./figure/why.js").createWhy>>} [why]  with the instruments
  * @property {import("./figure/open.js").Instruments | null} instruments  once they have been fetched
  * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
  * @property {() => void} enterLecture
@@ -80,7 +80,7 @@ function reading(view) {
 /** Which formulation leads to the equations. @param {View} view */
 function road({ state, session, t }) {
   const chosen = (/** @type {Event} */ { target }) =>
-    session.formulate(/** @type {HTMLSelectElement} */ (target).value);
+    session.formulate(oneOf(FORMULATIONS, /** @type {HTMLSelectElement} */ (target).value, state.place.formulation));
   return html`
     <label class="choice road" title=${t("formulation.choose")}>
       <span class="unseen">${t("formulation.choose")}</span>

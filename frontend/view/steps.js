@@ -10,7 +10,7 @@ import { indexOf } from "../model/reveal.js";
 /** @typedef {import("../model/reveal.js").Line} Line */
 /** @typedef {{state: Pick<import("./page.js").View["state"], "place" | "lines" | "derivation">,
  *   session: Pick<import("./page.js").View["session"], "go" | "goTo">,
- *   why?: ReturnType<typeof import("./figure/why.js").createWhy>, link: (patch: {step: string}) => string, follow: import("./page.js").View["follow"], t: import("./page.js").View["t"]}} View  what steps need of a page */
+ *   why?: import("./page.js").View["why"], link: (patch: {step: string}) => string, follow: import("./page.js").View["follow"], t: import("./page.js").View["t"]}} View  what steps need of a page */
 
 /** So many steps before the current one are laid out at once, so that scrolling to it arrives; those before when they are seen. */
 const NEAR = 3;
@@ -52,9 +52,9 @@ export function step(line, current, view, far = false) {
         <a class="number" href=${view.link({ step: content.id })} title=${view.t("step.link")}
           @click=${(/** @type {Event} */ event) => view.follow(event, () => view.session.goTo(content.id))}>${number}</a>
         <span>${prose(content.title, far)}</span>
-        ${verdict(content, view)}${view.why?.button(content, /** @type {any} */ (view))}
+        ${verdict(content, view)}${view.why?.button(content)}
       </h3>
-      ${view.why?.panel(content, /** @type {any} */ (view))}
+      ${view.why?.panel(content)}
       ${content.text ? html`<p class="prose">${prose(content.text, far)}</p>` : nothing}
       ${formulaOf(content, view, far)}
       ${content.substeps.length ? substeps(content, view) : nothing}

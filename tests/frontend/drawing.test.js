@@ -93,6 +93,20 @@ test("every kind of element draws something, with finite numbers", () => {
   }
 });
 
+test("a size that is the name of a parameter is its value, for every kind that has it", () => {
+  const named = { ...scene, parameters: [...scene.parameters, { name: "size", latex: "s", unit: "m", value: 0.37 }] };
+  const drawn = (/** @type {string} */ kind, /** @type {string} */ size, /** @type {unknown} */ given) =>
+    JSON.stringify(figureAt(0.25, /** @type {any} */ ({ ...named, drawing: { ...scene.drawing, elements: [{ kind, at: "bob", from: "pivot", to: "bob", coordinate: "y", load: "F", [size]: given }] } })).shapes);
+  /** @type {Record<string, string[]>} */
+  const found = {};
+  for (const size of ["radius", "width", "height", "offset"]) {
+    const having = Object.keys(KINDS).filter((kind) => drawn(kind, size, 0.37) !== drawn(kind, size, 0.74));
+    for (const kind of having) assert.equal(drawn(kind, size, "size"), drawn(kind, size, 0.37), `${kind} ${size}`);
+    found[size] = having.sort();
+  }
+  assert.deepEqual(found, { radius: ["disc", "hoop"], width: ["block", "cart", "ground"], height: ["block", "cart"], offset: ["damper", "dimension", "spring"] });
+});
+
 test("the pieces of a trail join, fade with age, and stay as they are while they do", () => {
   const trailed = { ...scene, drawing: { ...scene.drawing, elements: [{ kind: "trail", at: "bob" }] } };
   const same = stageOf(trailed, trajectory, square(400));

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import Any
 
 from fastapi import FastAPI
@@ -36,6 +37,7 @@ SUBJECTS = {
     "service": "How the service is doing.",
 }
 
+_SCHEMAS = "#/components/schemas/"
 _FIRST_CLAUSE = re.compile(r"[^.:;]+")
 
 
@@ -60,9 +62,10 @@ def subjects() -> list[dict[str, Any]]:
 
 def _completed(document: dict[str, Any]) -> dict[str, Any]:
     components = document["components"]["schemas"]
-    reference = "#/components/schemas/{model}"
-    components[ProblemDocument.__name__] = ProblemDocument.model_json_schema(ref_template=reference)
+    components[ProblemDocument.__name__] = ProblemDocument.model_json_schema(ref_template=f"{_SCHEMAS}{{model}}")
     components[ProblemDocument.__name__].pop("$defs")  # ProblemEntry, which answers hold, too
+    for name in _asked(document):
+        _free_to_leave_out(name, components)
     for path, methods in document["paths"].items():
         for method, operation in methods.items():
             operation["responses"]["200"]["description"] = "the answer"
@@ -75,3 +78,45 @@ def _completed(document: dict[str, Any]) -> dict[str, Any]:
 def _first_clause(text: str) -> str:
     found = _FIRST_CLAUSE.match(text)
     return found[0] if found else text
+
+
+def _asked(document: dict[str, Any]) -> list[str]:
+    """The schemas of what is sent: those of request bodies, and all that these refer to."""
+    operations = (operation for methods in document["paths"].values() for operation in methods.values())
+    found = dict.fromkeys(name for one in operations for name in _references(one.get("requestBody")))
+    waiting = list(found)
+    while waiting:
+        further = [name for name in _references(document["components"]["schemas"][waiting.pop()]) if name not in found]
+        found.update(dict.fromkeys(further))
+        waiting += further
+    return list(found)
+
+
+def _references(node: object) -> Iterator[str]:
+    """The names of all schemas to which a part of the document refers."""
+    if isinstance(node, dict):
+        if isinstance(target := node.get("$ref"), str):
+            yield target.removeprefix(_SCHEMAS)
+        node = list(node.values())
+    if isinstance(node, list):
+        for part in node:
+            yield from _references(part)
+
+
+def _free_to_leave_out(name: str, components: dict[str, Any]) -> None:
+    """Have generators see that what has a default may be left out of a request.
+
+    A `default` beside a type makes openapi-typescript take the member for one that is always there, as it is in an
+    answer. So it stands one level deeper, with the type as the only branch of a union. Types that generators give a
+    name of their own get the name that they had.
+    """
+    for member, schema in components[name].get("properties", {}).items():
+        if "default" not in schema:
+            continue
+        about = {key: schema[key] for key in ("title", "description", "examples") if key in schema}
+        branch = {key: part for key, part in schema.items() if key not in about}
+        if branch.keys() & {"enum", "additionalProperties"}:
+            own = f"{name}{member.title().replace('_', '')}"
+            components[own] = {"title": own} | branch
+            branch = {"$ref": f"{_SCHEMAS}{own}"}
+        components[name]["properties"][member] = about | {"anyOf": [branch]}

@@ -15,7 +15,7 @@ import {
   wrapped,
 } from "./geometry.js";
 import { pullOf, verticalOf } from "./sketch.js";
-import { coordinateClass, latexOf, placeOf } from "./stage.js";
+import { coordinateClass, latexOf, placeOf, sizeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
@@ -205,7 +205,7 @@ export function angle(element, stage, now, key) {
 export function dimension(element, stage, now, key) {
   const [from, to] = [placeOf(stage, now, element.from ?? ""), placeOf(stage, now, element.to ?? "")];
   const horizontal = Math.abs(to[0] - from[0]) > 3 * Math.abs(to[1] - from[1]);
-  const aloof = (/** @type {number} */ usual) => -(Number(element.offset ?? 0) * stage.scale || usual * stage.unit);
+  const aloof = (/** @type {number} */ usual) => -(sizeOf(element.offset, stage) * stage.scale || usual * stage.unit);
   const offset = /** @type {Pixel} */ (horizontal ? [0, aloof(3.2)] : [aloof(4.2), 0]);
   const [a, b] = [
     add(from, offset),

@@ -1,7 +1,7 @@
 /** What a system is made of: rod, spring, bob, cart, block, disc, hoop, and the trail a place leaves. */
 
 import { add, circle, coil, lengthOf, line, normal, polygon, polyline, scaled, subtract, unit } from "./geometry.js";
-import { placeOf, unlessMoved } from "./stage.js";
+import { placeOf, sizeOf, unlessMoved } from "./stage.js";
 import { knotsBetween, traced } from "../curve.js";
 import { smoothPath } from "../interpolation.js";
 
@@ -35,9 +35,9 @@ export function spring(element, stage, now, key) {
  * @param {Element} element @param {Stage} stage @param {Snapshot} now
  * @returns {[Pixel, Pixel]}
  */
-function beside({ from = "", to = "", offset = 0 }, stage, now) {
+function beside({ from = "", to = "", offset }, stage, now) {
   const [a, b] = [placeOf(stage, now, from), placeOf(stage, now, to)];
-  const aside = scaled(normal(unit(subtract(b, a))), offset * stage.scale);
+  const aside = scaled(normal(unit(subtract(b, a))), sizeOf(offset, stage) * stage.scale);
   return [add(a, aside), add(b, aside)];
 }
 
@@ -123,17 +123,11 @@ export function hoop(element, stage, now, key) {
   return { shapes: [...axis, { key, d: polyline(ring), className: `ink body-${element.at}` }], labels: [] };
 }
 
-/** A length given as a number or as the name of a parameter. @param {number | string | undefined} given @param {Stage} stage */
-function sizeOf(given, stage) {
-  const named = stage.scene.parameters.find((parameter) => parameter.name === given);
-  return named?.value ?? (Number(given) || 0);
-}
-
 /** A box on two wheels, or (as `block`) without. @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
 export function cart(element, stage, now, key) {
   const place = placeOf(stage, now, element.at ?? "");
-  const w = element.width ? (element.width * stage.scale) / 2 : stage.unit * 2.4;
-  const h = element.height ? (element.height * stage.scale) / 2 : stage.unit * 1.1;
+  const w = (sizeOf(element.width, stage) * stage.scale) / 2 || stage.unit * 2.4;
+  const h = (sizeOf(element.height, stage) * stage.scale) / 2 || stage.unit * 1.1;
   const wheel = stage.unit * 0.5;
   const wheels = element.kind === "block" ? [] : [-1, 1];
   const shapes = [

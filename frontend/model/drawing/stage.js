@@ -105,11 +105,11 @@ export function stageOf(scene, trajectory, size) {
 
 /** Makes each thing when it is first asked for, and keeps it. @returns {Stage["once"]} */
 export function keeper() {
-  /** @type {Map<string, any>} */
+  /** @type {Map<string, unknown>} */
   const kept = new Map();
   return (key, make) => {
     if (!kept.has(key)) kept.set(key, make());
-    return kept.get(key);
+    return /** @type {ReturnType<typeof make>} */ (kept.get(key));
   };
 }
 
@@ -128,6 +128,12 @@ export function unlessMoved(stage, key, on, make) {
 /** Where a point or body stands at a moment. @param {Stage} stage @param {Snapshot} now @param {string} place */
 export function placeOf(stage, now, place) {
   return stage.project(now.positions[place] ?? [0, 0, 0].slice(0, stage.scene.dimension));
+}
+
+/** A length in metres, given as a number or as the name of a parameter; 0 if it is not. @param {number | string | undefined} given @param {Stage} stage */
+export function sizeOf(given, stage) {
+  const named = stage.scene.parameters.find((parameter) => parameter.name === given);
+  return named?.value ?? (Number(given) || 0);
 }
 
 /** The class of a coordinate: one quantity, one colour. @param {Scene} scene @param {string | undefined} name */

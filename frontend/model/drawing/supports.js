@@ -1,7 +1,7 @@
 /** What holds a system: ground, pivot, guide. */
 
 import { add, at, circle, hatching, lengthOf, line, normal, polygon, scaled, subtract } from "./geometry.js";
-import { placeOf, unlessMoved } from "./stage.js";
+import { placeOf, sizeOf, unlessMoved } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
@@ -23,7 +23,7 @@ export function ground(element, stage, now, key) {
 /** @param {Pixel} place @param {Element} element @param {Stage} stage @param {string} key @returns {Figure} */
 function groundAt(place, element, stage, key) {
   const below = place[1] > stage.size.height * 0.6;
-  const half = element.width ? (element.width * stage.scale) / 2 : stage.unit * 3;
+  const half = (sizeOf(element.width, stage) * stage.scale) / 2 || stage.unit * 3;
   const away = /** @type {Pixel} */ ([0, below ? 1 : -1]);
   const base = holdsPivot(element, stage) ? add(place, scaled(away, triangleHeight(stage))) : place;
   const from = /** @type {Pixel} */ ([base[0] - half, base[1]]);

@@ -1,6 +1,6 @@
 /** Changes of a scene document: each returns a new one, and what nobody touched stays as it was. */
 
-import { dimensionOf, fieldsOf, isList, rowsOf, SECTIONS } from "./schema.js";
+import { dimensionOf, fieldsOf, isList, memberOf, rowsOf, SECTIONS } from "./schema.js";
 import { tableOf } from "../own.js";
 
 /** @typedef {import("../own.js").SceneDocument} SceneDocument */
@@ -20,7 +20,7 @@ export function written(document, pointer, value) {
   return /** @type {T} */ (put(document, pointer.split("/").slice(1), value));
 }
 
-/** @param {any} node @param {string[]} path @param {unknown} value @returns {unknown} */
+/** @param {unknown} node @param {string[]} path @param {unknown} value @returns {unknown} */
 function put(node, [key, ...rest], value) {
   if (key === undefined) return value;
   if (/^\d+$/.test(key) && (Array.isArray(node) || !tableOf(node))) {
@@ -67,7 +67,7 @@ function fitted(document) {
   };
 }
 
-/** @param {import("./schema.js").Section} section @param {any} row @param {number} dimension */
+/** @param {import("./schema.js").Section} section @param {unknown} row @param {number} dimension */
 function fittedRow(section, row, dimension) {
   const shown = new Map(fieldsOf(section, row, dimension).map((field) => [field.key, field]));
   const elsewhere = new Set(
@@ -76,7 +76,7 @@ function fittedRow(section, row, dimension) {
     ),
   );
   return Object.fromEntries(
-    Object.entries(row ?? {}).filter(([key, value]) => {
+    Object.entries(tableOf(row) ?? {}).filter(([key, value]) => {
       const field = shown.get(key);
       return field ? isList(field) === Array.isArray(value) : !elsewhere.has(key);
     }),
@@ -94,20 +94,20 @@ export function shifted(document, key, index, by) {
 
 /** Without a row; labels and elements of the drawing that hang on it go with it. @param {SceneDocument} document @param {string} key @param {number} index */
 export function removed(document, key, index) {
-  const gone = rowsOf(document[key])[index]?.name;
+  const gone = memberOf(rowsOf(document[key])[index], "name");
   const next = { ...document, [key]: rowsOf(document[key]).filter((_, i) => i !== index) };
   if (!gone || UNREFERRED.includes(key)) return next;
   const keys = referring(key);
   const kept = labelled(next, (labels) =>
     Object.fromEntries(Object.entries(labels).filter(([name]) => key === "coordinates" || name !== gone)),
   );
-  return elements(kept, (all) => all.filter((element) => !keys.some((one) => element?.[one] === gone)));
+  return elements(kept, (all) => all.filter((element) => !keys.some((one) => memberOf(element, one) === gone)));
 }
 
 /** @param {string} section */
 const referring = (section) => (section === "loads" ? ["load"] : section === "coordinates" ? ["coordinate"] : PLACES);
 
-/** @param {SceneDocument} given @param {(elements: any[]) => any[]} change */
+/** @param {SceneDocument} given @param {(elements: unknown[]) => unknown[]} change */
 function elements(given, change) {
   const drawing = tableOf(given.drawing);
   return drawing && Array.isArray(drawing.elements)
@@ -126,9 +126,9 @@ function labelled(given, change) {
  * @param {SceneDocument} document @param {string} key @param {number} index @param {string} name
  */
 export function renamed(document, key, index, name) {
-  const before = rowsOf(document[key])[index]?.name;
+  const before = memberOf(rowsOf(document[key])[index], "name");
   const next = written(document, `/${key}/${index}/name`, name);
-  const taken = SECTIONS.flatMap((section) => rowsOf(document[section.key]).map((row) => row?.name));
+  const taken = SECTIONS.flatMap((section) => rowsOf(document[section.key]).map((row) => memberOf(row, "name")));
   if (
     !before ||
     !name ||
@@ -138,8 +138,10 @@ export function renamed(document, key, index, name) {
   )
     return next;
   const keys = referring(key);
-  const follow = (/** @type {any} */ row) =>
-    Object.fromEntries(Object.entries(row ?? {}).map(([k, v]) => [k, keys.includes(k) && v === before ? name : v]));
+  const follow = (/** @type {unknown} */ row) =>
+    Object.fromEntries(
+      Object.entries(tableOf(row) ?? {}).map(([k, v]) => [k, keys.includes(k) && v === before ? name : v]),
+    );
   const lists = key === "coordinates" ? ["guides"] : ["loads", "events"];
   const moved = Object.fromEntries(
     lists.filter((list) => Array.isArray(next[list])).map((list) => [list, rowsOf(next[list]).map(follow)]),

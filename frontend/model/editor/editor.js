@@ -1,5 +1,6 @@
 /** The scene that is being written: kept at once, checked when the hand rests, shown as soon as it is valid. */
 
+import { problemsIn } from "../attempts.js";
 import { newest } from "../latest.js";
 import { createStore } from "../store.js";
 import { shownFields } from "./schema.js";
@@ -47,7 +48,7 @@ function parsed(text) {
 /**
  * What the server makes of a document: whether it is valid, and its expressions as formulas.
  * @param {Pick<ReturnType<typeof createStore<Writing>>, "get" | "set">} store
- * @param {{api: import("../api.js").Api, lang: () => string, show: (document: SceneDocument) => void}} around
+ * @param {{api: import("../api.js").Api, lang: () => import("../types.js").Lang, show: (document: SceneDocument) => void}} around
  */
 function createChecking({ get, set }, { api, lang, show }) {
   /** @type {SceneDocument | null} */
@@ -82,14 +83,14 @@ function createChecking({ get, set }, { api, lang, show }) {
       if (valid && document !== shown) show((shown = document));
     } catch (error) {
       if (signal.aborted) return;
-      set({ verdict: "unreachable", problems: /** @type {any} */ (error).failure?.problems ?? [] });
+      set({ verdict: "unreachable", problems: problemsIn(error) });
     }
     await typeset;
   };
 }
 
 /**
- * @param {{api: import("../api.js").Api, lang: () => string, show: (document: SceneDocument) => void,
+ * @param {{api: import("../api.js").Api, lang: () => import("../types.js").Lang, show: (document: SceneDocument) => void,
  *   address: (document: SceneDocument) => void, keep: (draft: import("../own.js").Draft) => boolean}} around
  * @param {import("../own.js").Draft} draft
  */

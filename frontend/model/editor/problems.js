@@ -40,7 +40,7 @@ export const isWarning = (problem) => problem.severity === "warning";
 
 /**
  * A text in three parts: before, at and after the place of a problem; a place past its end is marked by a blank.
- * @param {string} text @param {Problem} problem
+ * @param {string} text @param {Pick<Problem, "offset" | "length">} problem
  * @returns {[string, string, string] | null}
  */
 export function marked(text, { offset, length }) {

@@ -1,5 +1,7 @@
 /** What the form asks for: the fields of scene format 1, section by section. */
 
+import { tableOf } from "../own.js";
+
 /** @typedef {import("../own.js").SceneDocument} SceneDocument */
 /** @typedef {"text" | "number" | "flag" | "expression" | "vector" | "place" | "coordinate" | "material"} FieldType */
 /** @typedef {{key: string, type: FieldType, optional?: boolean}} Field */
@@ -57,10 +59,11 @@ const RIGID_IN_SPACE = [
   field("angular_velocity", "vector"),
 ];
 
-/** The fields of a row. @param {Section} section @param {any} row @param {number} dimension @returns {Field[]} */
+/** The fields of a row. @param {Section} section @param {unknown} row @param {number} dimension @returns {Field[]} */
 export function fieldsOf(section, row, dimension) {
-  if (row?.kind === "rigid" && dimension === 3) return [...section.fields, ...RIGID_IN_SPACE];
-  return [...section.fields, ...(section.kinds?.[String(row?.kind)] ?? [])];
+  const kind = memberOf(row, "kind");
+  if (kind === "rigid" && dimension === 3) return [...section.fields, ...RIGID_IN_SPACE];
+  return [...section.fields, ...(section.kinds?.[String(kind)] ?? [])];
 }
 
 /** Whether a field holds several values. @param {Field} field */
@@ -72,11 +75,17 @@ const STANDARD = { coordinates: { value: "0", rate: "0" }, parameters: { value: 
 /** @param {string} section @param {string} key */
 export const standardOf = (section, key) => STANDARD[section]?.[key] ?? "";
 
-/** The material coordinates of a row, as names. @param {any} row @returns {string[]} */
-export const materialOf = (row) => rowsOf(row?.material).map((one) => String(one?.name ?? ""));
+/** The material coordinates of a row, as names. @param {unknown} row @returns {string[]} */
+export const materialOf = (row) => rowsOf(memberOf(row, "material")).map(nameOf);
 
-/** @param {unknown} value @returns {any[]} */
+/** @param {unknown} value @returns {unknown[]} */
 export const rowsOf = (value) => (Array.isArray(value) ? value : []);
+
+/** A member of a row, if it is a table: whoever types may have typed anything. @param {unknown} row @param {string} key */
+export const memberOf = (row, key) => tableOf(row)?.[key];
+
+/** @param {unknown} row */
+export const nameOf = (row) => String(memberOf(row, "name") ?? "");
 
 /** @param {SceneDocument} given */
 export const dimensionOf = (given) => (given.dimension === 3 ? 3 : 2);
@@ -94,19 +103,19 @@ export function shownFields(document) {
   return SECTIONS.flatMap((section) =>
     rowsOf(document[section.key]).flatMap((row, i) =>
       fieldsOf(section, row, dimensionOf(document)).flatMap((field) =>
-        parts(`/${section.key}/${i}/${field.key}`, field.type, row?.[field.key], row, dimensionOf(document)),
+        parts(`/${section.key}/${i}/${field.key}`, field.type, memberOf(row, field.key), row, dimensionOf(document)),
       ),
     ),
   );
 }
 
-/** @param {string} pointer @param {FieldType} type @param {any} value @param {any} row @param {number} dimension */
+/** @param {string} pointer @param {FieldType} type @param {unknown} value @param {unknown} row @param {number} dimension */
 function parts(pointer, type, value, row, dimension) {
   const material = materialOf(row);
   if (type === "vector") {
     return componentsOf(value, dimension).map((c) => ({
       pointer: `${pointer}/${c}`,
-      value: value?.[c],
+      value: rowsOf(value)[c],
       type: /** @type {FieldType} */ ("expression"),
       material,
     }));
@@ -115,7 +124,7 @@ function parts(pointer, type, value, row, dimension) {
   return rowsOf(value).flatMap((one, i) =>
     ["name", "from", "to"].map((key) => ({
       pointer: `${pointer}/${i}/${key}`,
-      value: one?.[key],
+      value: memberOf(one, key),
       type: /** @type {FieldType} */ (key === "name" ? "text" : "expression"),
       material: [],
     })),

@@ -1,6 +1,6 @@
 /** What an empty scene and a new row begin with. */
 
-import { componentsOf, dimensionOf, rowsOf, SECTIONS } from "./schema.js";
+import { componentsOf, dimensionOf, memberOf, rowsOf, SECTIONS } from "./schema.js";
 
 /** @typedef {import("../own.js").SceneDocument} SceneDocument */
 
@@ -20,7 +20,7 @@ export const EMPTY = {
   events: [],
 };
 
-/** @type {Record<string, object>} */
+/** @type {Record<string, SceneDocument>} */
 const ROWS = {
   coordinates: { name: "q", unit: "m", value: 0.5, rate: 0 },
   parameters: { name: "a", unit: "", value: 1 },
@@ -39,16 +39,16 @@ export function copyOf(given) {
 
 /** A new row with a name that is still free. @param {SceneDocument} document @param {string} key */
 export function rowFor(document, key) {
-  const row = /** @type {any} */ (structuredClone(ROWS[key]));
+  const row = structuredClone(ROWS[key]);
   for (const [field, value] of Object.entries(row)) {
     if (Array.isArray(value)) row[field] = componentsOf(value, dimensionOf(document)).map((c) => value[c] ?? "0");
   }
-  return row.name ? { ...row, name: freeName(document, row.name) } : row;
+  return typeof row.name === "string" ? { ...row, name: freeName(document, row.name) } : row;
 }
 
 /** @param {SceneDocument} document @param {string} wish */
 function freeName(document, wish) {
-  const taken = new Set(SECTIONS.flatMap(({ key }) => rowsOf(document[key]).map((row) => row?.name)));
+  const taken = new Set(SECTIONS.flatMap(({ key }) => rowsOf(document[key]).map((row) => memberOf(row, "name"))));
   for (let i = 1; ; i++) {
     const name = i === 1 ? wish : `${wish}${i}`;
     if (!taken.has(name)) return name;

@@ -1,6 +1,6 @@
 /** An answer as it is typed: a text for each part, in either syntax; as one text for the checker, and back to the place in a part. */
 
-/** @typedef {"plain" | "latex"} Syntax */
+/** @typedef {NonNullable<import("../types.js").Contract["AnswerText"]["syntax"]>} Syntax */
 /** @typedef {{start: string, between: string, end: string}} Frame */
 /** @typedef {{form: string, components: number | null}} Asked */
 

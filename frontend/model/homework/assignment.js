@@ -10,7 +10,7 @@ const SCENE = "#s=";
 /** Only the shape by which it is known; what is wrong in it, the server says. @param {unknown} value @returns {Assignment | null} */
 function assignmentOf(value) {
   const given = tableOf(value);
-  return given && Array.isArray(given.tasks) ? /** @type {Assignment} */ (given) : null;
+  return given && Array.isArray(given.tasks) ? /** @type {Assignment} */ (/** @type {unknown} */ (given)) : null;
 }
 
 /** @param {Assignment} assignment */
@@ -18,7 +18,7 @@ export const fragmentOfAssignment = async (assignment) => START + (await fragmen
 
 /**
  * The assignment in a file's text or in the fragment of an address; null if it is none.
- * @param {string} text @param {string} name @param {Pick<import("../api.js").Api, "readToml">} api @param {string} lang
+ * @param {string} text @param {string} name @param {Pick<import("../api.js").Api, "readToml">} api @param {import("../types.js").Lang} lang
  */
 export async function assignmentIn(text, name, api, lang) {
   if (text.startsWith(START)) return assignmentOf(await documentIn(SCENE + text.slice(START.length)));

@@ -8,27 +8,17 @@ import { EVENTS, ask, eventsOf } from "../labs/stream.js";
 import { createStore } from "../store.js";
 import { patient } from "./patience.js";
 
-/** @typedef {import("../labs/stream.js").StreamEvent} StreamEvent */
-/** @typedef {import("../prose.js").CatalogText} CatalogText */
-/** @typedef {"correct" | "follow_through" | "undecided" | "wrong" | "invalid"} Outcome */
+/** @typedef {import("../types.js").Contract} Contract */
+/** @typedef {Contract["GradedRow"]} Row  an answer, marked */
+/** @typedef {Row["outcome"]} Outcome */
+/** @typedef {Contract["TaskTotals"]} TaskTotals */
+/** @typedef {Contract["StudentTotals"]} StudentTotals */
+/** @typedef {Pick<Contract["TableAnswer"], "points" | "of" | "tasks" | "students">} Totals */
 /**
- * @typedef {object} Row  an answer, marked
- * @property {number} index  among the answers
- * @property {number} row  as a spreadsheet counts
- * @property {string} column  which cell keeps the row from being marked
- * @property {string} student
- * @property {CatalogText} title  of the task
- * @property {Outcome} outcome
- * @property {CatalogText} mistake  in words
- * @property {number} points
- * @property {number} of
- * @property {CatalogText} feedback
- * @property {string} answer
+ * What is heard while a table is marked.
+ * @typedef {{begun: {rows: number}, row: Row, totals: Totals, waiting: {seconds: number}, result: Contract["TableAnswer"]}} Heard
+ * @typedef {import("../labs/stream.js").Events<Heard>} TableEvent
  */
-/** @typedef {{outcome: Outcome, mistake: CatalogText, count: number, students: string[]}} Mistake */
-/** @typedef {{scene: string, task: string, title: CatalogText, count: number, outcomes: Partial<Record<Outcome, number>>, mistakes: Mistake[]}} TaskTotals */
-/** @typedef {{student: string, points: number, of: number, answers: ({outcome: Outcome, points: number} | null)[]}} StudentTotals  `answers` to each of the tasks */
-/** @typedef {{points: number, of: number, tasks: TaskTotals[], students: StudentTotals[]}} Totals */
 /**
  * @typedef {object} Class
  * @property {string} name  of the file
@@ -65,33 +55,35 @@ export const base64 = (bytes) =>
     btoa(String.fromCharCode(...bytes.subarray(n * PIECE, (n + 1) * PIECE))),
   );
 
-/** What is known of a class after some more events. @param {Class} known @param {readonly StreamEvent[]} events @returns {Class} */
+/** What is known of a class after some more events. @param {Class} known @param {readonly TableEvent[]} events @returns {Class} */
 export function heard(known, events) {
-  const of = (/** @type {string} */ kind) => events.filter((one) => one.kind === kind).map(({ data }) => data);
-  const [result] = of("result");
-  const { csv = known.csv, ...totals } = result ?? of("totals").at(-1) ?? known.totals;
+  const [result] = of(events, "result");
+  const { points, of: most, tasks, students } = result ?? of(events, "totals").at(-1) ?? known.totals;
   const last = events.at(-1);
   return {
     ...known,
-    totals,
-    csv,
-    total: of("begun")[0]?.rows ?? known.total,
-    rows: [...known.rows, ...of("row")],
+    totals: { points, of: most, tasks, students },
+    csv: result?.csv ?? known.csv,
+    total: of(events, "begun")[0]?.rows ?? known.total,
+    rows: [...known.rows, ...of(events, "row")],
     waiting: last ? (last.kind === "waiting" ? last.data.seconds : 0) : known.waiting,
   };
 }
 
-/** @param {{send: typeof fetch, state: () => Pick<import("./state.js").State, "asked" | "assignment" | "entry">, questions: (reference: object) => Promise<string | null>}} around  `questions` makes a file for STACK */
+/** What the events of a kind say. @template {keyof Heard} K @param {readonly TableEvent[]} events @param {K} kind */
+const of = (events, kind) => events.flatMap((one) => (one.kind === kind ? [/** @type {Heard[K]} */ (one.data)] : []));
+
+/** @param {{send: typeof fetch, state: () => Pick<import("./state.js").State, "asked" | "assignment" | "entry">, questions: (reference: Contract["StackRequest"]) => Promise<string | null>}} around  `questions` makes a file for STACK */
 export function createClassroom({ send, state, questions }) {
   const store = createStore(EMPTY);
   const { get, set } = store;
-  const begin = patient((/** @type {object} */ body, /** @type {AbortSignal} */ signal) =>
+  const begin = patient((/** @type {Contract["TableRequest"]} */ body, /** @type {AbortSignal} */ signal) =>
     ask(send, "/checks/table", body, { accept: EVENTS }, signal),
   );
   let marking = new AbortController();
   let again = () => {};
 
-  /** @param {Uint8Array} bytes */
+  /** @param {Uint8Array} bytes @returns {Contract["TableRequest"]} */
   function question(bytes) {
     const { asked, assignment, entry } = state();
     const around = assignment ? { assignment } : entry ? { scene: entry.reference.scene } : {};
@@ -108,9 +100,11 @@ export function createClassroom({ send, state, questions }) {
     if (!signal.aborted) set({ running: false, waiting: 0, failure });
   }
 
-  /** @param {object} body @param {AbortSignal} signal */
+  /** @param {Contract["TableRequest"]} body @param {AbortSignal} signal */
   async function marked(body, signal) {
-    for await (const events of eventsOf(await begin(body, signal))) {
+    /** @type {AsyncGenerator<TableEvent[], void>} */
+    const stream = eventsOf(await begin(body, signal));
+    for await (const events of stream) {
       if (signal.aborted) return null;
       set(heard(get(), events));
     }
@@ -126,7 +120,9 @@ export function createClassroom({ send, state, questions }) {
     look: (looked) => set({ looked }),
     /** The tasks of the scene on the page as questions for Moodle; null if the server made none. */
     async stack() {
-      const { seed: _, ...reference } = state().entry?.reference ?? {};
+      const { entry } = state();
+      if (!entry) return null;
+      const { seed: _, ...reference } = entry.reference;
       const file = await questions(reference);
       set({ notice: file ? "" : "homework.class-no-questions" });
       return file;

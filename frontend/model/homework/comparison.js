@@ -11,7 +11,7 @@ const MOTION = {
   include: ["coordinates", "rates", "positions", "loads", "error"],
 };
 
-/** A built-in scene by its id, any other whole. @param {Entry} entry */
+/** A built-in scene by its id, any other whole. @param {Entry} entry @returns {import("../types.js").Contract["Scene"]} */
 const sceneOf = ({ reference, scene }) =>
   Object.keys(reference).length === 1 && typeof reference.scene === "string" ? reference.scene : scene;
 
@@ -19,9 +19,7 @@ const sceneOf = ({ reference, scene }) =>
 export function createComparison(store, api) {
   const { get, set } = store;
   const lang = () => get().asked.place.lang;
-  const simulate = sampled((/** @type {typeof MOTION & {scene: unknown, lang: string}} */ request) =>
-    api.simulate(request),
-  );
+  const simulate = sampled(api.simulate);
 
   /** @param {Entry} entry */
   async function animate(entry) {

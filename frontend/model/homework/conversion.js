@@ -25,12 +25,8 @@ export function createConversion({ get, set }, api, answering) {
     const answer = await api
       .post("/expressions/batch", { scene: entry.scene, expressions: asked, lang })
       .catch(() => null);
-    const texts = answer?.expressions.map((/** @type {any} */ one, /** @type {number} */ i) =>
-      parts[i].trim() ? one[to] : "",
-    );
-    return texts?.every((/** @type {string} */ text, /** @type {number} */ i) => text || !parts[i].trim())
-      ? /** @type {string[]} */ (texts)
-      : null;
+    const texts = answer?.expressions.map((one, i) => (parts[i].trim() ? one[to] : "")) ?? [];
+    return answer && texts.every((text, i) => text || !parts[i].trim()) ? texts : null;
   }
 
   /** @param {Syntax} to */

@@ -1,5 +1,6 @@
 /** The page's course: scenes and assignments become a sheet of tasks, of which one is worked on. */
 
+import { asTyped } from "../own.js";
 import { attempt } from "./attempt.js";
 import { createComparison } from "./comparison.js";
 import { FIRST_SCENE } from "./place.js";
@@ -12,7 +13,7 @@ import { FRESH } from "./state.js";
 /** @typedef {import("./sheet.js").Entry} Entry */
 /** @typedef {import("./sheet.js").Assignment} Assignment */
 
-/** Whether both ask for the same sheet. @param {Asked} a @param {Asked} b */
+/** Whether both ask for the same sheet. @param {import("./place.js").Address} a @param {Asked} b */
 export const isSame = (a, b) => a.seed === b.seed && a.place.scene === b.place.scene && a.place.lang === b.place.lang;
 /** And for that of the same assignment, or of the same scene that was brought along. @param {State} a @param {State} b */
 const isStill = (a, b) => a.assignment === b.assignment && a.own === b.own && isSame(a.asked, b.asked);
@@ -35,7 +36,7 @@ async function fetchSheet(
       seed,
       await api.post("/assignments", { assignment, ...(seed ? { seed } : {}), lang }),
     );
-  const reference = referenceOf(own ?? (scene || FIRST_SCENE), seed);
+  const reference = referenceOf(own ? asTyped(own) : scene || FIRST_SCENE, seed);
   return sheetOfScene(reference, await api.post("/tasks", { ...reference, lang }));
 }
 

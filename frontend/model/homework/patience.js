@@ -8,7 +8,7 @@ const PAUSE = 1000;
 
 /**
  * The same call, asked again while the server is busy.
- * @template {any[]} A @template R
+ * @template {unknown[]} A @template R
  * @param {(...given: A) => Promise<R>} call @param {(ms: number) => Promise<unknown>} [wait] @returns {(...given: A) => Promise<R>}
  */
 export function patient(call, wait = (ms) => new Promise((done) => setTimeout(done, ms))) {

@@ -2,6 +2,7 @@
 
 import { HOME, readPlace, writePlace } from "../url.js";
 
+/** @typedef {Omit<Asked, "place"> & {place: import("../types.js").Address}} Address  what an address says of it: perhaps no language */
 /** @typedef {"task" | "working" | "class"} Side  one answer, a whole working, or the table of a class */
 /** @typedef {{task: string, seed: string, side: Side, place: import("../types.js").Place}} Asked */
 
@@ -9,7 +10,7 @@ export const SIDES = /** @type {const} */ (["task", "working", "class"]);
 export const FIRST_SCENE = "pendulum";
 const LONGEST = 64;
 
-/** @param {string} query @returns {Asked} */
+/** @param {string} query @returns {Address} */
 export function readAsked(query) {
   const given = new URLSearchParams(query);
   const { scene, lang, theme } = readPlace(query);

@@ -1,21 +1,11 @@
 /** What a student has written, kept in the browser at every keystroke: one record for each task. */
 
+import { tableOf } from "../own.js";
+
 /** @typedef {import("./answer.js").Syntax} Syntax */
 /** @typedef {{getItem: (key: string) => string | null, setItem: (key: string, value: string) => void, key: (index: number) => string | null, readonly length: number}} Keeper */
-/** @typedef {{code: string, offset: number | null, length: number | null, message: string}} AnswerProblem */
-/**
- * @typedef {object} Verdict
- * @property {"correct" | "wrong" | "undecided" | "invalid" | "follow_through"} outcome
- * @property {string} understood_as
- * @property {string} feedback
- * @property {string | null} misconception
- * @property {{id: string, title: string}[]} misconceptions
- * @property {string | null} slip
- * @property {string | null} [remark]
- * @property {("correct" | "wrong" | "undecided")[]} parts
- * @property {AnswerProblem[]} problems
- * @property {{values: Record<string, number>, latex?: Record<string, string>, of: string, yours: number, right: number} | null} counterexample
- */
+/** @typedef {import("../types.js").Contract["VerdictProblem"]} AnswerProblem */
+/** @typedef {import("../types.js").Contract["VerdictAnswer"]} Verdict */
 /** @typedef {{verdict: Verdict, syntax: Syntax, value: string, lang: string}} Checked  the last verdict and what it is about */
 /**
  * @typedef {object} Draft
@@ -46,8 +36,6 @@ export const BLANK = {
   shown: false,
 };
 
-/** @param {unknown} value @returns {Record<string, any> | null} */
-const table = (value) => (value && typeof value === "object" && !Array.isArray(value) ? value : null);
 /** @param {unknown} value @returns {string[]} */
 const texts = (value) => (Array.isArray(value) ? value.filter((one) => typeof one === "string") : []);
 /** @param {unknown} value @returns {Syntax} */
@@ -55,16 +43,14 @@ const syntaxOf = (value) => (value === "plain" ? "plain" : "latex");
 
 /** A draft out of anything that was kept; what is missing or broken is as in a blank one. @param {unknown} value @returns {Draft} */
 export function draftOf(value) {
-  const kept = table(value) ?? {};
-  const checked = table(kept.checked);
+  const kept = tableOf(value) ?? {};
+  const [checked, written, converted] = [kept.checked, kept.texts, kept.converted].map(tableOf);
   const number = (/** @type {unknown} */ n) => (Number.isInteger(n) ? Math.max(0, Number(n)) : 0);
   return {
     syntax: syntaxOf(kept.syntax),
-    texts: { plain: texts(kept.texts?.plain), latex: texts(kept.texts?.latex) },
-    converted: table(kept.converted)
-      ? { from: syntaxOf(kept.converted.from), texts: texts(kept.converted.texts) }
-      : null,
-    checked: checked && typeof table(checked.verdict)?.outcome === "string" ? /** @type {Checked} */ (checked) : null,
+    texts: { plain: texts(written?.plain), latex: texts(written?.latex) },
+    converted: converted && { from: syntaxOf(converted.from), texts: texts(converted.texts) },
+    checked: checked && typeof tableOf(checked.verdict)?.outcome === "string" ? /** @type {Checked} */ (checked) : null,
     tries: number(kept.tries),
     hints: Math.min(3, number(kept.hints)),
     solved: kept.solved === true,
@@ -75,9 +61,10 @@ export function draftOf(value) {
 /** @param {unknown} value @returns {Line[]} */
 export const linesOf = (value) =>
   Array.isArray(value)
-    ? value
-        .filter((line) => typeof table(line)?.value === "string" && typeof line.task === "string")
-        .map(({ task, syntax, value }) => ({ task, syntax: syntaxOf(syntax), value }))
+    ? value.flatMap((line) => {
+        const { task, syntax, value } = tableOf(line) ?? {};
+        return typeof value === "string" && typeof task === "string" ? [{ task, syntax: syntaxOf(syntax), value }] : [];
+      })
     : [];
 
 /** @param {Keeper} keeper */
@@ -125,8 +112,8 @@ export function createProgress(keeper) {
     imported(text) {
       if (text.length > LARGEST) return null;
       try {
-        const file = table(JSON.parse(text));
-        const records = file?.format === FORMAT ? table(file.records) : null;
+        const file = tableOf(JSON.parse(text));
+        const records = file?.format === FORMAT ? tableOf(file.records) : null;
         return records && Object.entries(records).filter(([key, value]) => write(key, value)).length;
       } catch {
         return null;

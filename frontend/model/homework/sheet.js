@@ -1,28 +1,17 @@
 /** The tasks on the page: those of a scene, or those of an assignment that was opened. */
 
+import { asWritten } from "../own.js";
+
 /** @typedef {import("../types.js").Scene} Scene */
-/** @typedef {{name: string, latex: string, kind: string, unit: string, value: number | null}} TaskSymbol */
-/**
- * @typedef {object} Task
- * @property {string} id
- * @property {string} kind
- * @property {string} subject
- * @property {string} title
- * @property {string} statement
- * @property {string} form
- * @property {string} form_text
- * @property {number | null} components
- * @property {number} points
- * @property {string[]} needs
- * @property {string[]} hints
- * @property {{chapter: string, steps: string[]}} solution
- */
-/** @typedef {Record<string, unknown>} Reference  what requests say of the scene: scene, guides, freeze, parameters, seed */
+/** @typedef {import("../types.js").Contract} Contract */
+/** @typedef {Contract["TaskSymbol"]} TaskSymbol */
+/** @typedef {Contract["TaskEntry"]} Task */
+/** @typedef {Pick<Contract["TasksRequest"], "scene" | "guides" | "freeze" | "parameters" | "seed">} Reference  what requests say of the scene */
 /** @typedef {{id: string, key: string, group: string, reference: Reference, scene: Scene, symbols: TaskSymbol[], task: Task}} Entry  a task with its scene; `id` stands in addresses, `group` names the scene with its changes */
 /** @typedef {{title: Record<string, string> | null, followThrough: number, entries: Entry[]}} Sheet */
-/** @typedef {{format: number, title?: Record<string, string>, individual?: boolean, tasks: Record<string, any>[]}} Assignment */
+/** @typedef {Contract["AssignmentDocument"]} Assignment */
 
-const CHANGES = ["scene", "guides", "freeze", "parameters"];
+const CHANGES = /** @type {const} */ (["scene", "guides", "freeze", "parameters"]);
 
 /** A short name for what is no name; the same content has the same one. @param {unknown} value */
 function digest(value) {
@@ -37,12 +26,12 @@ export function groupOf({ scene, seed, ...changes }) {
   return [name, ...(Object.keys(changes).length ? [digest(changes)] : []), ...(seed ? [String(seed)] : [])].join("@");
 }
 
-/** @param {string | object} scene  by its id, or as a document @param {string} seed @returns {Reference} */
+/** @param {Contract["Scene"]} scene  by its id, or as a document @param {string} seed @returns {Reference} */
 export const referenceOf = (scene, seed) => (seed ? { scene, seed } : { scene });
 
-/** @param {Reference} reference @param {{scene: Scene, symbols: TaskSymbol[], tasks: Task[]}} answer @returns {Sheet} */
-export function sheetOfScene(reference, { scene, symbols, tasks }) {
-  const group = groupOf(reference);
+/** @param {Reference} reference @param {Contract["TaskList"]} answer @returns {Sheet} */
+export function sheetOfScene(reference, { scene: document, symbols, tasks }) {
+  const [group, scene] = [groupOf(reference), asWritten(document)];
   return {
     title: null,
     followThrough: 0.5,
@@ -51,15 +40,22 @@ export function sheetOfScene(reference, { scene, symbols, tasks }) {
 }
 
 /**
- * @param {Assignment} assignment @param {string} seed
- * @param {{title: Record<string, string>, follow_through: number, tasks: {scene: Scene, symbols: TaskSymbol[], task: Task}[]}} answer
+ * @param {Assignment} assignment @param {string} seed @param {Contract["AssignmentAnswer"]} answer
  * @returns {Sheet}
  */
 export function sheetOfAssignment(assignment, seed, answer) {
   const entries = answer.tasks.map(({ scene, symbols, task }, index) => {
     const reference = referenceIn(assignment, index, seed);
     const group = groupOf(reference);
-    return { id: String(index + 1), key: `${group}/${task.id}`, group, reference, scene, symbols, task };
+    return {
+      id: String(index + 1),
+      key: `${group}/${task.id}`,
+      group,
+      reference,
+      scene: asWritten(scene),
+      symbols,
+      task,
+    };
   });
   return { title: answer.title, followThrough: answer.follow_through, entries };
 }
@@ -67,7 +63,9 @@ export function sheetOfAssignment(assignment, seed, answer) {
 /** What requests say of the scene of an assignment's task. @param {Assignment} assignment @param {number} index @param {string} seed @returns {Reference} */
 export function referenceIn(assignment, index, seed) {
   const given = assignment.tasks[index];
-  const own = Object.fromEntries(CHANGES.filter((name) => name in given).map((name) => [name, given[name]]));
+  const own = /** @type {Reference} */ (
+    Object.fromEntries(CHANGES.filter((name) => name in given).map((name) => [name, given[name]]))
+  );
   return assignment.individual && seed ? { ...own, seed } : own;
 }
 
@@ -81,7 +79,7 @@ export function assignmentOf({ entries, followThrough }, title) {
     task: task.id,
     points: task.points,
   }));
-  return /** @type {Assignment} */ ({ format: 1, title, individual: false, follow_through: followThrough, tasks });
+  return { format: 1, title, individual: false, follow_through: followThrough, tasks };
 }
 
 /** Whether it is the library's scene as it is, so that its own page shows the same. @param {Reference} reference */

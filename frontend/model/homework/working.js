@@ -58,11 +58,11 @@ export function createWorking(store, api, progress, exercise) {
       const { lines, entry, asked } = get();
       const line = lines[index];
       const to = line.syntax === "plain" ? "latex" : "plain";
-      if (!line.value.trim())
+      if (!entry || !line.value.trim())
         return exercise.write(lines.map((one, i) => (i === index ? { ...one, syntax: to } : one)));
       const read = await api
         .post("/checks/reading", {
-          ...entry?.reference,
+          ...entry.reference,
           task: line.task,
           answer: { syntax: line.syntax, value: line.value },
           lang: asked.place.lang,

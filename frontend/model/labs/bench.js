@@ -6,7 +6,7 @@ import { createStore } from "../store.js";
 import { inLab, onScene, requestOf } from "./question.js";
 
 /** @typedef {import("./question.js").Question} Question */
-/** @typedef {import("./stream.js").Chart} Chart */
+/** @typedef {import("./chart.js").Chart} Chart */
 /** @typedef {import("./stream.js").Part} Part */
 /** @typedef {import("./stream.js").Result} Result */
 /** @typedef {import("./stream.js").Waiting} Waiting */
@@ -28,7 +28,7 @@ const EMPTY = { running: false, waiting: null, progress: 0, charts: [], result: 
 
 /**
  * @param {{run: (name: string, body: object, hear: (part: Part) => void, signal: AbortSignal, anew: boolean, wait: (waiting: Waiting) => void) => Promise<Result>,
- *   scene: (id: string) => Promise<import("../types.js").Scene>, document: (id: string) => string | object, lang: () => string}} around
+ *   scene: (id: string) => Promise<import("../types.js").Scene>, document: (id: string) => string | object, lang: () => import("../types.js").Lang}} around
  * @param {Question} question
  */
 export function createBench({ run, scene, document, lang }, question) {

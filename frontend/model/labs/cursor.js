@@ -1,21 +1,24 @@
 /** A place on a map that the keyboard moves, as column and row of its grid. */
 
-/** @typedef {import("./stream.js").Chart} Chart */
+/** @typedef {import("./chart.js").Chart} Chart */
+/** @typedef {import("./chart.js").MapTrace} MapTrace */
 /** @typedef {{column: number, row: number}} Spot */
 
 const WIDE = 10;
 /** @type {Record<string, [number, number]>} */
 const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 
-/** The map in a chart, if it has one: its trace with x, y, z and who stands on the axes. @param {Chart} chart @returns {any} */
-export const mapOf = (chart) => chart.data.find((trace) => ["map", "flips"].includes(trace.meta?.role)) ?? null;
+/** The map in a chart, if it has one: its trace with x, y, z and who stands on the axes. @param {Chart} chart @returns {MapTrace | null} */
+export const mapOf = (chart) =>
+  /** @type {MapTrace | undefined} */ (chart.data.find(({ meta }) => meta?.role === "map" || meta?.role === "flips")) ??
+  null;
 
-/** @param {any} map @returns {Spot} */
+/** @param {MapTrace} map @returns {Spot} */
 export const middleOf = (map) => ({ column: Math.floor(map.x.length / 2), row: Math.floor(map.y.length / 2) });
 
 /**
  * Where an arrow key leads, with Shift ten places on; null for other keys.
- * @param {Spot} spot @param {string} key @param {boolean} wide @param {any} map @returns {Spot | null}
+ * @param {Spot} spot @param {string} key @param {boolean} wide @param {MapTrace} map @returns {Spot | null}
  */
 export function moved({ column, row }, key, wide, map) {
   const way = WAYS[key];
@@ -27,12 +30,12 @@ export function moved({ column, row }, key, wide, map) {
 /** @param {number} place @param {number} count */
 const within = (place, count) => Math.min(Math.max(place, 0), count - 1);
 
-/** What the map says there; it may have become coarser meanwhile. @param {Spot} spot @param {any} map */
+/** What the map says there; it may have become coarser meanwhile. @param {Spot} spot @param {MapTrace} map */
 export function seenAt({ column, row }, map) {
   const [i, j] = [within(column, map.x.length), within(row, map.y.length)];
   return {
-    x: /** @type {number} */ (map.x[i]),
-    y: /** @type {number} */ (map.y[j]),
-    value: /** @type {number | null} */ (map.z[j]?.[i] ?? null),
+    x: map.x[i],
+    y: map.y[j],
+    value: map.z[j]?.[i] ?? null,
   };
 }

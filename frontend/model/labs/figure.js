@@ -1,8 +1,10 @@
 /** A chart in the colours and the width of the page, and what is put over it while a slider moves. */
 
+import { resultOf } from "./results.js";
 import { stepRange } from "./step.js";
 
-/** @typedef {import("./stream.js").Chart} Chart */
+/** @typedef {import("./chart.js").Chart} Chart */
+/** @typedef {import("./chart.js").Trace} Trace */
 /** @typedef {{ink: string, muted: string, grid: string, paper: string}} Palette */
 
 const NARROW = 640;
@@ -50,9 +52,9 @@ export function themed(chart, palette, width, em, lang) {
   return { data: told.data.map((trace) => thickened(inked(trace, palette), em / TYPE)), layout };
 }
 
-/** What a legend says below a narrow chart goes on in the next line. @param {any} trace @param {number} most letters in a line */
+/** What a legend says below a narrow chart goes on in the next line. @param {Trace} trace @param {number} most letters in a line */
 function broken(trace, most) {
-  const lines = (trace.name ?? "").split(" ").reduce((/** @type {string[]} */ all, /** @type {string} */ word) => {
+  const lines = (trace.name ?? "").split(" ").reduce((/** @type {string[]} */ all, word) => {
     const longer = all.length ? `${all[all.length - 1]} ${word}` : word;
     return all.length && longer.length <= most ? [...all.slice(0, -1), longer] : [...all, word];
   }, []);
@@ -62,19 +64,19 @@ function broken(trace, most) {
 /** @param {Chart} chart @param {boolean} narrow @param {number} em */
 function heightOf(chart, narrow, em) {
   const named = chart.data.filter((trace) => trace.name && trace.showlegend !== false);
-  const lines = named.reduce((sum, { name }) => sum + name.split("<br>").length, 0);
+  const lines = named.reduce((sum, { name = "" }) => sum + name.split("<br>").length, 0);
   const legend = narrow && chart.layout.showlegend !== false ? lines * 1.35 * em : 0;
   return 26 * em + legend;
 }
 
-/** @param {Record<string, any>} layout @param {Palette} palette */
+/** @param {Chart["layout"]} layout @param {Palette} palette */
 function axesOf(layout, palette) {
-  const axes = Object.keys(layout).filter((key) => /^[xy]axis\d*$/.test(key));
+  const axes = Object.entries(layout).filter(([key]) => /^[xy]axis\d*$/.test(key));
   return Object.fromEntries(
-    axes.map((key) => [
+    axes.map(([key, axis]) => [
       key,
       {
-        ...layout[key],
+        .../** @type {object} */ (axis),
         gridcolor: palette.grid,
         linecolor: palette.muted,
         tickcolor: palette.muted,
@@ -84,11 +86,11 @@ function axesOf(layout, palette) {
   );
 }
 
-/** @param {any} trace @param {Palette} palette */
+/** @param {Trace} trace @param {Palette} palette @returns {Trace} */
 function inked(trace, palette) {
   const { marker } = trace;
   const shown = (/** @type {unknown} */ color) => (color === INK ? palette.ink : color);
-  if (![marker?.color, marker?.line?.color].includes(INK)) return trace;
+  if (!marker || ![marker.color, marker.line?.color].includes(INK)) return trace;
   return {
     ...trace,
     marker: {
@@ -103,7 +105,7 @@ function inked(trace, palette) {
 const scaled = (lengths, by) =>
   Object.fromEntries(Object.entries(lengths).map(([name, length]) => [name, length * by]));
 
-/** Lines and symbols grow with the type. @param {any} trace @param {number} by */
+/** Lines and symbols grow with the type. @param {Trace} trace @param {number} by @returns {Trace} */
 function thickened(trace, by) {
   const { line, marker } = trace;
   const sized = marker && (Array.isArray(marker.size) ? marker : { ...marker, size: (marker.size ?? SYMBOL) * by });
@@ -116,13 +118,9 @@ function thickened(trace, by) {
 
 /** The crosses hλ for a step h. @param {Chart} chart @param {number} h @returns {Chart} */
 export function withStep(chart, h) {
-  const moved = (/** @type {any} */ trace) =>
+  const moved = (/** @type {Trace} */ trace) =>
     trace.meta?.role === "eigenvalues"
-      ? {
-          ...trace,
-          x: trace.x.map((/** @type {number} */ v) => v * h),
-          y: trace.y.map((/** @type {number} */ v) => v * h),
-        }
+      ? { ...trace, x: trace.x.map((v) => v * h), y: trace.y.map((v) => v * h) }
       : trace;
   return { ...chart, data: chart.data.map(moved) };
 }
@@ -147,12 +145,13 @@ export function withTolerance(chart, tolerance, color) {
  */
 export function withMarks({ charts, question, result }, dial) {
   if (question.lab === "work-precision") return charts.map((chart) => withTolerance(chart, dial.tolerance, "#888888"));
-  if (question.lab !== "stability" || !result) return charts;
-  const [low] = stepRange(result.eigenvalues);
+  const stability = resultOf(result, "stability");
+  if (!stability) return charts;
+  const [low] = stepRange(stability.eigenvalues);
   return charts.map((chart) => (chart.id === "stability-regions" ? withStep(chart, dial.step || 10 * low) : chart));
 }
 
-/** The cheapest run for a tolerance: that of the next finer one that was asked for. @param {{wanted: number, method: string, time: number}[]} cheapest @param {number} tolerance */
+/** The cheapest run for a tolerance: that of the next finer one that was asked for. @template {{wanted: number}} R @param {R[]} cheapest @param {number} tolerance */
 export function cheapestFor(cheapest, tolerance) {
   return cheapest.filter((one) => one.wanted <= tolerance * 1.0001).sort((a, b) => b.wanted - a.wanted)[0] ?? null;
 }

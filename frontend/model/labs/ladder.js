@@ -9,10 +9,7 @@ import { inLanguage } from "../catalog.js";
  * @param {Names} [names] @param {string} [lang]
  */
 export function titleOf({ parts }, t, names = {}, lang = "en") {
-  const called = (/** @type {string} */ name) => {
-    const found = names[name] ?? name;
-    return typeof found === "string" ? found : inLanguage(found, lang);
-  };
+  const called = (/** @type {string} */ name) => inLanguage(names[name] ?? name, lang);
   const told = (/** @type {Record<string, string>} */ parameters) =>
     Object.fromEntries(Object.entries(parameters).map(([key, some]) => [key, some.split(", ").map(called).join(", ")]));
   return (

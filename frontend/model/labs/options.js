@@ -2,24 +2,20 @@
 
 /** @typedef {import("../types.js").Scene} Scene */
 /** @typedef {{parameter: string, from: number, to: number}} Side  of a map */
+/** @typedef {number | string | boolean | Side | null} Answer */
 /**
- * @typedef {object} Option
- * @property {"number" | "tick" | "choice" | "parameter" | "side"} kind  how it is asked
- * @property {string} name  of the answer in the question
- * @property {string} key  of the answer in the address
- * @property {string} label  the key of a text
- * @property {any} usual  the answer until somebody gives another one
- * @property {(text: string) => any} read  the answer in an address, the usual one if it makes no sense
- * @property {(answer: any) => string} write
- * @property {(answer: any) => object} asked  the part of the request
- * @property {readonly (string | number)[]} [choices]
- * @property {{shown: number, min: number, max: number}} [range]  of a number; `shown` stands for an answer of zero
- * @property {boolean} [ofScene]  an answer for one scene means nothing for another
- * @property {(scene: Scene) => any} [usualIn]  what is usual in a scene, where none is for all
+ * How something is asked: by its `kind`. `name` is that of the answer in the question, `key` in the address, `label` the
+ * key of a text. `usual` is the answer until somebody gives another one; `read` makes an answer of an address, the usual
+ * one if it makes no sense; `asked` is its part of the request. In the `range` of a number, `shown` stands for an answer
+ * of zero. What is `ofScene` means nothing for another scene, and `usualIn` is usual in one, where nothing is for all.
+ * @template {Answer} [A=Answer]
+ * @typedef {{kind: "number" | "tick" | "choice" | "parameter" | "side", name: string, key: string, label: string, usual: A,
+ *   read(text: string): A, write(answer: A): string, asked(answer: A): object, choices?: readonly (string | number)[],
+ *   range?: {shown: number, min: number, max: number}, ofScene?: boolean, usualIn?(scene: Scene): A}} Option
  */
-/** @typedef {{example: {scene: string} & Record<string, any>, options: Option[], driven?: boolean}} Experiment  `example` is the question that shows it best; `driven`: not every scene will do */
+/** @typedef {{example: {scene: string} & Partial<import("./question.js").Question>, options: Option[], driven?: boolean}} Experiment  `example` is the question that shows it best; `driven`: not every scene will do */
 
-/** @param {Pick<Option, "name" | "usual" | "range" | "asked"> & Partial<Option>} given @returns {Option} */
+/** @param {Pick<Option<number>, "name" | "usual" | "range" | "asked"> & Partial<Option<number>>} given @returns {Option<number>} */
 export const number = ({ name, usual, ...given }) => ({
   kind: "number",
   name,
@@ -31,7 +27,7 @@ export const number = ({ name, usual, ...given }) => ({
   write: (answer) => (answer === usual ? "" : String(answer)),
 });
 
-/** How long the motion lasts; zero for as long as is usual. @param {number} [shown] @returns {Option} */
+/** How long the motion lasts; zero for as long as is usual. @param {number} [shown] @returns {Option<number>} */
 export const duration = (shown = 10) =>
   number({
     name: "duration",
@@ -41,7 +37,7 @@ export const duration = (shown = 10) =>
     asked: (seconds) => (seconds ? { t_end: seconds } : {}),
   });
 
-/** @param {string} name @param {boolean} usual @param {Option["asked"]} asked @returns {Option} */
+/** @param {string} name @param {boolean} usual @param {(answer: boolean) => object} asked @returns {Option<boolean>} */
 export const tick = (name, usual, asked) => ({
   kind: "tick",
   name,
@@ -53,7 +49,7 @@ export const tick = (name, usual, asked) => ({
   write: (answer) => (answer === usual ? "" : String(Number(answer))),
 });
 
-/** @param {string} name @param {readonly (string | number)[]} choices @param {string | number} usual @returns {Option} */
+/** @param {string} name @param {readonly (string | number)[]} choices @param {string | number} usual @returns {Option<string | number>} */
 export const choice = (name, choices, usual) => ({
   kind: "choice",
   name,
@@ -66,7 +62,7 @@ export const choice = (name, choices, usual) => ({
   asked: (answer) => (answer === usual ? {} : { [name]: answer }),
 });
 
-/** A parameter of the scene, or none. @param {string} name @returns {Option} */
+/** A parameter of the scene, or none. @param {string} name @returns {Option<string>} */
 export const parameter = (name) => ({
   kind: "parameter",
   name,
@@ -86,7 +82,7 @@ export const rangeOf = ({ name, value, min, max }) => ({
   to: max ?? value * 2,
 });
 
-/** A parameter of the scene and its range, "parameter:from:to" in the address. @param {string} name @param {number} last  the last parameters of a driven scene are those that drive it: which of them is usual @returns {Option} */
+/** A parameter of the scene and its range, "parameter:from:to" in the address. @param {string} name @param {number} last  the last parameters of a driven scene are those that drive it: which of them is usual @returns {Option<Side | null>} */
 export const side = (name, last) => ({
   kind: "side",
   name,

@@ -3,10 +3,14 @@
 import { experimentOf, OPTIONS } from "./experiments.js";
 
 /** @typedef {import("../types.js").Scene} Scene */
+/** @typedef {import("./options.js").Answer} Answer */
 /**
  * @typedef {{lab: string, scene: string, parameters: Record<string, number>,
- *   initial: Record<string, {value?: number, rate?: number}>} & Record<string, any>} Question  with an answer to every option
+ *   initial: Record<string, {value?: number, rate?: number}>, [option: string]: unknown}} Question  with an answer to every option
  */
+
+/** What is answered to an option. @param {Question} question @param {string} option */
+const answerTo = (question, option) => /** @type {Answer} */ (question[option]);
 
 /** @type {Question} */
 export const NOTHING = {
@@ -52,7 +56,7 @@ function put(question, key, value) {
 /** The query of a question, without what is as usual. @param {Question} question */
 export function writeQuestion(question) {
   const { parameters, initial, lab, scene } = question;
-  const answers = OPTIONS.map(({ name, key, write }) => [key, write(question[name])]);
+  const answers = OPTIONS.map(({ name, key, write }) => [key, write(answerTo(question, name))]);
   const values = Object.entries(parameters).map(([name, value]) => [`p.${name}`, value]);
   const starts = Object.entries(initial).flatMap(([name, { value, rate }]) => [
     [`q.${name}`, value],
@@ -70,7 +74,7 @@ export function requestOf(question, scene, lang) {
   const { lab, parameters, initial } = question;
   return Object.assign(
     { scene, parameters, initial, lang },
-    ...experimentOf(lab).options.map(({ name, asked }) => asked(question[name])),
+    ...experimentOf(lab).options.map(({ name, asked }) => asked(answerTo(question, name))),
   );
 }
 
@@ -106,9 +110,9 @@ export function inLab(question, lab) {
   return { ...shown, ...Object.fromEntries(said.map(({ name }) => [name, question[name]])) };
 }
 
-/** The motion at a point of a map: two parameters, or two angles at rest. @param {Question} question @param {{role: string, x: string, y: string}} map @param {number} x @param {number} y @returns {Pick<Question, "parameters" | "initial">} */
-export function pointOf({ parameters, initial }, map, x, y) {
-  if (map.role === "map") return { parameters: { ...parameters, [map.x]: x, [map.y]: y }, initial };
+/** The motion at a point of a map: two parameters, or two angles at rest. @param {Question} question @param {import("./chart.js").Meta} map @param {number} x @param {number} y @returns {Pick<Question, "parameters" | "initial">} */
+export function pointOf({ parameters, initial }, { role, x: across = "", y: up = "" }, x, y) {
+  if (role === "map") return { parameters: { ...parameters, [across]: x, [up]: y }, initial };
   const still = Object.fromEntries(Object.entries(initial).map(([name, start]) => [name, { ...start, rate: 0 }]));
-  return { parameters, initial: { ...still, [map.x]: { value: x, rate: 0 }, [map.y]: { value: y, rate: 0 } } };
+  return { parameters, initial: { ...still, [across]: { value: x, rate: 0 }, [up]: { value: y, rate: 0 } } };
 }

@@ -1,12 +1,15 @@
 /** Server-sent events in the body of a response; of an experiment: where it stands in the queue, its parts as they are measured, then its result. */
 
 import { ApiError, failureOf } from "../api.js";
+import { tableOf } from "../own.js";
 
 /** @typedef {{done: number, total: number, charts: Chart[]}} Part */
 /** @typedef {{place: number, seconds: number}} Waiting  place 1 is the next, 0 has begun; seconds until it should begin */
-/** @typedef {{id: string, title: string, subject: string, caption: string, data: any[], layout: Record<string, any>}} Chart */
-/** @typedef {{experiment: string, charts: Chart[], [key: string]: any}} Result */
-/** @typedef {{kind: string, data: any}} StreamEvent */
+/** @typedef {import("./chart.js").Chart} Chart */
+/** @typedef {import("../types.js").Contract["ExperimentAnswer"] & {charts: Chart[]}} Result */
+/** Events by their kinds, and what each kind says. @template T @typedef {{[K in keyof T]: {kind: K, data: T[K]}}[keyof T]} Events */
+/** @typedef {Events<{waiting: Waiting, part: Part, result: Result}>} Measuring  what is heard of an experiment */
+/** @typedef {{kind: string, data: unknown}} StreamEvent */
 
 export const EVENTS = "text/event-stream";
 
@@ -49,7 +52,9 @@ export async function experiment(send, name, body, hear, signal, anew = false, w
     { accept: EVENTS, ...(anew ? { "cache-control": "no-cache" } : {}) },
     signal,
   );
-  for await (const events of eventsOf(response)) {
+  /** @type {AsyncGenerator<Measuring[], void>} */
+  const stream = eventsOf(response);
+  for await (const events of stream) {
     for (const { kind, data } of events) {
       if (kind === "waiting") wait(data);
       if (kind === "part") hear(data);
@@ -61,7 +66,8 @@ export async function experiment(send, name, body, hear, signal, anew = false, w
 
 /**
  * The events of a stream, as many at a time as have come together, until it ends. An ApiError for a `problem`.
- * @param {Response} response @returns {AsyncGenerator<StreamEvent[], void>}
+ * Which events there are, the call says to whose answer one listens.
+ * @template {StreamEvent} E @param {Response} response @returns {AsyncGenerator<E[], void>}
  */
 export async function* eventsOf(response) {
   const reader = response.body?.pipeThrough(new TextDecoderStream()).getReader();
@@ -71,14 +77,17 @@ export async function* eventsOf(response) {
     if (done) return;
     const events = read(value);
     const problem = events.findIndex(({ kind }) => kind === "problem");
-    yield problem < 0 ? events : events.slice(0, problem);
-    if (problem >= 0) throw new ApiError(failureOf(events[problem].data.status, events[problem].data));
+    yield /** @type {E[]} */ (problem < 0 ? events : events.slice(0, problem));
+    if (problem >= 0) throw new ApiError(failureOf(statusIn(events[problem].data), events[problem].data));
   }
 }
 
+/** @param {unknown} problem */
+const statusIn = (problem) => Number(tableOf(problem)?.status) || 0;
+
 /** A connection that is lost is a server that cannot be reached; who has gone himself knows that. @param {unknown} error @returns {never} */
 function brokenOff(error) {
-  throw /** @type {any} */ (error)?.name === "AbortError" ? error : new ApiError(failureOf(0, null));
+  throw error instanceof Error && error.name === "AbortError" ? error : new ApiError(failureOf(0, null));
 }
 
 /**

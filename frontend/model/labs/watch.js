@@ -10,7 +10,7 @@ const SECONDS = 20;
 const RATE = 60;
 const PARTS = ["coordinates", "rates", "positions", "loads", "energy"];
 
-/** @param {Question} question @param {Wish} wish @param {string | object} scene @param {string} lang */
+/** @param {Question} question @param {Wish} wish @param {import("../types.js").Contract["Scene"]} scene @param {import("../types.js").Lang} lang */
 export function motionOf({ parameters, initial }, wish, scene, lang) {
   const { method, step, t_end = SECONDS } = wish;
   const stepped = method ? { method, step } : {};

@@ -10,7 +10,7 @@
  * @property {import("../types.js").Chapter[]} [chapters]  when they are new, or were asked for
  */
 /** @typedef {{kind: "hello"} | {kind: "go", by: number} | {kind: "within", by: number} | {kind: "goTo", step: string} | {kind: "overlay", name: "black"} | {kind: "play"}} Wish */
-/** @typedef {{postMessage: (message: any) => void, onmessage: ((event: any) => void) | null, close: () => void}} Channel */
+/** @typedef {{postMessage: (message: Here | Wish) => void, onmessage: ((event: MessageEvent<Here | Wish>) => void) | null, close: () => void}} Channel */
 
 /** @param {string} id */
 export const nameOf = (id) => `deltaq.lecture.${id}`;

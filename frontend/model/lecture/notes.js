@@ -1,5 +1,7 @@
 /** The lecturer's notes: one text for each step of a scene, kept in the browser. */
 
+import { tableOf } from "../own.js";
+
 /** @typedef {Record<string, Record<string, string>>} Notes  by scene, by step */
 /** @typedef {import("../own.js").Keeper} Keeper */
 
@@ -8,8 +10,7 @@ const KEY = "deltaq.notes.1";
 /** @param {Keeper} keeper @returns {Notes} */
 export function readNotes(keeper) {
   try {
-    const kept = JSON.parse(keeper.getItem(KEY) ?? "{}");
-    return kept && typeof kept === "object" && !Array.isArray(kept) ? kept : {};
+    return /** @type {Notes} */ (tableOf(JSON.parse(keeper.getItem(KEY) ?? "{}")) ?? {});
   } catch {
     return {};
   }

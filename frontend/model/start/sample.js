@@ -10,7 +10,7 @@ const AT_ONCE = 3;
 
 /**
  * @param {Pick<import("../api.js").Api, "scene" | "simulate">} api
- * @param {() => string} lang
+ * @param {() => import("../types.js").Lang} lang
  */
 export function createSamples(api, lang) {
   /** @type {(() => Promise<void>)[]} */

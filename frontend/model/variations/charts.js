@@ -1,7 +1,7 @@
 /** The two charts of the h-slider as paths: the functions with their neighbours, and error against h. */
 
 /** @typedef {import("./lab.js").Quotient} Quotient */
-/** @typedef {import("./lab.js").Errors} Errors */
+/** @typedef {import("../types.js").Contract["QuotientErrors"]} Errors */
 /** @typedef {{width: number, height: number, em: number}} Size */
 /** @typedef {{at: number, text: string | number}} Tick */
 /** @typedef {{left: number, right: number, top: number, bottom: number}} Frame */

@@ -1,23 +1,18 @@
 /** The question that is being asked, and what the server answers when the hand rests: the steps, then the quotients. */
 
-import { ApiError } from "../api.js";
+import { problemsIn } from "../attempts.js";
 import { newest } from "../latest.js";
 import { createStore } from "../store.js";
 import { namesIn, quotientRequestOf, requestOf } from "./question.js";
 
 /** @typedef {import("./question.js").Question} Question */
 /** @typedef {import("../types.js").Problem} Problem */
-/** @typedef {{plain: string | string[], latex: string}} Written */
-/** @typedef {{function: string, plain: string, latex: string, vanishes: boolean, at: string[], condition: Written | null}} BoundaryTerm */
-/** @typedef {{chapters: import("../types.js").Chapter[], result: {first_variation: Written, euler_lagrange?: Written[], boundary_terms?: BoundaryTerm[]}}} Answer */
-/** @typedef {{quotient: (number | null)[], truncation: (number | null)[], rounding: (number | null)[], error: (number | null)[], best: {h: number, error: number} | null, predicted: number | null}} Errors */
-/** @typedef {{t: number[], at: number | null, functions: Record<string, (number | null)[]>, direction: Record<string, (number | null)[]>}} Curves */
-/** @typedef {{value: number, derivative: number, h: number[], one_sided: Errors, central: Errors, curves: Curves}} Quotient */
+/** @typedef {import("../types.js").Contract["Quotient"]} Quotient */
 /**
  * @typedef {object} Asking
  * @property {Question} question
  * @property {"waiting" | "answered" | "refused" | "unreachable"} verdict
- * @property {Answer | null} answer  to the last question that had one
+ * @property {import("../types.js").Variation | null} answer  to the last question that had one
  * @property {Problem[]} problems
  * @property {Quotient | null} quotient
  * @property {Problem[]} numericProblems
@@ -26,11 +21,8 @@ import { namesIn, quotientRequestOf, requestOf } from "./question.js";
 
 const REST = 300;
 
-/** @param {unknown} error */
-const problemsOf = (error) => (error instanceof ApiError ? /** @type {Problem[]} */ (error.failure.problems) : []);
-
 /**
- * @param {{vary: (body: object, signal: AbortSignal) => Promise<any>, lang: () => string}} around
+ * @param {Pick<import("../api.js").Api, "vary"> & {lang: () => import("../types.js").Lang}} around
  * @param {Question} question @param {number} size
  */
 export function createLab({ vary, lang }, question, size) {
@@ -60,7 +52,7 @@ export function createLab({ vary, lang }, question, size) {
       else await measure(asked, signal);
     } catch (error) {
       if (signal.aborted) return;
-      const problems = problemsOf(error);
+      const problems = problemsIn(error);
       set({ verdict: problems.length ? "refused" : "unreachable", problems });
     }
   }
@@ -69,9 +61,9 @@ export function createLab({ vary, lang }, question, size) {
   async function measure(asked, signal) {
     try {
       const { quotient } = await vary(quotientRequestOf(asked, lang()), signal);
-      if (!signal.aborted) set({ quotient, numericProblems: [] });
+      if (!signal.aborted) set({ quotient: quotient ?? null, numericProblems: [] });
     } catch (error) {
-      if (!signal.aborted) set({ quotient: null, numericProblems: problemsOf(error) });
+      if (!signal.aborted) set({ quotient: null, numericProblems: problemsIn(error) });
     }
   }
 

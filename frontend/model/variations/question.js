@@ -1,18 +1,23 @@
 /** What is to be varied, as it is typed; as a request; and as an address. */
 
+import { oneOf } from "../url.js";
+
+/** @typedef {import("../types.js").Contract["VariationRequest"]} Request */
+/** @typedef {import("../types.js").Contract["IntegralFunctional"]} Integral */
+/** @typedef {"fixed" | "free"} End  whether the functions are prescribed there */
 /** @typedef {"expression" | "value" | "integral"} Kind  the value of f itself, at an instant, or the integral over the time */
 /**
  * @typedef {object} Question
  * @property {Kind} kind
  * @property {string} expression
- * @property {"plain" | "latex"} syntax
+ * @property {NonNullable<Request["syntax"]>} syntax
  * @property {string} functions  names, by commas
  * @property {string} direction  names of the directions, by commas; δ of each function if empty
  * @property {string} parameters  names, by commas
  * @property {string} at  the instant
  * @property {string} from
  * @property {string} to
- * @property {string} ends
+ * @property {NonNullable<Integral["ends"]>} ends
  * @property {Record<string, string>} samples  x(t) by function
  * @property {Record<string, string>} along  v(t) by function
  * @property {Record<string, string>} values  by parameter
@@ -37,7 +42,8 @@ export const EMPTY = {
   t: "1",
 };
 export const KINDS = /** @type {const} */ (["expression", "value", "integral"]);
-export const ENDS = ["fixed", "free", "fixed-free", "free-fixed"];
+export const ENDS = /** @type {const} */ (["fixed", "free", "fixed-free", "free-fixed"]);
+const SYNTAXES = /** @type {const} */ (["plain", "latex"]);
 const USUAL = { samples: "sin(t)", along: "t", values: "1" };
 const TEXTS = /** @type {const} */ (["expression", "functions", "direction", "parameters", "at", "from", "to", "t"]);
 const TABLES = /** @type {const} */ (["samples", "along", "values"]);
@@ -47,30 +53,40 @@ const LONGEST = 2000;
 export const namesIn = (text) => text.split(/[,;\s]+/).filter(Boolean);
 /** What is typed for a name, or what stands there until something is. @param {Question} question @param {"samples" | "along" | "values"} table @param {string} name */
 export const textOf = (question, table, name) => question[table][name] ?? USUAL[table];
-/** Both ends in one word: "fixed" for both, "fixed-free" for the lower and the upper. @param {string} lower @param {string} upper */
-export const endsOf = (lower, upper) => (lower === upper ? lower : `${lower}-${upper}`);
-/** @param {string} ends */
-export const bothEnds = (ends) => (ends.includes("-") ? ends.split("-") : [ends, ends]);
+/** Both ends in one word: "fixed" for both, "fixed-free" for the lower and the upper. @param {End} lower @param {End} upper @returns {Question["ends"]} */
+export const endsOf = (lower, upper) => (lower === upper ? lower : lower === "fixed" ? "fixed-free" : "free-fixed");
+/** @param {Question["ends"]} ends @returns {[End, End]} */
+export const bothEnds = (ends) => [
+  ends.startsWith("fixed") ? "fixed" : "free",
+  ends.endsWith("fixed") ? "fixed" : "free",
+];
 
-/** @param {Question} question @param {string} lang */
+/** @param {Question} question @returns {Request["functional"]} */
+function functionalOf({ kind, at, from, to, ends }) {
+  if (kind === "integral") return { kind, from, to, ends };
+  return kind === "value" ? { kind, at } : null;
+}
+
+/** @param {Question} question @param {import("../types.js").Lang} lang */
 export function requestOf(question, lang) {
-  const { kind, expression, syntax, at, from, to, ends } = question;
-  const functional = { expression: null, value: { kind, at }, integral: { kind, from, to, ends } }[kind];
+  const { expression, syntax } = question;
+  const functional = functionalOf(question);
   const [functions, direction, parameters] = [question.functions, question.direction, question.parameters].map(namesIn);
   return { expression, syntax, functions, direction, parameters, functional, lang };
 }
 
-/** The same with concrete functions, for the difference quotient. @param {Question} question @param {string} lang */
+/** The same with concrete functions, for the difference quotient. @param {Question} question @param {import("../types.js").Lang} lang @returns {Request} */
 export function quotientRequestOf(question, lang) {
   const request = requestOf(question, lang);
-  const table = (/** @type {"samples" | "along" | "values"} */ key, /** @type {string[]} */ names) =>
-    names.map((name) => [name, textOf(question, key, name)]);
-  const numeric = {
-    functions: Object.fromEntries(table("samples", request.functions)),
-    direction: Object.fromEntries(table("along", request.functions)),
-    parameters: Object.fromEntries(table("values", request.parameters).map(([name, text]) => [name, numberOf(text)])),
+  const table = (/** @type {"samples" | "along"} */ key) =>
+    Object.fromEntries(request.functions.map((name) => [name, textOf(question, key, name)]));
+  const parameters = request.parameters.map((name) => [name, numberOf(textOf(question, "values", name))]);
+  const numeric = /** @type {Request["numeric"]} */ ({
+    functions: table("samples"),
+    direction: table("along"),
+    parameters: Object.fromEntries(parameters),
     t: numberOf(question.t),
-  };
+  });
   return { ...request, include: ["quotient"], numeric };
 }
 
@@ -102,22 +118,14 @@ export function writeQuestion(question) {
 export function readQuestion(query) {
   const given = new URLSearchParams(query);
   if (!given.get("expression")) return null;
-  const oneOf = (
-    /** @type {readonly string[]} */ allowed,
-    /** @type {string} */ key,
-    /** @type {string} */ otherwise,
-  ) => {
-    const value = given.get(key) ?? "";
-    return allowed.includes(value) ? value : otherwise;
-  };
   const texts = TEXTS.map((key) => [key, (given.get(key) ?? EMPTY[key]).slice(0, LONGEST)]);
   const tables = TABLES.map((key) => [key, Object.fromEntries(pairsIn((given.get(key) ?? "").slice(0, LONGEST)))]);
   return {
     ...EMPTY,
     ...Object.fromEntries([...texts, ...tables]),
-    kind: /** @type {Kind} */ (oneOf(KINDS, "kind", EMPTY.kind)),
-    syntax: /** @type {"plain" | "latex"} */ (oneOf(["plain", "latex"], "syntax", EMPTY.syntax)),
-    ends: oneOf(ENDS, "ends", EMPTY.ends),
+    kind: oneOf(KINDS, given.get("kind"), EMPTY.kind),
+    syntax: oneOf(SYNTAXES, given.get("syntax"), EMPTY.syntax),
+    ends: oneOf(ENDS, given.get("ends"), EMPTY.ends),
   };
 }
 

@@ -2,14 +2,22 @@
 
 import { html, nothing } from "lit-html";
 import { inline } from "../formula.js";
-import { componentsOf, dimensionOf, materialOf, rowsOf, standardOf } from "../../model/editor/schema.js";
+import {
+  componentsOf,
+  dimensionOf,
+  materialOf,
+  memberOf,
+  nameOf,
+  rowsOf,
+  standardOf,
+} from "../../model/editor/schema.js";
 import { formulaKey } from "../../model/editor/editor.js";
 import { numberOf, renamed } from "../../model/editor/changes.js";
 import { isWarning, marked } from "../../model/editor/problems.js";
 
 /** @typedef {import("./editor.js").Sheet} Sheet */
 /** @typedef {import("../../model/editor/schema.js").Field} Field */
-/** @typedef {{section: string, index: number, row: any}} Row */
+/** @typedef {{section: string, index: number, row: unknown}} Row */
 
 /** @param {Event} event */
 const typed = (event) => /** @type {HTMLInputElement} */ (event.target).value;
@@ -81,21 +89,22 @@ export function choice(sheet, pointer, label, value, { options, say = (one) => o
 
 /** @param {Sheet} sheet @param {string} pointer @param {string} label @param {Row} at @param {string} key */
 function vector(sheet, pointer, label, { row }, key) {
-  const components = componentsOf(row[key], dimensionOf(sheet.writing.document));
+  const given = memberOf(row, key);
+  const components = componentsOf(given, dimensionOf(sheet.writing.document));
   return html`<div class="vector">${components.map((c) =>
-    expression(sheet, `${pointer}/${c}`, html`${label}<sub>${c + 1}</sub>`, row[key]?.[c], materialOf(row)),
+    expression(sheet, `${pointer}/${c}`, html`${label}<sub>${c + 1}</sub>`, rowsOf(given)[c], materialOf(row)),
   )}</div>`;
 }
 
-/** @param {Sheet} sheet @param {string} pointer @param {any} row */
+/** @param {Sheet} sheet @param {string} pointer @param {unknown} row */
 function material(sheet, pointer, row) {
   const { t } = sheet;
-  const list = rowsOf(row.material);
+  const list = rowsOf(memberOf(row, "material"));
   return html`<div class="material">${list.map(
     (one, i) => html`<div class="vector">
-      ${line(sheet, `${pointer}/${i}/name`, t("editor.field.material"), one?.name, (text) => sheet.put(`${pointer}/${i}/name`, text), { className: "narrow" })}
-      ${expression(sheet, `${pointer}/${i}/from`, t("editor.field.lower"), one?.from, [])}
-      ${expression(sheet, `${pointer}/${i}/to`, t("editor.field.upper"), one?.to, [])}</div>`,
+      ${line(sheet, `${pointer}/${i}/name`, t("editor.field.material"), memberOf(one, "name"), (text) => sheet.put(`${pointer}/${i}/name`, text), { className: "narrow" })}
+      ${expression(sheet, `${pointer}/${i}/from`, t("editor.field.lower"), memberOf(one, "from"), [])}
+      ${expression(sheet, `${pointer}/${i}/to`, t("editor.field.upper"), memberOf(one, "to"), [])}</div>`,
   )}
     ${complaints(sheet, pointer)}
     <div class="actions">
@@ -110,40 +119,36 @@ export function fieldOf(sheet, at, { key, type }) {
   const { document } = sheet.writing;
   const pointer = `/${section}/${index}/${key}`;
   const label = sheet.t(`editor.field.${key}`);
+  const value = memberOf(row, key);
   const put = (/** @type {unknown} */ value) => sheet.put(pointer, value);
   const places = [
     ...rowsOf(document.points),
-    ...rowsOf(document.bodies).filter((body) => body?.kind !== "continuum"),
-  ].map((one) => String(one?.name ?? ""));
-  const coordinates = rowsOf(document.coordinates).map((one) => String(one?.name ?? ""));
+    ...rowsOf(document.bodies).filter((body) => memberOf(body, "kind") !== "continuum"),
+  ].map(nameOf);
+  const coordinates = rowsOf(document.coordinates).map(nameOf);
   if (type === "vector") return vector(sheet, pointer, label, at, key);
-  if (type === "expression") return expression(sheet, pointer, label, row[key], materialOf(row));
+  if (type === "expression") return expression(sheet, pointer, label, value, materialOf(row));
   if (type === "material") return material(sheet, pointer, row);
   if (type === "number")
-    return line(sheet, pointer, label, row[key], (text) => put(numberOf(text)), {
+    return line(sheet, pointer, label, value, (text) => put(numberOf(text)), {
       className: "narrow",
       mode: "decimal",
       standard: standardOf(section, key),
     });
-  if (type === "place") return choice(sheet, pointer, label, row[key] ?? "", { options: places }, put);
-  if (type === "coordinate") return choice(sheet, pointer, label, row[key] ?? "", { options: coordinates }, put);
+  if (type === "place") return choice(sheet, pointer, label, String(value ?? ""), { options: places }, put);
+  if (type === "coordinate") return choice(sheet, pointer, label, String(value ?? ""), { options: coordinates }, put);
   if (type === "flag")
     return choice(
       sheet,
       pointer,
       label,
-      String(row[key] ?? true),
+      String(value ?? true),
       { options: ["true", "false"], say: (one) => sheet.t(`editor.flag.${one}`) },
       (text) => put(text === "true"),
     );
   if (key === "name")
-    return line(
-      sheet,
-      pointer,
-      label,
-      row[key],
-      (text) => sheet.editing.edit(renamed(document, section, index, text)),
-      { className: "name" },
-    );
-  return line(sheet, pointer, label, row[key], (text) => put(text || undefined), { className: "narrow" });
+    return line(sheet, pointer, label, value, (text) => sheet.editing.edit(renamed(document, section, index, text)), {
+      className: "name",
+    });
+  return line(sheet, pointer, label, value, (text) => put(text || undefined), { className: "narrow" });
 }

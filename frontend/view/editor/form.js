@@ -3,8 +3,9 @@
 import { html, nothing } from "lit-html";
 import { icon } from "../icons.js";
 import { added, inDimension, ofKind, removed, shifted } from "../../model/editor/changes.js";
-import { dimensionOf, fieldsOf, rowsOf, SECTIONS } from "../../model/editor/schema.js";
+import { dimensionOf, fieldsOf, memberOf, rowsOf, SECTIONS } from "../../model/editor/schema.js";
 import { rowFor } from "../../model/editor/templates.js";
+import { completed, tableOf } from "../../model/own.js";
 import { verticalOf } from "../../model/drawing/sketch.js";
 import { choice, complaints, fieldOf, line } from "./field.js";
 
@@ -30,13 +31,14 @@ function about(sheet) {
   const { lang } = state.place;
   const text = (/** @type {"title" | "summary"} */ key) => {
     const given = document[key];
+    const table = tableOf(given);
     const change = (/** @type {string} */ value) =>
-      sheet.put(`/${key}`, { ...(typeof given === "string" ? { de: given, en: given } : given), [lang]: value });
+      sheet.put(`/${key}`, { ...(typeof given === "string" ? { de: given, en: given } : table), [lang]: value });
     return line(
       sheet,
       `/${key}`,
       t(`editor.field.${key}`),
-      typeof given === "string" ? given : (given?.[lang] ?? given?.en),
+      typeof given === "string" ? given : (table?.[lang] ?? table?.en),
       change,
       { className: "wide" },
     );
@@ -60,13 +62,13 @@ function part(sheet, section) {
     <section class="part" aria-label=${name} data-section=${key}>
       <h2>${name}</h2>
       ${complaints(sheet, `/${key}`)}
-      ${rowsOf(writing.document[key]).map((row, index) => card(sheet, section, row ?? {}, index))}
+      ${rowsOf(writing.document[key]).map((row, index) => card(sheet, section, row, index))}
       <button type="button" class="quiet add" @click=${() => editing.edit(added(writing.document, key, rowFor(writing.document, key)))}>
         ${icon("add")}${t(`editor.add.${key}`)}</button>
     </section>`;
 }
 
-/** @param {Sheet} sheet @param {Section} section @param {any} row @param {number} index */
+/** @param {Sheet} sheet @param {Section} section @param {unknown} row @param {number} index */
 function card(sheet, section, row, index) {
   const { t, writing } = sheet;
   const { key, kinds } = section;
@@ -77,7 +79,7 @@ function card(sheet, section, row, index) {
       sheet,
       `/${key}/${index}/kind`,
       t("editor.field.kind"),
-      row.kind ?? "",
+      String(memberOf(row, "kind") ?? ""),
       { options: Object.keys(kinds), say: (one) => t(`editor.kind.${one}`) },
       (one) => sheet.editing.edit(ofKind(writing.document, key, index, one)),
     );
@@ -86,7 +88,7 @@ function card(sheet, section, row, index) {
   const fields = key === "coordinates" || key === "parameters" ? others : [...asked, ...beside];
   return html`
     <fieldset class="card">
-      <legend class="unseen">${t(`editor.${key}`)} ${index + 1}: ${row.name ?? row.coordinate ?? ""}</legend>
+      <legend class="unseen">${t(`editor.${key}`)} ${index + 1}: ${memberOf(row, "name") ?? memberOf(row, "coordinate") ?? ""}</legend>
       <div class="fields">
         ${fieldOf(sheet, { section: key, index, row }, first)}${kind ?? nothing}
         ${fields.map((field) => fieldOf(sheet, { section: key, index, row }, field))}
@@ -112,9 +114,8 @@ function tools({ t, writing, editing }, key, index) {
 /** @param {Sheet} sheet */
 function drawing(sheet) {
   const { t, writing } = sheet;
-  const given = writing.document.drawing ?? {};
-  const count = rowsOf(given.elements).length;
-  const vertical = verticalOf(/** @type {any} */ ({ drawing: given, loads: rowsOf(writing.document.loads) }));
+  const count = rowsOf(memberOf(writing.document.drawing, "elements")).length;
+  const vertical = verticalOf(completed(writing.document));
   return html`
     <div class="card"><div class="fields">
       ${choice(sheet, "/drawing", t("editor.vertical"), vertical, { options: ["down", "up"], say: (one) => t(`editor.vertical.${one}`) }, (one) => sheet.put("/drawing/vertical", one))}

@@ -3,8 +3,9 @@
 import { html, nothing } from "lit-html";
 import { offer, toClipboard } from "../files.js";
 import { icon } from "../icons.js";
+import { problemsIn } from "../../model/attempts.js";
 import { inLanguage } from "../../model/catalog.js";
-import { fragmentOf, tableOf } from "../../model/own.js";
+import { completed, fragmentOf, tableOf } from "../../model/own.js";
 import { jsonOf } from "../../model/editor/editor.js";
 import { copyOf, EMPTY } from "../../model/editor/templates.js";
 import { tomlOf } from "../../model/editor/toml.js";
@@ -62,8 +63,7 @@ function beginnings({ state, editing, writing, api, t }) {
 }
 
 /** @param {import("../../model/own.js").SceneDocument} document @param {string} lang */
-const titleOf = (document, lang) =>
-  (typeof document.title === "string" ? document.title : inLanguage(document.title, lang)) || String(document.id ?? "");
+const titleOf = (document, lang) => inLanguage(completed(document).title, lang) || String(document.id ?? "");
 
 /** @param {Sheet} sheet */
 async function copyLink({ writing, editing, state }) {
@@ -96,6 +96,6 @@ async function load({ editing, api, state }, event) {
     if (read) editing.begin(read);
     else editing.tell("editor.load-refused");
   } catch (error) {
-    editing.tell(/** @type {any} */ (error).failure?.problems[0]?.message ?? "editor.load-refused");
+    editing.tell(problemsIn(error)[0]?.message ?? "editor.load-refused");
   }
 }

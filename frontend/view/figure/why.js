@@ -28,20 +28,22 @@ export function createWhy(state) {
     origins.formulas.forEach((latex, part) => formulas.set(part, latex));
   }
 
-  return {
+  /** @param {Omit<View, "why">} view */
+  return (view) => ({
     /** The formula of a step with its terms marked, once it has been compared. @param {Step} step */
     formula(step) {
       compare(step);
       return formulas.get(step);
     },
-    /** @param {Step} step @param {View} view */
-    button(step, { state, session, t }) {
+    /** @param {Step} step */
+    button(step) {
+      const { state, session, t } = view;
       if (!state.catalog.figure) return nothing;
       const shown = state.place.why === step.id;
       return html`<button class="why quiet small" aria-expanded=${String(shown)} @click=${() => session.move({ why: shown ? "" : step.id })}>${t("why")}</button>`;
     },
-    /** @param {Step} step @param {View} view */
-    panel(step, view) {
+    /** @param {Step} step */
+    panel(step) {
       if (view.state.place.why !== step.id) return nothing;
       view.session.need("laws");
       const laws = /** @type {Record<string, {law: string, source: string}>} */ (view.state.catalog.laws ?? {});
@@ -54,16 +56,16 @@ export function createWhy(state) {
           ${changes(found.get(step), view.state.lines.find((line) => line.step === step)?.number, view)}
         </div>`;
     },
-  };
+  });
 }
 
-/** A body or load by name; pointed at or focused, it lights up everywhere. @param {string} name "load:weight" @param {View} view */
+/** A body or load by name; pointed at or focused, it lights up everywhere. @param {string} name "load:weight" @param {Omit<View, "why">} view */
 function chip(name, { state, t }) {
   const [kind, id] = name.split(":");
   return html`<button class="source-chip quiet small ${kind}-${id}">${called(state.scene?.labels, id, state.place.lang, t)}</button>`;
 }
 
-/** What the marks on the terms mean, and from which steps they come. @param {Origins | undefined} origins @param {string | undefined} own number of the step @param {View} view */
+/** What the marks on the terms mean, and from which steps they come. @param {Origins | undefined} origins @param {string | undefined} own number of the step @param {Omit<View, "why">} view */
 function changes(origins, own, { t, link, follow, session, state }) {
   const shown = CHANGES.filter((change) => origins?.from[change].length);
   if (!shown.length) return nothing;

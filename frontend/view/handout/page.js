@@ -16,7 +16,7 @@ import { dotted, readChanges } from "../../model/values.js";
 /** @typedef {import("../../model/types.js").Step} Step */
 /**
  * @typedef {import("../../model/handout.js").Sheet & import("../header.js").Appearance & {print: () => void, address: string,
- *   session: import("../../model/handout.js").createHandout extends (...given: any) => infer R ? R : never}} HandoutView
+ *   session: ReturnType<typeof import("../../model/handout.js").createHandout>}} HandoutView
  */
 
 /** @param {HandoutView} view */

@@ -95,12 +95,13 @@ function labelOf({ task }, index, count, t) {
 /** How the text of an answer to such a task looks. @param {Entry} entry */
 function placeholderOf({ task, symbols }) {
   const name = symbols.find(({ kind }) => kind === "coordinate")?.name ?? "q";
-  return { equation: `ddot(${name}) + … = 0`, equations: `ddot(${name}) + … = 0`, set: "omega = …" }[task.form] ?? "…";
+  const equation = `ddot(${name}) + … = 0`;
+  return { equation, equations: equation, set: "omega = …", expression: "…", vector: "…" }[task.form];
 }
 
 /** @param {AnswerProblem} problem @param {string[]} parts @param {{part: number, offset: number} | null} place */
 function complaint(problem, parts, place) {
-  const at = place && marked(parts[place.part], { pointer: "", ...problem, offset: place.offset });
+  const at = place && marked(parts[place.part], { ...problem, offset: place.offset });
   return html`${at ? html`<code class="where" aria-hidden="true">${at[0]}<mark>${at[1]}</mark>${at[2]}</code>` : nothing}<p class="wrong">${problem.message}</p>`;
 }
 

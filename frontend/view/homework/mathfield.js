@@ -44,7 +44,7 @@ export function offerKeys(rows, label) {
       ? [...inRows(caps, IN_A_LONG_ROW), [...digits, ...acts]]
       : [...inRows(caps, IN_A_ROW), digits, acts],
   };
-  window.mathVirtualKeyboard.layouts = /** @type {any} */ ([layout, "alphabetic", "greek"]);
+  window.mathVirtualKeyboard.layouts = [layout, "alphabetic", "greek"];
 }
 
 class MathField extends Directive {

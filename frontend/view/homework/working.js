@@ -44,7 +44,7 @@ function written(view, line, index, mark, first) {
   const { state, t, working: session, formulas, shortcuts } = view;
   const label = t("homework.line", { number: index + 1 });
   const problem = mark?.problems[0];
-  const at = problem && parted(line.value, { pointer: "", ...problem });
+  const at = problem && parted(line.value, problem);
   return html`<li class="line ${first ? "first-wrong" : ""}" data-outcome=${mark?.outcome ?? nothing}>
     <div class="line-head"><label class="choice"><span class="unseen">${t("homework.line-task", { number: index + 1 })}</span>
         <select @change=${(/** @type {Event} */ e) => session.edit(index, { task: /** @type {HTMLSelectElement} */ (e.target).value })}>

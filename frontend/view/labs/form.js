@@ -65,7 +65,7 @@ function quantity(view, { name, label, range }) {
   return field(
     view,
     label,
-    number(bench.question[name] || range?.shown, (given) => benches.edit({ [name]: given }), range),
+    number(Number(bench.question[name]) || (range?.shown ?? ""), (given) => benches.edit({ [name]: given }), range),
   );
 }
 
@@ -99,7 +99,7 @@ const entries = (parameters, chosen) =>
 /** @param {View} view @param {Option} option */
 function parameter(view, { name, label }) {
   const { bench, benches, t } = view;
-  const chosen = bench.question[name];
+  const chosen = String(bench.question[name]);
   return field(
     view,
     label,
@@ -112,7 +112,9 @@ function parameter(view, { name, label }) {
 function side(view, { name, label }) {
   const { bench, benches, t } = view;
   const parameters = parametersOf(view);
-  const now = answered(bench.question, bench.scene)[name];
+  const now = /** @type {import("../../model/labs/options.js").Side | null} */ (
+    answered(bench.question, bench.scene)[name]
+  );
   if (!now) return nothing;
   const put = (/** @type {object} */ patch) => benches.edit({ [name]: { ...now, ...patch } });
   const choose = (/** @type {Event} */ e) =>

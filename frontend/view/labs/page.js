@@ -12,13 +12,13 @@ import { rungs } from "./rungs.js";
 import { failures, slider } from "./stability.js";
 import { tolerance } from "./tolerance.js";
 
-/** @typedef {import("../../model/labs/stream.js").Chart} Chart */
+/** @typedef {import("../../model/labs/chart.js").Chart} Chart */
 /**
  * @typedef {import("../header.js").Appearance & {bench: import("../../model/labs/bench.js").Bench,
  *   benches: import("../../model/labs/bench.js").Benches, scenes: import("../../model/types.js").SceneEntry[],
  *   labs: string[], t: import("../page.js").View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
  *   save: (chart: Chart, format: "png" | "svg") => void, fetchFile: (accept: string) => void,
- *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string, open: (scene: object) => void,
+ *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string, open: (scene: import("../../model/own.js").SceneDocument) => void,
  *   cursor: Cursor | null, point: (cursor: Cursor) => void, press: (chart: Chart, x: number, y: number) => void}} View
  * @typedef {import("./cursor.js").Cursor} Cursor
  * @typedef {{tolerance: number, step: number}} Dial  where the sliders stand: wanted error, step h in seconds
@@ -110,10 +110,7 @@ const BUSY = 0.7;
 
 /** When the times were measured and how busy the machine was; and to measure them again. @param {View} view */
 function taken({ bench, benches, t, state }) {
-  const found =
-    /** @type {{date: string, load: number | null, repetitions: number, processors: number} | undefined} */ (
-      bench.result?.taken
-    );
+  const found = bench.result?.taken;
   if (!found) return nothing;
   const { lang } = state.place;
   const date = new Intl.DateTimeFormat(lang, { dateStyle: "medium", timeStyle: "short" }).format(new Date(found.date));

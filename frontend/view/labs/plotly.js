@@ -5,7 +5,8 @@ import { themed } from "../../model/labs/figure.js";
 import { script } from "../bring.js";
 import { paletteOf } from "../palette.js";
 
-/** @typedef {import("../../model/labs/stream.js").Chart} Chart */
+/** @typedef {import("../../model/labs/chart.js").Chart} Chart */
+/** @typedef {HTMLElement & {on: (event: "plotly_click", hear: (event: {points: {x: number, y: number}[]}) => void) => void}} Drawn  an element that Plotly draws into */
 
 /** Named in the import map, so that its address carries the version of the libraries. */
 const SOURCE = import.meta.resolve("plotly-with-maps");
@@ -16,6 +17,8 @@ const FILE = { width: 1200, height: 800, scale: 2 };
 export function createCharts(root, press) {
   /** What each canvas shows, so that nothing is drawn twice. @type {WeakMap<HTMLElement, string>} */
   const shown = new WeakMap();
+  /** The chart in each canvas. @type {WeakMap<HTMLElement, Chart>} */
+  const drawn = new WeakMap();
   /** A number for each chart that was made. @type {WeakMap<Chart, number>} */
   const stamps = new WeakMap();
   let made = 0;
@@ -30,12 +33,11 @@ export function createCharts(root, press) {
     const first = !shown.has(canvas);
     shown.set(canvas, look);
     await globalThis.Plotly.react(canvas, data, layout, CONFIG);
-    const target = /** @type {any} */ (canvas);
+    drawn.set(canvas, chart);
     if (first)
-      target.on("plotly_click", (/** @type {any} */ event) =>
-        press(target.chart, event.points[0].x, event.points[0].y),
+      /** @type {Drawn} */ (canvas).on("plotly_click", ({ points: [{ x, y }] }) =>
+        press(drawn.get(canvas) ?? chart, x, y),
       );
-    target.chart = chart;
   }
 
   /** @param {Chart} chart */
@@ -61,7 +63,9 @@ export function createCharts(root, press) {
       const chart = charts.find(({ id }) => id === cursor?.chart);
       const canvas = chart && root.querySelector(`[data-chart="${chart.id}"] .canvas`);
       if (!canvas || !cursor) return;
-      const { x, y } = seenAt(cursor.spot, mapOf(chart));
+      const map = mapOf(chart);
+      if (!map) return;
+      const { x, y } = seenAt(cursor.spot, map);
       globalThis.Plotly.Fx.hover(canvas, { xval: x, yval: y });
     },
     /** As it was made, dark on light. @param {Chart} chart @param {"png" | "svg"} format */

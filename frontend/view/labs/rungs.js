@@ -2,31 +2,37 @@
 
 import { html, nothing } from "lit-html";
 import { significant } from "../../model/numbers.js";
+import { resultOf } from "../../model/labs/results.js";
 import { titleOf } from "../../model/labs/ladder.js";
+
+/** @typedef {import("../../model/labs/results.js").Rung} Rung */
+/** @typedef {import("../../model/labs/results.js").Fidelity} Fidelity */
 
 /** @param {import("./page.js").View} view */
 export function rungs(view) {
   const { bench, t, state } = view;
-  const { result } = bench;
+  const result = resultOf(bench.result, "fidelity");
   if (!result) return nothing;
   const { lang } = state.place;
-  const title = (/** @type {any} */ rung) => titleOf(rung, t, result.names, lang);
+  const title = (/** @type {Rung} */ rung) => titleOf(rung, t, result.names, lang);
   const fragile = result.measured
-    .filter((/** @type {any} */ one) => one.survives === false)
-    .map((/** @type {any} */ one) => {
+    .filter(({ survives }) => survives === false)
+    .flatMap(({ rung, nudged }) => {
       const error =
-        one.nudged === undefined ? t("labs.fidelity.fragile-ended") : `${significant(100 * one.nudged, 2, lang)} %`;
-      return `${title(result.rungs.find((/** @type {any} */ rung) => rung.id === one.rung))} (${error})`;
+        nudged === undefined || nudged === null
+          ? t("labs.fidelity.fragile-ended")
+          : `${significant(100 * nudged, 2, lang)} %`;
+      return result.rungs.filter(({ id }) => id === rung).map((one) => `${title(one)} (${error})`);
     });
-  const least = result.rungs.find((/** @type {any} */ rung) => rung.id === result.least);
+  const least = result.rungs.find(({ id }) => id === result.least);
   return html`
     ${least ? html`<p class="verdict">${t("labs.fidelity.least", { tolerance: significant(100 * result.tolerance, 2, lang), title: title(least) })}</p>` : nothing}
-    ${until(view)}
+    ${until(view, result)}
     ${fragile.length ? html`<p class="purpose fragile">${t("labs.fidelity.fragile", { titles: fragile.join("; ") })}</p>` : nothing}
     <table class="numbers failures">
       <caption>${t("labs.fidelity.table")}</caption>
       <thead><tr><th scope="col">${t("labs.fidelity.rung")}</th>${["degrees", "operations", "time", "error"].map((key) => html`<th scope="col">${t(`labs.fidelity.${key}`)}</th>`)}<td></td></tr></thead>
-      <tbody>${result.rungs.map((/** @type {any} */ rung) => line(view, rung))}</tbody>
+      <tbody>${result.rungs.map((rung) => line(view, result, rung))}</tbody>
     </table>`;
 }
 
@@ -36,28 +42,29 @@ function outcome(status, t) {
   return words === `labs.status.${status}` ? t("status.incomplete") : words;
 }
 
-/** That there is no verdict, or how far it goes, and why no further. @param {import("./page.js").View} view */
-function until({ bench, t, state }) {
-  const { result } = bench;
-  if (!result?.ending) return nothing;
+/** That there is no verdict, or how far it goes, and why no further. @param {import("./page.js").View} view @param {Fidelity} result */
+function until({ t, state }, result) {
+  if (!result.ending) return nothing;
   const why = t(`labs.fidelity.ending.${result.ending}`);
   if (!result.least) return html`<p class="verdict">${t("labs.fidelity.none")}</p><p class="purpose">${why}</p>`;
   return html`<p class="purpose">${t("labs.fidelity.until", { time: significant(result.until, 3, state.place.lang) })} ${why}</p>`;
 }
 
-/** @param {import("./page.js").View} view @param {any} rung */
-function line({ bench, t, state, open }, rung) {
+/** @param {import("./page.js").View} view @param {Fidelity} result @param {Rung} rung */
+function line({ t, state, open }, result, rung) {
   const { lang } = state.place;
-  const one = bench.result?.measured.find((/** @type {any} */ each) => each.rung === rung.id) ?? {};
+  const { scene } = rung;
+  /** @type {Partial<Fidelity["measured"][number]>} */
+  const one = result.measured.find((each) => each.rung === rung.id) ?? {};
   const failed = rung.refused.length
     ? t("labs.fidelity.refused")
     : one.status && one.status !== "ok"
       ? outcome(one.status, t)
       : "";
-  return html`<tr class=${rung.id === bench.result?.least ? "least" : ""}>
-    <th scope="row">${titleOf(rung, t, bench.result?.names, lang)}</th><td>${rung.degrees}</td><td>${one.operations?.total ?? ""}</td>
+  return html`<tr class=${rung.id === result.least ? "least" : ""}>
+    <th scope="row">${titleOf(rung, t, result.names, lang)}</th><td>${rung.degrees}</td><td>${one.operations?.total ?? ""}</td>
     <td>${one.time ? `${significant(1e3 * one.time[0], 3, lang)} ms` : ""}</td>
-    <td>${one.error === undefined ? failed : `${significant(100 * one.error, 2, lang)} %`}${one.survives === false ? html`<br><small>${t("labs.fidelity.fragile-mark")}</small>` : nothing}</td>
-    <td>${rung.scene ? html`<button class="quiet small" @click=${() => open(rung.scene)}>${t("labs.fidelity.open")}</button>` : nothing}</td>
+    <td>${one.error === undefined || one.error === null ? failed : `${significant(100 * one.error, 2, lang)} %`}${one.survives === false ? html`<br><small>${t("labs.fidelity.fragile-mark")}</small>` : nothing}</td>
+    <td>${scene ? html`<button class="quiet small" @click=${() => open(scene)}>${t("labs.fidelity.open")}</button>` : nothing}</td>
   </tr>`;
 }

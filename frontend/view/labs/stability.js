@@ -4,6 +4,7 @@ import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "../formula.js";
 import { significant } from "../../model/numbers.js";
+import { resultOf } from "../../model/labs/results.js";
 import { stepRange } from "../../model/labs/step.js";
 
 /** @typedef {import("./page.js").View} View */
@@ -11,13 +12,13 @@ import { stepRange } from "../../model/labs/step.js";
 /** @param {View} view */
 export function failures(view) {
   const { bench, t } = view;
-  const rows = bench.result?.methods ?? [];
+  const rows = resultOf(bench.result, "stability")?.methods ?? [];
   return html`
     <table class="numbers failures">
       <caption>${t("labs.stability.table")}</caption>
       <thead><tr><th scope="col">${t("labs.stability.method")}</th><th scope="col">${t("labs.stability.bound")}</th><th scope="col">${t("labs.stability.predicted")}</th>
         <th scope="col">${t("labs.stability.measured")}</th><th scope="col">${t("labs.stability.deviation")}</th><td></td></tr></thead>
-      <tbody>${rows.map((/** @type {any} */ row) => line(view, row))}</tbody>
+      <tbody>${rows.map((row) => line(view, row))}</tbody>
     </table>
     ${untold(view, rows)}
     <p class="note">${t("labs.stability.note")}</p>`;
@@ -25,7 +26,7 @@ export function failures(view) {
 
 /** What stands for a step that cannot be told, and why. */
 const DASH = "—";
-/** @typedef {{method: string, bound: number | null, predicted: number | null, measured: number | null, deviation: number | null, basis?: string, cause?: string, reason?: string, limit?: number | null}} Row */
+/** @typedef {import("../../model/labs/results.js").FailingStep} Row */
 
 /** Why there is no figure in some places, or another end than growth: each once; a number in the table points here. @param {Row[]} rows */
 const reasonsOf = (rows) =>
@@ -33,7 +34,7 @@ const reasonsOf = (rows) =>
     ...new Set(
       rows.flatMap(({ basis, reason, cause }) => [
         basis === "flow" ? "linearization-varies" : "",
-        reason ?? "",
+        reason,
         cause === "newton_failed" ? cause : "",
       ]),
     ),
@@ -42,16 +43,16 @@ const reasonsOf = (rows) =>
 /** @param {View} view @param {Row[]} rows */
 function untold({ bench, t, state }, rows) {
   const reasons = reasonsOf(rows);
-  const { at, rest, varies = 0 } = /** @type {{at?: string, rest?: boolean, varies?: number}} */ (bench.result ?? {});
+  const { at = "", rest = true, varies = 0 } = resultOf(bench.result, "stability") ?? {};
   const percent = significant(100 * varies, 2, state.place.lang);
   return html`
-    ${at === "rest" && rest === false ? html`<p class="note">${t("labs.stability.no-rest")}</p>` : nothing}
+    ${at === "rest" && !rest ? html`<p class="note">${t("labs.stability.no-rest")}</p>` : nothing}
     ${reasons.length ? html`<ol class="note reasons">${reasons.map((reason) => html`<li>${t(`labs.stability.reasons.${reason}`, { percent })}</li>`)}</ol>` : nothing}`;
 }
 
 /** @param {View} view */
 export function slider({ bench, dial, turn, t, state }) {
-  const [low, high] = stepRange(bench.result?.eigenvalues ?? []);
+  const [low, high] = stepRange(resultOf(bench.result, "stability")?.eigenvalues ?? []);
   const now = Math.min(Math.max(dial.step || low * 10, low), high);
   const place = Math.log(now / low) / Math.log(high / low);
   return html`
@@ -71,7 +72,7 @@ function line({ methodTitle, t, state, watch, bench }, row) {
       : value === 0
         ? t("labs.stability.always")
         : `${significant(value, 3, lang)} s`;
-  const reasons = reasonsOf(bench.result?.methods ?? []);
+  const reasons = reasonsOf(resultOf(bench.result, "stability")?.methods ?? []);
   const mark = (/** @type {string} */ reason) => html`<sup>${reasons.indexOf(reason) + 1}</sup>`;
   const none = (/** @type {string} */ reason, /** @type {number | null} */ limit = null) =>
     html`${limit === null ? DASH : t("labs.stability.from", { step: `${significant(limit, 2, lang)} s` })}${mark(reason)}`;

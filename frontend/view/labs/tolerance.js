@@ -3,12 +3,13 @@
 import { html } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { cheapestFor } from "../../model/labs/figure.js";
+import { resultOf } from "../../model/labs/results.js";
 import { significant } from "../../model/numbers.js";
 
 /** @param {import("./page.js").View} view */
 export function tolerance({ bench, dial, turn, t, methodTitle, state }) {
   const { lang } = state.place;
-  const best = cheapestFor(bench.result?.cheapest ?? [], dial.tolerance);
+  const best = cheapestFor(resultOf(bench.result, "work-precision")?.cheapest ?? [], dial.tolerance);
   const write = (/** @type {number} */ value) => significant(value, 2, lang);
   const told = best
     ? t("labs.work-precision.cheapest", {
@@ -27,8 +28,8 @@ export function tolerance({ bench, dial, turn, t, methodTitle, state }) {
     </div>`;
 }
 
-/** @param {any} best @param {import("./page.js").View["t"]} t @param {(value: number) => string} write */
+/** @param {import("../../model/labs/results.js").WorkPrecision["cheapest"][number]} best @param {import("./page.js").View["t"]} t @param {(value: number) => string} write */
 const settingOf = (best, t, write) =>
-  "step" in best
+  typeof best.step === "number"
     ? t("labs.hover.step", { value: write(best.step) })
-    : t("labs.hover.tolerance", { value: write(best.tolerance) });
+    : t("labs.hover.tolerance", { value: write(best.tolerance ?? 0) });

@@ -33,8 +33,8 @@ function sheet({ step, number, chapter, chapterIndex }, view) {
         step.id,
         html`
         <article class="step" data-step=${step.id} aria-current="step">
-          <h1 class="title"><span class="number">${number}</span><span>${prose(step.title)}${view.why?.button(step, /** @type {any} */ (view))}</span></h1>
-          ${view.why?.panel(step, /** @type {any} */ (view))}
+          <h1 class="title"><span class="number">${number}</span><span>${prose(step.title)}${view.why?.button(step)}</span></h1>
+          ${view.why?.panel(step)}
           ${words(step, view)}
           ${partsOf(step)
             .slice(0, shown)

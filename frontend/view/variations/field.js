@@ -52,7 +52,7 @@ export function field(view, pointer, label, value, change, { className = "", hel
     </div>`;
 }
 
-/** A few ways, of which one holds. @param {string} label @param {readonly string[]} options @param {string} value @param {(one: string) => void} choose @param {(one: string) => string} say */
+/** A few ways, of which one holds. @template {string} K @param {string} label @param {readonly K[]} options @param {K} value @param {(one: K) => void} choose @param {(one: K) => string} say */
 export const segments = (label, options, value, choose, say) => html`
   <div class="segments" role="group" aria-label=${label}>${options.map(
     (one) => html`

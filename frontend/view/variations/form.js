@@ -9,6 +9,9 @@ import { field, problemsAt, segments, typed } from "./field.js";
 
 /** @typedef {import("./page.js").VariationsView} VariationsView */
 
+const END = /** @type {const} */ (["fixed", "free"]);
+const SYNTAXES = /** @type {const} */ (["plain", "latex"]);
+
 /** @param {VariationsView} view */
 export function form(view) {
   const { asking, lab, t } = view;
@@ -24,15 +27,15 @@ export function form(view) {
         t("variations.kind"),
         KINDS,
         question.kind,
-        (kind) => lab.edit({ kind: /** @type {any} */ (kind) }),
+        (kind) => lab.edit({ kind }),
         (kind) => t(`variations.kind-${kind}`),
       )}
       ${field(view, "/expression", html`${t(integral ? "variations.integrand" : "variations.expression")}`, question.expression, put("expression"), { className: "expression wide" })}
       ${segments(
         t("variations.syntax"),
-        ["plain", "latex"],
+        SYNTAXES,
         question.syntax,
-        (syntax) => lab.edit({ syntax: /** @type {any} */ (syntax) }),
+        (syntax) => lab.edit({ syntax }),
         (syntax) => t(`variations.syntax-${syntax}`),
       )}
       <div class="fields">
@@ -61,7 +64,7 @@ function interval(view) {
   const { asking, lab, t } = view;
   const { question } = asking;
   const ends = bothEnds(question.ends);
-  const change = (/** @type {number} */ index, /** @type {string} */ end) =>
+  const change = (/** @type {number} */ index, /** @type {import("../../model/variations/question.js").End} */ end) =>
     lab.edit({ ends: index ? endsOf(ends[0], end) : endsOf(end, ends[1]) });
   return html`<div class="ends">${
     /** @type {const} */ (["from", "to"]).map(
@@ -70,7 +73,7 @@ function interval(view) {
       ${field(view, `/functional/${key}`, t(`variations.${key}`), question[key], (text) => lab.edit({ [key]: text }), { className: "narrow" })}
       ${segments(
         t(`variations.end-${key}`),
-        ["fixed", "free"],
+        END,
         ends[index],
         (end) => change(index, end),
         (end) => t(`variations.end-${end}`),
