@@ -39,7 +39,7 @@ export const GUIDE = [
       { id: "reference", to: "docs" },
       { id: "plain" },
       { id: "accuracy" },
-      { id: "errors" },
+      { id: "errors", to: "problems" },
       { id: "shell" },
       { id: "client" },
     ],

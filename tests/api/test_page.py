@@ -72,7 +72,10 @@ def site(request: pytest.FixtureRequest, root: Path) -> Assets:
     return Assets(root / "frontend" if request.param == "sources" else request.getfixturevalue("bundle"))
 
 
-PAGES = ["docs", "handout", "help", "homework", "index", "labs", "presenter", "proof", "scene", "trial", "variations"]
+PAGES = [
+    *("docs", "handout", "help", "homework", "index", "labs"),
+    *("presenter", "problems", "proof", "scene", "trial", "variations"),
+]
 
 
 def page_of(site: Assets, name: str) -> Document:

@@ -184,6 +184,7 @@ PRACTICE = (
     Place("help", "help?", ".guide article", full=True),
     Place("docs", "docs?", ".calls article"),
     Place("docs-whole", "docs?", ".calls article", full=True, seldom=True),
+    Place("problem", "problems/invalid-request?", ".top ~ .problem pre", full=True),
     Place("docs-try", "docs/try?", ".trial textarea", click("button.main", ".answer pre")),
 )
 SCENES = sorted(file.stem for file in Path(deltaq.scenes.__path__[0]).glob("*.toml"))

@@ -90,6 +90,7 @@ PLACES = [
     pytest.param("docs?", ".calls article", nothing, id="reference"),
     pytest.param("help?", ".guide article", nothing, id="help"),
     pytest.param("docs/try?", ".trial textarea", send, id="trial of the API"),
+    pytest.param("problems/invalid-request?", ".top ~ .problem pre", nothing, id="problem"),
 ]
 DIALOGS = [
     pytest.param(SCENE, ".steps .katex", pressing("?"), id="help"),

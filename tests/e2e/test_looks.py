@@ -23,6 +23,7 @@ PAGES = [
     pytest.param(f"homework?{LONG}", ".question h2", id="homework"),
     pytest.param("docs?", ".calls article", id="reference"),
     pytest.param("docs/try?", ".trial textarea", id="trial"),
+    pytest.param("problems/invalid-request?", ".top ~ .problem pre", id="problem"),
     pytest.param("help?", ".guide article", id="help"),
     pytest.param(f"handout?{LONG}", ".paper .katex", id="handout"),
     pytest.param("presenter?x=1", ".notice", id="presenter"),

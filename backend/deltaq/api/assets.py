@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from .page import FRAME, read_site
+from .page import FRAME, Content, read_site
 
 MEDIA_TYPES = {
     ".js": "text/javascript; charset=utf-8",
@@ -63,12 +63,14 @@ class Assets:
     def bundled(self) -> bool:
         return (self.root / NAMED_BY_CONTENT).is_dir()
 
-    def page(self, name: str, sheets: Iterable[str] = ()) -> Document | None:
-        """The page of a name, with further sheets of the import map; None if there is no such page."""
+    def page(self, name: str, sheets: Iterable[str] = (), content: Content | None = None) -> Document | None:
+        """The page of a name, with further sheets of the import map and content; None if there is no such page."""
         site = read_site(self.root)
         if site is None or name not in site.pages:
             return None
         frame = (self.root / FRAME).read_text(encoding="utf-8")
+        if content is not None:
+            frame = content.inside(frame)
         return Document(site.assembled(frame, name, sheets, self.source), site.import_map_hash)
 
     def find(self, path: str) -> Asset | None:

@@ -16,6 +16,8 @@ from pathlib import Path
 
 FRAME = "view/frame.html"
 SITE = "pages.json"
+# What the frame says of itself, where a page comes with content of its own.
+_LANGUAGE, _TITLE, _NOTICE = '<html lang="en">', "<title>δq</title>", "<noscript>δq needs JavaScript.</noscript>"
 
 
 @dataclass(frozen=True)
@@ -26,6 +28,21 @@ class Page:
     styles: tuple[str, ...]
     scripts: tuple[str, ...]
     modules: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Content:
+    """What a page says before any script has run: its language, its title, and the HTML of its main part."""
+
+    language: str
+    title: str
+    main: str
+
+    def inside(self, frame: str) -> str:
+        """The frame with this content."""
+        frame = frame.replace(_LANGUAGE, f'<html lang="{self.language}">')
+        frame = frame.replace(_TITLE, f"<title>δq · {escape(self.title)}</title>")
+        return frame.replace(_NOTICE, self.main)
 
 
 @dataclass(frozen=True)

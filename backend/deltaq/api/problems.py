@@ -6,7 +6,7 @@ import json
 import logging
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import accumulate
 from typing import Any
 from uuid import uuid4
@@ -39,6 +39,11 @@ class ProblemType:
     name: str
     status: int
 
+    @property
+    def address(self) -> str:
+        """Where a page explains it."""
+        return f"/problems/{self.name}"
+
 
 INVALID_REQUEST = ProblemType("invalid-request", 422)
 INVALID_JSON = ProblemType("invalid-json", 400)
@@ -55,6 +60,27 @@ INTERNAL_ERROR = ProblemType("internal-error", 500)
 INTERRUPTED = ProblemType("interrupted", 503)
 OVERLOADED = ProblemType("overloaded", 503)
 COMPUTATION_TOO_LARGE = ProblemType("computation-too-large", 504)
+HTTP_ERROR = ProblemType("http-error", 400)  # of any status that has no type of its own
+
+# All of them, as GET /problems lists them: what the client can mend, then what passes, then what we have to mend.
+TYPES: tuple[ProblemType, ...] = (
+    INVALID_REQUEST,
+    INVALID_JSON,
+    UNKNOWN_NAME,
+    NOT_FOUND,
+    METHOD_NOT_ALLOWED,
+    BODY_NOT_CALLED_JSON,
+    BODY_TOO_LARGE,
+    BODY_TOO_SLOW,
+    HEAD_TOO_LARGE,
+    UNKNOWN_HOST,
+    HTTP_ERROR,
+    COMPUTATION_TOO_LARGE,
+    QUOTA_EXCEEDED,
+    OVERLOADED,
+    INTERRUPTED,
+    INTERNAL_ERROR,
+)
 
 # The most special class first; an error is of the first type whose class it is.
 _TYPES: tuple[tuple[type[Exception], ProblemType], ...] = (
@@ -93,7 +119,7 @@ class Report:
         told = described(first(self.problems), language)
         detail = _text(language, self.type, "detail", **self.parameters)
         return {
-            "type": f"/problems/{self.type.name}",
+            "type": self.type.address,
             "title": _text(language, self.type, "title", **self.parameters),
             "status": self.type.status,
             "detail": detail or " ".join(one["message"] for one in told[:3]),
@@ -146,7 +172,7 @@ def _findings(error: RequestValidationError) -> Iterator[Problem]:
 
 def _http_report(error: HTTPException) -> Report:
     headers = dict(error.headers or {})
-    kind = _HTTP_TYPES.get(error.status_code, ProblemType("http-error", error.status_code))
+    kind = _HTTP_TYPES.get(error.status_code) or replace(HTTP_ERROR, status=error.status_code)
     parameters = {"allowed": headers.get("Allow", ""), **getattr(error, "parameters", {})}
     return Report(kind, parameters=parameters, headers=headers)
 

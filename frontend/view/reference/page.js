@@ -22,7 +22,7 @@ export function page(view) {
     <main class="reference" id="reference" tabindex="-1">
       ${view.failure ? failure(view.failure, t("failure.page"), view.reload, t) : nothing}
       <nav aria-label=${t("reference.subjects")}><ul>${groups.map(({ subject }) => html`<li><a href=${`#${subject}`}>${titleOf(subject, t)}</a></li>`)}</ul>
-        <p><a href=${pageAddress(TRIAL, view.state.place)}>${t("reference.try")}</a></p><p><a href="/api/v1/openapi.json">${t("reference.openapi")}</a></p></nav>
+        <p><a href=${pageAddress(TRIAL, view.state.place)}>${t("reference.try")}</a></p><p><a href="/api/v1/openapi.json">${t("reference.openapi")}</a></p><p><a href=${pageAddress("problems", view.state.place)}>${t("place.problems")}</a></p></nav>
       <div class="calls">
         <p>${described(t("reference.lead"))}</p><p>${t("reference.english")}</p>
         ${languages(view)}

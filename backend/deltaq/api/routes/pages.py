@@ -13,10 +13,15 @@ from starlette.types import Scope
 
 from ..assets import ASK_AGAIN, Asset
 from ..headers import content_security_policy
-from ..responses import coding_for, not_modified
+from ..languages import Language, language_of
+from ..page import Content
+from ..problem_pages import explained, overview, page_of, unknown
+from ..problems import TYPES, ProblemType
+from ..responses import coding_for, not_modified, tagged
 from ..service import service_of
 from .common import PREFIX
 
+PROBLEMS = "problems"
 FRAMED = ("styles/embed.css",)  # what a page looks like in a frame of another one
 
 
@@ -58,6 +63,37 @@ def trial(request: Request) -> Response:
     return _page(request, "trial")
 
 
+@router.api_route("/problems", methods=["GET", "HEAD"])
+def problems(request: Request) -> Response:
+    """All types of problem documents."""
+    return _page(request, PROBLEMS, content=overview(language_of(request)))
+
+
+@router.api_route("/problems/{name:path}", methods=["GET", "HEAD"])
+def problem(request: Request, name: str) -> Response:
+    """What a type of problem document means; as JSON for who asks for that alone."""
+    language = language_of(request)
+    kind = next((one for one in TYPES if one.name == name), None)
+    if _wants_json(request):
+        return _explained(request, kind, language)
+    if kind is None:
+        return _page(request, PROBLEMS, content=unknown(name, language), status=404)
+    return _page(request, PROBLEMS, content=page_of(kind, language, service_of(request).settings))
+
+
+def _wants_json(request: Request) -> bool:
+    accepted = request.headers.get("accept", "")
+    return "json" in accepted and "text/html" not in accepted
+
+
+def _explained(request: Request, kind: ProblemType | None, language: Language) -> Response:
+    if kind is None:
+        raise HTTPException(404)
+    answer = tagged(request, explained(kind, language, service_of(request).settings))
+    answer.headers.update({"Content-Language": language, "Vary": "Accept, Accept-Language"})
+    return answer
+
+
 @router.api_route("/{path:path}", methods=["GET", "HEAD"])
 def file(request: Request, path: str) -> Response:
     """A file of the pages, or a page by its name without suffix."""
@@ -65,18 +101,22 @@ def file(request: Request, path: str) -> Response:
     return _page(request, path) if asset is None else _file(request, asset)
 
 
-def _page(request: Request, name: str, sheets: tuple[str, ...] = ()) -> Response:
-    """A page; its policy names the hash of its import map."""
+def _page(
+    request: Request, name: str, sheets: tuple[str, ...] = (), content: Content | None = None, status: int = 200
+) -> Response:
+    """A page; its policy names the hash of its import map. What it says itself is in the language asked for."""
     service = service_of(request)
-    page = service.assets.page(name, sheets)
+    page = service.assets.page(name, sheets, content)
     if page is None:
         raise HTTPException(404)
     policy = content_security_policy(page.import_map_hash, frame_ancestors=service.settings.frame_ancestors)
     etag = f'"{hashlib.sha256(page.html.encode()).hexdigest()[:16]}"'
     headers = {"ETag": etag, "Cache-Control": ASK_AGAIN, "Content-Security-Policy": policy}
-    if not_modified(request, etag):
+    if content is not None:
+        headers |= {"Content-Language": content.language, "Vary": "Accept, Accept-Language"}
+    if status == 200 and not_modified(request, etag):
         return Response(status_code=304, headers=headers)
-    return Response(page.html, headers=headers, media_type="text/html")
+    return Response(page.html, status, headers, media_type="text/html")
 
 
 def _file(request: Request, asset: Asset) -> Response:
