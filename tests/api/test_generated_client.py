@@ -1,4 +1,4 @@
-"""A client that a program wrote from the description, talking to the service."""
+"""Clients that programs wrote from the description, each with its defaults, talking to the service."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ from types import ModuleType
 from typing import Any
 
 import pytest
-from tests.serving import PATIENT, served
+from tests.api import typescript
+from tests.frontend.node import run
+from tests.serving import PATIENT, Served, served
 
 from deltaq.api.app import create_app
 from deltaq.contract.document import EXAMPLE
@@ -53,11 +55,14 @@ def generated(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 @pytest.fixture(scope="module")
-def client(generated: str) -> Iterator[Any]:
-    with (
-        served(workers=2, **PATIENT) as service,
-        part("client").Client(base_url=service.address.rstrip("/"), timeout=300) as one,
-    ):
+def service() -> Iterator[Served]:
+    with served(workers=2, **PATIENT) as one:
+        yield one
+
+
+@pytest.fixture(scope="module")
+def client(generated: str, service: Served) -> Iterator[Any]:
+    with part("client").Client(base_url=service.address.rstrip("/"), timeout=300) as one:
         yield one
 
 
@@ -110,7 +115,7 @@ def readings() -> Iterator[Any]:
     """Each operation that is asked by its address alone, with the examples of what stands in it."""
     for path, methods in DOCUMENT["paths"].items():
         operation = methods.get("get")
-        if operation and operation["operationId"] != "get_derivation":  # which is asked for below
+        if operation and operation["operationId"] != typescript.BY_ID:  # which is asked for below
             inside = [one for one in operation.get("parameters", []) if one["in"] == "path"]
             yield pytest.param(
                 operation["operationId"], {one["name"]: one["schema"]["examples"][0] for one in inside}, id=path
@@ -186,3 +191,32 @@ def test_a_failure_is_a_problem_document_with_its_place(client: Any) -> None:
     assert response.status_code == 404
     assert isinstance(response.parsed, part("models").ProblemDocument)
     assert [problem.pointer for problem in response.parsed.problems] == ["/scene"]
+
+
+PATHS = {one["operationId"]: path for path, methods in DOCUMENT["paths"].items() for one in methods.values()}
+CALLS = [*typescript.calls(DOCUMENT)]
+OWN_CALLS = [
+    typescript.Call(f"{name}-own", "POST", PATHS[name], {"body": {"scene": EXAMPLE, **rest}})
+    for name, rest in OWN.items()
+]
+
+
+@pytest.fixture(scope="module")
+def statuses(tmp_path_factory: pytest.TempPathFactory, service: Served) -> dict[str, int]:
+    """The status of the answer to every call of the program in TypeScript, by its name."""
+    folder = tmp_path_factory.mktemp("typescript")
+    typed = [own for one in CALLS if (own := typescript.with_scene(one, EXAMPLE))]
+    compiled = typescript.build(folder, DOCUMENT, typescript.program([*CALLS, *OWN_CALLS], typed))
+    done = run("node", str(compiled), service.address.rstrip("/"), cwd=folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return {str(name): int(status) for name, status in json.loads(done.stdout).items()}
+
+
+@pytest.mark.parametrize("name", [one.name for one in (*CALLS, *OWN_CALLS)])
+def test_what_is_documented_runs_in_typescript_without_a_cast(statuses: dict[str, int], name: str) -> None:
+    assert statuses[name] == 200
+
+
+def test_no_operation_is_left_out_in_typescript() -> None:
+    called = {name.partition("-")[0] for name in (one.name for one in CALLS)}
+    assert operations().keys() - called == {typescript.BY_ID}

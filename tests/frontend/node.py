@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import importlib.util
 import os
 import re
@@ -12,6 +13,8 @@ from functools import cache
 from pathlib import Path
 
 OLDEST_NODE = 20
+FRONTEND = Path(__file__).parents[2] / "frontend"
+TOOLS = ("typescript", "eslint", "prettier", "openapi-typescript", "openapi-fetch")
 
 
 @cache
@@ -54,3 +57,13 @@ def run(
         text=True,
         check=False,
     )
+
+
+def frontend_with_tools() -> Path:
+    """The front end's folder with its development tools; they are fetched once if they are missing."""
+    with (FRONTEND / "package.json").open("rb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # tests may run in several processes
+        if not all((FRONTEND / "node_modules" / tool).is_dir() for tool in TOOLS):
+            done = run("npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", cwd=FRONTEND)
+            assert done.returncode == 0, done.stdout + done.stderr
+    return FRONTEND

@@ -2,27 +2,17 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 from pathlib import Path
 
 import pytest
 from tests.frontend.contract import FILE, types
-from tests.frontend.node import run
-
-TOOLS = ("typescript", "eslint", "prettier", "openapi-typescript")
+from tests.frontend.node import frontend_with_tools, run
 
 
 @pytest.fixture(scope="session")
-def frontend(root: Path) -> Path:
-    """The front end's folder with its development tools; they are fetched once if they are missing."""
-    folder = root / "frontend"
-    with (folder / "package.json").open("rb") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)  # tests may run in several processes
-        if not all((folder / "node_modules" / tool).is_dir() for tool in TOOLS):
-            done = run("npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", cwd=folder)
-            assert done.returncode == 0, done.stdout + done.stderr
-    return folder
+def frontend() -> Path:
+    return frontend_with_tools()
 
 
 def test_types(frontend: Path) -> None:
