@@ -12,8 +12,8 @@ import { createExercise } from "../../frontend/model/homework/exercise.js";
 import { stepOf } from "../../frontend/model/homework/solution.js";
 import { framed, parting } from "../../frontend/model/homework/motions.js";
 import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homework/place.js";
-import { BLANK, createProgress, draftOf } from "../../frontend/model/homework/progress.js";
-import { assignmentOf, groupOf, pointsOf, referenceIn, sheetOfScene } from "../../frontend/model/homework/sheet.js";
+import { BLANK, createProgress, draftOf, linesOf } from "../../frontend/model/homework/progress.js";
+import { assignmentOf, groupOf, pointsOf, referenceIn, sheetOfAssignment, sheetOfScene } from "../../frontend/model/homework/sheet.js";
 import { begin } from "../../frontend/model/homework/state.js";
 import { createTrail } from "../../frontend/model/homework/trail.js";
 import { ApiError } from "../../frontend/model/api.js";
@@ -107,6 +107,13 @@ test("a draft out of anything", () => {
   assert.deepEqual(draftOf({ syntax: "plain", texts: { plain: ["a", 3] }, hints: 9, tries: -1, checked: { verdict: 3 } }), { ...BLANK, syntax: "plain", texts: { plain: ["a"], latex: [] }, hints: 3 });
 });
 
+test("lines out of anything: what is none is passed over", () => {
+  const line = { task: "lagrangian", syntax: "plain", value: "T - V" };
+  const kept = [line, { ...line, syntax: "html" }, { ...line, task: 3 }, { ...line, value: null }, null, "T", [line]];
+  assert.deepEqual(linesOf(kept), [line, { ...line, syntax: "latex" }]);
+  for (const other of [null, line, "T", { 0: line, length: 1 }]) assert.deepEqual(linesOf(other), []);
+});
+
 test("work is exported and imported, and what is no work is refused", () => {
   const own = createProgress(storage());
   own.write("swing/equation:phi", { ...BLANK, solved: true });
@@ -159,6 +166,16 @@ test("what requests say of an assignment's scene, with each student's own values
   assert.deepEqual(referenceIn({ ...assignment, individual: false }, 0, "ada").seed, undefined);
   assert.notEqual(groupOf({ scene: "pendulum", guides: [] }), groupOf({ scene: "pendulum" }));
   assert.equal(groupOf({ scene: "pendulum", seed: "ada" }), "pendulum@ada");
+});
+
+test("an assignment's sheet: its tasks by number, each with its scene, and the share of a right consequence", () => {
+  const assignment = { format: 1, individual: true, tasks: [{ scene: "swing", task: task.id }, { scene: "swing", task: task.id, freeze: ["y"] }] };
+  const tasks = [{ scene, symbols, task }, { scene: { ...scene, id: "frozen" }, symbols: [], task: { ...task, points: 1 } }];
+  const { title, followThrough, entries } = sheetOfAssignment(/** @type {any} */ (assignment), "ada", /** @type {any} */ ({ title: { en: "Sheet 3" }, follow_through: 0.25, tasks }));
+  assert.deepEqual([title, followThrough], [{ en: "Sheet 3" }, 0.25]);
+  assert.deepEqual(entries.map(({ id, scene: of, task: { points } }) => [id, of.id, points]), [["1", "swing", 3], ["2", "frozen", 1]]);
+  assert.deepEqual(entries.map(({ reference }) => reference), [{ scene: "swing", seed: "ada" }, { scene: "swing", freeze: ["y"], seed: "ada" }]);
+  assert.equal(new Set(entries.map(({ key }) => key)).size, 2);
 });
 
 test("an assignment travels in an address, and comes from files", async () => {
