@@ -981,8 +981,6 @@ export interface components {
             value: number;
             /** Rate */
             rate: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Best
@@ -1085,8 +1083,6 @@ export interface components {
              * @description where it was asked for
              */
             map?: components["schemas"]["FlipMap"] | components["schemas"]["NoFlipMap"] | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ChaosReason
@@ -1263,8 +1259,6 @@ export interface components {
              * @description the error
              */
             wanted: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * CheckRequest
@@ -1458,8 +1452,6 @@ export interface components {
             orders: {
                 [key: string]: components["schemas"]["OrderOfConvergence"];
             };
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ConvergenceRequest
@@ -1871,13 +1863,13 @@ export interface components {
              * @description ends of the stretches of time
              * @default []
              */
-            t?: number[];
+            t: number[];
             /**
              * Error
              * @description largest departure in each, in parts of the energy
              * @default []
              */
-            error?: number[];
+            error: number[];
             verdict?: components["schemas"]["DriftVerdict"] | null;
             /**
              * Largest
@@ -1911,8 +1903,6 @@ export interface components {
              * @description seconds
              */
             time?: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * DriftVerdict
@@ -2007,8 +1997,6 @@ export interface components {
             tolerance: number;
             /** Lines */
             lines: components["schemas"]["DriftLine"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * EnergyDriftRequest
@@ -2221,8 +2209,6 @@ export interface components {
              * @description of its logarithm, root mean square
              */
             misfit: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ExportRequest
@@ -2480,8 +2466,6 @@ export interface components {
              * @description the step from which on that is so
              */
             limit: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * FamilyEntry
@@ -2603,8 +2587,6 @@ export interface components {
              * @enum {string}
              */
             ending: "" | "start" | "passage" | "digits" | "event" | "ended";
-        } & {
-            [key: string]: unknown;
         };
         /**
          * FidelityRequest
@@ -2685,8 +2667,6 @@ export interface components {
              * @description −1: not in time; null: not known
              */
             times: (number | null)[][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * FlipSide
@@ -2697,8 +2677,6 @@ export interface components {
             coordinate: string;
             /** Values */
             values: number[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Forcing
@@ -2827,8 +2805,6 @@ export interface components {
         GrowthReadings: {
             exponential: components["schemas"]["ExponentialReading"];
             power: components["schemas"]["PowerReading"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * GuideChange
@@ -2956,8 +2932,6 @@ export interface components {
              * @description why not
              */
             refused: components["schemas"]["Refusal"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * LinesAnswer
@@ -3115,8 +3089,6 @@ export interface components {
             /** @description why there is no verdict; else empty */
             reason: components["schemas"]["ChaosReason"];
             second_indicator: components["schemas"]["SecondIndicator"];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Machine
@@ -3127,8 +3099,6 @@ export interface components {
             processor: string;
             /** Cores */
             cores: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * MapAxis
@@ -3168,8 +3138,6 @@ export interface components {
             parameter: string;
             /** Values */
             values: number[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * MarkedLine
@@ -3342,8 +3310,6 @@ export interface components {
              * @description seconds, the median
              */
             per_evaluation?: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * MethodEntry
@@ -3428,8 +3394,6 @@ export interface components {
              * @description seconds of each of them, ascending
              */
             times: number[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Mode
@@ -3494,8 +3458,6 @@ export interface components {
              * @constant
              */
             missing: "angles";
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Numeric
@@ -3545,8 +3507,6 @@ export interface components {
             measured: number;
             /** Theory */
             theory: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * OwnSymbol
@@ -3596,8 +3556,6 @@ export interface components {
              * @description of its logarithm, root mean square
              */
             misfit: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * PredictedSpan
@@ -3608,8 +3566,6 @@ export interface components {
             tolerance: number;
             /** T */
             t: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * PredictionHorizon
@@ -3628,8 +3584,6 @@ export interface components {
              * @description how far the motion is known at all
              */
             known_until: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ProblemEntry
@@ -3851,8 +3805,6 @@ export interface components {
              * @description whether that is the whole span
              */
             complete: boolean;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Refusal
@@ -3865,8 +3817,6 @@ export interface components {
             parameters: {
                 [key: string]: string | number;
             };
-        } & {
-            [key: string]: unknown;
         };
         /**
          * RouthFunction
@@ -3908,8 +3858,6 @@ export interface components {
             relative: (number | null)[];
             /** Slope */
             slope: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * RungOperations
@@ -3926,8 +3874,6 @@ export interface components {
             solving: number;
             /** Total */
             total: number;
-        } & {
-            [key: string]: unknown;
         };
         Scene: components["schemas"]["SceneId"] | components["schemas"]["SceneDocument"];
         /**
@@ -4494,8 +4440,6 @@ export interface components {
              * @description K: near 0 regular, near 1 chaotic; null where it was not asked
              */
             value: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * Simplification
@@ -4517,8 +4461,6 @@ export interface components {
             parameters: {
                 [key: string]: string;
             };
-        } & {
-            [key: string]: unknown;
         };
         /**
          * SimulationAnswer
@@ -4891,8 +4833,6 @@ export interface components {
             stiffness: string;
             /** Series */
             series: components["schemas"]["StiffRun"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * StabilityMapAnswer
@@ -4962,8 +4902,6 @@ export interface components {
              * @description seconds that the map took
              */
             time: number;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * StabilityMapRequest
@@ -5246,8 +5184,6 @@ export interface components {
             time: number;
             /** Error */
             error: number | null;
-        } & {
-            [key: string]: unknown;
         };
         /**
          * StudentTotals
@@ -5546,8 +5482,6 @@ export interface components {
             t: number[];
             /** Distance */
             distance: number[];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * ValueFunctional
@@ -5865,8 +5799,6 @@ export interface components {
              * @description for errors from 0.1 down, as far as any run came
              */
             cheapest: components["schemas"]["CheapestRun"][];
-        } & {
-            [key: string]: unknown;
         };
         /**
          * WorkPrecisionRequest
@@ -6353,7 +6285,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "application/json": components["schemas"]["ChaosAnswer"];
                     "text/event-stream": string;
                     "text/html": string;
                     "text/csv": string;
@@ -6383,7 +6315,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "application/json": components["schemas"]["ConvergenceAnswer"];
                     "text/event-stream": string;
                     "text/html": string;
                     "text/csv": string;
@@ -6413,7 +6345,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "application/json": components["schemas"]["EnergyDriftAnswer"];
                     "text/event-stream": string;
                     "text/html": string;
                     "text/csv": string;
@@ -6443,7 +6375,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "application/json": components["schemas"]["FidelityAnswer"];
                     "text/event-stream": string;
                     "text/html": string;
                     "text/csv": string;
@@ -6473,7 +6405,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "application/json": components["schemas"]["StabilityAnswer"];
                     "text/event-stream": string;
                     "text/html": string;
                     "text/csv": string;
@@ -6503,7 +6435,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "application/json": components["schemas"]["StabilityMapAnswer"];
                     "text/event-stream": string;
                     "text/html": string;
                     "text/csv": string;
@@ -6533,7 +6465,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ExperimentAnswer"];
+                    "application/json": components["schemas"]["WorkPrecisionAnswer"];
                     "text/event-stream": string;
                     "text/html": string;
                     "text/csv": string;

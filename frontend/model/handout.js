@@ -20,6 +20,7 @@ import { readChanges } from "./values.js";
  * @property {Failure | null} failure
  */
 
+/** @type {import("./types.js").Included[]} */
 const PARTS = ["coordinates", "rates", "positions", "loads", "energy"];
 export const SECONDS = 10;
 const SAMPLES = samplesFor(500);

@@ -15,8 +15,9 @@ from typing import Any
 from ..errors import Problem
 from ..narration.catalog import text
 from ..settings import Settings
+from ..vocabulary import Language
 from .heads import LONGEST
-from .languages import LANGUAGES, Language
+from .languages import LANGUAGES
 from .page import Content
 from .problems import (
     BODY_NOT_CALLED_JSON,

@@ -5,10 +5,12 @@ import { sampled, samplesFor } from "../sampling.js";
 
 /** @typedef {import("./sheet.js").Entry} Entry */
 
+/** @type {import("../types.js").Included[]} */
+const PARTS = ["coordinates", "rates", "positions", "loads", "error"];
 const MOTION = {
   t_end: 10,
   samples: samplesFor(400),
-  include: ["coordinates", "rates", "positions", "loads", "error"],
+  include: PARTS,
 };
 
 /** A built-in scene by its id, any other whole. @param {Entry} entry @returns {import("../types.js").Contract["Scene"]} */

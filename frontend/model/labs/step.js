@@ -2,7 +2,7 @@
 
 /**
  * The range of a slider for h: from where nothing fails to where everything explicit has.
- * @param {[number, number][]} eigenvalues
+ * @param {number[][]} eigenvalues
  * @returns {[number, number]}
  */
 export function stepRange(eigenvalues) {

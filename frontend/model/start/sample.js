@@ -2,6 +2,8 @@
 
 import { sampled, samplesFor } from "../sampling.js";
 
+/** @type {import("../types.js").Included[]} */
+const PARTS = ["coordinates", "rates", "positions", "loads"];
 const SECONDS = 6;
 const RATE = 30;
 const AT_ONCE = 3;
@@ -33,7 +35,7 @@ export function createSamples(api, lang) {
       scene: id,
       t_end: SECONDS,
       samples: samplesFor(SECONDS * RATE),
-      include: ["coordinates", "rates", "positions", "loads"],
+      include: PARTS,
       lang: lang(),
     };
     const [scene, trajectory] = await Promise.all([api.scene(id, lang()), sampled(api.simulate)(request)]);

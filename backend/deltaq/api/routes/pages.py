@@ -11,9 +11,10 @@ from starlette.responses import RedirectResponse
 from starlette.routing import Match
 from starlette.types import Scope
 
+from ...vocabulary import Language
 from ..assets import ASK_AGAIN, Asset
 from ..headers import content_security_policy
-from ..languages import Language, language_of
+from ..languages import language_of
 from ..page import Content
 from ..problem_pages import explained, overview, page_of, unknown
 from ..problems import TYPES, ProblemType
