@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field
 
+from ...derivation.domain import Ends
 from .base import Answer, AskedLanguage, ExpressionText, Name, Names, Request, Syntax, Values, examples, items
 from .derivation import Chapter
 
@@ -37,8 +38,10 @@ class IntegralFunctional(Request):
     kind: Literal["integral"] = Field(description="the integral over the time")
     start: ExpressionText = Field(alias="from", description="a number or an expression of parameters", examples=["0"])
     to: ExpressionText = Field(description="likewise", examples=["T"])
-    ends: Literal["fixed", "free", "fixed-free", "free-fixed"] = Field(
-        "fixed", description="whether the functions are prescribed at both ends, or at the lower and at the upper one"
+    ends: Ends = Field(
+        "fixed",
+        description="what is prescribed at both ends, or at the lower and at the upper one: the functions with the rates "
+        "that need it (fixed), the functions alone (hinged), nothing (free)",
     )
 
     model_config = ConfigDict(serialize_by_alias=True)
@@ -136,7 +139,8 @@ class VariationAnswer(Answer):
     """The first variation by two routes, and its results as plain expressions and as LaTeX.
 
     `result.first_variation.plain` is in delta(x) and dot(delta(x)), or in the names of the directions; for an integral
-    it is the integrand, and `euler_lagrange` and `boundary_terms` are there too.
+    it is the integrand, and `euler_lagrange` (without denominators and common factors), `boundary_terms` (each with
+    the `order` of its δx or δẋ, and the natural condition at free ends) and `first_integrals` are there too.
     """
 
     id: str = Field(description="content hash", examples=["9f3c…"])

@@ -11,9 +11,10 @@ from functools import cached_property
 
 import sympy as sp
 
+from ..language.sympy_algebra import time_derivative
 from ..language.tree import Name
 from .domain import Interval
-from .formula import Named, Quantity
+from .formula import Named, Quantity, Value
 from .functional import Functional
 from .system import System
 
@@ -39,9 +40,17 @@ class Action(Functional):
         """L under its symbol."""
         return Named(Quantity("lagrangian"), self.value)
 
-    def momentum(self, function: str) -> sp.Expr:
-        """pᵢ = ∂L/∂q̇ᵢ"""
-        return self.system.momentum(function)
+    def euler_lagrange(self, function: str) -> sp.Expr:
+        """∂L/∂qᵢ − dpᵢ/dt"""
+        return self.display(self.slope(function, 0) - time_derivative(self.momentum(function), self.symbols))
+
+    def display(self, value: Value) -> Value:
+        """The value as the scene's other steps show it."""
+        return self.system.display(value)
+
+    def slope(self, function: str, order: int) -> sp.Expr:
+        """∂L/∂qᵢ, or pᵢ = ∂L/∂q̇ᵢ"""
+        return self.system.momentum(function) if order == 1 else super().slope(function, order)
 
 
 def action(system: System) -> Action:

@@ -10,7 +10,6 @@ from functools import cached_property
 import sympy as sp
 
 from ..errors import ExpressionError, Problem
-from ..language import canonical
 from ..language.form_calculus import PlainForm, plain_form
 from ..language.fourier import TooLargeError
 from ..language.memory import cached_method
@@ -20,7 +19,9 @@ from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..language.tree import Node
 from .calculus import by_component, column
+from .clearing import factored
 from .formula import Value
+from .points import HIGHEST
 from .scene_symbols import SMALL, fresh
 
 UNDEFINED = (sp.DiracDelta, sp.Derivative, sp.Subs)
@@ -58,8 +59,8 @@ class DifferentialExpression:
 
     @cached_property
     def jets(self) -> Mapping[sp.Symbol, sp.Symbol]:
-        """The direction of every function with its rate and acceleration, whether they occur or not."""
-        return {self.symbols.rate(x, n): direction(x, n) for x in self.functions for n in range(3)}
+        """The direction of every function with all of its rates, whether they occur or not."""
+        return {self.symbols.rate(x, n): direction(x, n) for x in self.functions for n in range(HIGHEST + 1)}
 
     def along_of(self, function: str) -> Mapping[sp.Symbol, sp.Symbol]:
         """The same for one function and its rates."""
@@ -75,8 +76,8 @@ class DifferentialExpression:
         return to_sympy(node, self.symbols)
 
     def display(self, value: Value) -> Value:
-        """The value in its shortest form."""
-        return by_component(value, lambda component: canonical.display(component, self.symbols))
+        """The value in its shortest form; where it has roots or denominators, as one product if that is shorter."""
+        return by_component(value, lambda component: factored(component, self.symbols))
 
     def derivative(self, value: Value, by: sp.Symbol) -> Value:
         """∂value/∂by. Raises ExpressionError where it does not exist."""
@@ -116,7 +117,7 @@ class DifferentialExpression:
         return by_component(found, self._collected)
 
     def _collected(self, component: sp.Expr) -> sp.Expr:
-        return sp.Add(*(canonical.display(component.diff(v), self.symbols) * v for v in self.along.values()))
+        return sp.Add(*(self.display(component.diff(v)) * v for v in self.along.values()))
 
     @cached_property
     def by_chain_rule(self) -> Value:
@@ -126,7 +127,7 @@ class DifferentialExpression:
     @property
     def moving(self) -> tuple[str, ...]:
         """The functions whose rates occur."""
-        return tuple(x for x in self.functions if self.symbols.rate(x, 1) in self.along)
+        return tuple(x for x in self.functions if self.along_of(x).keys() - {self.symbols.name(x)})
 
     @property
     def present(self) -> tuple[str, ...]:

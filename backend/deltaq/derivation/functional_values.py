@@ -39,7 +39,7 @@ def line_of(functional: Functional, motion: Motion, time: float) -> Line:
         nodes = _nodes(functional, motion, time)
         sampled = [(weight, _jets(functional, motion, at)) for weight, at in nodes]
     (tree,) = functional.trees
-    names = [symbol.name for symbol in functional.jets]
+    names = [symbol.name for symbol in functional.along]
 
     def rounded(h: float) -> float:
         moved = ({**jet, **{n: jet[n] + h * jet[f"h {n}"] for n in names}} for _, jet in sampled)

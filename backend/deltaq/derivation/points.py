@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping
+from itertools import takewhile
 
 from flint import arb
 
@@ -11,6 +12,7 @@ from ..language.spelling import spell_rate
 Point = Mapping[str, arb]  # values of names, `dot(name)`, `ddot(name)`, `delta(name)` and `d(name)`
 
 STEP = arb(2) ** -128
+HIGHEST = 4  # the rates that an Euler–Poisson equation holds
 
 
 class Place(dict[str, arb]):
@@ -52,14 +54,30 @@ def central_difference(function: Callable[[arb], arb]) -> arb:
 
 
 def along_motion(point: Point, h: arb) -> Point:
-    """Where the system is a time h later: q + q̇h + q̈h²/2, and its rates."""
+    """Where the system is a time h later: q + q̇h + q̈h²/2 + …, and its rates, as far as the point knows them."""
     changes = {"t": point["t"] + h}
     for name in point:
-        speed, acceleration = point.get(spell_rate(name, 1)), point.get(spell_rate(name, 2))
-        if speed is not None and acceleration is not None:
-            changes[name] = point[name] + speed * h + acceleration * h * h / 2
-            changes[spell_rate(name, 1)] = speed + acceleration * h
+        if spell_rate(name, 1) in point and spell_rate(name, 2) in point:
+            changes |= _taylor(_jet(name, point), h)
     return moved(point, changes)
+
+
+def _jet(name: str, point: Point) -> dict[str, arb]:
+    """A function and its rates, without a gap."""
+    spellings = (spell_rate(name, order) for order in range(HIGHEST + 1))
+    return {spelling: point[spelling] for spelling in takewhile(point.__contains__, spellings)}
+
+
+def _taylor(jet: dict[str, arb], h: arb) -> dict[str, arb]:
+    """All but the last of them, which is constant, a time h later."""
+    values = list(jet.values())
+    found: dict[str, arb] = {}
+    for order, name in enumerate(list(jet)[:-1]):
+        total = values[-1]
+        for place in range(len(values) - 2, order - 1, -1):
+            total = values[place] + total * h / (place - order + 1)
+        found[name] = total
+    return found
 
 
 def varied(point: Point, h: arb) -> Point:

@@ -10,8 +10,10 @@ from .functional import Functional
 from .rules import (
     both_routes,
     boundary_terms,
+    cleared_equation,
     collected_variation,
     euler_lagrange_equation,
+    first_integrals,
     functional,
     integration_by_parts,
     variation_by_chain_rule,
@@ -26,7 +28,7 @@ FORMULATION = "first-variation"
 def vary(subject: Functional) -> Derivation:
     """The chapters: what is varied, the two routes, that they agree; for an integral the Euler–Lagrange equations."""
     points = function_points(subject)
-    at_ends = function_points(subject, fixed=subject.fixed)
+    at_ends = function_points(subject, held=subject.held)
     chapters = {
         "functional": (functional.apply(subject),),
         "variation-by-definition": (variation_by_definition.apply(subject),),
@@ -40,8 +42,17 @@ def vary(subject: Functional) -> Derivation:
 
 
 def _integral(subject: Functional) -> Iterator[tuple[str, tuple[Step, ...]]]:
-    """Integration by parts, the ends, and the fundamental lemma."""
-    parts = tuple(integration_by_parts.apply(subject, x) for x in subject.moving)
+    """Integration by parts, the ends, the fundamental lemma, and what is constant along the solutions."""
+    parts = (step for x in subject.moving for step in integration_by_parts.steps(subject, x))
     ends = (boundary_terms.apply(subject),) if subject.moving else ()
     yield "integration-by-parts", (*parts, *ends, collected_variation.apply(subject))
-    yield "euler-lagrange", tuple(euler_lagrange_equation.apply(subject, x) for x in subject.present)
+    yield "euler-lagrange", tuple(step for x in subject.present for step in _equation(subject, x))
+    yield "first-integrals", tuple(first_integrals.steps(subject))
+
+
+def _equation(subject: Functional, function: str) -> Iterator[Step]:
+    """As it follows, then without denominators and common factors."""
+    yield euler_lagrange_equation.apply(subject, function)
+    clear = cleared_equation.apply(subject, function)
+    if clear is not None:
+        yield clear

@@ -20,8 +20,10 @@ from .names import Names
 from .numerals import base_exponent
 from .spelling import GREEK_NAMES
 
-_SYMBOL = re.compile(r"(?:(d{1,3}ot\(delta|d{1,3}ot|delta|d)\()?(\w+)\)*\Z")
-_PREFIX_CLASS = {None: 0, "dot": 1, "ddot": 2, "dddot": 3, "d": 4, "delta": 5, "dot(delta": 6, "ddot(delta": 7}
+_SYMBOL = re.compile(r"(?:(d{1,2}ot\(delta|d{1,4}ot|delta|d)\()?(\w+)\)*\Z")
+_PREFIX_CLASS = {
+    None: 0, "dot": 1, "ddot": 2, "dddot": 3, "d": 4, "delta": 5, "dot(delta": 6, "ddot(delta": 7, "ddddot": 8,
+}  # fmt: skip
 # Heads of parameter names in the order of a textbook's product: m g l, k l, F l, m l omega.
 _HEADS = (("m", "M", "J", "I", "Theta", "mu", "rho"), ("k", "c", "d", "b", "E", "F", "P", "N", "Q", "G"), ("g",))
 _LATE = ("omega", "Omega", "nu", "f", "alpha", "beta", "gamma", "eta", "tau", "T")
@@ -35,7 +37,7 @@ Key = tuple[Any, ...]
 
 @lru_cache(maxsize=1 << 12)
 def split_symbol(name: str) -> tuple[int, str]:
-    """Class and base of a symbol: "ddot(phi)" → (2, "phi"); 0 plain, 1–3 rates, 4 differential, 5–7 δ of q, q̇, q̈."""
+    """Class and base of a symbol: "ddot(phi)" → (2, "phi"); 0 plain, 1–3 and 8 rates, 4 differential, 5–7 δ of q, q̇, q̈."""
     match = _SYMBOL.match(name)
     return (_PREFIX_CLASS[match[1]], match[2]) if match else (0, name)
 
@@ -120,7 +122,7 @@ class Order:
                 parameters.append(self.factor(factor))
             elif not base.is_number:
                 functions.append(_text(base))
-        by_kind = tuple(_descending(powers.get(kind, {})) for kind in (5, 6, 7, 4, 3))
+        by_kind = tuple(_descending(powers.get(kind, {})) for kind in (5, 6, 7, 4, 8, 3))
         acceleration = (-sum(powers.get(2, {}).values()), len(functions) if 2 in powers else 0)
         rest = tuple(_descending(powers.get(kind, {})) for kind in (2, 1, 0))
         return (*by_kind, acceleration, *rest, len(functions), sorted(functions), sorted(parameters))

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from types import MappingProxyType
 
-_RATES = ("{}", "dot({})", "ddot({})", "dddot({})")
+_RATES = ("{}", "dot({})", "ddot({})", "dddot({})", "ddddot({})")
 
 GREEK: Mapping[str, str] = MappingProxyType(
     {

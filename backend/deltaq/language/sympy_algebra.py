@@ -73,7 +73,7 @@ def rates_of(symbols: Symbols) -> dict[Value, Value]:
     """How fast everything changes that does: t, and each q, q̇, q̈, δq, δq̇."""
     rates = {symbols.time: sympy.Integer(1)}
     for name in symbols.names.coordinates:
-        chain = (symbols.name(name), symbols.rate(name, 1), symbols.rate(name, 2), symbols.rate(name, 3))
+        chain = (symbols.name(name), *(symbols.rate(name, order) for order in range(1, 5)))
         rates |= dict(pairwise(chain))
         rates |= dict(pairwise(symbols.variation(name, order) for order in range(4)))
     return rates

@@ -12,7 +12,7 @@ from .spelling import latex_of
 
 Mark = Callable[[str, str], str]
 
-_ACCENTS: Mapping[int, str] = MappingProxyType({1: r"\dot", 2: r"\ddot", 3: r"\dddot"})
+_ACCENTS: Mapping[int, str] = MappingProxyType({1: r"\dot", 2: r"\ddot", 3: r"\dddot", 8: r"\ddddot"})
 
 
 def unmarked(_symbol: str, latex: str) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 
 from ..derivation.differential_expression import direction
-from ..derivation.formula import Explicit, Formula, Given, MassIntegral, Partial, Quantity, Rate, Times
+from ..derivation.formula import Called, Explicit, Formula, Given, MassIntegral, Partial, Quantity, Rate, Times
 from ..language.latex_printer import Typography
 from ..language.order import split_symbol
 from ..language.spelling import latex_of
@@ -23,6 +23,9 @@ SYMBOLS: Mapping[str, str] = {
     "variation-of-function": r"\delta f",
     "variation-of-value": r"\delta I_{{{at}}}",
     "variation-of-integral": r"\delta I",
+    "first-energy": "H",
+    "first-momentum": "p_{{{of}}}",
+    "constant": r"\mathrm{{const.}}",
 }
 OF_TIME = (
     "function",
@@ -55,7 +58,7 @@ class FunctionTypography(Typography):
         if base.endswith(NEIGHBOUR):
             of = name.replace(NEIGHBOUR, "")
             return rf"\left({self.symbol(of)} + {self.h}\,{self.symbol(direction(function, kind).name)}\right)"
-        is_direction = kind >= VARIATION
+        is_direction = VARIATION <= kind < VARIATION + len(ACCENTS)
         text = self.mark(name, self._direction(function, kind - VARIATION)) if is_direction else super().symbol(name)
         return text + self.argument
 
@@ -80,8 +83,13 @@ class FunctionNotation(Notation):
         argument = self._functions.argument
         if argument and isinstance(formula, Partial | Rate):
             return rf"\left.{self._with('').formula(formula)}\right|_{{t = {argument[1:-1]}}}"
-        if isinstance(formula, Times):
-            return r"\,".join(self._bracketed(factor) for factor in formula.factors)
+        match formula:
+            case Times(factors):
+                return r"\,".join(map(self._bracketed, factors))
+            case Rate(Rate(of)):
+                return rf"\frac{{\mathrm{{d}}^2}}{{\mathrm{{d}} t^2}}\left({self.formula(of)}\right)"
+            case Rate(Called() as of):
+                return rf"\frac{{\mathrm{{d}} {self._bare(of)}}}{{\mathrm{{d}} t}}"
         return super().formula(formula)
 
     def _bracketed(self, factor: Formula) -> str:
@@ -122,7 +130,8 @@ class FunctionSymbols:
     at: str = ""
 
     def latex(self, quantity: Quantity) -> str:
-        return SYMBOLS[quantity.kind].format(at=self.at)
+        of = self.coordinate_latex.get(quantity.of, quantity.of)
+        return SYMBOLS[quantity.kind].format(at=self.at, of=of)
 
     def label(self, name: str) -> CatalogText:
         return words(name)

@@ -16,6 +16,8 @@ from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..language.tree import Node, Rate, Vector, walk
 
+HIGHEST = 2
+
 
 @dataclass(frozen=True)
 class Question:
@@ -108,8 +110,8 @@ def _component_problems(components: tuple[Node, ...], domain: Instant | Interval
 
 
 def _order_problems(integrand: Node) -> Iterator[Problem]:
-    """Integration by parts is carried out once: the integrand holds functions and their first rates."""
-    high = next((node for node in walk(integrand) if isinstance(node, Rate) and node.order > 1), None)
+    """Integration by parts is carried out twice at most: the integrand holds functions and two of their rates."""
+    high = next((node for node in walk(integrand) if isinstance(node, Rate) and node.order > HIGHEST), None)
     if high is not None:
         yield Problem(
             "integrand-order", "/expression", high.span.offset, high.span.length, parameters={"name": high.name}

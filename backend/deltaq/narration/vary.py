@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
 
 import sympy as sp
 
@@ -12,9 +13,10 @@ from ..contract.reading import read
 from ..contract.variation import VariationRequest
 from ..derivation.differential_expression import direction
 from ..derivation.domain import Instant, Interval
-from ..derivation.formula import Explicit, Formula
+from ..derivation.formula import Explicit, Formula, Named, Quantity
 from ..derivation.functional import Functional
-from ..derivation.rules.integration_by_parts import boundary
+from ..derivation.clearing import cleared, constant_of_motion
+from ..derivation.rules.integration_by_parts import boundary_term
 from ..derivation.variation import vary
 from ..errors import ExpressionError, Problem, RequestError
 from ..language.names import Names
@@ -29,6 +31,7 @@ from .quotient_answer import quotient_answer
 from .variation_request import Question, read_question
 
 Document = dict[str, object]
+NESTED = re.compile(r"\bddddot\((\w+)\)"), re.compile(r"\bdddot\((\w+)\)")  # the language has no sign for them
 
 
 def vary_request(document: Mapping[str, object]) -> Document:
@@ -96,19 +99,37 @@ def _result(question: Question, notation: FunctionNotation) -> Document:
     interval = {"from": plain(bounds.lower), "to": plain(bounds.upper), "ends": functional.domain.ends}
     return {
         "first_variation": first | interval,
-        "euler_lagrange": [{"function": x, **both.equation(functional.euler_lagrange(x))} for x in functional.present],
-        "boundary_terms": [term for x in functional.moving for term in _boundary(functional, x, both)],
+        "euler_lagrange": [
+            {"function": x, **both.equation(functional.cleared_equation(x).value)} for x in functional.present
+        ],
+        "boundary_terms": [_boundary(functional, x, order, both) for x, order in functional.boundary],
+        "first_integrals": [*_first_integrals(functional, both)],
     }
 
 
-def _boundary(functional: Functional, function: str, both: _Writer) -> list[Document]:
-    """∂F/∂ẋ δx, at both ends; at free ends the natural conditions ∂F/∂ẋ = 0."""
-    momentum = functional.momentum(function)
-    written = both.formula(boundary(functional, Explicit(momentum), function))
-    found: Document = {"function": function, "plain": both.plain(momentum * direction(function)), "latex": written}
-    ends = [plain(end) for end in functional.free_ends]
-    vanishes = not functional.free_ends
-    return [found | {"vanishes": vanishes, "at": ends, "condition": None if vanishes else both.equation(momentum)}]
+def _boundary(functional: Functional, function: str, order: int, both: _Writer) -> Document:
+    """The factor times δx or δẋ, at both ends; at free ends the natural conditions: the factor is zero."""
+    momentum, ends = functional.momentum(function, order), functional.free_ends(order)
+    condition = both.equation(cleared(momentum, functional.symbols).value) if ends else None
+    return {
+        "function": function,
+        "order": order,
+        "plain": both.plain(momentum * direction(function, order)),
+        "latex": both.formula(boundary_term(functional, Explicit(momentum), function, order)),
+        "vanishes": not ends,
+        "at": [plain(end) for end in ends],
+        "condition": condition,
+    }
+
+
+def _first_integrals(functional: Functional, both: _Writer) -> Iterator[Document]:
+    """What is constant along the solutions: momenta of functions that F does not hold, then Beltrami's."""
+    found = [("momentum", x, functional.momentum(x)) for x in functional.ignorable]
+    if functional.has_energy:
+        found.append(("energy", None, functional.energy))
+    for kind, function, value in found:
+        shown, _, _ = constant_of_motion(value, functional.symbols)
+        yield {"kind": kind, "function": function, **both.constant(shown)}
 
 
 class _Writer:
@@ -124,7 +145,8 @@ class _Writer:
         }
 
     def plain(self, value: sp.Expr) -> str:
-        return plain(value.xreplace(self._named))
+        text = plain(value.xreplace(self._named))
+        return NESTED[1].sub(r"dot(ddot(\1))", NESTED[0].sub(r"dot(dot(ddot(\1)))", text))
 
     def formula(self, formula: Formula) -> str:
         return self._notation.formula(formula)
@@ -132,6 +154,11 @@ class _Writer:
     def vector(self, value: sp.Expr | sp.ImmutableMatrix) -> Document:
         text = [self.plain(c) for c in value] if isinstance(value, sp.MatrixBase) else self.plain(value)
         return {"plain": text, "latex": self._notation.value(value)}
+
+    def constant(self, value: sp.Expr) -> Document:
+        """What does not change."""
+        named = Named(Quantity("constant"), value)
+        return {"plain": self.plain(value), "latex": f"{self._notation.value(value)} = {self.formula(named)}"}
 
     def equation(self, left: sp.Expr) -> Document:
         return {"plain": f"{self.plain(left)} = 0", "latex": f"{self._notation.value(left)} = 0"}
