@@ -2881,9 +2881,11 @@ export interface components {
             to: string;
             /**
              * Ends
-             * @description whether the functions are prescribed at both ends, or at the lower and at the upper one
+             * @description what is prescribed at both ends, or at the lower and at the upper one: the functions with the rates that need it (fixed), the functions alone (hinged), nothing (free)
+             * @default fixed
+             * @enum {string}
              */
-            ends?: components["schemas"]["IntegralFunctionalEnds"];
+            ends?: "fixed" | "hinged" | "free" | "fixed-hinged" | "fixed-free" | "hinged-fixed" | "hinged-free" | "free-fixed" | "free-hinged";
         };
         /**
          * JacobiEnergy
@@ -5505,7 +5507,9 @@ export interface components {
          * @description The first variation by two routes, and its results as plain expressions and as LaTeX.
          *
          *     `result.first_variation.plain` is in delta(x) and dot(delta(x)), or in the names of the directions; for an integral
-         *     it is the integrand, and `euler_lagrange` and `boundary_terms` are there too.
+         *     it is the integrand, and `euler_lagrange` (without denominators and common factors), `boundary_terms` (each with
+         *     the `order` of its δx or δẋ, and the natural condition at free ends) and `first_integrals` are there too. Rates
+         *     above the second are written dddot(x) and ddddot(x), which an expression may not hold.
          */
         VariationAnswer: {
             /**

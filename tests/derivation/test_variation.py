@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import random
+from dataclasses import replace
+from itertools import cycle
+
 import pytest
 import sympy as sp
 
+from deltaq.derivation.clearing import Cleared
 from deltaq.derivation.differential_expression import direction
 from deltaq.derivation.domain import Instant, Interval
 from deltaq.derivation.formula import (
@@ -27,6 +32,7 @@ from deltaq.derivation.variation import vary
 from deltaq.derivation.verification import holds
 from deltaq.language.names import Names, Symbol
 from deltaq.language.parser import parse
+from deltaq.language.sympy_algebra import to_sympy
 
 NAMES = Names(
     (
@@ -143,9 +149,9 @@ def test_wrong_lines_do_not(formula: Formula, equal: Formula) -> None:
 
 def test_boundary_terms_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     """Free ends told as fixed ones: the terms that are left out are missed."""
-    monkeypatch.setattr(Functional, "fixed", (True, True))
+    monkeypatch.setattr(Functional, "held", (1, 1))
     subject = functional("dot(x)^2", ends="free")
-    monkeypatch.setattr("deltaq.derivation.variation.function_points", lambda s, fixed=None: function_points(s))
+    monkeypatch.setattr("deltaq.derivation.variation.function_points", lambda s, held=None: function_points(s))
     wrong = {step.id for step in vary(subject).steps() if not step.verified}
     assert wrong == {"boundary-terms", "collected-variation"}
 
@@ -155,6 +161,89 @@ def test_a_wrong_sign_in_the_integration_by_parts_is_caught(monkeypatch: pytest.
     monkeypatch.setattr(Functional, "momentum_rate", lambda self, x: -right(self, x))
     wrong = {step.id for step in vary(functional("x*dot(x)^2", ends="free")).steps() if not step.verified}
     assert wrong == {"integration-by-parts:x"}
+
+
+@pytest.mark.parametrize(
+    ("name", "caught"),
+    [
+        pytest.param("momentum", {"boundary-terms", "collected-variation", "beltrami-identity"}, id="boundary terms"),
+        pytest.param("rate", {"integration-by-parts-twice:x", "integration-by-parts:x"}, id="parts"),
+        pytest.param("euler_lagrange", {"collected-variation", "euler-lagrange-equation:x"}, id="equation"),
+    ],
+)
+def test_a_wrong_line_about_a_second_rate_is_caught(
+    monkeypatch: pytest.MonkeyPatch, name: str, caught: set[str]
+) -> None:
+    right = getattr(Functional, name)
+    monkeypatch.setattr(Functional, name, lambda self, *which: right(self, *which) * sp.Rational(10**15 + 1, 10**15))
+    subject = functional("m*ddot(x)^2/2 - k*x^2*dot(x)^2", ends="free")
+    assert {step.id for step in vary(subject).steps() if not step.verified} == caught
+
+
+@pytest.mark.parametrize("part", ["value", "factor"])
+def test_a_wrong_factor_of_an_equation_is_caught(monkeypatch: pytest.MonkeyPatch, part: str) -> None:
+    right = Functional.cleared_equation
+
+    def wrong(self: Functional, function: str) -> Cleared:
+        found = right(self, function)
+        return replace(found, **{part: -getattr(found, part)})
+
+    monkeypatch.setattr(Functional, "cleared_equation", wrong)
+    steps = vary(functional("sqrt((1 + dot(x)^2)/x)", ends="fixed")).steps()
+    assert {step.id for step in steps if not step.verified} == {"cleared-equation:x"}
+
+
+def test_a_first_integral_that_is_none_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of an integrand that holds the time."""
+    monkeypatch.setattr(Functional, "is_autonomous", True)
+    wrong = {step.id for step in vary(functional("t*dot(x)^2 + x^2", ends="fixed")).steps() if not step.verified}
+    assert wrong == {"beltrami-identity"}
+
+
+FORMS = (
+    "sqrt({a} + x^2 + dot(x)^2)",
+    "x^{n}*sqrt({a} + {b}*dot(x)^2)",
+    "sqrt({a} - x^2)*sqrt(1 + dot(x)^2)",
+    "sqrt(x - {a})/(1 + dot(x)^2)",
+    "dot(x)^{n}/(x^2 + {a})",
+    "log({a}*x)*sqrt(1 + {b}*dot(x)^2)",
+    "(1 + x^2)^({n}/3)*dot(x)^2",
+    "sqrt(-{a}*x)*dot(x)^2",
+    "exp(-x/{a})*sqrt(dot(x)^2 + sin(x)^2)",
+    "sqrt({a} - dot(x)^2/{b}) - t*x",
+)
+DRAWN = random.Random(20)
+GENERATED = [form.format(**{name: DRAWN.randint(2, 9) for name in "abn"}) for form in FORMS]
+
+
+SPANS = cycle((("0", "T"), ("2", "5"), ("0", "100")))
+
+
+@pytest.mark.parametrize(
+    ("text", "ends"), [pytest.param(*case, id=case[0]) for case in zip(GENERATED, SPANS, strict=False)]
+)
+def test_roots_and_quotients_are_verified(text: str, ends: tuple[str, str]) -> None:
+    domain = Interval(parse(ends[0], NAMES).tree, parse(ends[1], NAMES).tree, "fixed-free")
+    subject = Functional(NAMES, (parse(text, NAMES).tree,), domain)
+    assert [step.id for step in vary(subject).steps() if not step.verified] == []
+
+
+@pytest.mark.parametrize(
+    ("text", "left", "reasons"),
+    [
+        pytest.param("m*dot(x)^2/2 - k*x^2/2", "m*ddot(x) + k*x", (), id="sign"),
+        pytest.param("m*dot(x)^2/2 - m*k*x", "ddot(x) + k", ("constants",), id="parameter"),
+        pytest.param("sqrt(dot(x)^2 + x^2)", "x*ddot(x) - 2*dot(x)^2 - x^2", ("denominators", "points"), id="x = 0"),
+        pytest.param("t^2*dot(x)^2", "t*ddot(x) + 2*dot(x)", ("points",), id="t = 0"),
+        pytest.param("x^2*dot(x)^2", "x^2*ddot(x) + x*dot(x)^2", (), id="x = 0 solves it, and stays"),
+        pytest.param("dot(x)^2*sqrt(1 - x^2)", "2*(1 - x^2)*ddot(x) - x*dot(x)^2", ("denominators",), id="root"),
+    ],
+)
+def test_only_what_cannot_be_zero_is_left_out(text: str, left: str, reasons: tuple[str, ...]) -> None:
+    found = functional(text, ends="fixed").cleared_equation("x")
+    expected = to_sympy(parse(left, NAMES).tree, EXPRESSION.symbols)
+    assert sp.expand(found.value - expected) == 0
+    assert found.reasons == reasons
 
 
 def test_a_forgotten_function_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -68,6 +68,7 @@ def test_chapters_of_an_integral() -> None:
         "both-routes",
         "integration-by-parts",
         "euler-lagrange",
+        "first-integrals",
     ]
 
 
@@ -81,7 +82,7 @@ def test_result_of_an_integral_with_fixed_ends() -> None:
         "ends": "fixed",
     }
     (equation,) = result["euler_lagrange"]
-    assert (equation["function"], equation["plain"]) == ("x", "-m*ddot(x) - k*x = 0")
+    assert (equation["function"], equation["plain"]) == ("x", "m*ddot(x) + k*x = 0")
     (boundary,) = result["boundary_terms"]
     assert (boundary["plain"], boundary["vanishes"], boundary["condition"]) == ("m*dot(x)*delta(x)", True, None)
 
@@ -90,7 +91,7 @@ def test_natural_conditions_at_free_ends() -> None:
     result = vary(**OSCILLATOR, functional={**INTEGRAL, "ends": "free"})["result"]
     (boundary,) = result["boundary_terms"]
     assert boundary["vanishes"] is False
-    assert boundary["condition"] == {"plain": "m*dot(x) = 0", "latex": r"m \dot{x} = 0"}
+    assert boundary["condition"] == {"plain": "dot(x) = 0", "latex": r"\dot{x} = 0"}
 
 
 def test_named_directions_are_read_back_by_the_parser() -> None:
@@ -149,7 +150,7 @@ def test_one_end_fixed_and_one_free() -> None:
     integral = {**INTEGRAL, "ends": "fixed-free"}
     answer = vary(expression="dot(x)^2", functions=["x"], parameters=["T"], functional=integral)
     (term,) = answer["result"]["boundary_terms"]
-    assert (term["vanishes"], term["at"], term["condition"]["plain"]) == (False, ["T"], "2*dot(x) = 0")
+    assert (term["vanishes"], term["at"], term["condition"]["plain"]) == (False, ["T"], "dot(x) = 0")
     steps = all_steps(answer)
     assert r"\delta x(0) &= 0" in steps["boundary-terms"]["latex"]
     assert r"\dot{x}(T) = 0" in steps["boundary-terms"]["latex"]
@@ -237,9 +238,9 @@ def test_quotient_of_a_functional(functional: dict, derivative: float) -> None:
             id="direction of the same name",
         ),
         pytest.param(
-            {"expression": "x + ddot(x)", "functions": ["x"], "functional": {**INTEGRAL, "to": "1"}},
-            Problem("integrand-order", "/expression", 4, 7, {"name": "x"}),
-            id="integrand with an acceleration",
+            {"expression": "x + dot(ddot(x))", "functions": ["x"], "functional": {**INTEGRAL, "to": "1"}},
+            Problem("derivative-order", "/expression", 4, 12, {"order": 3}),
+            id="integrand with a third rate",
         ),
         pytest.param(
             {"expression": "[x, x]", "functions": ["x"], "functional": {**INTEGRAL, "to": "1"}},

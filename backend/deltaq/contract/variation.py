@@ -40,8 +40,8 @@ class IntegralFunctional(Request):
     to: ExpressionText = Field(description="likewise", examples=["T"])
     ends: Ends = Field(
         "fixed",
-        description="what is prescribed at both ends, or at the lower and at the upper one: the functions with the rates "
-        "that need it (fixed), the functions alone (hinged), nothing (free)",
+        description="what is prescribed at both ends, or at the lower and at the upper one: the functions with the "
+        "rates that need it (fixed), the functions alone (hinged), nothing (free)",
     )
 
     model_config = ConfigDict(serialize_by_alias=True)
@@ -140,7 +140,8 @@ class VariationAnswer(Answer):
 
     `result.first_variation.plain` is in delta(x) and dot(delta(x)), or in the names of the directions; for an integral
     it is the integrand, and `euler_lagrange` (without denominators and common factors), `boundary_terms` (each with
-    the `order` of its δx or δẋ, and the natural condition at free ends) and `first_integrals` are there too.
+    the `order` of its δx or δẋ, and the natural condition at free ends) and `first_integrals` are there too. Rates
+    above the second are written dddot(x) and ddddot(x), which an expression may not hold.
     """
 
     id: str = Field(description="content hash", examples=["9f3c…"])

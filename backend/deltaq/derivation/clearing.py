@@ -71,7 +71,7 @@ def constant_of_motion(expression: sp.Expr, symbols: Symbols) -> tuple[sp.Expr, 
 
 def _length(expression: sp.Expr, power: int) -> int:
     """How long a constant of motion is to write; it is left as it is unless much is gained."""
-    return _size(expression) + 3 * (sp.denom(expression) != 1) + 4 * (power != 1)
+    return _size(expression) + 3 * int(sp.denom(expression) != 1) + 4 * int(power != 1)
 
 
 def factored(expression: sp.Expr, symbols: Symbols) -> sp.Expr:
@@ -157,7 +157,7 @@ class _Fraction:
         """Where terms differ in their powers of r, (1 + ẋ²) r is written as r³."""
         base, degree = self.roots[root]
         above, below = sp.fraction(sp.together(base))
-        if not degree or not above.is_Add or len(terms := sp.Poly(numerator, root).terms()) < 2:  # noqa: PLR2004
+        if not degree or not above.is_Add or len(terms := sp.Poly(numerator, root).terms()) < 2:
             return numerator
         total = sp.Integer(0)
         for (power,), coefficient in terms:
@@ -244,7 +244,7 @@ class _Fraction:
             return False
         rest = self._at_rest(kinds[0][1])
         below = (sp.factor_list(sp.expand(g.xreplace(rest)))[1] for g in self._excluded if g.has(*rest))
-        return any(part == factor or part == -factor for parts in below for part, _ in parts)
+        return any(part in (factor, -factor) for parts in below for part, _ in parts)
 
     def _at_rest(self, function: str) -> Mapping[sp.Symbol, sp.Expr]:
         return {self.symbols.rate(function, order): sp.Integer(0) for order in range(1, 5)}
@@ -259,7 +259,9 @@ class _Fraction:
         highest = max(back.free_symbols, key=lambda s: (_order(s), split_symbol(s.name)[1] == self.function, str(s)))
         leading = sp.expand(back).coeff(highest) if _order(highest) else sp.expand(back)
         places = {s: sp.Rational(7 + 2 * n, 10 + n) for n, s in enumerate(sorted(back.free_symbols, key=str))}
-        return -1 if sp.N(leading.subs(places)) < 0 else 1
+        value = sp.N(leading.subs(places))
+        negative = value < 0 if value.is_extended_real else leading.could_extract_minus_sign()
+        return -1 if negative else 1
 
 
 def _divides(power: sp.Pow) -> bool:

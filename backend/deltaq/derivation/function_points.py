@@ -52,15 +52,15 @@ def function_points(functional: Functional, *, held: Held = (0, 0), seed: int = 
 
 def _candidate(functional: Functional, source: random.Random, attempt: int) -> Point:
     """Values of all names: parameters first, as the interval may depend on them, then functions and directions."""
-    drawn = attempt >= POSITIVE
+    signs, sizes = ((-1, 1), (0, -3, 3)) if attempt >= POSITIVE else ((1,), (0,))
     size = SIZES[attempt % len(SIZES)]
-    point = {s.name: _random(source, source.choice((0, -3, 3)) if drawn else 0, drawn) for s in functional.names.symbols}
+    point = {s.name: source.choice(signs) * _random(source, source.choice(sizes)) for s in functional.names.symbols}
     length = arb(1)
     if isinstance(functional.domain, Interval):
         lower, upper = _ends(functional, point)
         point["t"], length = lower, upper - lower
     for x in functional.functions:
-        sign = source.choice((-1, 1)) if drawn else 1
+        sign = source.choice(signs)
         for n in range(_orders(functional) + 1):
             smaller = (0, RATE, CURVATURE)[min(n, 2)]
             point[spell_rate(x, n)] = sign * _random(source, size + smaller) / length**n
@@ -77,10 +77,9 @@ def _direction(function: str, order: int) -> str:
     return spell_rate(direction(function).name, order)
 
 
-def _random(source: random.Random, size: int, signed: bool = False) -> arb:
+def _random(source: random.Random, size: int) -> arb:
     """An exact dyadic value between 1/4 and 7/4, times this power of two."""
-    value = arb(source.randint(2**20, 7 * 2**20)) * arb(2) ** (size - 22)
-    return -value if signed and source.random() < 0.5 else value
+    return arb(source.randint(2**20, 7 * 2**20)) * arb(2) ** (size - 22)
 
 
 def _ends(functional: Functional, point: Point) -> tuple[arb, arb]:

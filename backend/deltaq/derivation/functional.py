@@ -146,7 +146,9 @@ class Functional(DifferentialExpression):
     @property
     def ignorable(self) -> tuple[str, ...]:
         """The functions that occur by their rates alone, with a momentum that is no constant."""
-        return tuple(x for x in self.moving if 0 not in self.orders(x) and self.momentum(x).free_symbols & self.changing)
+        return tuple(
+            x for x in self.moving if 0 not in self.orders(x) and self.momentum(x).free_symbols & self.changing
+        )
 
     @property
     def changing(self) -> set[sp.Symbol]:

@@ -37,7 +37,7 @@ Key = tuple[Any, ...]
 
 @lru_cache(maxsize=1 << 12)
 def split_symbol(name: str) -> tuple[int, str]:
-    """Class and base of a symbol: "ddot(phi)" → (2, "phi"); 0 plain, 1–3 and 8 rates, 4 differential, 5–7 δ of q, q̇, q̈."""
+    """Class and base of a symbol: "ddot(phi)" → (2, "phi"); 0 plain, 1–3, 8 rates, 4 differential, 5–7 δ of q, q̇, q̈."""
     match = _SYMBOL.match(name)
     return (_PREFIX_CLASS[match[1]], match[2]) if match else (0, name)
 

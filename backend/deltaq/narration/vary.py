@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 from collections.abc import Iterator, Mapping
 
 import sympy as sp
 
 from ..contract.reading import read
 from ..contract.variation import VariationRequest
+from ..derivation.clearing import cleared, constant_of_motion
 from ..derivation.differential_expression import direction
 from ..derivation.domain import Instant, Interval
 from ..derivation.formula import Explicit, Formula, Named, Quantity
 from ..derivation.functional import Functional
-from ..derivation.clearing import cleared, constant_of_motion
 from ..derivation.rules.integration_by_parts import boundary_term
 from ..derivation.variation import vary
 from ..errors import ExpressionError, Problem, RequestError
@@ -31,7 +30,6 @@ from .quotient_answer import quotient_answer
 from .variation_request import Question, read_question
 
 Document = dict[str, object]
-NESTED = re.compile(r"\bddddot\((\w+)\)"), re.compile(r"\bdddot\((\w+)\)")  # the language has no sign for them
 
 
 def vary_request(document: Mapping[str, object]) -> Document:
@@ -124,7 +122,9 @@ def _boundary(functional: Functional, function: str, order: int, both: _Writer) 
 
 def _first_integrals(functional: Functional, both: _Writer) -> Iterator[Document]:
     """What is constant along the solutions: momenta of functions that F does not hold, then Beltrami's."""
-    found = [("momentum", x, functional.momentum(x)) for x in functional.ignorable]
+    found: list[tuple[str, str | None, sp.Expr]] = [
+        ("momentum", x, functional.momentum(x)) for x in functional.ignorable
+    ]
     if functional.has_energy:
         found.append(("energy", None, functional.energy))
     for kind, function, value in found:
@@ -145,8 +145,7 @@ class _Writer:
         }
 
     def plain(self, value: sp.Expr) -> str:
-        text = plain(value.xreplace(self._named))
-        return NESTED[1].sub(r"dot(ddot(\1))", NESTED[0].sub(r"dot(dot(ddot(\1)))", text))
+        return plain(value.xreplace(self._named))
 
     def formula(self, formula: Formula) -> str:
         return self._notation.formula(formula)

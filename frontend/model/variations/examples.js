@@ -1,11 +1,11 @@
-/** Questions to begin with: those of the lecture first, then the classics of the calculus of variations. */
+/** Questions to begin with: those of the lecture, then twelve classical problems of the calculus of variations. */
 
 import { EMPTY } from "./question.js";
 
 /** @typedef {import("./question.js").Question} Question */
 
 /** @type {Record<string, Partial<Question>>} */
-const GIVEN = {
+const LECTURE = {
   identity: {
     kind: "value",
     expression: "x",
@@ -35,12 +35,6 @@ const GIVEN = {
     values: { l: "1" },
   },
   rates: { expression: "x^2*dot(x)", samples: { x: "sin(t)" }, along: { x: "t^2" }, t: "0.7" },
-  length: {
-    kind: "integral",
-    expression: "sqrt(1 + dot(x)^2)",
-    samples: { x: "t + sin(pi*t)/3" },
-    along: { x: "t*(1 - t)" },
-  },
   action: {
     kind: "integral",
     expression: "m*dot(x)^2/2 - k*x^2/2",
@@ -56,14 +50,6 @@ const GIVEN = {
     ends: "fixed-free",
     samples: { x: "1 - t/2" },
     along: { x: "sin(t)" },
-  },
-  brachistochrone: {
-    kind: "integral",
-    expression: "sqrt((1 + dot(x)^2)/(2*g*x))",
-    parameters: "g",
-    samples: { x: "0.1 + t" },
-    along: { x: "t*(1 - t)" },
-    values: { g: "9.81" },
   },
   "two-masses": {
     kind: "integral",
@@ -86,6 +72,112 @@ const GIVEN = {
   },
 };
 
+/** @type {Record<string, Partial<Question>>} */
+const CLASSICS = {
+  length: {
+    kind: "integral",
+    expression: "sqrt(1 + dot(x)^2)",
+    samples: { x: "t + sin(pi*t)/3" },
+    along: { x: "t*(1 - t)" },
+  },
+  brachistochrone: {
+    kind: "integral",
+    expression: "sqrt((1 + dot(x)^2)/(2*g*x))",
+    parameters: "g",
+    samples: { x: "0.1 + t" },
+    along: { x: "t*(1 - t)" },
+    values: { g: "9.81" },
+  },
+  catenary: {
+    kind: "integral",
+    expression: "(x + lambda)*sqrt(1 + dot(x)^2)",
+    parameters: "lambda",
+    samples: { x: "cosh(t)" },
+    along: { x: "t*(1 - t)" },
+    values: { lambda: "1" },
+  },
+  "soap-film": {
+    kind: "integral",
+    expression: "2*pi*x*sqrt(1 + dot(x)^2)",
+    samples: { x: "1 + t^2" },
+    along: { x: "t*(1 - t)" },
+  },
+  sphere: {
+    kind: "integral",
+    expression: "R*sqrt(dot(theta)^2 + sin(theta)^2)",
+    functions: "theta",
+    parameters: "R",
+    samples: { theta: "1 + t/2" },
+    along: { theta: "t*(1 - t)" },
+    values: { R: "1" },
+  },
+  cylinder: {
+    kind: "integral",
+    expression: "sqrt(R^2 + dot(z)^2)",
+    functions: "z",
+    parameters: "R",
+    samples: { z: "t^2" },
+    along: { z: "t*(1 - t)" },
+    values: { R: "1" },
+  },
+  cone: {
+    kind: "integral",
+    expression: "sqrt(dot(r)^2 + r^2*sin(alpha)^2)",
+    functions: "r",
+    parameters: "alpha",
+    samples: { r: "1 + t/2" },
+    along: { r: "t*(1 - t)" },
+    values: { alpha: "0.5" },
+  },
+  fermat: {
+    kind: "integral",
+    expression: "sqrt(1 + dot(x)^2)/(k*x)",
+    parameters: "k",
+    samples: { x: "1 + t/2" },
+    along: { x: "t*(1 - t)" },
+    values: { k: "1" },
+  },
+  relativity: {
+    kind: "integral",
+    expression: "-m*c^2*sqrt(1 - dot(x)^2/c^2) + F*x",
+    parameters: "m, c, F, T",
+    to: "T",
+    samples: { x: "t^2/4" },
+    along: { x: "t*(1 - t)" },
+    values: { m: "1", c: "1", F: "1", T: "1" },
+  },
+  newton: {
+    kind: "integral",
+    expression: "t/(1 + dot(x)^2)",
+    from: "1",
+    to: "2",
+    samples: { x: "t" },
+    along: { x: "(t - 1)*(2 - t)" },
+  },
+  dido: {
+    kind: "integral",
+    expression: "x + lambda*sqrt(1 + dot(x)^2)",
+    parameters: "lambda",
+    samples: { x: "t*(1 - t)" },
+    along: { x: "sin(pi*t)" },
+    values: { lambda: "-1" },
+  },
+  beam: {
+    kind: "integral",
+    expression: "EI*ddot(w)^2/2 - q*w",
+    functions: "w",
+    parameters: "EI, q, L",
+    to: "L",
+    ends: "fixed-free",
+    samples: { w: "t^2" },
+    along: { w: "t^2" },
+    values: { EI: "1", q: "1", L: "1" },
+  },
+};
+
+/** The examples of the menu, by group. */
+export const GROUPS = { lecture: Object.keys(LECTURE), classics: Object.keys(CLASSICS) };
+const GIVEN = { ...LECTURE, ...CLASSICS };
 export const EXAMPLES = Object.keys(GIVEN);
 /** @param {string} id @returns {Question} */
 export const example = (id) => ({ ...EMPTY, ...GIVEN[id] });

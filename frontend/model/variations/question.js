@@ -4,7 +4,7 @@ import { oneOf } from "../url.js";
 
 /** @typedef {import("../types.js").Contract["VariationRequest"]} Request */
 /** @typedef {import("../types.js").Contract["IntegralFunctional"]} Integral */
-/** @typedef {"fixed" | "free"} End  whether the functions are prescribed there */
+/** @typedef {typeof HOLDS[number]} End  what holds the functions there */
 /** @typedef {"expression" | "value" | "integral"} Kind  the value of f itself, at an instant, or the integral over the time */
 /**
  * @typedef {object} Question
@@ -42,8 +42,9 @@ export const EMPTY = {
   t: "1",
 };
 export const KINDS = /** @type {const} */ (["expression", "value", "integral"]);
-export const ENDS = /** @type {const} */ (["fixed", "free", "fixed-free", "free-fixed"]);
 const SYNTAXES = /** @type {const} */ (["plain", "latex"]);
+/** What holds the functions at an end: they and their rates are prescribed, they alone are, or nothing is. */
+export const HOLDS = /** @type {const} */ (["fixed", "hinged", "free"]);
 const USUAL = { samples: "sin(t)", along: "t", values: "1" };
 const TEXTS = /** @type {const} */ (["expression", "functions", "direction", "parameters", "at", "from", "to", "t"]);
 const TABLES = /** @type {const} */ (["samples", "along", "values"]);
@@ -54,12 +55,14 @@ export const namesIn = (text) => text.split(/[,;\s]+/).filter(Boolean);
 /** What is typed for a name, or what stands there until something is. @param {Question} question @param {"samples" | "along" | "values"} table @param {string} name */
 export const textOf = (question, table, name) => question[table][name] ?? USUAL[table];
 /** Both ends in one word: "fixed" for both, "fixed-free" for the lower and the upper. @param {End} lower @param {End} upper @returns {Question["ends"]} */
-export const endsOf = (lower, upper) => (lower === upper ? lower : lower === "fixed" ? "fixed-free" : "free-fixed");
+export const endsOf = (lower, upper) =>
+  lower === upper ? lower : /** @type {Question["ends"]} */ (`${lower}-${upper}`);
 /** @param {Question["ends"]} ends @returns {[End, End]} */
-export const bothEnds = (ends) => [
-  ends.startsWith("fixed") ? "fixed" : "free",
-  ends.endsWith("fixed") ? "fixed" : "free",
-];
+export const bothEnds = (ends) => {
+  const [lower, upper = lower] = /** @type {End[]} */ (ends.split("-"));
+  return [lower, upper];
+};
+export const ENDS = HOLDS.flatMap((lower) => HOLDS.map((upper) => endsOf(lower, upper)));
 
 /** @param {Question} question @returns {Request["functional"]} */
 function functionalOf({ kind, at, from, to, ends }) {

@@ -3,13 +3,12 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { icon } from "../icons.js";
-import { EXAMPLES, example, exampleOf } from "../../model/variations/examples.js";
-import { bothEnds, endsOf, KINDS } from "../../model/variations/question.js";
+import { example, exampleOf, GROUPS } from "../../model/variations/examples.js";
+import { bothEnds, endsOf, HOLDS, KINDS } from "../../model/variations/question.js";
 import { field, problemsAt, segments, typed } from "./field.js";
 
 /** @typedef {import("./page.js").VariationsView} VariationsView */
 
-const END = /** @type {const} */ (["fixed", "free"]);
 const SYNTAXES = /** @type {const} */ (["plain", "latex"]);
 
 /** @param {VariationsView} view */
@@ -55,7 +54,11 @@ function examples({ asking, lab, t }) {
     <label class="choice examples"><span class="unseen">${t("variations.examples")}</span>
       <select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => typed(e) && lab.begin(example(typed(e)))}>
         <option value="" ?selected=${!chosen} disabled>${t("variations.own")}</option>
-        ${EXAMPLES.map((id) => html`<option value=${id} ?selected=${id === chosen}>${t(`variations.example.${id}`)}</option>`)}
+        ${Object.entries(GROUPS).map(
+          ([group, ids]) => html`<optgroup label=${t(`variations.group.${group}`)}>
+          ${ids.map((id) => html`<option value=${id} ?selected=${id === chosen}>${t(`variations.example.${id}`)}</option>`)}
+        </optgroup>`,
+        )}
       </select>${icon("chevron")}</label>`;
 }
 
@@ -64,6 +67,8 @@ function interval(view) {
   const { asking, lab, t } = view;
   const { question } = asking;
   const ends = bothEnds(question.ends);
+  // With a second rate in the integrand, a function can be prescribed at an end without its rate.
+  const second = asking.answer?.result.boundary_terms?.some(({ order }) => order > 0);
   const change = (/** @type {number} */ index, /** @type {import("../../model/variations/question.js").End} */ end) =>
     lab.edit({ ends: index ? endsOf(ends[0], end) : endsOf(end, ends[1]) });
   return html`<div class="ends">${
@@ -73,7 +78,7 @@ function interval(view) {
       ${field(view, `/functional/${key}`, t(`variations.${key}`), question[key], (text) => lab.edit({ [key]: text }), { className: "narrow" })}
       ${segments(
         t(`variations.end-${key}`),
-        END,
+        HOLDS.filter((hold) => hold !== "hinged" || second || ends.includes(hold)),
         ends[index],
         (end) => change(index, end),
         (end) => t(`variations.end-${end}`),

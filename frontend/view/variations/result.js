@@ -33,6 +33,7 @@ export function summary({ asking, t }) {
         <div><dt>${t("variations.first-variation")}</dt><dd>${displayed(result.first_variation.latex)}</dd></div>
         ${terms.length ? html`<div><dt>${t("variations.boundary")}</dt>${terms.map((term) => html`<dd>${boundaryTerm(term, t)}</dd>`)}</div>` : nothing}
         ${result.euler_lagrange?.length ? html`<div><dt>${t("variations.euler")}</dt>${result.euler_lagrange.map(({ latex }) => html`<dd>${displayed(latex)}</dd>`)}</div>` : nothing}
+        ${result.first_integrals?.length ? html`<div><dt>${t("variations.first-integrals")}</dt>${result.first_integrals.map(({ latex }) => html`<dd>${displayed(latex)}</dd>`)}</div>` : nothing}
       </dl>
     </section>`;
 }

@@ -17,7 +17,7 @@ from ..formula import Called, Equation, Explicit, Formula, Named, Plus, Power, Q
 from ..functional import Functional
 from ..step import Relation, Step
 from .collected_variation import euler_expression
-from .integration_by_parts import alone, momentum
+from .integration_by_parts import momentum
 
 BELTRAMI = "beltrami-identity"
 CYCLIC = "cyclic-function"

@@ -22,7 +22,7 @@ def steps(functional: Functional, function: str) -> Iterator[Step]:
     orders = functional.orders(function)
     if 1 in orders:
         yield apply(functional, function)
-    if 2 in orders:  # noqa: PLR2004 - ẍ
+    if 2 in orders:
         yield twice(functional, function)
 
 
