@@ -122,10 +122,11 @@ class Order:
                 parameters.append(self.factor(factor))
             elif not base.is_number:
                 functions.append(_text(base))
+        varies = any(kind in powers for kind in (5, 6, 7))  # q + h δq
         by_kind = tuple(_descending(powers.get(kind, {})) for kind in (5, 6, 7, 4, 8, 3))
         acceleration = (-sum(powers.get(2, {}).values()), len(functions) if 2 in powers else 0)
         rest = tuple(_descending(powers.get(kind, {})) for kind in (2, 1, 0))
-        return (*by_kind, acceleration, *rest, len(functions), sorted(functions), sorted(parameters))
+        return (varies, *by_kind, acceleration, *rest, len(functions), sorted(functions), sorted(parameters))
 
     def terms(self, sum_: sympy.Expr) -> list[sympy.Expr]:
         """The terms of a sum in writing order; no needless minus in front, but δq, dq and q̈ keep their order."""

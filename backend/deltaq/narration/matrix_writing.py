@@ -66,7 +66,13 @@ def rounded(value: Value, unit: str = "") -> str:
     """LaTeX of a number, or of a vector or matrix of numbers, to four digits."""
     if isinstance(value, sp.MatrixBase):
         return _column([" & ".join(map(_number, row)) for row in value.tolist()])
-    return _number(value) + (rf"\,\text{{{unit}}}" if unit else "")
+    return _number(value) + (rf"\,{_unit(unit)}" if unit else "")
+
+
+def _unit(unit: str) -> str:
+    """1/s as s⁻¹: behind a number it would read as one more digit."""
+    one, _, below = unit.partition("/")
+    return rf"\mathrm{{{below}}}^{{-1}}" if one == "1" and below.isalpha() else rf"\text{{{unit}}}"
 
 
 def _column(rows: list[str]) -> str:

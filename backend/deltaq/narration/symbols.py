@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
 from ..derivation.formula import Quantity
+from ..derivation.rules.position import UNGUIDED
+from ..mechanics.loads.spring import Spring
 from ..mechanics.scene import Scene
+from .catalog import text
 from .letters import Letters, in_symbol, letters_of
 from .prose import CatalogText
 from .things import called
@@ -138,14 +141,31 @@ class QuantitySymbols:
     def _index(self, quantity: Quantity) -> str:
         if not quantity.of:
             return "_{a}" if quantity.kind == "virtual-work" else ""
-        alone = quantity.kind in BY_PLACE and len(self.scene.bodies) == 1 and quantity.of == self.scene.bodies[0].name
-        if alone:
-            return ""
-        return f"_{{{', '.join(map(self._word, self._names(quantity)))}}}"
+        words = [] if self._is_alone(quantity) else [self._word(name) for name in self._names(quantity)]
+        if quantity.kind in BY_PLACE:
+            words += [upright(held) for held in self._held(quantity)]
+        return f"_{{{', '.join(words)}}}" if words else ""
+
+    def _is_alone(self, quantity: Quantity) -> bool:
+        """Whether it is the only body's, which needs no name."""
+        return quantity.kind in BY_PLACE and [body.name for body in self.scene.bodies] == [quantity.of]
+
+    def _held(self, quantity: Quantity) -> Iterator[str]:
+        """The lecture's r_el and r_gef: how the place is held, if by a guide or by a spring at its pivot."""
+        if self.is_guided(quantity.of):
+            if quantity.part != UNGUIDED:
+                yield text(self.language, "rules.indices.guided")
+        elif self._is_alone(quantity) and _hangs_on_spring(self.scene, quantity.of):
+            yield text(self.language, "rules.indices.elastic")
+
+    def is_guided(self, place: str) -> bool:
+        """Whether a guide moves the place."""
+        guided = {guide.coordinate for guide in self.scene.guides}
+        return bool(guided & _names_in(self.scene, place))
 
     def _names(self, quantity: Quantity) -> tuple[str, ...]:
         """Whose it is, and which part of it; with a single body only what tells it from its like."""
-        if not quantity.part:
+        if not quantity.part or quantity.part == UNGUIDED:
             return (quantity.of,)
         if len(self.scene.bodies) > 1:
             return quantity.of, quantity.part
@@ -153,6 +173,22 @@ class QuantitySymbols:
 
     def _word(self, name: str) -> str:
         return name if name in AXES else upright(self.label(name))
+
+
+def _names_in(scene: Scene, place: str) -> frozenset[str]:
+    """The names that its position depends on by."""
+    known = {*scene.places, *(body.name for body in scene.bodies)}
+    return frozenset[str]().union(*(component.names for component in scene.place(place))) if place in known else frozenset()
+
+
+def _hangs_on_spring(scene: Scene, body: str) -> bool:
+    """Whether it moves with a point without mass at the end of a spring, its pivot."""
+    coordinates = {coordinate.name for coordinate in scene.coordinates}
+    pivots = {point.name for point in scene.points} & {
+        end for load in scene.loads if isinstance(load, Spring) for end in (load.start, load.end)
+    }
+    moves = frozenset[str]().union(*(_names_in(scene, pivot) for pivot in pivots)) & coordinates
+    return bool(moves & _names_in(scene, body))
 
 
 def upright(name: str) -> str:

@@ -40,7 +40,7 @@ def apply(system: System, load: str) -> Step | None:
 
 def _step(system: System, load: str, first: str, second: str, work: sp.Expr) -> Step:
     name = Named(Quantity("work-of-loop"), work)
-    sides = [edge for edge in _edges(system, first, second) if _force(system, load, edge) != 0]
+    sides = _edges(system, first, second)
     law = Plus(tuple(Term(_integral(system, load, edge), (f"load:{load}",), edge.sign) for edge in sides))
     lines = (Relation((name, law, Explicit(work))), Relation((name, Explicit(system.zero)), "≠"))
     return Step(RULE, load, lines, (f"load:{load}",), {"load": load, "coordinate": f"{first}, {second}"})

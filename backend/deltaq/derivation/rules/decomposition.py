@@ -14,7 +14,7 @@ RULE = "decomposition"
 
 
 def apply(system: System) -> Step:
-    """V of the whole system, and for each coordinate Qᵢ = −∂V/∂qᵢ + Qᵢᵈ."""
+    """V of the whole system, and for each coordinate Qᵢ = −∂V/∂qᵢ + Qᵢᵈ; Qᵢᵈ = 0 where there is none."""
     loads = [load for load in system.load_names if system.is_conservative(load)]
     parts = tuple(
         Term(Named(Quantity("potential-energy", load), system.load_potential(load)), (f"load:{load}",))
@@ -26,6 +26,8 @@ def apply(system: System) -> Step:
     lines += [_split(system, q, potential) for q in system.free]
     if dissipative_loads(system):
         lines += [_rest(system, q) for q in system.free]
+    else:
+        lines += [_no_rest(system, q) for q in system.free if system.nonconservative_force(q) == 0]
     about = {"outcome": _outcome(system), "load": ", ".join(remaining_loads(system))}
     return Step(RULE, "", tuple(lines), tuple(f"load:{load}" for load in system.load_names), about)
 
@@ -35,6 +37,11 @@ def _outcome(system: System) -> str:
     if dissipative_loads(system):
         return "dissipation-and-rest" if remaining_loads(system) else "dissipation"
     return "rest" if remaining_loads(system) else "text"
+
+
+def _no_rest(system: System, coordinate: str) -> Relation:
+    """Qᵢᵈ = 0"""
+    return Relation((Named(_dissipative(coordinate), system.zero), Explicit(system.zero)))
 
 
 def _rest(system: System, coordinate: str) -> Relation:

@@ -13,9 +13,9 @@ RULE = "gateaux-differential"
 
 
 def apply(system: System, place: str) -> Step:
-    position = system.position(place)
-    left = Named(Quantity("virtual-displacement", place), system.virtual_displacement(place))
-    shifted = position.xreplace({q: q + system.h * dq for q, dq in system.variations.items()})
+    position = system.named_position(place)
+    left = Named(Quantity("virtual-displacement", place), system.virtual_displacement(place), position.arguments)
+    shifted = position.value.xreplace({q: q + system.h * dq for q, dq in system.variations.items()})
     varied = system.display(shifted.diff(system.h).xreplace({system.h: 0}))
-    members = (left, Gateaux(system.named_position(place)), Shifted(shifted, system.h), Explicit(varied))
+    members = (left, Gateaux(position), Shifted(shifted, system.h), Explicit(varied))
     return Step(RULE, place, (Relation(members),), (system.source(place),), {"place": place})

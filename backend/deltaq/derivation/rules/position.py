@@ -10,10 +10,11 @@ from ..step import Relation, Step
 from ..system import System
 
 RULE = "position"
+UNGUIDED = "unguided"  # as the scene states it, before any guide is put in
 
 
 def apply(system: System, place: str) -> Step:
     given = system.given(system.trees(place))
     arguments = tuple(system.q(name) for name in system.coordinates if given.value.has(system.q(name)))
-    name = Named(Quantity("position", place), given.value, arguments)
+    name = Named(Quantity("position", place, UNGUIDED), given.value, arguments)
     return Step(RULE, place, (Relation((name, given)),), (system.source(place),), {"place": place})

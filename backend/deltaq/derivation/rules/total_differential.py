@@ -23,7 +23,7 @@ def apply(system: System, place: str) -> Step:
         for by, d, role in pairs
     )
     total = system.display(sum((position.value.diff(by) * d for by, d, _ in pairs), position.value * 0))
-    left = Named(Quantity("differential", place), total)
+    left = Named(Quantity("differential", place), total, position.arguments)
     lines = (Plus(formal), Plus(written)) if pairs else ()
     line = Relation((left, *lines, Explicit(total)))
     return Step(RULE, place, (line,), (system.source(place),), {"place": place})

@@ -18,7 +18,7 @@ def apply(system: System, place: str) -> Step:
     names = system.coordinates_of(place)
     formal = [Times((Partial(position, system.q(q)), Explicit(system.variation(q)))) for q in names]
     written = [Times((Explicit(system.tangent(place, q)), Explicit(system.variation(q)))) for q in names]
-    left = Named(Quantity("virtual-displacement", place), total)
+    left = Named(Quantity("virtual-displacement", place), total, position.arguments)
     lines = [Plus(tuple(map(Term, formal))), Plus(tuple(map(Term, written)))] if names else []
     line = Relation((left, *lines, Explicit(total)))
     tangents = (tangent_vector.apply(system, place, q) for q in names)
