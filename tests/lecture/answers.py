@@ -1,4 +1,4 @@
-"""What the app answers, each request made once."""
+"""What the app answers, each request made once. Scenes are told in German, as the lecture is."""
 
 from __future__ import annotations
 
@@ -30,7 +30,9 @@ def answer(request: str) -> dict:
     variations = {"identity": IDENTITY, "position": POSITION, "several functions": SEVERAL}
     if request == "proof":
         return proof_request({"lang": "en"})
-    return vary_request(variations[request]) if request in variations else derive_request({"scene": request})
+    return (
+        vary_request(variations[request]) if request in variations else derive_request({"scene": request, "lang": "de"})
+    )
 
 
 def steps(request: str) -> dict[str, dict]:

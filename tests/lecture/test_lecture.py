@@ -17,6 +17,7 @@ MEAN = rf"\int_{{\mathcal{{B}}}} {HALF} \,\mathrm{{d}}m"
 SURFACE = rf"\int_{{S}} {I_DR} \cdot \mathbf{{f}}_{{S}} \,\mathrm{{d}}S"
 VOLUME = rf"\int_{{V}} {I_DR} \cdot \mathbf{{f}}_{{V}} \,\mathrm{{d}}V"
 POSITION = r"\begin{bmatrix} \ell \sin q_2 \\ q_1 + \ell \cos q_2 \end{bmatrix}"
+EL, GEF = r"\mathbf{r}_{\text{el}}", r"\mathbf{r}_{\text{gef}}"
 GUIDED_TANGENT = r"\begin{bmatrix} \ell \cos q_2 \\ -\ell \sin q_2 \end{bmatrix}"
 FREE_VARIATION = (
     r"\begin{bmatrix} \ell \cos q_2 \, \delta q_2 \\ \delta q_1 - \ell \sin q_2 \, \delta q_2 \end{bmatrix}"
@@ -115,13 +116,13 @@ LECTURE = [
     ),
     line("δr = ∂r/∂q δq", "proof", "variation-of-position", rf"&= {I_DR}\,\delta q_{{i}}"),
     # Pendulum with moving pivot
-    line("r_el", "base-pendulum", "position:bob", rf"\mathbf{{r}}(q_1, q_2) &= {POSITION}"),
+    line("r_el", "base-pendulum", "position:bob", rf"{EL}(q_1, q_2) &= {POSITION}"),
     line(
         "δr_el by the chain rule",
         "base-pendulum",
         "virtual-displacement:bob",
-        r"\delta\mathbf{r} &= \frac{\partial \mathbf{r}}{\partial q_1}\,\delta q_1"
-        r" + \frac{\partial \mathbf{r}}{\partial q_2}\,\delta q_2",
+        rf"\delta{EL}(q_1, q_2) &= \frac{{\partial {EL}}}{{\partial q_1}}\,\delta q_1"
+        rf" + \frac{{\partial {EL}}}{{\partial q_2}}\,\delta q_2",
     ),
     line(
         "δr_el by its tangents",
@@ -138,12 +139,12 @@ LECTURE = [
         "guided-position:bob",
         r"\begin{bmatrix} \ell \sin q_2 \\ \ell \cos q_2 + y_0 \sin(\omega t) \end{bmatrix}",
     ),
-    line("r_gef(q2, t)", "guided-pendulum", "guided-position:bob", r"\mathbf{r}(q_2, t) &="),
+    line("r_gef(q2, t)", "guided-pendulum", "guided-position:bob", rf"{GEF}(q_2, t) &="),
     line(
         "δr_gef by the chain rule",
         "guided-pendulum",
         "virtual-displacement:bob",
-        rf"\delta\mathbf{{r}} &= \frac{{\partial \mathbf{{r}}}}{{\partial q_2}}\,\delta q_2 \\"
+        rf"\delta{GEF}(q_2, t) &= \frac{{\partial {GEF}}}{{\partial q_2}}\,\delta q_2 \\"
         rf"  &= {GUIDED_TANGENT}\,\delta q_2",
     ),
     line("δr_gef", "guided-pendulum", "virtual-displacement:bob", rf"&= {GUIDED_VARIATION}"),
@@ -151,8 +152,8 @@ LECTURE = [
         "dr_gef by the chain rule",
         "guided-pendulum",
         "total-differential:bob",
-        r"\mathrm{d}\mathbf{r} &= \frac{\partial \mathbf{r}}{\partial q_2}\,\mathrm{d}q_2"
-        r" + \frac{\partial \mathbf{r}}{\partial t}\,\mathrm{d}t",
+        rf"\mathrm{{d}}{GEF}(q_2, t) &= \frac{{\partial {GEF}}}{{\partial q_2}}\,\mathrm{{d}}q_2"
+        rf" + \frac{{\partial {GEF}}}{{\partial t}}\,\mathrm{{d}}t",
     ),
     line(
         "dr_gef by its parts",
@@ -203,6 +204,12 @@ LECTURE = [
         "elastic-pendulum",
         "generalized-forces",
         r"&= Q_{1}\,\delta q_1 + Q_{2}\,\delta q_2",
+    ),
+    line(
+        "Q = Q^p and no rest",
+        "pendulum",
+        "decomposition",
+        r"Q_{\varphi}^{d} &= 0",
     ),
     # From d'Alembert's principle
     line("δW_i = 0", "proof", "dalembert-principle", r"\delta W_{i} &= 0"),
@@ -309,6 +316,33 @@ def test_line(request_name: str, step: str, latex: str) -> None:
     found = steps(request_name)[step]
     assert latex in GAP.sub("", found["latex"])
     assert found["verified"] is True
+
+
+def test_the_neighbour_is_written_after_what_it_is_beside() -> None:
+    gateaux = steps("base-pendulum")["gateaux-differential:bob"]["latex"]
+    assert rf"\delta{EL}(q_1, q_2) &=" in gateaux
+    assert r"\ell \sin(q_2 + h \, \delta q_2)" in gateaux
+
+
+def test_a_closed_path_has_four_sides() -> None:
+    """Once around the rectangle: each coordinate there and back again."""
+    first = steps("elastic-pendulum")["closed-loop:drive"]["latex"].partition(r"\\")[0]
+    assert [first.count(rf"\mathrm{{d}}q_{i}") for i in (1, 2)] == [2, 2]
+    assert first.count(r"\int") == 4
+
+
+@pytest.mark.parametrize("scene", ["pendulum", "base-pendulum", "spring-pendulum", "double-pendulum"])
+def test_where_all_forces_have_a_potential_nothing_is_left(scene: str) -> None:
+    free = [term["coordinate"] for term in answer(scene)["result"]["generalized_forces"]["nonconservative"]]
+    assert steps(scene)["decomposition"]["latex"].count(r"^{d} &= 0") == len(free)
+    assert "Q_i^d = 0" in steps(scene)["decomposition"]["text"]
+
+
+def test_a_rate_of_growth_has_its_unit_as_a_power() -> None:
+    """Behind a number, 1/s would read as one more digit."""
+    told = [s["latex"] for name in ("pendulum", "elastic-pendulum") for s in steps(name).values()]
+    assert any(r"\,\mathrm{s}^{-1}" in latex for latex in told)
+    assert not any("{1/s}" in latex for latex in told)
 
 
 def test_generalized_forces_of_the_external_force() -> None:

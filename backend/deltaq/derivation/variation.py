@@ -8,12 +8,13 @@ from .domain import Interval
 from .function_points import function_points
 from .functional import Functional
 from .rules import (
+    beltrami_identity,
     both_routes,
     boundary_terms,
     cleared_equation,
     collected_variation,
+    cyclic_function,
     euler_lagrange_equation,
-    first_integrals,
     functional,
     integration_by_parts,
     variation_by_chain_rule,
@@ -47,7 +48,14 @@ def _integral(subject: Functional) -> Iterator[tuple[str, tuple[Step, ...]]]:
     ends = (boundary_terms.apply(subject),) if subject.moving else ()
     yield "integration-by-parts", (*parts, *ends, collected_variation.apply(subject))
     yield "euler-lagrange", tuple(step for x in subject.present for step in _equation(subject, x))
-    yield "first-integrals", tuple(first_integrals.steps(subject))
+    yield "first-integrals", tuple(_constants(subject))
+
+
+def _constants(subject: Functional) -> Iterator[Step]:
+    """The first integrals that there are."""
+    yield from (cyclic_function.apply(subject, x) for x in subject.ignorable)
+    if subject.has_energy:
+        yield beltrami_identity.apply(subject)
 
 
 def _equation(subject: Functional, function: str) -> Iterator[Step]:

@@ -178,7 +178,11 @@ class QuantitySymbols:
 def _names_in(scene: Scene, place: str) -> frozenset[str]:
     """The names that its position depends on by."""
     known = {*scene.places, *(body.name for body in scene.bodies)}
-    return frozenset[str]().union(*(component.names for component in scene.place(place))) if place in known else frozenset()
+    return (
+        frozenset[str]().union(*(component.names for component in scene.place(place)))
+        if place in known
+        else frozenset()
+    )
 
 
 def _hangs_on_spring(scene: Scene, body: str) -> bool:

@@ -10,11 +10,12 @@ from ..step import Relation, Step
 from ..system import System
 
 RULE = "position"
-UNGUIDED = "unguided"  # as the scene states it, before any guide is put in
+UNGUIDED = "unguided"  # as the scene states it, where a guide moves it
 
 
 def apply(system: System, place: str) -> Step:
     given = system.given(system.trees(place))
     arguments = tuple(system.q(name) for name in system.coordinates if given.value.has(system.q(name)))
-    name = Named(Quantity("position", place, UNGUIDED), given.value, arguments)
+    part = UNGUIDED if given.value.has(*system.guides) else ""
+    name = Named(Quantity("position", place, part), given.value, arguments)
     return Step(RULE, place, (Relation((name, given)),), (system.source(place),), {"place": place})
