@@ -44,6 +44,26 @@ def test_every_language_says_the_same() -> None:
         assert sentence.strip() or key.endswith(".remedy"), f"{key} is empty"
 
 
+# What is German, or was never said, in English sentences on mechanics.
+FALSE_FRIENDS = {
+    "differentiate by, for: with respect to": (
+        r"\b(derivatives?|differentiat\w+)\b[^.:;]{0,60}?"
+        r"\bby (\{|\$|“|time\b|each\b|one\b|the (rate|coord))"
+    ),
+    "the proof, for: check": r"\bThe proof:",
+    "inner, for: internal": r"\binner (virtual )?(work|force)",
+    "belongs, for: has": r"\bTo (each|\{\w+\}|every)[^.]* belongs?\b",
+    "linear, for: affine": r"\bvelocity[^.]{0,30} is linear in the",
+    "has no potential at all": r"depends on rates: it has no potential\.",
+}
+
+
+@pytest.mark.parametrize("friend", FALSE_FRIENDS)
+def test_english_sentences_are_english(friend: str) -> None:
+    found = {key for key, sentence in texts("en").items() if re.search(FALSE_FRIENDS[friend], sentence)}
+    assert found == set()
+
+
 def fields(template: str) -> set[str]:
     return {name for _, name, _, _ in Formatter().parse(template) if name is not None}
 

@@ -87,7 +87,7 @@ def product_rule(motion: AbstractMotion) -> Step:
 
 
 def cancellation(motion: AbstractMotion) -> Step:
-    """Cancellation of the dots: v = dr/dt = ∂r/∂qₖ q̇ₖ + ∂r/∂t is linear in the rates, so ∂v/∂q̇ᵢ = ∂r/∂qᵢ.
+    """Cancellation of the dots: v = dr/dt = ∂r/∂qₖ q̇ₖ + ∂r/∂t is affine in the rates, so ∂v/∂q̇ᵢ = ∂r/∂qᵢ.
 
     Source: the lecture; Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., eq. 1.51.
     """

@@ -1,4 +1,4 @@
-"""Cancellation of the dots: ∂v/∂q̇ᵢ = ∂r/∂qᵢ, because v = ∂r/∂qᵢ q̇ᵢ + ∂r/∂t is linear in the rates.
+"""Cancellation of the dots: ∂v/∂q̇ᵢ = ∂r/∂qᵢ, because v = ∂r/∂qᵢ q̇ᵢ + ∂r/∂t is affine in the rates.
 
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., eq. 1.51; the lecture.
 """
