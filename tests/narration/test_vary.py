@@ -120,6 +120,17 @@ def test_h_of_the_user_is_not_the_h_of_the_definition() -> None:
     assert r"\partial \varepsilon" in step["latex"]
 
 
+def test_letters_of_the_user_are_not_those_of_the_functional() -> None:
+    """A force F in the integrand F, a function H with the constant H."""
+    answer = vary(
+        expression="F*H + dot(H)^2", functions=["H"], parameters=["F"], functional={**INTEGRAL, "to": "1"}, lang="en"
+    )
+    steps = all_steps(answer)
+    assert r"\mathcal{F}(H, \dot{H})" in steps["functional"]["latex"]
+    assert steps["beltrami-identity"]["latex"].startswith(r"\begin{aligned}\mathcal{H} &=")
+    assert r"$\mathcal{H}$" in steps["beltrami-identity"]["text"]
+
+
 def test_quotient() -> None:
     quotient = vary(expression="x^2*dot(x)", functions=["x"], include=["quotient"], numeric=NUMERIC)["quotient"]
     json.dumps(quotient, allow_nan=False)

@@ -74,6 +74,12 @@ def _length(expression: sp.Expr, power: int) -> int:
     return _size(expression) + 3 * int(sp.denom(expression) != 1) + 4 * int(power != 1)
 
 
+def upright_roots(expression: sp.Expr) -> sp.Expr:
+    """√(1/(g x)), which SymPy makes of √((1 + ẋ²)/(g x)), as 1/√(g x)."""
+    powers = (p for p in expression.atoms(sp.Pow) if p.exp.is_Rational and not p.exp.is_Integer)
+    return expression.xreplace({p: (1 / p.base) ** -p.exp for p in powers if sp.fraction(p.base)[0] == 1})
+
+
 def factored(expression: sp.Expr, symbols: Symbols) -> sp.Expr:
     """The expression as one product, or with one term for each power of a root, if that is short; else displayed."""
     otherwise = canonical.display(expression, symbols)

@@ -19,7 +19,7 @@ from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..language.tree import Node
 from .calculus import by_component, column
-from .clearing import factored
+from .clearing import factored, upright_roots
 from .formula import Value
 from .points import HIGHEST
 from .scene_symbols import SMALL, fresh
@@ -49,7 +49,7 @@ class DifferentialExpression:
     @cached_property
     def value(self) -> Value:
         """f, or the integrand."""
-        values = [to_sympy(tree, self.symbols) for tree in self.trees]
+        values = [upright_roots(to_sympy(tree, self.symbols)) for tree in self.trees]
         return column(values) if len(values) > 1 else values[0]
 
     @cached_property

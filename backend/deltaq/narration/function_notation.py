@@ -12,6 +12,7 @@ from ..derivation.formula import Called, Explicit, Formula, Given, MassIntegral,
 from ..language.latex_printer import Typography
 from ..language.order import split_symbol
 from ..language.spelling import latex_of
+from .letters import Letters, in_symbol
 from .notation import NEIGHBOUR, Notation
 from .prose import CatalogText, words
 
@@ -123,15 +124,16 @@ class FunctionNotation(Notation):
 
 @dataclass(frozen=True)
 class FunctionSymbols:
-    """LaTeX of f, F and I; `at` is the instant of the value functional."""
+    """LaTeX of f, F and I, or of what stands for them; `at` is the instant of the value functional."""
 
     coordinate_latex: Mapping[str, str]
     wrap: Callable[[str, str], str]
     at: str = ""
+    letters: Letters = field(default_factory=dict)
 
     def latex(self, quantity: Quantity) -> str:
         of = self.coordinate_latex.get(quantity.of, quantity.of)
-        return SYMBOLS[quantity.kind].format(at=self.at, of=of)
+        return in_symbol(SYMBOLS[quantity.kind], self.letters).format(at=self.at, of=of)
 
     def label(self, name: str) -> CatalogText:
         return words(name)

@@ -13,6 +13,7 @@ from ..language.names import Names
 
 Letters = Mapping[str, str]  # of a quantity, to what stands for it in one scene, braces doubled as in all templates
 
+OF_FUNCTIONALS = ("f", "F", "I", "H", "p")
 OF_QUANTITIES = ("E", "V", "L", "S", "W", "R", "M", "h", "f", "x")
 RELATED = {"x": r"\xi"}  # the others become calligraphic
 LEADING = re.compile(r"((?:\\d?dot\{\{|\\delta )?)([A-Za-z])(?![A-Za-z])")
@@ -20,11 +21,12 @@ MATHEMATICS = re.compile(r"\$[^$]+\$")
 WORD = re.compile(r"\\?[A-Za-z]+")
 
 
-def letters_of(names: Names) -> Letters:
-    """What stands for each letter that is a name of the scene."""
+def letters_of(names: Names, letters: tuple[str, ...] = OF_QUANTITIES) -> Letters:
+    """What stands for each of the letters that is a name of the scene."""
     taken = {symbol.typeset for symbol in names.symbols}
-    calligraphic = {letter: rf"\mathcal{{{{{letter.upper()}}}}}" for letter in OF_QUANTITIES}
-    return {letter: other for letter, other in (calligraphic | RELATED).items() if letter in taken}
+    calligraphic = {letter: rf"\mathcal{{{{{letter.upper()}}}}}" for letter in letters}
+    related = {letter: other for letter, other in RELATED.items() if letter in letters}
+    return {letter: other for letter, other in (calligraphic | related).items() if letter in taken}
 
 
 def in_symbol(pattern: str, letters: Letters) -> str:

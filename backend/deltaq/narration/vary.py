@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import sympy as sp
 
@@ -23,6 +24,7 @@ from ..language.plain_printer import plain
 from ..language.spelling import latex_of, spell_rate
 from .catalog import language_of
 from .function_notation import FunctionNotation, FunctionSymbols, FunctionTypography
+from .letters import OF_FUNCTIONALS, Letters, letters_of
 from .marks import Wrap, in_class, unmarked
 from .narrator import Narrator
 from .notation import NEIGHBOUR
@@ -49,7 +51,7 @@ def vary_request(document: Mapping[str, object]) -> Document:
     key = json.dumps(document, sort_keys=True, ensure_ascii=False)
     answer: Document = {
         "id": hashlib.sha256(key.encode()).hexdigest()[:24],
-        "chapters": Narrator(language, _notation(question, in_class)).chapters(derivation),
+        "chapters": Narrator(language, _notation(question, in_class), _letters(question)).chapters(derivation),
         "result": _result(question, clean),
     }
     if "quotient" in asked.include:
@@ -63,12 +65,23 @@ def _notation(question: Question, wrap: Wrap) -> FunctionNotation:
     typography = FunctionTypography(
         functional.names, _mark(functional.names, wrap), directions=directions, h=latex_of(functional.h.name)
     )
-    letters = {symbol.name: symbol.typeset for symbol in functional.names.symbols if symbol.kind == "coordinate"}
-    notation = FunctionNotation(typography, FunctionSymbols(letters, wrap), functional.h)
+    symbols = FunctionSymbols(
+        {symbol.name: symbol.typeset for symbol in functional.names.symbols if symbol.kind == "coordinate"},
+        wrap,
+        letters=letters_of(functional.names, OF_FUNCTIONALS),
+    )
+    notation = FunctionNotation(typography, symbols, functional.h)
     if not isinstance(functional.domain, Instant):
         return notation
     at = notation.value(functional.expression(functional.domain.at))
-    return FunctionNotation(typography, FunctionSymbols(letters, wrap, at), functional.h)
+    return FunctionNotation(typography, replace(symbols, at=at), functional.h)
+
+
+def _letters(question: Question) -> Letters:
+    """What stands in sentences for letters that the question has taken."""
+    functional = question.functional
+    small = {} if functional.h.name == "h" else {"h": latex_of(functional.h.name).replace("{", "{{").replace("}", "}}")}
+    return {**letters_of(functional.names, OF_FUNCTIONALS), **small}
 
 
 def _mark(names: Names, wrap: Wrap) -> Wrap:
