@@ -47,3 +47,7 @@ SlipKind = Literal["sign", "missing", "half", "double"]
 PartOutcome = Literal["correct", "wrong", "undecided"]
 Outcome = Literal["correct", "wrong", "undecided", "invalid", "follow_through"]
 Severity = Literal["error", "warning"]
+# What holds the functions of a functional at its ends, at both or at the lower and the upper one.
+Ends = Literal[
+    "fixed", "hinged", "free", "fixed-hinged", "fixed-free", "hinged-fixed", "hinged-free", "free-fixed", "free-hinged"
+]

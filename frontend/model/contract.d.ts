@@ -2882,10 +2882,8 @@ export interface components {
             /**
              * Ends
              * @description what is prescribed at both ends, or at the lower and at the upper one: the functions with the rates that need it (fixed), the functions alone (hinged), nothing (free)
-             * @default fixed
-             * @enum {string}
              */
-            ends?: "fixed" | "hinged" | "free" | "fixed-hinged" | "fixed-free" | "hinged-fixed" | "hinged-free" | "free-fixed" | "free-hinged";
+            ends?: components["schemas"]["IntegralFunctionalEnds"];
         };
         /**
          * JacobiEnergy
@@ -6147,7 +6145,7 @@ export interface components {
          * @default fixed
          * @enum {string}
          */
-        IntegralFunctionalEnds: "fixed" | "free" | "fixed-free" | "free-fixed";
+        IntegralFunctionalEnds: "fixed" | "hinged" | "free" | "fixed-hinged" | "fixed-free" | "hinged-fixed" | "hinged-free" | "free-fixed" | "free-hinged";
         /**
          * NumericParameters
          * @default {}

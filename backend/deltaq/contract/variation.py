@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from ...derivation.domain import Ends
+from ..vocabulary import Ends
 from .base import Answer, AskedLanguage, ExpressionText, Name, Names, Request, Syntax, Values, examples, items
 from .derivation import Chapter
 

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from typing import Literal, cast
 
 from ..language.tree import Node
+from ..vocabulary import Ends
 
 End = Literal["fixed", "hinged", "free"]
-Ends = Literal[
-    "fixed", "hinged", "free", "fixed-hinged", "fixed-free", "hinged-fixed", "hinged-free", "free-fixed", "free-hinged"
-]
 # How many of δx, δẋ are zero at an end: all of them, the function's own only, none.
 HELD: Mapping[End, int] = {"fixed": 2, "hinged": 1, "free": 0}
 
