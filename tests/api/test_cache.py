@@ -7,7 +7,7 @@ import pytest
 
 from deltaq.api import flights
 from deltaq.api.cache import Cache, content_hash
-from deltaq.api.flights import Hear, Said
+from deltaq.api.flights import OnUpdate, Update
 from deltaq.api.stores.memory import Memory
 
 pytestmark = pytest.mark.anyio
@@ -23,9 +23,9 @@ class Counter:
         self.may_end = asyncio.Event()
         self.may_end.set()
 
-    async def __call__(self, tell: Hear) -> bytes:
+    async def __call__(self, tell: OnUpdate) -> bytes:
         self.runs += 1
-        tell(Said("part", f"part of {self.runs}".encode()))
+        tell(Update("part", f"part of {self.runs}".encode()))
         await self.may_end.wait()
         if self.error:
             raise self.error
@@ -94,7 +94,7 @@ async def test_who_asks_while_a_computation_is_given_up_gets_another(monkeypatch
     monkeypatch.setattr(flights, "GRACE", 0.0)
     cache, again, ended = Cache(Memory(10_000)), Counter(b"again"), asyncio.Event()
 
-    async def slow_to_end(_tell: Hear) -> bytes:
+    async def slow_to_end(_tell: OnUpdate) -> bytes:
         try:
             await asyncio.Event().wait()
         finally:
@@ -135,13 +135,13 @@ async def test_all_who_wait_hear_the_parts_and_who_comes_late_hears_the_newest()
     cache = Cache(Memory(10_000))
     may_go_on = [asyncio.Event() for _ in range(3)]
 
-    async def compute(tell: Hear) -> bytes:
+    async def compute(tell: OnUpdate) -> bytes:
         for number, event in enumerate(may_go_on):
-            tell(Said("part", b"%d" % number))
+            tell(Update("part", b"%d" % number))
             await event.wait()
         return b"answer"
 
-    heard: list[list[Said]] = [[], [], []]
+    heard: list[list[Update]] = [[], [], []]
     early = asyncio.create_task(cache.get("k", compute, heard[0].append))
     await asyncio.sleep(0.01)
     may_go_on[0].set()
@@ -154,7 +154,7 @@ async def test_all_who_wait_hear_the_parts_and_who_comes_late_hears_the_newest()
     for event in may_go_on:
         event.set()
     assert await asyncio.gather(early, late) == [b"answer"] * 2
-    assert [[said.data for said in each] for each in heard] == [[b"0", b"1", b"2"], [b"1", b"2"], [b"1"]]
+    assert [[update.data for update in each] for each in heard] == [[b"0", b"1", b"2"], [b"1", b"2"], [b"1"]]
 
 
 async def test_renewed_answer_takes_the_place_of_the_kept_one() -> None:

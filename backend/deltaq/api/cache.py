@@ -9,7 +9,7 @@ from collections import Counter
 from functools import partial
 from typing import Any
 
-from .flights import Compute, Flights, Hear, ignore
+from .flights import Compute, Flights, OnUpdate, ignore
 from .stores.memory import Memory
 from .stores.store import Store
 
@@ -37,32 +37,33 @@ class Cache:
             self.hits[self.memory.name] += 1
         return answer or await self._find_in_stores(key)
 
-    async def get(self, key: str, compute: Compute, hear: Hear = ignore) -> bytes:
-        """The answer of this key, computed if need be; `hear` gets its parts before. Errors reach all who wait, and are
-        not kept.
+    async def get(self, key: str, compute: Compute, on_update: OnUpdate = ignore) -> bytes:
+        """The answer of this key, computed if need be; `on_update` receives its parts before.
+
+        Errors reach all who wait, and are not cached.
         """
         answer = self.memory.load(key)
         if answer is not None:
             self.hits[self.memory.name] += 1
             return answer
-        return await self._flights.join(key, partial(self._found_or_computed, key, compute), hear)
+        return await self._flights.join(key, partial(self._found_or_computed, key, compute), on_update)
 
-    async def renew(self, key: str, compute: Compute, hear: Hear = ignore) -> bytes:
-        """The answer of this key computed now, and kept instead of the one there was; one under way is new enough."""
-        return await self._flights.join(key, partial(self._computed, key, compute), hear)
+    async def renew(self, key: str, compute: Compute, on_update: OnUpdate = ignore) -> bytes:
+        """The answer of this key computed now, in place of the cached one; a computation under way is new enough."""
+        return await self._flights.join(key, partial(self._computed, key, compute), on_update)
 
-    async def _found_or_computed(self, key: str, compute: Compute, tell: Hear) -> bytes:
+    async def _found_or_computed(self, key: str, compute: Compute, publish: OnUpdate) -> bytes:
         answer = await self._find_in_stores(key)
-        return await self._computed(key, compute, tell) if answer is None else answer
+        return await self._computed(key, compute, publish) if answer is None else answer
 
-    async def _computed(self, key: str, compute: Compute, tell: Hear) -> bytes:
+    async def _computed(self, key: str, compute: Compute, publish: OnUpdate) -> bytes:
         self.misses += 1
-        answer = await compute(tell)
+        answer = await compute(publish)
         await self.keep(key, answer)
         return answer
 
     async def keep(self, key: str, answer: bytes) -> None:
-        """Have an answer everywhere."""
+        """Puts an answer into the memory and all stores."""
         self.memory.save(key, answer)
         for store in self.stores:
             await asyncio.to_thread(store.save, key, answer)

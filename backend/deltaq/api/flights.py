@@ -1,4 +1,4 @@
-"""One computation for all who ask for the same at once."""
+"""Coalescing: one computation for all who ask for the same at once (in Go, singleflight)."""
 
 from __future__ import annotations
 
@@ -11,49 +11,49 @@ GRACE = 0.5  # seconds for which a computation goes on when nobody waits: pages 
 
 
 @dataclass(frozen=True)
-class Said:
-    """What is said of a computation before its answer is there: `waiting` with its place, or `part` of the answer."""
+class Update:
+    """News of a computation before its answer: `waiting` with the place in the queue, or a `part` of the answer."""
 
     kind: Literal["waiting", "part"]
     data: bytes  # JSON
 
 
-Hear = Callable[[Said], object]
-Compute = Callable[[Hear], Awaitable[bytes]]
+OnUpdate = Callable[[Update], object]
+Compute = Callable[[OnUpdate], Awaitable[bytes]]
 
 
 def ignore(_said: object) -> None:
-    """Hear nothing of what comes before the answer."""
+    """Does nothing with what comes before the answer."""
 
 
 class Subscribers:
-    """Those who wait for a computation, and hear what is said of it.
+    """Those who wait for a computation, and receive its updates.
 
-    Whatever is said replaces what was said before, so who comes late hears the newest and has missed nothing.
+    An update replaces the one before, so whoever subscribes late receives the newest and has missed nothing.
     """
 
     def __init__(self) -> None:
-        self._subscribed: list[Hear] = []
-        self._newest: Said | None = None
+        self._subscribed: list[OnUpdate] = []
+        self._newest: Update | None = None
 
     def __len__(self) -> int:
         return len(self._subscribed)
 
-    def add(self, hear: Hear) -> None:
-        """Somebody waits, too."""
+    def add(self, on_update: OnUpdate) -> None:
+        """Somebody else waits."""
         if self._newest is not None:
-            hear(self._newest)
-        self._subscribed.append(hear)
+            on_update(self._newest)
+        self._subscribed.append(on_update)
 
-    def remove(self, hear: Hear) -> None:
-        """Somebody waits no more."""
-        self._subscribed.remove(hear)
+    def remove(self, on_update: OnUpdate) -> None:
+        """Somebody no longer waits."""
+        self._subscribed.remove(on_update)
 
-    def tell(self, said: Said) -> None:
-        """Let all hear it."""
-        self._newest = said
-        for hear in self._subscribed:
-            hear(said)
+    def publish(self, update: Update) -> None:
+        """Sends an update to all."""
+        self._newest = update
+        for on_update in self._subscribed:
+            on_update(update)
 
 
 @dataclass(frozen=True)
@@ -70,23 +70,23 @@ class Flights:
     def __init__(self) -> None:
         self._flights: dict[str, Flight] = {}
 
-    async def join(self, key: str, compute: Compute, hear: Hear = ignore) -> bytes:
-        """What `compute` gives; errors reach all who wait. Whoever asked first may go away; the others still wait.
+    async def join(self, key: str, compute: Compute, on_update: OnUpdate = ignore) -> bytes:
+        """The result of `compute`; its errors reach all who wait. Whoever asked first may leave; the others still wait.
 
         How long each of them waits is not decided here: see `Pool.asked`.
         """
         flight = self._flights.get(key) or self._begin(key, compute)
-        flight.subscribers.add(hear)
+        flight.subscribers.add(on_update)
         try:
             return await asyncio.shield(flight.task)
         finally:
-            flight.subscribers.remove(hear)
+            flight.subscribers.remove(on_update)
             if not flight.subscribers and not flight.task.done():
                 asyncio.get_running_loop().call_later(GRACE, self._give_up, key, flight)
 
     def _begin(self, key: str, compute: Compute) -> Flight:
         subscribers = Subscribers()
-        flight = self._flights[key] = Flight(asyncio.ensure_future(_awaited(compute, subscribers.tell)), subscribers)
+        flight = self._flights[key] = Flight(asyncio.ensure_future(_awaited(compute, subscribers.publish)), subscribers)
         flight.task.add_done_callback(lambda _: self._end(key, flight))
         return flight
 
@@ -107,5 +107,5 @@ class Flights:
             del self._flights[key]
 
 
-async def _awaited(compute: Compute, tell: Hear) -> bytes:
-    return await compute(tell)
+async def _awaited(compute: Compute, publish: OnUpdate) -> bytes:
+    return await compute(publish)

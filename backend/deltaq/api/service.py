@@ -23,7 +23,7 @@ from .body import LargeBodies
 from .cache import Cache, content_hash
 from .clients import ACCOUNT
 from .ending import Ending
-from .flights import Hear, Said, ignore
+from .flights import OnUpdate, Update, ignore
 from .kernels import Kernels
 from .metrics import Metrics, make_metrics
 from .page import SITE
@@ -59,36 +59,36 @@ class Service:
     async def answer(self, key: str, job: Job, document: Any) -> bytes:
         """The gzipped JSON of a pure job, from the cache if it is there."""
 
-        async def compute(_tell: Hear) -> bytes:
+        async def compute(_publish: OnUpdate) -> bytes:
             return await asyncio.to_thread(pack, await self.run(job, document, key))
 
         async with self.pool.asked(key, ACCOUNT.get()):
             return await _shared(partial(self.cache.get, key, compute))
 
-    async def measurement(self, key: str, job: Job, document: Any, hear: Hear, *, anew: bool) -> bytes:
-        """The gzipped JSON of an experiment; `hear` gets its place in the queue and its parts before.
+    async def measurement(self, key: str, job: Job, document: Any, on_update: OnUpdate, *, anew: bool) -> bytes:
+        """The gzipped JSON of an experiment; `on_update` receives its place in the queue and its parts before.
 
         `anew` measures what is kept already. Who has been let in waits for minutes, and is not refused for what the
         experiments have cost that he asked for at the same time.
         """
 
-        async def compute(tell: Hear) -> bytes:
+        async def compute(publish: OnUpdate) -> bytes:
             await self.kernels.wait()
             account = ACCOUNT.get()
             account.admit()
             measured = await self.laboratory.run(
                 job,
                 document,
-                lambda part: tell(Said("part", part)),
+                lambda part: publish(Update("part", part)),
                 account.let_in(),
-                lambda place: tell(_told(place)),
+                lambda place: publish(_waiting(place)),
                 key,
             )
             return await asyncio.to_thread(pack, measured)
 
         ask = self.cache.renew if anew else self.cache.get
         async with self.laboratory.asked(key, ACCOUNT.get()):
-            return await _shared(partial(ask, key, compute, hear))
+            return await _shared(partial(ask, key, compute, on_update))
 
     async def run(self, job: Job, document: Any, key: str = "") -> bytes:
         """The JSON of a job's answer, at the expense of the client that asks."""
@@ -100,9 +100,9 @@ class Service:
         return content_hash(source_digest(), *question)
 
 
-def _told(place: Place) -> Said:
+def _waiting(place: Place) -> Update:
     """Where somebody stands in a queue."""
-    return Said("waiting", json.dumps({"place": place.number, "seconds": round(place.seconds, 1)}).encode())
+    return Update("waiting", json.dumps({"place": place.number, "seconds": round(place.seconds, 1)}).encode())
 
 
 async def _shared(ask: Callable[[], Awaitable[bytes]]) -> bytes:

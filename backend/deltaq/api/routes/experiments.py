@@ -25,7 +25,7 @@ from ...contract.experiment import ExperimentRequest, request_of
 from ...lab.library import experiment_ids
 from ..body import StrictRoute
 from ..ending import Ending
-from ..flights import Hear, ignore
+from ..flights import OnUpdate, ignore
 from ..languages import language_of
 from ..problems import report_of
 from ..responses import packed
@@ -89,7 +89,7 @@ async def _measured(request: Request, experiment: str, body: ExperimentRequest) 
     job = replace(EXPERIMENT, deadline=service.settings.experiment_deadline, name=experiment)
     key, accepted = service.key(job.target, question | {"lang": ""}), request.headers.get("accept", "")
 
-    async def measured(hear: Hear) -> bytes:
+    async def measured(hear: OnUpdate) -> bytes:
         result = await service.measurement(key, job, question, hear, anew=anew)
         return await _drawn(service, result, question["lang"])
 
@@ -113,8 +113,8 @@ def _wants_anew(request: Request) -> bool:
     return "no-cache" in request.headers.get("cache-control", "")
 
 
-def _streamed(request: Request, measured: Callable[[Hear], Awaitable[bytes]], ending: Ending) -> Response:
-    async def work(hear: Hear) -> bytes:
+def _streamed(request: Request, measured: Callable[[OnUpdate], Awaitable[bytes]], ending: Ending) -> Response:
+    async def work(hear: OnUpdate) -> bytes:
         return unpack(await ending.unless(measured(hear)))
 
     def failure(error: Exception) -> dict[str, Any]:

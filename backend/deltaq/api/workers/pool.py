@@ -85,12 +85,12 @@ class Pool:
         self,
         job: Job,
         document: Any,
-        hear: Callable[[bytes], object] = _ignore,
+        on_part: Callable[[bytes], object] = _ignore,
         account: Account = FREE,
         wait: Callable[[Place], object] | None = None,
         key: str = "",
     ) -> bytes:
-        """The JSON of a job's answer. `hear` receives its parts before, in the event loop; `account` pays.
+        """The JSON of a job's answer. `on_part` receives its parts before, in the event loop; `account` pays.
 
         While the task waits, `wait` receives its place in the queue: the best one of all who ask for `key`. Raises
         InputError as the job raised it; else Overloaded, QuotaExceeded, DeadlineExceeded, MemoryExceeded, WorkerDied or
@@ -99,7 +99,7 @@ class Pool:
         """
         account.admit()
         loop, gone = asyncio.get_running_loop(), Event()
-        listener = Listener(lambda part: loop.call_soon_threadsafe(hear, part), gone.is_set)
+        listener = Listener(lambda part: loop.call_soon_threadsafe(on_part, part), gone.is_set)
         task = Task(job, encode_request(job.target, job.processor_time, document), listener, account, key=key)
         try:
             return await self._answer(task, wait)

@@ -30,7 +30,7 @@ SHORTEST_LOOK = 0.01  # seconds; a process that gets no processor uses up its ti
 class Listener:
     """Who waits for an answer: receives its parts, and may go away. Called from the thread that asks the worker."""
 
-    hear: Callable[[bytes], object]
+    on_part: Callable[[bytes], object]
     has_gone: Callable[[], bool]
 
 
@@ -78,7 +78,7 @@ class Worker:
                 reply = self.connection.recv_bytes()
                 if reply[:1] != PART:
                     return reply
-                listener.hear(reply[1:])
+                listener.on_part(reply[1:])
         except (EOFError, OSError):
             raise self.cause_of_death() from None
         raise DeadlineExceeded(f"no answer within {job.deadline} s")
