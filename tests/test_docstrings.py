@@ -17,7 +17,18 @@ from typing import TypeAlias
 import pytest
 
 PACKAGE = Path(__file__).parents[1] / "backend" / "deltaq"
-DOCUMENTED = ("simulation", "model", "lab", "homework", "mechanics", "language", "api/workers", "api/stores")
+DOCUMENTED = (
+    "contract",
+    "simulation",
+    "model",
+    "lab",
+    "homework",
+    "mechanics",
+    "language",
+    "handout",
+    "commands",
+    "api",
+)
 WITH_ARRAYS = ("simulation", "model", "lab")
 PROPERTIES = {"property", "cached_property"}
 ARRAY = re.compile(r"\b(Floats|Complexes|Indices|NDArray|ndarray)\b")

@@ -68,6 +68,7 @@ class StrictRequest(Request):
     wanted: TypeAdapter[Any] | None = None  # what the body must be
 
     async def body(self) -> bytes:
+        """The whole body, bounded in size and time. Raises BodyError with the status to answer."""
         if not hasattr(self, "_body"):
             settings: Settings = self.app.state.service.settings
             try:
@@ -118,9 +119,11 @@ class HeadedRoute(APIRoute):
     """
 
     def matches(self, scope: Scope) -> tuple[Match, Scope]:
+        """HEAD matches wherever GET does."""
         return super().matches({**scope, "method": "GET"} if self._is_head(scope) else scope)
 
     async def handle(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answers HEAD as GET; what sends the answer leaves its body out."""
         await (self.app if self._is_head(scope) else super().handle)(scope, receive, send)
 
     def _is_head(self, scope: Scope) -> bool:
@@ -131,6 +134,7 @@ class StrictRoute(HeadedRoute):
     """A route that reads its body by StrictRequest, and works only while client and service are there."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        """A handler that reads the body strictly before FastAPI's own sees it."""
         handler = super().get_route_handler()
         field = self.body_field
         wanted: TypeAdapter[Any] | None = TypeAdapter(field.field_info.annotation or Any) if field else None

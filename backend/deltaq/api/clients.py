@@ -73,6 +73,7 @@ class Proxies:
 
     @classmethod
     def of(cls, names: tuple[str, ...]) -> Proxies:
+        """The networks of these names (CIDR)."""
         return cls(tuple(map(ip_network, names)))
 
     def __contains__(self, address: Address) -> bool:

@@ -142,6 +142,7 @@ class Connection(H11Protocol):
         self._reading = Alarm()
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # as H11Protocol has it
+        """Enters the crowd, or is refused."""
         super().connection_made(transport)
         self.address = client_of({"client": self.client, "headers": []}, Proxies())  # who is connected, not for whom
         if self.crowd.enter(self):
@@ -170,28 +171,33 @@ class Connection(H11Protocol):
         return cycle is None or cycle.response_complete
 
     def data_received(self, data: bytes) -> None:
+        """Parses the data; a request's head has a deadline."""
         if self.is_refused:
             return
         super().data_received(data)
         self._watch_head()
 
     def on_response_complete(self) -> None:
+        """A further request that has begun has its own deadline."""
         super().on_response_complete()
         received, _ = self.conn.trailing_data
         if received or self.conn.their_state is not h11.IDLE:  # else it is idle, and uvicorn sees to that
             self._watch_head()
 
     def connection_lost(self, exc: Exception | None) -> None:
+        """Leaves the crowd."""
         self.crowd.leave(self)
         self._head.stop()
         self._reading.stop()
         super().connection_lost(exc)
 
     def pause_writing(self) -> None:
+        """The client reads slowly: from now on it is watched."""
         super().pause_writing()
         self._watch_reading(self.transport.get_write_buffer_size())
 
     def resume_writing(self) -> None:
+        """The client has caught up."""
         super().resume_writing()
         self._reading.stop()
 

@@ -45,6 +45,7 @@ class DescribedAPI(FastAPI):
     """An application whose document has summaries from the docstrings, and samples that run."""
 
     def openapi(self) -> dict[str, Any]:
+        """The OpenAPI document, made once."""
         if self.openapi_schema is None:
             self.openapi_schema = _completed(super().openapi())
         return self.openapi_schema

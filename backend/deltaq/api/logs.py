@@ -29,6 +29,7 @@ class Line(logging.Formatter):
         self.private = private
 
     def format(self, record: logging.LogRecord) -> str:
+        """A record as one line of JSON: time (UTC), level, logger, message, and what else is known."""
         line: dict[str, Any] = {
             "time": datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds"),
             "level": record.levelname.lower(),
@@ -43,6 +44,7 @@ class Line(logging.Formatter):
         return json.dumps(line, ensure_ascii=False, default=str)
 
     def formatException(self, ei: ExceptionInfo) -> str:
+        """The traceback; without the message of the exception where logs are private."""
         return trace_of(ei[1]) if self.private and ei[1] else super().formatException(ei)
 
 
@@ -61,6 +63,7 @@ class Repeats(logging.Filter):
         self._counts: dict[Place, tuple[float, int]] = {}  # when counting began, and how often since
 
     def filter(self, record: logging.LogRecord) -> bool:
+        """Whether a record is written: warnings of one place only so often in a while."""
         if record.levelno < logging.WARNING:
             return True
         place, now = place_of(record), self._clock()

@@ -63,6 +63,7 @@ class ServiceCollector(Collector):
     cache: Cache
 
     def collect(self) -> Iterator[Metric]:
+        """The metrics of pools and cache as they are now."""
         states = {name: pool.state for name, pool in self.pools.items()}
         for kind, name, meaning, of in _OF_POOLS:
             family = kind(name, meaning, labels=("pool",))

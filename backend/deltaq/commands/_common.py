@@ -12,10 +12,12 @@ from ..errors import CommandError
 
 
 def scene_argument(parser: argparse.ArgumentParser) -> None:
+    """Adds `scene`: a built-in scene or a file."""
     parser.add_argument("scene", help="id of a built-in scene, or a TOML file")
 
 
 def field_argument(parser: argparse.ArgumentParser) -> None:
+    """Adds `--set FIELD=VALUE`, which may be repeated."""
     parser.add_argument(
         "--set",
         dest="fields",
@@ -28,10 +30,12 @@ def field_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def language_argument(parser: argparse.ArgumentParser) -> None:
+    """Adds `--lang`."""
     parser.add_argument("--lang", choices=("en", "de"), default="en", help="language (default: %(default)s)")
 
 
 def output_argument(parser: argparse.ArgumentParser) -> None:
+    """Adds `--output`, a file in place of the screen."""
     parser.add_argument("--output", type=Path, help="where it goes (default: the screen)")
 
 

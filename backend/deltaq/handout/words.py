@@ -51,9 +51,11 @@ class Words:
         return str(self._printer.doprint(plain))
 
     def vector(self, column: sp.ImmutableMatrix) -> str:
+        """A column as `[x, y, …]`."""
         return f"[{', '.join(map(self.text, column))}]"
 
     def matrix(self, square: sp.ImmutableMatrix) -> str:
+        """A square matrix as `[[…], […]]`, row by row."""
         rows = (", ".join(map(self.text, row)) for row in square.tolist())
         return f"[{', '.join(f'[{row}]' for row in rows)}]"
 

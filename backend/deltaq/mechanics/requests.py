@@ -43,19 +43,24 @@ class BegunScene(Protocol):
     """What a request says of its scene where a motion begins: `contract.base.SceneWithInitialValues` is one."""
 
     @property
-    def scene(self) -> object: ...
+    def scene(self) -> object:
+        """The id of a built-in scene, or a scene document."""
 
     @property
-    def given_guides(self) -> Sequence[Mapping[str, str]]: ...
+    def given_guides(self) -> Sequence[Mapping[str, str]]:
+        """Guides that replace coordinates: `coordinate` and `value` of each."""
 
     @property
-    def freeze(self) -> Sequence[str]: ...
+    def freeze(self) -> Sequence[str]:
+        """The coordinates held at their initial values."""
 
     @property
-    def parameters(self) -> Mapping[str, float]: ...
+    def parameters(self) -> Mapping[str, float]:
+        """Parameter values by name, the size of a family among them."""
 
     @property
-    def given_initial(self) -> Mapping[str, Mapping[str, float]]: ...
+    def given_initial(self) -> Mapping[str, Mapping[str, float]]:
+        """Initial `value` and `rate` by coordinate."""
 
 
 def begun_scene(asked: BegunScene) -> Scene:

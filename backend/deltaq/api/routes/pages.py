@@ -30,6 +30,7 @@ class PageRoute(APIRoute):
     """A route of the pages: it leaves the addresses of the API to themselves, so that those know their methods."""
 
     def matches(self, scope: Scope) -> tuple[Match, Scope]:
+        """No page has an address below that of the API."""
         if scope["type"] == "http" and scope["path"].startswith(f"{PREFIX}/"):
             return Match.NONE, {}
         return super().matches(scope)
