@@ -9,6 +9,8 @@ import pytest
 from pydantic import TypeAdapter
 
 from deltaq.contract.base import Request
+from deltaq.contract.check import LinesRequest
+from deltaq.contract.experiments.stability_map import StabilityMapRequest
 from deltaq.contract.reading import read, validated
 from deltaq.errors import Problem, RequestError
 from deltaq.narration.catalog import LANGUAGES, message
@@ -77,6 +79,37 @@ def test_a_number_out_of_bounds_is_told_with_both_of_them_or_with_the_one_that_w
     assert (called.code, called.pointer, called.parameters[short]) == (code, f"/{field}", bound)
     for problem in (own, called):
         assert all("{" not in message(language, problem) for language in LANGUAGES)
+
+
+AXIS = {"parameter": "omega", "from": 1.0, "to": 2.0}
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields", "problem"),
+    [
+        pytest.param(
+            StabilityMapRequest,
+            {"x": {**AXIS, "count": 401}},
+            Problem("request-outside", "/x/count", parameters={"value": "401", "min": 8, "max": 400}),
+            id="both bounds of a part",
+        ),
+        pytest.param(
+            StabilityMapRequest,
+            {"x": {**AXIS, "to": 0.5}},
+            Problem("request-outside", "/x/to", parameters={"value": 0.5, "min": 1.0, "max": 1e9}),
+            id="a bound by another field",
+        ),
+        pytest.param(
+            LinesRequest,
+            {"scheme": {"points": {"lagrangian": 2000.0}}},
+            Problem("request-too-large", "/scheme/points/lagrangian", parameters={"le": 1000.0}),
+            id="a value of a table, whose bounds no field has",
+        ),
+    ],
+)
+def test_what_is_wrong_further_inside(kind: type[Request], fields: dict[str, Any], problem: Problem) -> None:
+    own, _ = told(kind, examples(kind)[0] | fields)
+    assert own == problem
 
 
 @pytest.mark.parametrize(("kind", "field", "side", "bound", "schema"), CASES)

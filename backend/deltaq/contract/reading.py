@@ -99,38 +99,34 @@ def pointer(location: Location) -> str:
 
 
 def _told(finding: Mapping[str, Any], model: type[BaseModel], document: Mapping[str, object]) -> Problem:
-    """A finding as Python is told it: with both bounds, and at the field that is to be left out."""
-    kind, location = finding["type"], finding["loc"]
-    if kind in OUTSIDE:
-        parameters = _outside(finding, _bounds(model, location, document))
-        return Problem("request-outside", pointer(location), parameters=parameters)
+    """A finding as Python is told it: with both bounds where there are two, and at the field that is to be left out."""
     (problem,) = problems_of([finding])
+    given, bounds = finding["input"], _bounds(model, finding["loc"], document) if finding["type"] in OUTSIDE else ()
+    if bounds:
+        return Problem("request-outside", problem.pointer, parameters=_outside(given, *bounds))
     if problem.code == "request-not-boolean":
         return Problem("request-not-flag", problem.pointer)
-    if problem.code == "request-not-number" and type(finding["input"]) is int:  # of more than 308 digits
+    if problem.code == "request-not-number" and type(given) is int:  # of more than 308 digits
         return Problem("request-not-finite", problem.pointer)
-    return problem if location else problem.below(str(finding.get("ctx", {}).get("at", "")))
+    return problem if finding["loc"] else problem.below(str(finding.get("ctx", {}).get("at", "")))
 
 
-def _outside(finding: Mapping[str, Any], bounds: Mapping[str, float]) -> dict[str, Parameter]:
-    """The number and both bounds, whole ones where the field is."""
-    (bound,) = (value for side, value in finding["ctx"].items() if side in SIDES)
-    low, high = bounds.get("gt", bounds.get("ge", 0)), bounds.get("lt", bounds.get("le", 0))
-    if isinstance(bound, float):
-        return {"value": float(finding["input"]), "min": float(low), "max": float(high)}
-    return {"value": str(finding["input"])[:20], "min": low, "max": high}
+def _outside(given: float | str, low: float, high: float) -> dict[str, Parameter]:
+    """The number and both bounds; of a whole one, however long, no more than its beginning."""
+    value = str(given)[:20] if isinstance(low, int) else float(given)
+    return {"value": value, "min": low, "max": high}
 
 
-def _bounds(model: type[BaseModel], location: Location, document: Mapping[str, object]) -> dict[str, float]:
-    """The bounds of a field by their sides, as its declaration has them."""
+def _bounds(model: type[BaseModel], location: Location, document: Mapping[str, object]) -> tuple[float, ...]:
+    """Both bounds of a field as its declaration has them, whole numbers where the field is one; else none."""
     field = next(one for name, one in model.model_fields.items() if (one.alias or name) == location[0])
-    if len(location) > 1 and isinstance(field.annotation, type):
-        return _bounds(field.annotation, location[1:], document)
-    found = {side: getattr(one, side) for one in field.metadata for side in SIDES if hasattr(one, side)}
-    for one in field.metadata:
-        if isinstance(one, NotAbove):
-            found["le"] = one.bound(document)
-    return found
+    if len(location) > 1:
+        kind = field.annotation
+        return _bounds(kind, location[1:], document) if isinstance(kind, type) and issubclass(kind, BaseModel) else ()
+    ends = [one.bound(document) for one in field.metadata if isinstance(one, NotAbove)]
+    ends += [getattr(one, side) for one in field.metadata for side in SIDES if hasattr(one, side)]
+    whole = field.annotation is int
+    return tuple(sorted(end if whole else float(end) for end in ends)) if len(ends) == 2 else ()
 
 
 def _parameters(code: str, finding: Mapping[str, Any]) -> dict[str, Any]:
