@@ -20,7 +20,7 @@ import { readChanges } from "./values.js";
  * @property {Failure | null} failure
  */
 
-/** @type {import("./types.js").Included[]} */
+/** @type {import("./types.js").Parts} */
 const PARTS = ["coordinates", "rates", "positions", "loads", "energy"];
 export const SECONDS = 10;
 const SAMPLES = samplesFor(500);

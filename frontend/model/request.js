@@ -8,7 +8,7 @@ const RATE = 24;
 const STEP = 0.01;
 /** The server sends no more. */
 const MOST = 20001;
-/** @type {import("./types.js").Included[]} */
+/** @type {import("./types.js").Parts} */
 const PARTS = ["coordinates", "rates", "positions", "loads", "energy", "error"];
 
 /** What requests call the scene: its id, or the whole of it. @param {import("./state.js").State} state */

@@ -57,11 +57,11 @@
  *   loads: Load[], drawing?: Drawing | null}} Whole
  * @typedef {Omit<Having<Contract["SceneDocument"], "id" | "dimension">, keyof Whole> & Whole} Scene  as the API writes it: with all that its document may leave to be understood
  * @typedef {Contract["FamilyEntry"]} Family
- * @typedef {NonNullable<Contract["SimulationRequest"]["include"]>[number]} Included  what of a motion is answered
  * @typedef {Contract["Step"]} Step
  * @typedef {Contract["Chapter"]} Chapter
  * @typedef {Pick<Contract["DerivationAnswer"], "id" | "chapters"> & {result?: Contract["DerivationResult"]}} Derivation  of a scene, with its results, or a general proof
  * @typedef {Contract["MethodEntry"]} Method
+ * @typedef {NonNullable<Contract["SimulationRequest"]["include"]>} Parts  of a motion
  * @typedef {InNumbers<Omit<Contract["Energy"], "drift">>} Energy
  * @typedef {Omit<Contract["SimulationAnswer"], "t" | "coordinates" | "rates" | "positions" | "loads" | "energy"> & {t: number[],
  *   coordinates: Record<string, number[]>, rates: Record<string, number[]>, positions: Record<string, number[][]>,

@@ -16,10 +16,6 @@ FRONTEND = Path(__file__).parents[2] / "frontend"
 FILE = FRONTEND / "model" / "contract.d.ts"
 
 
-# Answers with members that no schema names: they depend on the experiment.
-OPEN = {"ExperimentAnswer"}
-
-
 def described() -> dict[str, Any]:
     """The description of the API as far as the page may rely on it.
 
@@ -29,8 +25,8 @@ def described() -> dict[str, Any]:
     document = create_app(Settings(workers=1)).openapi()
     for operation in (one for methods in document["paths"].values() for one in methods.values()):
         operation["responses"] = {"200": operation["responses"]["200"]}
-    for name, schema in document["components"]["schemas"].items():
-        if schema.get("additionalProperties") is True and "properties" in schema and name not in OPEN:
+    for schema in document["components"]["schemas"].values():
+        if schema.get("additionalProperties") is True and "properties" in schema:
             del schema["additionalProperties"]
     return document
 

@@ -5,7 +5,7 @@ import { sampled, samplesFor } from "../sampling.js";
 
 /** @typedef {import("./sheet.js").Entry} Entry */
 
-/** @type {import("../types.js").Included[]} */
+/** @type {import("../types.js").Parts} */
 const PARTS = ["coordinates", "rates", "positions", "loads", "error"];
 const MOTION = {
   t_end: 10,

@@ -2,7 +2,7 @@
 
 /**
  * The range of a slider for h: from where nothing fails to where everything explicit has.
- * @param {number[][]} eigenvalues
+ * @param {number[][]} eigenvalues  [Re λ, Im λ]
  * @returns {[number, number]}
  */
 export function stepRange(eigenvalues) {

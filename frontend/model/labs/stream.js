@@ -6,10 +6,7 @@ import { tableOf } from "../own.js";
 /** @typedef {{done: number, total: number, charts: Chart[]}} Part */
 /** @typedef {{place: number, seconds: number}} Waiting  place 1 is the next, 0 has begun; seconds until it should begin */
 /** @typedef {import("./chart.js").Chart} Chart */
-/** @typedef {import("../types.js").Contract} Contract */
-/** What an experiment has found, by the name of its answer. @template {keyof Contract} A @typedef {Omit<Contract[A], "charts"> & {charts: Chart[]}} Found */
-/** @typedef {Found<"ChaosAnswer"> | Found<"ConvergenceAnswer"> | Found<"EnergyDriftAnswer"> | Found<"FidelityAnswer"> | Found<"StabilityAnswer">
- *   | Found<"StabilityMapAnswer"> | Found<"WorkPrecisionAnswer">} Result */
+/** @typedef {import("./results.js").Result} Result */
 /** Events by their kinds, and what each kind says. @template T @typedef {{[K in keyof T]: {kind: K, data: T[K]}}[keyof T]} Events */
 /** @typedef {Events<{waiting: Waiting, part: Part, result: Result}>} Measuring  what is heard of an experiment */
 /** @typedef {{kind: string, data: unknown}} StreamEvent */

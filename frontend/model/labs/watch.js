@@ -8,7 +8,7 @@ import { sampled, samplesFor } from "../sampling.js";
 
 const SECONDS = 20;
 const RATE = 60;
-/** @type {import("../types.js").Included[]} */
+/** @type {import("../types.js").Parts} */
 const PARTS = ["coordinates", "rates", "positions", "loads", "energy"];
 
 /** @param {Question} question @param {Wish} wish @param {import("../types.js").Contract["Scene"]} scene @param {import("../types.js").Lang} lang */

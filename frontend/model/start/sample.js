@@ -2,11 +2,11 @@
 
 import { sampled, samplesFor } from "../sampling.js";
 
-/** @type {import("../types.js").Included[]} */
-const PARTS = ["coordinates", "rates", "positions", "loads"];
 const SECONDS = 6;
 const RATE = 30;
 const AT_ONCE = 3;
+/** @type {import("../types.js").Parts} */
+const PARTS = ["coordinates", "rates", "positions", "loads"];
 
 /** @typedef {{scene: import("../types.js").Scene, trajectory: import("../types.js").Trajectory}} Sample */
 

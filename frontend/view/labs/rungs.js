@@ -5,8 +5,8 @@ import { significant } from "../../model/numbers.js";
 import { resultOf } from "../../model/labs/results.js";
 import { titleOf } from "../../model/labs/ladder.js";
 
-/** @typedef {import("../../model/labs/results.js").Rung} Rung */
-/** @typedef {import("../../model/labs/results.js").Fidelity} Fidelity */
+/** @typedef {import("../../model/types.js").Contract["LadderRung"]} Rung */
+/** @typedef {import("../../model/types.js").Contract["FidelityAnswer"]} Fidelity */
 
 /** @param {import("./page.js").View} view */
 export function rungs(view) {

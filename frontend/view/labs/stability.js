@@ -26,7 +26,7 @@ export function failures(view) {
 
 /** What stands for a step that cannot be told, and why. */
 const DASH = "—";
-/** @typedef {import("../../model/labs/results.js").FailingStep} Row */
+/** @typedef {import("../../model/types.js").Contract["FailingStep"]} Row */
 
 /** Why there is no figure in some places, or another end than growth: each once; a number in the table points here. @param {Row[]} rows */
 const reasonsOf = (rows) =>

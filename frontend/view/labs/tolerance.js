@@ -28,7 +28,7 @@ export function tolerance({ bench, dial, turn, t, methodTitle, state }) {
     </div>`;
 }
 
-/** @param {import("../../model/labs/results.js").WorkPrecision["cheapest"][number]} best @param {import("./page.js").View["t"]} t @param {(value: number) => string} write */
+/** @param {import("../../model/types.js").Contract["CheapestRun"]} best @param {import("./page.js").View["t"]} t @param {(value: number) => string} write */
 const settingOf = (best, t, write) =>
   typeof best.step === "number"
     ? t("labs.hover.step", { value: write(best.step) })
