@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ..language.memory import cached_method
+from ..language.textbook import negated
 from .calculus import column
 from .system import System
 from .terms import terms_by_source
@@ -14,7 +15,7 @@ from .terms import terms_by_source
 def left_side(system: System, coordinate: str) -> sp.Expr:
     """d/dt ∂L/∂q̇ − ∂L/∂q − Qᵈ, written out."""
     terms = terms_by_source(system, coordinate)
-    return sp.Add(*(term.sign * term.written_out for term in terms))
+    return sp.Add(*(term.written_out if term.sign > 0 else negated(term.written_out) for term in terms))
 
 
 @cached_method

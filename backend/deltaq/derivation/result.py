@@ -8,6 +8,7 @@ from itertools import combinations
 
 import sympy as sp
 
+from ..language.memory import cached_method
 from ..mechanics.scene import Scene
 from ..vocabulary import CurlOutcome
 from . import provenance
@@ -17,7 +18,7 @@ from .linearization import Linearization, linearizations
 from .matrix_form import forcing, left_side, mass_matrix
 from .rules.curl_test import outcome
 from .system import System
-from .terms import terms_by_source, terms_of
+from .terms import terms_of
 
 Terms = Mapping[str, Mapping[str, tuple[Term, ...]]]
 
@@ -122,7 +123,7 @@ def _terms(system: System) -> Terms:
     return {
         **{key: {"": terms_of(system, shares(system))} for key, shares in whole.items()},
         **{key: {q: terms_of(system, of(system, q)) for q in system.free} for key, of in by_coordinate.items()},
-        "equations": {q: terms_by_source(system, q) for q in system.free},
+        "equations": {q: _equation_terms(system, q) for q in system.free},
         "forcing": {q: _forcing_terms(system, q) for q in system.free},
         "mass_matrix": {f"{q} {other}": _mass_terms(system, q, other) for q in system.free for other in system.free},
     }
@@ -131,18 +132,21 @@ def _terms(system: System) -> Terms:
 def _mass_terms(system: System, coordinate: str, other: str) -> tuple[Term, ...]:
     """What stands before the acceleration of `other` in the equation of the coordinate."""
     acceleration = system.acceleration(other)
-    return tuple(
-        replace(term, formula=Explicit(term.written_out.coeff(acceleration)))
-        for term in terms_by_source(system, coordinate)
-        if acceleration in term.written_out.free_symbols
-    )
+    slopes = ((term, term.written_out.diff(acceleration)) for term in _equation_terms(system, coordinate))
+    return tuple(replace(term, formula=Explicit(slope)) for term, slope in slopes if slope != 0)
 
 
 def _forcing_terms(system: System, coordinate: str) -> tuple[Term, ...]:
     """What does not hang on accelerations, on the right."""
-    accelerations = {system.acceleration(q) for q in system.free}
-    terms = terms_by_source(system, coordinate)
-    return tuple(replace(term, sign=-term.sign) for term in terms if not term.written_out.free_symbols & accelerations)
+    at_rest = {system.acceleration(q): system.zero for q in system.free}
+    rests = ((term, term.written_out.xreplace(at_rest)) for term in _equation_terms(system, coordinate))
+    return tuple(replace(term, formula=Explicit(rest), sign=-term.sign) for term, rest in rests if rest != 0)
+
+
+@cached_method
+def _equation_terms(system: System, coordinate: str) -> tuple[Term, ...]:
+    """The left side of the equation, the sources apart."""
+    return terms_of(system, provenance.of_equation(system, coordinate))
 
 
 def _potential_of(system: System, load: str) -> LoadPotential:

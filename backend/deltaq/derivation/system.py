@@ -9,6 +9,7 @@ from itertools import combinations
 import sympy as sp
 
 from ..language.memory import cached_method
+from ..language.operations import operations
 from ..language.tree import Node
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import PotentialEnergy
@@ -60,7 +61,7 @@ class System(Work):
 
     def _kinetic_energy(self, body: Body, part: Kinetics) -> sp.Expr:
         velocity = self.velocity(part.body) if not isinstance(part, Rotation) else sp.ImmutableMatrix([])
-        square = self.dot(velocity, velocity).expand()
+        square = self.dot(velocity, velocity)
         match part:
             case Translation():
                 return self.mass(body) * square / 2
@@ -68,7 +69,7 @@ class System(Work):
                 squares = (omega**2 for omega in self.angular_velocity(part))
                 return sp.Add(*(self.expression(j) * w / 2 for j, w in zip(inertia, squares, strict=True)))
             case Distribution(density=density, material=material):
-                return self.integrated(self.expression(density) * square / 2, material, part.body)
+                return self.integrated(self.expression(density) * square.expand() / 2, material, part.body)
 
     def named_kinetic_energy(self, body: Body) -> Named:
         """E, or E of this body where there are several."""
@@ -136,9 +137,10 @@ class System(Work):
 
     @cached_property
     def potential_energy(self) -> sp.Expr:
-        """V = Σ V of the loads with a potential."""
+        """V = Σ V of the loads with a potential: load by load, or what they share in front where that is shorter."""
         loads = (load for load in self.load_names if self.is_conservative(load))
-        return self.display(sp.Add(*map(self.load_potential, loads)))
+        total = sp.Add(*map(self.load_potential, loads))
+        return min((total, self.display(total)), key=operations)
 
     @cached_method
     def nonconservative_force(self, coordinate: str) -> sp.Expr:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any, TypeVar
 
 import sympy as sp
@@ -11,9 +11,13 @@ from ..language import fourier
 from ..language.canonical import canonical
 from ..language.display import display_form
 from ..language.form_calculus import plain_forms
-from ..language.fourier import TooLargeError
+from ..language.fourier import Form, TooLargeError
+from ..language.kernel_reader import KernelReader
 from ..language.memory import cached_method
 from ..language.normal_form import Reader
+from ..language.order import Order
+from ..language.polynomial import Exponents
+from ..language.textbook import Textbook, given_sums
 from .formula import Explicit, Term
 from .provenance import Share, of_equation
 from .system import System
@@ -25,17 +29,62 @@ V = TypeVar("V", bound=Any)
 
 @cached_method
 def terms_by_source(system: System, coordinate: str) -> tuple[Term, ...]:
-    """d/dt ∂L/∂q̇ − ∂L/∂q − Qᵈ written out, ordered from accelerations to forces."""
-    return terms_of(system, of_equation(system, coordinate))
+    """d/dt ∂L/∂q̇ − ∂L/∂q − Qᵈ as it is read, from accelerations to forces: inertia as a whole, then load by load."""
+    return terms_of(system, of_equation(system, coordinate), gathered=True)
 
 
-def terms_of(system: System, shares: Iterable[tuple[str, sp.Expr]]) -> tuple[Term, ...]:
+def terms_of(system: System, shares: Iterable[Share], *, gathered: bool = False) -> tuple[Term, ...]:
     """The sum of what each source adds, term by term.
 
-    Terms of different sources that are alike are one term with several sources; those that cancel are gone.
+    What different sources have alike is one term with several sources; what cancels is gone. `gathered`: with brackets,
+    and what comes from bodies as one sum, so that their masses are collected; else every product by itself.
     """
     given = tuple(shares)
-    by_origin = _by_form(system, given) or _by_expression(system, given)
+    whole = frozenset(system.body_sources) if gathered else frozenset[str]()
+    terms = _as_printed(system, given, whole) or _split(system, given)
+    return tuple(sorted(terms, key=lambda term: _rank(system, term.written_out)))
+
+
+def _as_printed(system: System, shares: tuple[Share, ...], whole: frozenset[str]) -> tuple[Term, ...] | None:
+    """Each group of sources in its shortest form; None if that would take too long."""
+    reader = KernelReader()
+    book = Textbook(reader, Order(system.scene.names), given_sums(share for _, share in shares))
+    try:
+        forms = [(source, reader.read(share)) for source, share in shares]
+        return tuple(term for origin, form in _groups(forms, whole) for term in _printed(book, origin, form, forms, whole))
+    except TooLargeError:
+        return None
+
+
+def _groups(forms: list[tuple[str, Form]], whole: frozenset[str]) -> list[tuple[Origin, Form]]:
+    """The sum by the sources that its Fourier terms come from; `whole` is one source."""
+    total = fourier.add(form for _, form in forms)
+    groups: dict[Origin, Form] = {}
+    for term, number in total.items():
+        origin = tuple(dict.fromkeys(source for source, form in forms if term in form))
+        owner = tuple(sorted(whole)) if whole.intersection(origin) else origin
+        groups.setdefault(owner, {})[term] = number
+    return list(groups.items())
+
+
+def _printed(
+    book: Textbook, origin: Origin, form: Form, forms: list[tuple[str, Form]], whole: frozenset[str]
+) -> Iterator[Term]:
+    """The terms of one group, each with the sources of the products in it."""
+    summands = book.summands(form, spread=bool(whole.intersection(origin)), gathered=bool(whole))
+    owners: dict[Exponents | None, list[str]] = {}
+    for source, share in forms:
+        for mono in dict.fromkeys(mono for mono, _, _ in share):
+            owners.setdefault(summands.key(mono), []).append(source)
+    for part in summands.terms:
+        found = {source for key in part.keys for source in owners.get(key, ())}
+        sources = tuple(source for source, _ in forms if source in found) or origin
+        yield Term(Explicit(part.value), tuple(dict.fromkeys(sources)), part.sign)
+
+
+def _split(system: System, shares: tuple[Share, ...]) -> tuple[Term, ...]:
+    """The terms multiplied out, for what is too long to be planned."""
+    by_origin = _by_form(system, shares) or _by_expression(system, shares)
     shown = [
         (origin, *term.as_coeff_Mul())
         for origin, share in by_origin.items()
@@ -43,8 +92,7 @@ def terms_of(system: System, shares: Iterable[tuple[str, sp.Expr]]) -> tuple[Ter
         if term != 0
     ]
     return tuple(
-        Term(Explicit(abs(number) * rest), origin, 1 if number > 0 else -1)
-        for origin, number, rest in sorted(shown, key=lambda part: _rank(system, part[2]))
+        Term(Explicit(abs(number) * rest), origin, 1 if number > 0 else -1) for origin, number, rest in shown
     )
 
 

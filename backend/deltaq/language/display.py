@@ -5,6 +5,7 @@ They are its arrangement by kinds of terms, the same over a common denominator, 
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 import sympy
@@ -14,8 +15,10 @@ from .arrangement import Arrangement
 from .fourier import Form, TooLargeError
 from .memory import cached_method
 from .normal_form import Reader
+from .operations import operations
 from .order import Order, split_symbol
 from .symbols import Symbols
+from .textbook import Textbook, textbook
 
 _MAX_SHOWN = 600  # terms: more are not read by anyone, so they stay as they are
 
@@ -29,17 +32,27 @@ def display(expr: Any, symbols: Symbols) -> Any:
     if isinstance(expr, sympy.Tuple):
         return sympy.Tuple(*(display(part, symbols) for part in expr))
     try:
-        return min(_candidates(expr, _order(symbols)), key=size)
+        return _shown(expr, _order(symbols))
     except TooLargeError:
         return expr
     except ZeroDivisionError:
         raise ExpressionError(Problem("division-by-zero")) from None
 
 
+def _shown(expr: Any, order: Order) -> Any:
+    try:
+        found = textbook(expr, order)
+    except TooLargeError:
+        return min(_candidates(expr, order), key=size)
+    return expr if operations(expr) < operations(found) and not _hides_unity(expr) else found
+
+
 def display_form(form: Form, reader: Reader, symbols: Symbols) -> Any:
     """The shortest of the equivalent expressions of a form whose generators are symbols."""
     if len(form) > _MAX_SHOWN:
         return reader.expression(form)
+    with suppress(TooLargeError):
+        return Textbook(reader, _order(symbols), frozenset()).whole(form)
     arranged = Arrangement(reader, _order(symbols)).expression(form)
     moves = any(split_symbol(name)[0] for mono, _, _ in form for name, _ in mono)
     return arranged if moves else min(arranged, reader.expression(form), key=size)

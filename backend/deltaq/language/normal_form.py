@@ -151,7 +151,7 @@ class Reader(Generators):
 
     def _wave(self, expr: Any) -> Form:
         """cos or sin of a linear form; of its constant multiple of π by the addition theorem."""
-        form = self.form(expr.args[0])
+        form = self._with_waves_named(self.form(expr.args[0]))
         sine = isinstance(expr, sympy.sin)
         if not self._is_polynomial(form):
             return self._opaque(expr)
@@ -161,6 +161,22 @@ class Reader(Generators):
         if turn is None:
             return fourier.wave(phase, sine=sine)
         return self._turned(phase, sympy.Rational(int(turn.p), int(turn.q)) * sympy.pi, sine=sine)
+
+    def _with_waves_named(self, form: Form) -> Form:
+        """An angle such as Ω t sin β, the wave in it taken as a name: sin² + cos² of it is 1 all the same."""
+        if fourier.is_still(form):
+            return form
+        self.is_exact = False
+        return fourier.add({(self._named(term), STILL, False): number} for term, number in form.items())
+
+    def _named(self, term: fourier.Term) -> fourier.Monomial:
+        mono, phase, sine = term
+        if not phase:
+            return mono
+        value = self.wave(phase, sine=sine)
+        key = f"~{sympy.sstr(value)}"
+        self.meaning[key] = value
+        return fourier.times(mono, ((key, 1),))
 
     def _turned(self, phase: Phase, turn: Any, *, sine: bool) -> Form:
         cosine_turn, sine_turn = self._constant_wave(sympy.cos(turn)), self._constant_wave(sympy.sin(turn))

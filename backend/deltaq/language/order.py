@@ -75,6 +75,10 @@ class Order:
         known = self.names.get(base) if self.names else None
         return known.kind == "material" if known else not symbol.is_positive
 
+    def is_mass(self, base: str) -> bool:
+        """Whether a parameter is named as masses, moments of inertia and densities are."""
+        return _head_rank(base) == 0
+
     def place(self, base: str) -> Key:
         """Of a coordinate among the coordinates; time comes last."""
         return (base == "t", self._places.get(base, len(self._places)), natural(base))

@@ -18,8 +18,11 @@ _MAX_MULTIPLE = 8
 _MAX_ANGLES = 4
 
 
-def shortest(form: Form, reader: Reader) -> Form:
-    """The form as it is, or with sin² or with cos² eliminated, whichever is shortest to write."""
+def shortest(form: Form, reader: Reader, *, both: bool = False) -> Form:
+    """The form as it is, or with sin² or with cos² eliminated, whichever is shortest to write.
+
+    With `both` a product of sines and cosines of the same degree in each term is tried as well.
+    """
     if len(form) > _MAX_TERMS or fourier.is_still(form) or max(len(phase) for _, phase, _ in form) > _MAX_ANGLES:
         return form
     if len(form) == 1 and all(len(phase) > 1 for _, phase, _ in form):
@@ -28,10 +31,51 @@ def shortest(form: Form, reader: Reader) -> Form:
     if any(abs(c) > _MAX_MULTIPLE * units[mono] for _, phase, _ in form for mono, c in phase):
         return form
     candidates = [form, *_products(form, units, reader)]
+    candidates += _homogeneous(form, units, reader) if both and len(form) > 1 else []
     if any(int(u.p) % 2 == 0 for u in units.values()):
         halves = {mono: u / 2 if int(u.p) % 2 == 0 else u for mono, u in units.items()}
         candidates += _products(form, halves, reader)
     return min(candidates, key=_length)
+
+
+def written(form: Form, reader: Reader) -> Form:
+    """Waves as generators of a polynomial: for each product of everything else the shortest way to write its waves."""
+    parts: dict[Monomial, Form] = {}
+    for (mono, phase, sine), coefficient in form.items():
+        parts.setdefault(mono, {})[ONE, phase, sine] = coefficient
+    return _as_generators(
+        fourier.add(
+            fourier.multiply({(mono, STILL, False): fmpq(1)}, shortest(part, reader, both=True))
+            for mono, part in parts.items()
+        ),
+        reader,
+    )
+
+
+def _as_generators(form: Form, reader: Reader) -> Form:
+    """The form with every wave that is left as a generator of its own."""
+    if fourier.is_still(form):
+        return form
+    return fourier.add(
+        {(fourier.times(mono, _wave_generator(phase, reader, sine=sine)), STILL, False): coefficient}
+        for (mono, phase, sine), coefficient in form.items()
+    )
+
+
+def _wave_generator(phase: Phase, reader: Reader, *, sine: bool) -> Monomial:
+    if not phase:
+        return ONE
+    value = reader.wave(phase, sine=sine)
+    name = sympy.sstr(value)
+    reader.meaning[name] = value
+    return ((name, 1),)
+
+
+def _homogeneous(form: Form, units: dict[Monomial, Any], reader: Reader) -> list[Form]:
+    """The form in products of sin and cos that all have the same degree in each angle: sin² cos² for sin² − sin⁴."""
+    product = _Products(units, reader)
+    expanded = fourier.add(product.term(term, c) for term, c in form.items())
+    return [product.homogeneous(expanded)]
 
 
 def _products(form: Form, units: dict[Monomial, Any], reader: Reader) -> tuple[Form, Form]:
@@ -107,6 +151,19 @@ class _Products:
         """Squares of one function replaced: sin² = 1 − cos²."""
         for name in self._names.values():
             form = fourier.add(self._reduced_term(term, c, gone + name, kept + name) for term, c in form.items())
+        return form
+
+    def homogeneous(self, form: Form) -> Form:
+        """Lower degrees raised by sin² + cos² = 1."""
+        for name in self._names.values():
+            pair = ("sin" + name, "cos" + name)
+            degrees = {term: sum(dict(term[0]).get(wave, 0) for wave in pair) for term in form}
+            highest = max(degrees.values())
+            unity = fourier.add(map(_square, pair))
+            form = fourier.add(
+                fourier.multiply({term: c}, fourier.power(unity, (highest - degrees[term]) // 2))
+                for term, c in form.items()
+            )
         return form
 
     def _reduced_term(self, term: fourier.Term, coefficient: Any, gone: str, kept: str) -> Form:

@@ -1,0 +1,242 @@
+"""The shortest way to write a polynomial that reads well: factored, or split by what its terms share.
+
+A polynomial is its factorization (completed squares among them), or a sum after one split: its terms are gathered by
+their rates, parameters, kernels or single generators, or by what hangs together, and each part is planned by itself.
+Parts with the same cofactor are one: m₁ l² φ̇² + m₂ l² φ̇² is (m₁ + m₂) l² φ̇². The cheapest wins.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from .plan import Plan, Powers, Prices, Product, Sum
+from .polynomial import Alphabet, Exponents, Kind, Poly, as_poly
+
+MAX_TERMS = 160
+TRIED = 3  # splits that are followed, of those that look shortest
+MAX_SINGLE = 12  # terms up to which each single generator is tried
+
+Key = frozenset[tuple[Exponents, int]]
+Parts = dict[Key, tuple[Poly, Poly]]  # for each cofactor, what it is multiplied by, and the cofactor
+
+
+class Planner:
+    """Plans for the polynomials of one alphabet; what was planned is kept."""
+
+    def __init__(self, alphabet: Alphabet, budget: int = 400) -> None:
+        self.prices = Prices(alphabet)
+        self._alphabet = alphabet
+        self._known: dict[Key, Plan] = {}
+        self._left = budget
+        self._moving = frozenset(i for i, g in enumerate(alphabet.generators) if g.moves)
+
+    def plan(self, poly: Poly, denominator: int = 1, *, free: bool = False) -> Plan:
+        """The plan of a polynomial that is not zero; `free`: a mass may go in front of anything."""
+        if len(poly) == 1:
+            ((exponents, number),) = poly.items()
+            return self.prices.monomial(exponents, Fraction(number, denominator))
+        number, common, primitive = split_off(poly)
+        factor, powers = Fraction(number, denominator), _powers(common)
+        free = free and any(self._alphabet.generators[i].kind == Kind.MASS for i, _ in powers)
+        return self._scaled(self._primitive(primitive), factor, powers, free=free)
+
+    def terms(self, poly: Poly, denominator: int = 1, *, spread: bool = False) -> tuple[Product, ...]:
+        """The plan as terms of a sum; `spread`: no common factor in front of a sum in which something moves."""
+        found = self.plan(poly, denominator)
+        if isinstance(found, Sum):
+            return found.terms
+        if not spread:
+            return (found,)
+        if len(found.brackets) != 1 or found.brackets[0][1] != 1:
+            return (found,)
+        inner, _ = found.brackets[0]
+        if all(g.kind in (Kind.MASS, Kind.PARAMETER) for g in self._held(inner)):
+            return (found,)
+        return tuple(self.prices.times(term, found.number, found.powers) for term in inner.terms)
+
+    def single(self, poly: Poly, denominator: int = 1) -> tuple[Product, ...]:
+        """Every term by itself."""
+        return tuple(self.prices.monomial(exponents, Fraction(n, denominator)) for exponents, n in ordered(poly))
+
+    def _held(self, inner: Sum) -> Iterator[Any]:
+        for term in inner.terms:
+            yield from (self._alphabet.generators[i] for i, _ in term.powers)
+            for deeper, _ in term.brackets:
+                yield from self._held(deeper)
+
+    def _scaled(self, plan: Plan, number: Fraction, powers: Powers, *, free: bool) -> Plan:
+        if number == 1 and not powers:
+            return plan
+        if isinstance(plan, Product):
+            return self.prices.times(plan, number, powers, free=free)
+        bracketed = self.prices.product(number, powers, ((plan, 1),), free=free)
+        spread = self.prices.sum(self.prices.times(term, number, powers) for term in plan.terms)
+        return bracketed if bracketed.price <= spread.price else spread
+
+    def _primitive(self, poly: Poly) -> Plan:
+        key = frozenset(poly.items())
+        found = self._known.get(key)
+        if found is None:
+            self._left -= 1
+            found = self._known[key] = min(self._options(poly), key=lambda plan: plan.price)
+        return found
+
+    def _options(self, poly: Poly) -> Iterator[Plan]:
+        yield self.prices.sum(self.prices.monomial(e, Fraction(n)) for e, n in ordered(poly))
+        if self._left < 0:
+            return
+        factored = self._factored(poly)
+        if factored is not None:
+            yield factored
+        for parts in self._worth_following(poly):
+            yield self._gathered(parts)
+
+    def _worth_following(self, poly: Poly) -> list[Parts]:
+        """What hangs together, in which squares may be hidden, and the splits that look shortest."""
+        seen: set[frozenset[Key]] = set()
+        apart = self._splits(poly, self._components(poly), seen)
+        others = self._splits(poly, self._groupings(poly), seen)
+        return [*apart, *sorted(others, key=lambda parts: (self._estimate(parts), len(parts)))[:TRIED]]
+
+    def _factored(self, poly: Poly) -> Product | None:
+        number, factors = self._alphabet.context.from_dict(poly).factor()
+        if len(factors) == 1 and factors[0][1] == 1:
+            return None
+        total, powers, brackets = Fraction(int(number)), [], []
+        for factor, times in sorted(((as_poly(f), int(e)) for f, e in factors), key=lambda f: sorted(f[0].items())):
+            if len(factor) == 1:
+                powers += [(i, e * times) for i, e in _powers(next(iter(factor)))]
+                continue
+            content, _, primitive = split_off(factor)
+            total *= Fraction(content) ** times
+            inner = self._primitive(primitive)
+            brackets.append((inner if isinstance(inner, Sum) else self.prices.sum((inner,)), times))
+        return self.prices.product(total, tuple(sorted(powers)), tuple(brackets))
+
+    def _splits(
+        self, poly: Poly, groupings: Iterator[list[tuple[Exponents, Poly]]], seen: set[frozenset[Key]]
+    ) -> Iterator[Parts]:
+        """The groups of each grouping that have a cofactor in common, joined."""
+        for groups in groupings:
+            if not 1 < len(groups) < len(poly):
+                continue
+            parts = _by_cofactor(groups)
+            shape = frozenset(parts)
+            if shape not in seen:
+                seen.add(shape)
+                yield parts
+
+    def _groupings(self, poly: Poly) -> Iterator[list[tuple[Exponents, Poly]]]:
+        alphabet = self._alphabet
+        rates = alphabet.of_kinds(Kind.RATE, Kind.OUTER)
+        fixed = alphabet.of_kinds(Kind.MASS, Kind.PARAMETER)
+        for chosen in (
+            rates,
+            fixed,
+            rates | fixed,
+            alphabet.of_kinds(Kind.MASS),
+            alphabet.of_kinds(Kind.KERNEL),
+            alphabet.of_kinds(Kind.COORDINATE, Kind.WAVE, Kind.KERNEL),
+        ):
+            yield _grouped(poly, chosen)
+        if len(poly) <= MAX_SINGLE:
+            used = sorted({i for exponents in poly for i, e in enumerate(exponents) if e})
+            for i in used:
+                yield _grouped(poly, frozenset((i,)))
+
+    def _components(self, poly: Poly) -> Iterator[list[tuple[Exponents, Poly]]]:
+        """The terms that hang together by what moves."""
+        parts: list[tuple[set[int], Poly]] = []
+        for exponents, number in sorted(poly.items()):
+            moving = {i for i in self._moving if exponents[i]}
+            touching = [part for part in parts if part[0] & moving]
+            merged = {exponents: number}
+            for names, terms in touching:
+                moving |= names
+                merged |= terms
+            parts = [part for part in parts if part not in touching]
+            parts.append((moving, merged))
+        one = (0,) * len(self._alphabet.generators)
+        if len(parts) > 1:
+            yield [(one, terms) for _, terms in parts]
+
+    def _estimate(self, parts: Parts) -> float:
+        total = 0.0
+        for multiplier, inner in parts.values():
+            number = math.gcd(*multiplier.values())
+            total += self._plain(multiplier) + (number != 1)
+            total += self._plain(inner) + 1 if len(inner) > 1 else 0
+        return total
+
+    def _plain(self, poly: Poly) -> float:
+        generators = self._alphabet.generators
+        return sum(
+            sum(1 + generators[i].operations(e) for i, e in enumerate(exponents) if e) for exponents in poly
+        ) + len(poly)
+
+    def _gathered(self, parts: Parts) -> Plan:
+        terms: list[Product] = []
+        for multiplier, inner in parts.values():
+            if inner.keys() == {(0,) * len(self._alphabet.generators)}:
+                terms += [self.prices.monomial(e, Fraction(n)) for e, n in ordered(multiplier)]
+                continue
+            terms += self._joined(self.plan(multiplier), self._primitive(inner))
+        return self.prices.sum(terms) if len(terms) > 1 else terms[0]
+
+    def _joined(self, outer: Plan, inner: Plan) -> list[Product]:
+        """outer · inner as terms of a sum."""
+        left = outer if isinstance(outer, Product) else self.prices.product(Fraction(1), (), ((outer, 1),))
+        right = inner if isinstance(inner, Product) else self.prices.product(Fraction(1), (), ((inner, 1),))
+        total = dict(left.powers)
+        for i, e in right.powers:
+            total[i] = total.get(i, 0) + e
+        powers = tuple(sorted(total.items()))
+        whole = self.prices.product(left.number * right.number, powers, left.brackets + right.brackets)
+        if isinstance(outer, Product) and isinstance(inner, Sum):
+            spread = [self.prices.times(term, outer.number, outer.powers) for term in inner.terms]
+            bare = outer.number == 1 and not outer.powers
+            if not outer.brackets and (bare or self.prices.sum(spread).price < whole.price):
+                return spread
+        return [whole]
+
+
+def _by_cofactor(groups: list[tuple[Exponents, Poly]]) -> Parts:
+    parts: Parts = {}
+    for outer, inner in groups:
+        number, common, primitive = split_off(inner)
+        multiplier, _ = parts.setdefault(frozenset(primitive.items()), ({}, primitive))
+        key = tuple(map(int.__add__, outer, common))
+        multiplier[key] = multiplier.get(key, 0) + number
+    return parts
+
+
+def split_off(poly: Poly) -> tuple[int, Exponents, Poly]:
+    """Number, common monomial, and the rest: primitive, with a positive first coefficient where signs are even."""
+    number = math.gcd(*poly.values())
+    common = tuple(map(min, zip(*poly, strict=True)))
+    negative = sum(c < 0 for c in poly.values())
+    if 2 * negative > len(poly) or (2 * negative == len(poly) and poly[max(poly)] < 0):
+        number = -number
+    rest = {tuple(map(int.__sub__, exponents, common)): c // number for exponents, c in poly.items()}
+    return number, common, rest
+
+
+def ordered(poly: Poly) -> list[tuple[Exponents, int]]:
+    """The terms in a fixed order."""
+    return sorted(poly.items(), reverse=True)
+
+
+def _grouped(poly: Poly, chosen: frozenset[int]) -> list[tuple[Exponents, Poly]]:
+    groups: dict[Exponents, Poly] = {}
+    for exponents, number in poly.items():
+        outer = tuple(e if i in chosen else 0 for i, e in enumerate(exponents))
+        inner = tuple(0 if i in chosen else e for i, e in enumerate(exponents))
+        groups.setdefault(outer, {})[inner] = number
+    return sorted(groups.items(), reverse=True)
+
+
+def _powers(exponents: Exponents) -> Powers:
+    return tuple((i, e) for i, e in enumerate(exponents) if e)
