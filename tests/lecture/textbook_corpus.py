@@ -446,7 +446,7 @@ BOOKS = (
         (body("m", "a*(theta + sin(theta)); a*(1 - cos(theta))"),), (UP,),
         {
             "E": "m*a^2*(1 + cos(theta))*dot(theta)^2",
-            "V": "m*g*a*(1 - cos(theta))",
+            "V": "-m*g*a*cos(theta)",
             "eq theta": "2*m*a^2*(1 + cos(theta))*ddot(theta) - m*a^2*sin(theta)*dot(theta)^2 + m*g*a*sin(theta)",
         },
     ),

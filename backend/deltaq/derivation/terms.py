@@ -71,7 +71,7 @@ def _printed(
     book: Textbook, origin: Origin, form: Form, forms: list[tuple[str, Form]], whole: frozenset[str]
 ) -> Iterator[Term]:
     """The terms of one group, each with the sources of the products in it."""
-    summands = book.summands(form, spread=bool(whole.intersection(origin)), gathered=bool(whole))
+    summands = book.summands(form, apart=bool(whole.intersection(origin)), gathered=bool(whole))
     owners: dict[Exponents | None, list[str]] = {}
     for source, share in forms:
         for mono in dict.fromkeys(mono for mono, _, _ in share):

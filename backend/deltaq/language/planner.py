@@ -16,8 +16,8 @@ from .plan import Plan, Powers, Prices, Product, Sum
 from .polynomial import Alphabet, Exponents, Kind, Poly, as_poly
 
 MAX_TERMS = 160
-TRIED = 3  # splits that are followed, of those that look shortest
-MAX_SINGLE = 12  # terms up to which each single generator is tried
+TRIED = 2  # splits that are followed, of those that look shortest
+MAX_SINGLE = 8  # terms up to which each single generator is tried
 
 Key = frozenset[tuple[Exponents, int]]
 Parts = dict[Key, tuple[Poly, Poly]]  # for each cofactor, what it is multiplied by, and the cofactor
@@ -43,29 +43,25 @@ class Planner:
         free = free and any(self._alphabet.generators[i].kind == Kind.MASS for i, _ in powers)
         return self._scaled(self._primitive(primitive), factor, powers, free=free)
 
-    def terms(self, poly: Poly, denominator: int = 1, *, spread: bool = False) -> tuple[Product, ...]:
-        """The plan as terms of a sum; `spread`: no common factor in front of a sum in which something moves."""
-        found = self.plan(poly, denominator)
-        if isinstance(found, Sum):
-            return found.terms
-        if not spread:
-            return (found,)
-        if len(found.brackets) != 1 or found.brackets[0][1] != 1:
-            return (found,)
-        inner, _ = found.brackets[0]
-        if all(g.kind in (Kind.MASS, Kind.PARAMETER) for g in self._held(inner)):
-            return (found,)
-        return tuple(self.prices.times(term, found.number, found.powers) for term in inner.terms)
+    def terms(self, poly: Poly, denominator: int = 1, *, apart: bool = False) -> tuple[Product, ...]:
+        """The plan as terms of a sum; `apart`: one for each acceleration and product of rates, as inertia is written."""
+        if not apart:
+            found = self.plan(poly, denominator)
+            return found.terms if isinstance(found, Sum) else (found,)
+        moving = self._alphabet.of_kinds(Kind.RATE, Kind.OUTER)
+        return tuple(
+            term
+            for outer, inner in _grouped(poly, moving)
+            for term in self._with_outer(self.plan(inner, denominator), _powers(outer))
+        )
+
+    def _with_outer(self, plan: Plan, outer: Powers) -> tuple[Product, ...]:
+        found = self._scaled(plan, Fraction(1), outer, free=False)
+        return found.terms if isinstance(found, Sum) else (found,)
 
     def single(self, poly: Poly, denominator: int = 1) -> tuple[Product, ...]:
         """Every term by itself."""
         return tuple(self.prices.monomial(exponents, Fraction(n, denominator)) for exponents, n in ordered(poly))
-
-    def _held(self, inner: Sum) -> Iterator[Any]:
-        for term in inner.terms:
-            yield from (self._alphabet.generators[i] for i, _ in term.powers)
-            for deeper, _ in term.brackets:
-                yield from self._held(deeper)
 
     def _scaled(self, plan: Plan, number: Fraction, powers: Powers, *, free: bool) -> Plan:
         if number == 1 and not powers:

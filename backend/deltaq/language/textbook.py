@@ -124,14 +124,14 @@ class Textbook:
         roots = [fourier.monomial(name, e) for name, e in sorted(below, key=str) if not isinstance(e, int)]
         return [form, *roots]
 
-    def summands(self, form: Form, *, spread: bool, gathered: bool) -> Summands:
+    def summands(self, form: Form, *, apart: bool, gathered: bool) -> Summands:
         """The form as a sum, each term with the products of symbols that it stands for.
 
-        `spread`: no common factor in front, as inertia is written; `gathered`: with brackets at all.
+        `apart`: one term for each acceleration and product of rates, as inertia is written; `gathered`: with brackets at all.
         """
         poly, denominator, alphabet = self._polynomial(form)
         planner = Planner(alphabet)
-        terms = planner.terms(poly, denominator, spread=spread) if gathered else planner.single(poly, denominator)
+        terms = planner.terms(poly, denominator, apart=apart) if gathered else planner.single(poly, denominator)
         parts = tuple(self._summand(term, alphabet) for term in terms)
         total: dict[Exponents, Fraction] = {}
         for term in terms:
