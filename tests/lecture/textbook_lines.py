@@ -80,9 +80,7 @@ def document(book: Book) -> dict[str, object]:
         "id": book.id,
         "dimension": len(bodies[0]["position"]),
         "coordinates": [{"name": name, "value": 0.3 + 0.2 * i} for i, name in enumerate(book.coordinates.split())],
-        "parameters": [
-            {"name": name, "value": 4.0 - 0.4 * i} for i, name in enumerate(book.parameters.split())
-        ],
+        "parameters": [{"name": name, "value": 4.0 - 0.4 * i} for i, name in enumerate(book.parameters.split())],
         "points": [{"name": name, "position": _parts(text)} for name, text in book.points.items()],
         "bodies": bodies,
         "loads": list(book.loads),

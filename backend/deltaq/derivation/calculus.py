@@ -15,7 +15,9 @@ from ..language.form_calculus import PlainForm, plain_form
 from ..language.fourier import TooLargeError
 from ..language.memory import cached_method
 from ..language.sympy_algebra import rates_of, time_derivative, to_sympy
+from ..language.textbook import given_sums
 from ..language.tree import Node
+from ..mechanics.contributions import DissipationFunction, PotentialEnergy
 from .formula import Given, Value
 from .scene_symbols import SceneSymbols
 
@@ -37,6 +39,16 @@ class Calculus(SceneSymbols):
     def given(self, trees: tuple[Node, ...]) -> Given:
         """A vector as the scene states it."""
         return Given(trees, self.vector(trees))
+
+    @cached_property
+    def given_sums(self) -> frozenset[sp.Expr]:
+        """The sums in energies and dissipation functions as the scene states them: x₂ − x₁, and not x₁ − x₂."""
+        stated = (
+            load.energy if isinstance(load, PotentialEnergy) else load.function
+            for load in self.scene.contributions
+            if isinstance(load, PotentialEnergy | DissipationFunction)
+        )
+        return given_sums([self.guided(self.expression(tree)) for tree in stated])
 
     @cached_property
     def guides(self) -> Mapping[sp.Symbol, sp.Expr]:
@@ -73,7 +85,7 @@ class Calculus(SceneSymbols):
 
     @cached_method
     def _shown(self, value: sp.Expr) -> sp.Expr:
-        shown: sp.Expr = canonical.display(value, self.symbols)
+        shown: sp.Expr = canonical.display(value, self.symbols, self.given_sums)
         return shown
 
     def derivative(self, value: V, by: sp.Symbol) -> V:
@@ -85,7 +97,7 @@ class Calculus(SceneSymbols):
         form = self._form(value)
         with suppress(TooLargeError):
             if form is not None:
-                return form.derivative(by).displayed(self.symbols)
+                return form.derivative(by).displayed(self.symbols, self.given_sums)
         return self.display(value.diff(by))
 
     def shown_rate(self, value: sp.Expr) -> sp.Expr:
@@ -93,7 +105,7 @@ class Calculus(SceneSymbols):
         form = self._form(value)
         with suppress(TooLargeError):
             if form is not None:
-                return form.total_derivative(rates_of(self.symbols)).displayed(self.symbols)
+                return form.total_derivative(rates_of(self.symbols)).displayed(self.symbols, self.given_sums)
         return self.display(self.time_derivative(value))
 
     def euler_expression(self, energy: sp.Expr, coordinate: str) -> sp.Expr:

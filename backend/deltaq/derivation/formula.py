@@ -38,11 +38,16 @@ class Given:
     value: Value
 
 
+# For sums inside a value: each summand with the bodies and loads it comes from.
+Owners: TypeAlias = tuple[tuple[sp.Expr, tuple[tuple[sp.Expr, tuple[str, ...]], ...]], ...]
+
+
 @dataclass(frozen=True)
 class Explicit:
-    """A value written out."""
+    """A value written out; `owners` tell summands in its brackets apart: m₁ and m₂ in (m₁ + m₂) l² φ̈."""
 
     value: Value
+    owners: Owners = ()
 
 
 @dataclass(frozen=True)

@@ -22,16 +22,27 @@ def left_side(system: System, coordinate: str) -> sp.Expr:
 def mass_matrix(system: System) -> sp.ImmutableMatrix:
     """M(q, t), symmetric."""
     accelerations = [system.acceleration(q) for q in system.free]
-    return system.display(
-        sp.ImmutableMatrix([[system.slope(left_side(system, q), a) for a in accelerations] for q in system.free])
-    )
+    return sp.ImmutableMatrix([[_slope(system, q, a) for a in accelerations] for q in system.free])
+
+
+def _slope(system: System, coordinate: str, acceleration: sp.Symbol) -> sp.Expr:
+    """What stands before an acceleration, as it does in the equation."""
+    slopes = ((term, term.written_out.diff(acceleration)) for term in terms_by_source(system, coordinate))
+    return sp.Add(*(slope if term.sign > 0 else negated(slope) for term, slope in slopes if slope != 0))
 
 
 @cached_method
 def forcing(system: System) -> sp.ImmutableMatrix:
     """f(q, q̇, t): what does not hang on accelerations, on the right."""
+    return column(_rest(system, q) for q in system.free)
+
+
+def _rest(system: System, coordinate: str) -> sp.Expr:
     at_rest = {system.acceleration(q): system.zero for q in system.free}
-    return system.display(column(-left_side(system, q).xreplace(at_rest) for q in system.free))
+    terms = terms_by_source(system, coordinate)
+    outside = (t for t in terms if not t.written_out.free_symbols & at_rest.keys())
+    inside = [t.sign * t.written_out.xreplace(at_rest) for t in terms if t.written_out.free_symbols & at_rest.keys()]
+    return sp.Add(*(negated(t.written_out) if t.sign > 0 else t.written_out for t in outside), -sp.Add(*inside))
 
 
 @cached_method
@@ -43,4 +54,5 @@ def forces_at_rest(system: System) -> sp.ImmutableMatrix:
 
 def is_autonomous(system: System) -> bool:
     """Whether the equations of motion do not depend on time explicitly."""
-    return not (mass_matrix(system).has(system.t) or forcing(system).has(system.t))
+    laws = (*mass_matrix(system), *forcing(system))
+    return all(system.is_zero(law.diff(system.t)) for law in laws if law.has(system.t))

@@ -17,8 +17,8 @@ from ..language.memory import cached_method
 from ..language.normal_form import Reader
 from ..language.order import Order
 from ..language.polynomial import Exponents
-from ..language.textbook import Textbook, given_sums
-from .formula import Explicit, Term
+from ..language.textbook import Textbook
+from .formula import Explicit, Owners, Term
 from .provenance import Share, of_equation
 from .system import System
 
@@ -48,10 +48,12 @@ def terms_of(system: System, shares: Iterable[Share], *, gathered: bool = False)
 def _as_printed(system: System, shares: tuple[Share, ...], whole: frozenset[str]) -> tuple[Term, ...] | None:
     """Each group of sources in its shortest form; None if that would take too long."""
     reader = KernelReader()
-    book = Textbook(reader, Order(system.scene.names), given_sums(share for _, share in shares))
+    book = Textbook(reader, Order(system.scene.names), system.given_sums)
     try:
         forms = [(source, reader.read(share)) for source, share in shares]
-        return tuple(term for origin, form in _groups(forms, whole) for term in _printed(book, origin, form, forms, whole))
+        return tuple(
+            term for origin, form in _groups(forms, whole) for term in _printed(book, origin, form, forms, whole)
+        )
     except TooLargeError:
         return None
 
@@ -76,10 +78,25 @@ def _printed(
     for source, share in forms:
         for mono in dict.fromkeys(mono for mono, _, _ in share):
             owners.setdefault(summands.key(mono), []).append(source)
+    names = tuple(dict.fromkeys(source for source, _ in forms))
+
+    def sources(keys: Iterable[Exponents]) -> Origin:
+        found = {source for key in keys for source in owners.get(key, ())}
+        return tuple(source for source in names if source in found) or origin
+
     for part in summands.terms:
-        found = {source for key in part.keys for source in owners.get(key, ())}
-        sources = tuple(source for source, _ in forms if source in found) or origin
-        yield Term(Explicit(part.value), tuple(dict.fromkeys(sources)), part.sign)
+        own = sources(part.keys)
+        inside = book.inside(part, summands.alphabet) if len(own) > 1 else ()
+        yield Term(Explicit(part.value, _owned((b, t, sources(keys)) for b, t, keys in inside)), own, part.sign)
+
+
+def _owned(found: Iterable[tuple[sp.Expr, sp.Expr, Origin]]) -> Owners:
+    """The summands of each bracket with their sources, whichever way round the bracket is written."""
+    owners: dict[sp.Expr, dict[sp.Expr, Origin]] = {}
+    for bracket, term, origin in found:
+        for sign in (1, -1):
+            owners.setdefault(sign * bracket, {})[sign * term] = origin
+    return tuple((bracket, tuple(parts.items())) for bracket, parts in owners.items())
 
 
 def _split(system: System, shares: tuple[Share, ...]) -> tuple[Term, ...]:
@@ -91,9 +108,7 @@ def _split(system: System, shares: tuple[Share, ...]) -> tuple[Term, ...]:
         for term in sp.Add.make_args(share.expand())
         if term != 0
     ]
-    return tuple(
-        Term(Explicit(abs(number) * rest), origin, 1 if number > 0 else -1) for origin, number, rest in shown
-    )
+    return tuple(Term(Explicit(abs(number) * rest), origin, 1 if number > 0 else -1) for origin, number, rest in shown)
 
 
 def _by_form(system: System, shares: tuple[Share, ...]) -> dict[Origin, sp.Expr] | None:

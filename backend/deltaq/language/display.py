@@ -18,41 +18,44 @@ from .normal_form import Reader
 from .operations import operations
 from .order import Order, split_symbol
 from .symbols import Symbols
-from .textbook import Textbook, textbook
+from .textbook import Textbook, given_sums, textbook
 
 _MAX_SHOWN = 600  # terms: more are not read by anyone, so they stay as they are
 
 
-def display(expr: Any, symbols: Symbols) -> Any:
-    """The shortest of the equivalent forms of an expression; entry by entry for a Matrix, side by side for an Eq."""
+def display(expr: Any, symbols: Symbols, given: frozenset[Any] = frozenset()) -> Any:
+    """The shortest of the equivalent forms of an expression; entry by entry for a Matrix, side by side for an Eq.
+
+    `given` are sums as the author wrote them: where x₂ − x₁ is one of them, x₁ − x₂ is not shown.
+    """
     if isinstance(expr, sympy.MatrixBase):
-        return expr.applyfunc(lambda entry: display(entry, symbols))
+        return expr.applyfunc(lambda entry: display(entry, symbols, given))
     if isinstance(expr, sympy.Eq):
-        return sympy.Eq(display(expr.lhs, symbols), display(expr.rhs, symbols), evaluate=False)
+        return sympy.Eq(display(expr.lhs, symbols, given), display(expr.rhs, symbols, given), evaluate=False)
     if isinstance(expr, sympy.Tuple):
-        return sympy.Tuple(*(display(part, symbols) for part in expr))
+        return sympy.Tuple(*(display(part, symbols, given) for part in expr))
     try:
-        return _shown(expr, _order(symbols))
+        return _shown(expr, _order(symbols), given)
     except TooLargeError:
         return expr
     except ZeroDivisionError:
         raise ExpressionError(Problem("division-by-zero")) from None
 
 
-def _shown(expr: Any, order: Order) -> Any:
+def _shown(expr: Any, order: Order, given: frozenset[Any]) -> Any:
     try:
-        found = textbook(expr, order)
+        found = textbook(expr, order, given or given_sums((expr,)))
     except TooLargeError:
         return min(_candidates(expr, order), key=size)
     return expr if operations(expr) < operations(found) and not _hides_unity(expr) else found
 
 
-def display_form(form: Form, reader: Reader, symbols: Symbols) -> Any:
+def display_form(form: Form, reader: Reader, symbols: Symbols, given: frozenset[Any] = frozenset()) -> Any:
     """The shortest of the equivalent expressions of a form whose generators are symbols."""
     if len(form) > _MAX_SHOWN:
         return reader.expression(form)
     with suppress(TooLargeError):
-        return Textbook(reader, _order(symbols), frozenset()).whole(form)
+        return Textbook(reader, _order(symbols), given).whole(form)
     arranged = Arrangement(reader, _order(symbols)).expression(form)
     moves = any(split_symbol(name)[0] for mono, _, _ in form for name, _ in mono)
     return arranged if moves else min(arranged, reader.expression(form), key=size)

@@ -32,9 +32,9 @@ class PlainForm:
         """The sum of its Fourier terms."""
         return self.reader.expression(self.form)
 
-    def displayed(self, symbols: Symbols) -> Any:
+    def displayed(self, symbols: Symbols, given: frozenset[Any] = frozenset()) -> Any:
         """The shortest of the equivalent expressions."""
-        return display_form(self.form, self.reader, symbols)
+        return display_form(self.form, self.reader, symbols, given)
 
     def minus(self, other: PlainForm) -> PlainForm:
         """The difference of two forms of one reader."""

@@ -68,7 +68,8 @@ class _Latex:
         return rf"\mathrm{{e}}^{{{exponent}}}"
 
     def _sum(self, expr: sympy.Expr) -> str:
-        return signed_sum(self.text(term, SUM + 1) for term in self._order.terms(expr))
+        terms = self._order.terms(expr)
+        return signed_sum(self._typography.summand(expr, term, self.text(term, SUM + 1)) for term in terms)
 
     def _product(self, expr: sympy.Expr) -> str:
         sign, upper, lower = fraction_parts(expr)

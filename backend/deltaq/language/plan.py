@@ -19,6 +19,7 @@ Powers = tuple[tuple[int, int], ...]
 OF_PARAMETERS, OF_OTHERS, NESTED = 0.25, 0.75, 1.0
 MASSES_WITH_RATES, MASSES_WITH_PLACES, UNEQUAL_DEGREES = 2.0, 1.5, 0.5
 RATES_AGAIN, ACCELERATION_AGAIN = 2.0, 3.5
+HORNER = 2.0  # (a x + b y) x for a x² + b x y
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class Prices:
         factors = len(powers) + len(brackets) + (abs(number) != 1)
         alone = bool(below) and below == len(powers) and not brackets and abs(number.numerator) == 1
         price = max(factors - 1, 0) + alone + sum(generators[i].operations(e) for i, e in powers)
-        outside = Counter(generators[i].kind for i, _ in powers)
+        outside = frozenset(i for i, _ in powers)
         for inner, e in brackets:
             habit = 0.0 if free else self._habit(inner, outside)
             price += inner.price + (e != 1) + habit
@@ -82,7 +83,7 @@ class Prices:
             total[i] += e
         return self.product(plan.number * number, tuple(sorted(total.items())), plan.brackets, free=free)
 
-    def _habit(self, inner: Sum, outside: Counter[Kind]) -> float:
+    def _habit(self, inner: Sum, outside: frozenset[int]) -> float:
         """What speaks against a bracket: who is in it together, and how deep it is."""
         kinds = [self._kinds(term) for term in inner.terms]
         held = set().union(*kinds)
@@ -92,11 +93,20 @@ class Prices:
         moving = bool(held & {Kind.RATE, Kind.OUTER})
         if Kind.MASS in held and moving:
             price += MASSES_WITH_RATES
-        elif Kind.MASS in held and not still and Kind.RATE not in outside and Kind.OUTER not in outside:
+        elif Kind.MASS in held and not still and not any(self._is_fast(i) for i in outside):
             price += MASSES_WITH_PLACES
+        inside = [frozenset(i for i, _ in term.powers) for term in inner.terms]
+        if any(self._is_variable(i) and any(i in term for term in inside) for i in outside):
+            price += HORNER
         if moving and len({self._degree(term) for term in inner.terms}) > 1:
             price += UNEQUAL_DEGREES
         return price
+
+    def _is_fast(self, index: int) -> bool:
+        return self.alphabet.generators[index].kind in (Kind.RATE, Kind.OUTER)
+
+    def _is_variable(self, index: int) -> bool:
+        return self.alphabet.generators[index].kind in (Kind.COORDINATE, Kind.RATE)
 
     def _kinds(self, term: Product) -> set[Kind]:
         own = {self.alphabet.generators[i].kind for i, _ in term.powers}

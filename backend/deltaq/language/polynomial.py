@@ -66,9 +66,7 @@ class Generator:
 class Alphabet:
     """The generators of some forms of one reader; `shown` says how a kernel is written."""
 
-    def __init__(
-        self, reader: Reader, order: Order, forms: Iterable[Form], shown: Callable[[str], Any]
-    ) -> None:
+    def __init__(self, reader: Reader, order: Order, forms: Iterable[Form], shown: Callable[[str], Any]) -> None:
         self._reader = reader
         self._order = order
         self._shown = shown

@@ -7,7 +7,7 @@ compared, exactly, before it is shown.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -36,6 +36,7 @@ class Summand:
     value: Any
     sign: int
     keys: frozenset[Exponents]
+    plan: Product
 
 
 @dataclass(frozen=True)
@@ -144,7 +145,17 @@ class Textbook:
     def _summand(self, term: Product, alphabet: Alphabet) -> Summand:
         sign = -1 if term.number < 0 else 1
         keys = frozenset(alphabet.without_waves(key) for key in expanded(term, alphabet))
-        return Summand(self.value(replace(term, number=abs(term.number)), alphabet), sign, keys)
+        return Summand(self.value(replace(term, number=abs(term.number)), alphabet), sign, keys, term)
+
+    def inside(self, summand: Summand, alphabet: Alphabet) -> Iterator[tuple[Any, Any, frozenset[Exponents]]]:
+        """Each bracket of a term, its terms, and the products of symbols that each of them stands for there."""
+        plan = summand.plan
+        for index, (inner, e) in enumerate(plan.brackets):
+            others = (*plan.brackets[:index], *([(inner, e - 1)] if e > 1 else []), *plan.brackets[index + 1 :])
+            for part in inner.terms:
+                whole = replace(plan, brackets=(*others, (Sum((part,)), 1)))
+                keys = frozenset(alphabet.without_waves(key) for key in expanded(whole, alphabet))
+                yield self.value(inner, alphabet), self.value(part, alphabet), keys
 
     @cached_method
     def _kernel(self, name: str) -> Any:
@@ -162,7 +173,6 @@ class Textbook:
                 bracket, number = -bracket, number * (-1) ** e
             factors.append(bracket**e)
         return _product(number, factors)
-
 
     def _turns_well(self, inner: Sum, bracket: Any) -> bool:
         """Whether the minus in front may go into the bracket: −(a − b) is b − a."""
@@ -191,11 +201,11 @@ def _check(plan: Plan, poly: Poly, denominator: int, alphabet: Alphabet) -> None
         raise ArithmeticError(UNLIKE)
 
 
-def textbook(expr: Any, order: Order) -> Any:
+def textbook(expr: Any, order: Order, given: frozenset[Any]) -> Any:
     """A SymPy expression as a textbook prints it. Raises TooLargeError, ZeroDivisionError."""
     reader = KernelReader()
     form = reader.read(expr)
-    return Textbook(reader, order, given_sums((expr,))).whole(form)
+    return Textbook(reader, order, given).whole(form)
 
 
 def given_sums(exprs: Iterable[Any]) -> frozenset[Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import Any
 
 from .names import Names
 from .order import Order, split_symbol
@@ -22,10 +23,14 @@ def unmarked(_symbol: str, latex: str) -> str:
 
 @dataclass(frozen=True)
 class Typography:
-    """How symbols are typeset and in which order. `mark(symbol name, LaTeX)` may wrap each, in a colour say."""
+    """How symbols are typeset and in which order. `mark(symbol name, LaTeX)` may wrap each, in a colour say.
+
+    `summands` wrap the terms of a sum that stands inside a formula.
+    """
 
     names: Names
     mark: Mark = unmarked
+    summands: Mapping[Any, Mapping[Any, Callable[[str], str]]] = field(default_factory=dict, compare=False)
     order: Order = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -38,6 +43,14 @@ class Typography:
     def power(self, name: str, exponent: str) -> str:
         """A symbol and its exponent in one mark, so that the exponent stands above an index."""
         return self.mark(name, f"{self._plain(name)}^{{{exponent}}}")
+
+    def summand(self, sum_: Any, term: Any, latex: str) -> str:
+        """A term of a sum, wrapped where that is wanted; its sign stays outside."""
+        wrap = self.summands.get(sum_, {}).get(term)
+        if wrap is None:
+            return latex
+        sign = "-" if latex.startswith("-") else ""
+        return sign + wrap(latex.removeprefix("-"))
 
     def _plain(self, name: str) -> str:
         kind, base = split_symbol(name)

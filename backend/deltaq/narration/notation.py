@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import groupby
 
 import sympy as sp
@@ -27,6 +28,7 @@ from ..derivation.formula import (
     MassIntegral,
     MatrixFormula,
     Named,
+    Owners,
     Partial,
     Plus,
     Quantity,
@@ -60,8 +62,10 @@ class Notation:
 
     def formula(self, formula: Formula) -> str:  # noqa: PLR0912 - one case for each kind
         match formula:
-            case Given(_, value) | Explicit(value):
+            case Given(_, value) | Explicit(value, ()):
                 return self.value(value)
+            case Explicit(value, owners):
+                return self._owned(value, owners)
             case Named(quantity, _, arguments):
                 return self.applied(quantity, arguments)
             case Partial(of, by):
@@ -88,6 +92,14 @@ class Notation:
                 return write_matrix(self, formula)
             case Equation(left, right):
                 return f"{self.formula(left)} = {self.formula(right)}"
+
+    def _owned(self, value: Value, owners: Owners) -> str:
+        """A value in whose brackets each summand is marked with where it comes from."""
+        marks = {
+            bracket: {term: partial(self.symbols.wrap, _classes(sources)) for term, sources in terms}
+            for bracket, terms in owners
+        }
+        return latex(value, replace(self.typography, summands=marks))
 
     def applied(self, quantity: Quantity, arguments: tuple[sp.Expr, ...]) -> str:
         """A name with what it depends on: r(q₁, q₂, t)."""
@@ -171,13 +183,17 @@ class Notation:
         return text.removeprefix("-"), leads_with_minus is not (term.sign < 0)
 
     def _marked(self, term: Term, text: str) -> str:
-        classes = [source.replace(":", "-") for source in term.sources]
-        return self.symbols.wrap(" ".join([*classes, *([term.role] if term.role else [])]), text)
+        return self.symbols.wrap(f"{_classes(term.sources)} {term.role}".strip(), text)
 
     def _substituted(self, of: Formula, values: Mapping[sp.Symbol, sp.Expr]) -> str:
         present = of.value.free_symbols if isinstance(of, Given | Explicit | Named) else set(values)
         rules = ", ".join(f"{self.value(s)} = {self.value(v)}" for s, v in values.items() if s in present)
         return rf"\left.{self.formula(of)}\right|_{{{rules}}}" if rules else self.formula(of)
+
+
+def _classes(sources: tuple[str, ...]) -> str:
+    """Bodies and loads as classes of the page."""
+    return " ".join(source.replace(":", "-") for source in sources)
 
 
 def _counts(term: Term) -> bool:
