@@ -40,20 +40,21 @@ def terms_of(system: System, shares: Iterable[Share], *, gathered: bool = False)
     and what comes from bodies as one sum, so that their masses are collected; else every product by itself.
     """
     given = tuple(shares)
-    whole = frozenset(system.body_sources) if gathered else frozenset[str]()
-    terms = _as_printed(system, given, whole) or _split(system, given)
+    terms = _as_printed(system, given, gathered=gathered) or _split(system, given)
     return tuple(sorted(terms, key=lambda term: _rank(system, term.written_out)))
 
 
-def _as_printed(system: System, shares: tuple[Share, ...], whole: frozenset[str]) -> tuple[Term, ...] | None:
+def _as_printed(system: System, shares: tuple[Share, ...], *, gathered: bool) -> tuple[Term, ...] | None:
     """Each group of sources in its shortest form; None if that would take too long."""
     reader = KernelReader()
     book = Textbook(reader, Order(system.scene.names), system.given_sums)
+    whole = frozenset(system.body_sources) if gathered else frozenset[str]()
     try:
         forms = [(source, reader.read(share)) for source, share in shares]
-        return tuple(
-            term for origin, form in _groups(forms, whole) for term in _printed(book, origin, form, forms, whole)
-        )
+        groups = _groups(forms, whole)
+        if not gathered:
+            return tuple(Term(Explicit(v), origin, sign) for origin, f in groups for v, sign in book.products(f))
+        return tuple(term for origin, form in groups for term in _printed(book, origin, form, forms, whole))
     except TooLargeError:
         return None
 
@@ -73,7 +74,7 @@ def _printed(
     book: Textbook, origin: Origin, form: Form, forms: list[tuple[str, Form]], whole: frozenset[str]
 ) -> Iterator[Term]:
     """The terms of one group, each with the sources of the products in it."""
-    summands = book.summands(form, apart=bool(whole.intersection(origin)), gathered=bool(whole))
+    summands = book.summands(form, apart=bool(whole.intersection(origin)))
     owners: dict[Exponents | None, list[str]] = {}
     for source, share in forms:
         for mono in dict.fromkeys(mono for mono, _, _ in share):

@@ -99,6 +99,14 @@ class Generators:
         return sympy.sin(angle) if sine else sympy.cos(angle)
 
     @cached_method
+    def wave_name(self, phase: Phase, *, sine: bool) -> str:
+        """The name of a wave as a generator: cos(phi)."""
+        value = self.wave(phase, sine=sine)
+        name: str = sympy.sstr(value)
+        self.meaning[name] = value
+        return name
+
+    @cached_method
     def monomial(self, mono: Monomial) -> Any:
         """A monomial in SymPy."""
         return sympy.Mul(*(self.generator(name) ** rational(e) for name, e in mono))

@@ -16,6 +16,7 @@ import sympy
 
 from . import fourier
 from .fourier import Form, Monomial, TooLargeError
+from .generators import rational
 from .kernel_reader import KernelReader
 from .memory import cached_method
 from .normal_form import Reader
@@ -125,14 +126,26 @@ class Textbook:
         roots = [fourier.monomial(name, e) for name, e in sorted(below, key=str) if not isinstance(e, int)]
         return [form, *roots]
 
-    def summands(self, form: Form, *, apart: bool, gathered: bool) -> Summands:
+    def products(self, form: Form) -> tuple[tuple[Any, int], ...]:
+        """The form multiplied out: each product without its sign, and the sign."""
+        if any(name in self.reader.bases for mono, _, _ in form for name, _ in mono):
+            poly, denominator, alphabet = self._polynomial(form)
+            terms = Planner(alphabet).single(poly, denominator)
+            parts = (self._summand(term, alphabet) for term in terms)
+            return tuple((part.value, part.sign) for part in parts)
+        plain = written(form, self.reader)
+        return tuple(
+            (sympy.Mul(rational(abs(number)), self.reader.monomial(mono)), 1 if number > 0 else -1)
+            for (mono, _, _), number in plain.items()
+        )
+
+    def summands(self, form: Form, *, apart: bool) -> Summands:
         """The form as a sum, each term with the products of symbols that it stands for.
 
-        `apart`: one term for each acceleration and product of rates, as inertia is written; `gathered`: with brackets at all.
+        `apart`: one term for each acceleration and product of rates, as inertia is written.
         """
         poly, denominator, alphabet = self._polynomial(form)
-        planner = Planner(alphabet)
-        terms = planner.terms(poly, denominator, apart=apart) if gathered else planner.single(poly, denominator)
+        terms = Planner(alphabet).terms(poly, denominator, apart=apart)
         parts = tuple(self._summand(term, alphabet) for term in terms)
         total: dict[Exponents, Fraction] = {}
         for term in terms:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import sympy
 from flint import fmpq
 
 from . import fourier
@@ -43,13 +42,19 @@ def written(form: Form, reader: Reader) -> Form:
     parts: dict[Monomial, Form] = {}
     for (mono, phase, sine), coefficient in form.items():
         parts.setdefault(mono, {})[ONE, phase, sine] = coefficient
-    return _as_generators(
-        fourier.add(
-            fourier.multiply({(mono, STILL, False): fmpq(1)}, shortest(part, reader, both=True))
-            for mono, part in parts.items()
-        ),
-        reader,
+    found = (
+        (mono, part if _is_one_wave(part) else shortest(part, reader, both=True)) for mono, part in parts.items()
     )
+    total = (fourier.multiply({(mono, STILL, False): fmpq(1)}, part) if mono else part for mono, part in found)
+    return _as_generators(fourier.add(total), reader)
+
+
+def _is_one_wave(part: Form) -> bool:
+    """Whether there is nothing to shorten: a number, or the sine or cosine of a single angle."""
+    if len(part) != 1:
+        return False
+    ((_, phase, _),) = part
+    return not phase or (len(phase) == 1 and phase[0][1] == 1)
 
 
 def _as_generators(form: Form, reader: Reader) -> Form:
@@ -63,12 +68,7 @@ def _as_generators(form: Form, reader: Reader) -> Form:
 
 
 def _wave_generator(phase: Phase, reader: Reader, *, sine: bool) -> Monomial:
-    if not phase:
-        return ONE
-    value = reader.wave(phase, sine=sine)
-    name = sympy.sstr(value)
-    reader.meaning[name] = value
-    return ((name, 1),)
+    return ((reader.wave_name(phase, sine=sine), 1),) if phase else ONE
 
 
 def _homogeneous(form: Form, units: dict[Monomial, Any], reader: Reader) -> list[Form]:
@@ -119,10 +119,8 @@ class _Products:
         self._names: dict[Monomial, str] = {}
         for mono, unit in units.items():
             angle: Phase = ((mono, unit),)
-            name = sympy.sstr(reader.wave(angle, sine=False))[3:]
-            self._names[mono] = name
-            reader.meaning["sin" + name] = reader.wave(angle, sine=True)
-            reader.meaning["cos" + name] = reader.wave(angle, sine=False)
+            self._names[mono] = reader.wave_name(angle, sine=False)[3:]
+            reader.wave_name(angle, sine=True)
         self._units = units
 
     def term(self, term: fourier.Term, coefficient: Any) -> Form:
