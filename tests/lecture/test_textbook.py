@@ -7,8 +7,8 @@ import sympy as sp
 from tests.lecture.textbook_lines import Line, count, lines
 
 from deltaq.language.canonical import is_zero
-from deltaq.language.parser import parse
 from deltaq.language.names import Names, Symbol
+from deltaq.language.parser import parse
 from deltaq.language.symbols import Symbols
 
 LONGEST = 1.2

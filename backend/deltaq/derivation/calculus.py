@@ -108,6 +108,7 @@ class Calculus(SceneSymbols):
                 return form.total_derivative(rates_of(self.symbols)).displayed(self.symbols, self.given_sums)
         return self.display(self.time_derivative(value))
 
+    @cached_method
     def euler_expression(self, energy: sp.Expr, coordinate: str) -> sp.Expr:
         """d/dt ∂E/∂q̇ − ∂E/∂q"""
         q, rate = self.q(coordinate), self.rate(coordinate)

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from ..language.memory import cached_method
 from .system import System
 
 Share = tuple[str, sp.Expr]
@@ -72,13 +73,20 @@ def of_jacobi_energy(system: System) -> Iterator[Share]:
     yield from of_potential_energy(system)
 
 
-def of_equation(system: System, coordinate: str) -> Iterator[Share]:
+@cached_method
+def of_equation(system: System, coordinate: str) -> tuple[Share, ...]:
     """d/dt ∂L/∂q̇ᵢ − ∂L/∂qᵢ − Qᵢᵈ, the left side of `… = 0`."""
-    q = system.q(coordinate)
+    return (*_of_inertia(system, coordinate), *_of_loads(system, coordinate))
+
+
+def _of_inertia(system: System, coordinate: str) -> Iterator[Share]:
     for source, energy in of_kinetic_energy(system):
         yield source, system.euler_expression(energy, coordinate)
+
+
+def _of_loads(system: System, coordinate: str) -> Iterator[Share]:
     for load in system.load_names:
         if system.is_conservative(load):
-            yield f"load:{load}", system.load_potential(load).diff(q)
+            yield f"load:{load}", system.load_potential(load).diff(system.q(coordinate))
         else:
             yield f"load:{load}", -system.load_force(load, coordinate)

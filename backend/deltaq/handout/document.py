@@ -99,7 +99,7 @@ def _latex(scene: Scene, name: str) -> str:
 def _initial_values(system: System) -> Iterator[Value]:
     """q(0) and q̇(0) of every free coordinate."""
     scene = system.scene
-    typography = Typography(scene.names)
+    typography = Typography(scene.names, decimals=scene.writes_decimals)
     for coordinate in scene.free:
         latex = _latex(scene, coordinate.name)
         unit = _unit(coordinate.unit)

@@ -1,8 +1,8 @@
 """SymPy → Fourier form for display: what stands below a root or a fraction line stays what the author made of it.
 
-The canonical reader brings everything over one denominator, which decides equality and reads badly. Here each base of a
-root or a reciprocal is a kernel with a free exponent: s · s⁻¹ cancels, s² is not multiplied out. From a root only squares
-and factors known to be positive are taken, √(f²) = |f|; and |f| sgn f = f, f sgn f = |f|.
+The canonical reader brings everything over one denominator, which decides equality and reads badly. Here each base of
+a root or a reciprocal is a kernel with a free exponent: s · s⁻¹ cancels, s² is not multiplied out. From a root only
+squares and factors known to be positive are taken, √(f²) = |f|; and |f| sgn f = f, f sgn f = |f|.
 """
 
 from __future__ import annotations
@@ -48,17 +48,14 @@ class KernelReader(Reader):
         return super()._read(expr)
 
     def _base(self, form: Form, exponent: Any, expr: Any) -> Form:
-        if len(form) <= 1 or (exponent.q > 1 and exponent.q != 2):  # noqa: PLR2004 - square roots alone are common
+        if len(form) <= 1 or (exponent.q > 1 and exponent.q != 2):
             return super()._base(form, exponent, expr)
         number, common, primitive = _primitive(form)
         outside, inside = (number, fmpq(1)) if exponent.q == 1 else _squares(number)
         taken = common if exponent.q == 1 else tuple(pair for pair in common if self._may_leave_root(pair))
         left = tuple(pair for pair in common if pair not in taken)
         kernel = fourier.multiply({(left, STILL, False): inside}, primitive)
-        if exponent.q == 1 and exponent.p < 0:
-            scale = outside ** int(exponent.p)
-        else:
-            scale = _root(outside, exponent)
+        scale = _root(outside, exponent)
         front: Form = {(fourier.raised(taken, exponent), STILL, False): scale}
         return self.multiply(front, self._kernel(kernel, exponent))
 
@@ -129,7 +126,7 @@ class KernelReader(Reader):
         mono, phase, sine = term
         exponents = dict(mono)
         for key, inner in self.sizes.items():
-            if exponents.get(key, 0) >= 2:  # noqa: PLR2004 - a square
+            if exponents.get(key, 0) >= 2:
                 return self._replaced(term, number, {key: 2}, fourier.multiply(inner, inner))
         for key, (size, inner) in self.signs.items():
             if exponents.get(key, 0) < 1:

@@ -10,7 +10,20 @@ import sympy
 
 from .functions import FUNCTIONS
 from .memory import cached_method
-from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, decimal, exact, fraction_parts, is_decimal, signed_sum
+from .numerals import (
+    ATOM,
+    POWER,
+    PRODUCT,
+    SUM,
+    Decides,
+    base_exponent,
+    decimal,
+    decimals_of,
+    ends,
+    exact,
+    fraction_parts,
+    signed_sum,
+)
 from .order import split_symbol
 from .typography import Mark, Typography, unmarked
 
@@ -30,17 +43,19 @@ def latex(expr: Any, typography: Typography) -> str:
     if isinstance(expr, sympy.Tuple):
         rows = [latex(part, typography).replace(" = ", " &= ") for part in expr]
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
-    return _printer(typography).text(sympy.sympify(expr, strict=True), 0)
+    value = sympy.sympify(expr, strict=True)
+    return _printer(typography, decimals_of(value, wanted=typography.decimals)).text(value, 0)
 
 
 @cached_method
-def _printer(typography: Typography) -> _Latex:
-    return _Latex(typography)
+def _printer(typography: Typography, as_decimal: Decides) -> _Latex:
+    return _Latex(typography, as_decimal)
 
 
 class _Latex:
-    def __init__(self, typography: Typography) -> None:
+    def __init__(self, typography: Typography, as_decimal: Decides) -> None:
         self._typography = typography
+        self._as_decimal = as_decimal
         self._order = typography.order
 
     def text(self, expr: sympy.Expr, binding: int) -> str:
@@ -52,7 +67,7 @@ class _Latex:
         if expr.is_Symbol:
             return self._typography.symbol(expr.name), ATOM if split_symbol(expr.name)[0] < 4 else PRODUCT
         if expr.is_Rational or expr.is_Float:
-            return _number(expr)
+            return self._number(expr)
         if expr is sympy.pi:
             return r"\pi", ATOM
         if expr.is_Add:
@@ -63,6 +78,16 @@ class _Latex:
             return self._exponential(expr), POWER
         return (self._power(expr), POWER) if expr.is_Pow else (self.call(expr), PRODUCT)
 
+    def _number(self, number: sympy.Expr) -> tuple[str, int]:
+        value = exact(number)
+        sign, size = "-" if value < 0 else "", abs(value)
+        binding = SUM + 1 if value < 0 else ATOM
+        if size.denominator == 1:
+            return f"{sign}{size.numerator}", binding
+        if self._as_decimal(size) or (number.is_Float and ends(size)):
+            return f"{sign}{decimal(size)}", binding
+        return rf"{sign}\frac{{{size.numerator}}}{{{size.denominator}}}", min(binding, PRODUCT)
+
     def _exponential(self, expr: sympy.Expr) -> str:
         exponent = self.text(expr.args[0], 0) if expr.args else "1"
         return rf"\mathrm{{e}}^{{{exponent}}}"
@@ -72,7 +97,7 @@ class _Latex:
         return signed_sum(self._typography.summand(expr, term, self.text(term, SUM + 1)) for term in terms)
 
     def _product(self, expr: sympy.Expr) -> str:
-        sign, upper, lower = fraction_parts(expr)
+        sign, upper, lower = fraction_parts(expr, self._as_decimal)
         if all(f.is_Rational for f in lower):
             return sign + self._with_number_in_front(upper, lower)
         return rf"{sign}\frac{{{self.factors(upper)}}}{{{self.factors(lower)}}}"
@@ -186,14 +211,3 @@ def _is_infinitesimal(factor: sympy.Expr) -> bool:
 def _bracketed(text: str) -> str:
     tall = any(command in text for command in (r"\frac", r"\left", r"\sqrt"))
     return rf"\left({text}\right)" if tall else f"({text})"
-
-
-def _number(number: sympy.Expr) -> tuple[str, int]:
-    value = exact(number)
-    sign, size = "-" if value < 0 else "", abs(value)
-    binding = SUM + 1 if value < 0 else ATOM
-    if size.denominator == 1:
-        return f"{sign}{size.numerator}", binding
-    if is_decimal(size):
-        return f"{sign}{decimal(size)}", binding
-    return rf"{sign}\frac{{{size.numerator}}}{{{size.denominator}}}", min(binding, PRODUCT)

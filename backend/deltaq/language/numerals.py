@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 
 import sympy
@@ -10,12 +10,40 @@ import sympy
 # How tightly a printed text binds.
 SUM, PRODUCT, POWER, ATOM = 1, 2, 3, 4
 _SMALL = 10
+_LONG = 100
 
 
 def is_decimal(value: Fraction) -> bool:
     """Whether a person writes it as a decimal: it ends, and its denominator is no small number."""
     q = value.denominator
     return q >= _SMALL and q % 5 == 0 and 10**12 % q == 0
+
+
+Decides = Callable[[Fraction], bool]  # whether a number is written as a decimal
+
+
+def ends(value: Fraction) -> bool:
+    """Whether the decimal fraction comes to an end."""
+    return 10**12 % value.denominator == 0
+
+
+def is_long(value: Fraction) -> bool:
+    """Whether a fraction has become so long that its decimal is read more easily."""
+    return value.denominator >= _LONG and ends(value)
+
+
+def decimals_of(expr: sympy.Expr, *, wanted: bool | None) -> Decides:
+    """How the numbers of one formula are written, so that 0.7 and 7/5 do not stand side by side.
+
+    `wanted`: decimals, as the author of a scene has them (½ alone may stay), or fractions; None: each for itself.
+    """
+    if wanted is None:
+        return is_decimal
+    if not wanted:
+        return is_long
+    values = [exact(n) for n in expr.atoms(sympy.Rational, sympy.Float)]
+    as_decimals = any(v.denominator > 2 for v in values) and all(map(ends, values))
+    return ends if as_decimals else is_long
 
 
 def decimal(value: Fraction) -> str:
@@ -52,7 +80,9 @@ def base_exponent(factor: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
     return (factor, sympy.S.One) if isinstance(factor, sympy.exp) else factor.as_base_exp()
 
 
-def fraction_parts(expr: sympy.Expr) -> tuple[str, list[sympy.Expr], list[sympy.Expr]]:
+def fraction_parts(
+    expr: sympy.Expr, as_decimal: Decides = is_decimal
+) -> tuple[str, list[sympy.Expr], list[sympy.Expr]]:
     """Sign, factors above and factors below the line of a product."""
     upper: list[sympy.Expr] = []
     lower: list[sympy.Expr] = []
@@ -62,7 +92,11 @@ def fraction_parts(expr: sympy.Expr) -> tuple[str, list[sympy.Expr], list[sympy.
             value = exact(factor)
             sign = "-" if value < 0 else ""
             value = abs(value)
-            above, below = (value, Fraction(1)) if is_decimal(value) else (value.numerator, value.denominator)
+            above, below = (
+                (value, Fraction(1))
+                if as_decimal(value) or (factor.is_Float and ends(value))
+                else (value.numerator, value.denominator)
+            )
             upper += [sympy.Rational(above)] if above != 1 else []
             lower += [sympy.Rational(below)] if below != 1 else []
         else:

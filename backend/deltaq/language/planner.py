@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any
 
 from .plan import Plan, Powers, Prices, Product, Sum
 from .polynomial import Alphabet, Exponents, Kind, Poly, as_poly
@@ -44,7 +43,7 @@ class Planner:
         return self._scaled(self._primitive(primitive), factor, powers, free=free)
 
     def terms(self, poly: Poly, denominator: int = 1, *, apart: bool = False) -> tuple[Product, ...]:
-        """The plan as terms of a sum; `apart`: one for each acceleration and product of rates, as inertia is written."""
+        """The plan as terms of a sum; `apart`: one for each acceleration and product of rates, as inertia is."""
         if not apart:
             found = self.plan(poly, denominator)
             return found.terms if isinstance(found, Sum) else (found,)

@@ -1,7 +1,7 @@
 """Forms as polynomials: what the planner of the display works on.
 
-A generator is a symbol, a wave such as sin φ, or a power of a kernel; x and 1/x are generators of their own, so that all
-exponents are natural numbers. Numbers are whole, with one denominator in front.
+A generator is a symbol, a wave such as sin φ, or a power of a kernel; x and 1/x are generators of their own, so that
+all exponents are natural numbers. Numbers are whole, with one denominator in front.
 """
 
 from __future__ import annotations

@@ -26,7 +26,6 @@ from .planner import MAX_TERMS, Planner
 from .polynomial import RATE, Alphabet, Exponents, Poly
 from .trigonometry import written
 
-
 UNLIKE = "a plan is not the polynomial it was made for"
 
 

@@ -42,9 +42,7 @@ def written(form: Form, reader: Reader) -> Form:
     parts: dict[Monomial, Form] = {}
     for (mono, phase, sine), coefficient in form.items():
         parts.setdefault(mono, {})[ONE, phase, sine] = coefficient
-    found = (
-        (mono, part if _is_one_wave(part) else shortest(part, reader, both=True)) for mono, part in parts.items()
-    )
+    found = ((mono, part if _is_one_wave(part) else shortest(part, reader, both=True)) for mono, part in parts.items())
     total = (fourier.multiply({(mono, STILL, False): fmpq(1)}, part) if mono else part for mono, part in found)
     return _as_generators(fourier.add(total), reader)
 

@@ -25,12 +25,13 @@ def unmarked(_symbol: str, latex: str) -> str:
 class Typography:
     """How symbols are typeset and in which order. `mark(symbol name, LaTeX)` may wrap each, in a colour say.
 
-    `summands` wrap the terms of a sum that stands inside a formula.
+    `summands` wrap the terms of a sum that stands inside a formula. `decimals`: 0.7 or 7/10, None: each for itself.
     """
 
     names: Names
     mark: Mark = unmarked
     summands: Mapping[Any, Mapping[Any, Callable[[str], str]]] = field(default_factory=dict, compare=False)
+    decimals: bool | None = None
     order: Order = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -23,6 +24,8 @@ from .material import Material
 from .parameter import Parameter
 from .point import Point
 from .user_text import Translated
+
+_DECIMAL = re.compile(r"\d\.\d")
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,12 @@ class Scene:
         return names_of(self.coordinates, self.parameters, self.material)
 
     @cached_property
+    def writes_decimals(self) -> bool:
+        """Whether its bodies, loads or guides are stated with decimals, 0.5 and not 1/2."""
+        things = (*self.bodies, *self.loads, *self.guides)
+        return any(_DECIMAL.search(text) for thing in things for text in _texts(thing))
+
+    @cached_property
     def material(self) -> tuple[Material, ...]:
         """The material coordinates of its continua and distributed forces, each name once."""
         loads = (part.material for part in self.contributions if isinstance(part, DistributedForce))
@@ -131,6 +140,13 @@ def names_of(
         + tuple(Symbol(p.name, "parameter", p.latex, p.positive) for p in parameters)
         + tuple(Symbol(m.name, "material") for m in material)
     )
+
+
+def _texts(thing: Body | Load | Guide) -> Iterator[str]:
+    """What is stated of a body, load or guide, as written."""
+    for stated in vars(thing).values():
+        parts = stated if isinstance(stated, tuple) else (stated,)
+        yield from (part.text for part in parts if isinstance(part, Expression))
 
 
 def _repeated(pointer: str, names: list[str]) -> Iterator[Problem]:

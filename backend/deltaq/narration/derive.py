@@ -35,13 +35,15 @@ def derive_request(document: Mapping[str, object]) -> Document:
         "scene": scene.id,
         "formulation": formulation,
         "chapters": narrator_of(system, language).chapters(derivation),
-        "result": written(result_of(system), Typography(scene.names)),
+        "result": written(result_of(system), Typography(scene.names, decimals=scene.writes_decimals)),
     }
 
 
 def notation_of(system: System, language: str) -> Notation:
     """How a scene's quantities are written in a derivation, with the classes of the page."""
-    typography = Typography(system.scene.names, mark=by_coordinate(system.scene, in_class))
+    typography = Typography(
+        system.scene.names, by_coordinate(system.scene, in_class), decimals=system.scene.writes_decimals
+    )
     names = {symbol.name: symbol.typeset for symbol in system.scene.names.symbols if symbol.kind == "coordinate"}
     return Notation(typography, QuantitySymbols(system.scene, language, names, in_class), system.h)
 
