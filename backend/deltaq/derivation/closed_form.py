@@ -74,7 +74,20 @@ def _single(sought: Sought, known: Known, missing: list[sp.Symbol]) -> Iterator[
             q = unknown[0]
             for value in _candidates(left, q, angle=q in sought.angles):
                 if _matches(sought, q, value):
-                    yield {q: sought.calculus.display(value)}
+                    yield {q: _written(sought, value)}
+
+
+def _written(sought: Sought, value: sp.Expr) -> sp.Expr:
+    """The value as it is shown; a fraction of fractions over one line."""
+    shown = sought.calculus.display(value)
+    if not any(factor.is_Add and _has_quotient(factor) for factor in shown.args if shown.is_Mul):
+        return shown
+    upper, lower = map(sought.calculus.display, sp.fraction(sp.together(shown)))
+    return sp.Mul(upper, 1 / lower)
+
+
+def _has_quotient(expr: sp.Expr) -> bool:
+    return any(p.exp.is_Rational and p.exp.is_negative for p in expr.atoms(sp.Pow))
 
 
 def _matches(sought: Sought, q: sp.Symbol, value: sp.Expr) -> bool:
@@ -129,4 +142,4 @@ def _jointly(sought: Sought, known: Known, missing: list[sp.Symbol]) -> Known | 
         return None
     right = sp.Matrix([-row.xreplace(dict.fromkeys(missing, sp.Integer(0))) for row in rows])
     solution = matrix.adjugate() * right / determinant
-    return {q: sought.calculus.display(value) for q, value in zip(missing, solution, strict=True)}
+    return {q: _written(sought, value) for q, value in zip(missing, solution, strict=True)}

@@ -11,14 +11,14 @@ import math
 from typing import Any
 
 import sympy
-from flint import fmpq
+from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
 from . import fourier
 from .fourier import ONE, STILL, Form, Monomial
 from .normal_form import Reader
 
 MAX_ROOT = 10**12
-# Functions that stay as the author wrote them: hyperbolic ones always, tangents where no sine stands beside them.
+# Functions that stay as the author wrote them: hyperbolic ones unless they cancel, tangents where no sine stands by.
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh)
 _TANGENTS = (sympy.tan, sympy.cot)
 
@@ -31,12 +31,14 @@ class KernelReader(Reader):
         self.sizes: dict[str, Form] = {}  # |f| and sgn f by the names of their generators
         self.signs: dict[str, tuple[str, Form]] = {}
 
-        self._own = _HYPERBOLIC
+        self._own: tuple[Any, ...] = _HYPERBOLIC
 
     def read(self, expr: Any) -> Form:
         """The form of a SymPy expression, its absolute values and signs merged. Raises TooLargeError."""
-        self._own = _HYPERBOLIC if expr.has(sympy.sin, sympy.cos) else _HYPERBOLIC + _TANGENTS
-        return self._merged(self.form(expr))
+        self._own = _TANGENTS if not expr.has(sympy.sin, sympy.cos) else ()
+        if expr.has(*_HYPERBOLIC) and _has_exponentials(Reader().form(expr)):
+            self._own += _HYPERBOLIC
+        return self._divided(self._merged(self.form(expr)))
 
     def _read(self, expr: Any) -> Form:
         if isinstance(expr, self._own):
@@ -122,6 +124,19 @@ class KernelReader(Reader):
             form = merged
         return form
 
+    def _divided(self, form: Form) -> Form:
+        """f sgn f = |f| for a sum f: what stands before sgn f is divided by f where that leaves nothing over."""
+        for key, (size, inner) in self.signs.items():
+            factor = {term: c for term, c in form.items() if dict(term[0]).get(key, 0) == 1}
+            quotient = divided(self._without(factor, key), inner) if len(factor) >= len(inner) else None
+            if quotient is not None:
+                rest = {term: c for term, c in form.items() if term not in factor}
+                form = fourier.add((rest, self.multiply(quotient, fourier.monomial(size))))
+        return form
+
+    def _without(self, form: Form, key: str) -> Form:
+        return fourier.multiply({(((key, -1),), STILL, False): fmpq(1)}, form)
+
     def _merged_term(self, term: fourier.Term, number: Any) -> Form:
         mono, phase, sine = term
         exponents = dict(mono)
@@ -142,6 +157,31 @@ class KernelReader(Reader):
         mono, phase, sine = term
         rest = fourier.times(mono, tuple((name, -times) for name, times in gone.items()))
         return self.multiply({(rest, phase, sine): number}, by)
+
+
+def divided(form: Form, by: Form) -> Form | None:
+    """The quotient of two polynomials in natural powers of generators; None if it is none, or waves are in them."""
+    monos = [mono for part in (form, by) for mono, _, _ in part]
+    natural = all(isinstance(e, int) and e > 0 for mono in monos for _, e in mono)
+    if not form or not (natural and fourier.is_still(form) and fourier.is_still(by)):
+        return None
+    names = sorted({name for mono in monos for name, _ in mono})
+    ring = fmpq_mpoly_ctx.get([f"x{i}" for i in range(len(names))], Ordering.lex)
+    upper, lower = (
+        ring.from_dict({tuple(dict(mono).get(n, 0) for n in names): c for (mono, _, _), c in part.items()})
+        for part in (form, by)
+    )
+    quotient, rest = divmod(upper, lower)
+    if len(rest):
+        return None
+    return {
+        (tuple((n, int(e)) for n, e in zip(names, exponents, strict=True) if e), STILL, False): fmpq(c)
+        for exponents, c in quotient.to_dict().items()
+    }
+
+
+def _has_exponentials(form: Form) -> bool:
+    return any(name.startswith("exp ") for mono, _, _ in form for name, _ in mono)
 
 
 def _symbol(form: Form) -> str | None:

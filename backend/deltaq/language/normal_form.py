@@ -71,8 +71,17 @@ class Reader(Generators):
             return self._power(*expr.as_base_exp())
         if isinstance(expr, (sympy.sin, sympy.cos)):
             return self._wave(expr)
+        if isinstance(expr, (sympy.Abs, sympy.sign)):
+            return self._size(self.form(expr.args[0]), expr, sign=isinstance(expr, sympy.sign))
         rewrite = _REWRITTEN.get(expr.func)
         return self.form(rewrite(expr.args[0])) if rewrite else self._opaque(expr)
+
+    def _size(self, form: Form, expr: Any, *, sign: bool) -> Form:
+        """|f| as √(f²), and sgn f as f/√(f²)."""
+        if not form:
+            return {}
+        squared = self._base(self.multiply(form, form), fmpq(-1 if sign else 1, 2), expr)
+        return self.multiply(form, squared) if sign else squared
 
     def _product(self, expr: Any) -> Form:
         product = fourier.constant(1)

@@ -32,11 +32,11 @@ def _product(factors: tuple[Any, ...]) -> int:
     inner = sum(_power(f.base, -f.exp) if _is_below(f) else operations(f) for f in others)
     counted = len(others) + (abs(number) != 1)
     one_above = bool(below) and not above and (abs(number) == 1 or getattr(number, "p", 2) in (1, -1))
-    return max(counted - 1, 0) + inner + one_above
+    return int(max(counted - 1, 0) + inner + one_above)
 
 
 def _power(base: Any, exponent: Any) -> int:
-    return operations(base) + (0 if exponent.is_number else operations(exponent)) + (exponent != 1)
+    return operations(base) + (0 if exponent.is_number else operations(exponent)) + int(exponent != 1)
 
 
 def _is_below(factor: Any) -> bool:

@@ -57,7 +57,7 @@ class Prices:
         below = sum(generators[i].unit < 0 for i, _ in powers)
         factors = len(powers) + len(brackets) + (abs(number) != 1)
         alone = bool(below) and below == len(powers) and not brackets and abs(number.numerator) == 1
-        price = max(factors - 1, 0) + alone + sum(generators[i].operations(e) for i, e in powers)
+        price = float(max(factors - 1, 0) + alone + sum(generators[i].operations(e) for i, e in powers))
         outside = frozenset(i for i, _ in powers)
         for inner, e in brackets:
             habit = 0.0 if free else self._habit(inner, outside)

@@ -60,7 +60,7 @@ class Generator:
     def operations(self, exponent: int) -> int:
         """Operations to write the power, without the line of a fraction it may stand below."""
         shown = abs(self.unit) * exponent
-        return self.weight + (shown != 1)
+        return self.weight + int(shown != 1)
 
 
 class Alphabet:

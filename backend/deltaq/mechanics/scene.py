@@ -86,7 +86,7 @@ class Scene:
     @cached_property
     def writes_decimals(self) -> bool:
         """Whether its bodies, loads or guides are stated with decimals, 0.5 and not 1/2."""
-        things = (*self.bodies, *self.loads, *self.guides)
+        things: tuple[Body | Load | Guide, ...] = (*self.bodies, *self.loads, *self.guides)
         return any(_DECIMAL.search(text) for thing in things for text in _texts(thing))
 
     @cached_property
