@@ -7,7 +7,11 @@ from tests.language.scene_names import NAMES, problem_of
 
 from deltaq.errors import InputError, Problem
 from deltaq.language.names import Names, Symbol
+from deltaq.language.parser import Syntax, parse
+from deltaq.language.plain_printer import plain
 from deltaq.language.spelling import in_unicode
+from deltaq.language.symbols import Symbols
+from deltaq.language.sympy_algebra import to_sympy
 
 SPELLINGS = [
     ("phi", "phi"), ("φ", "phi"), ("ϕ", "phi"), ("varphi", "phi"), (r"\varphi", "phi"), (r"\phi", "phi"),
@@ -73,7 +77,6 @@ BAD_NAMES = [
     pytest.param("pi", "reserved-name", id="pi"),
     pytest.param("sin", "reserved-name", id="function"),
     pytest.param("delta", "reserved-name", id="operator"),
-    pytest.param("d", "reserved-name", id="differential"),
     pytest.param("1x", "malformed-name", id="digit first"),
     pytest.param("x y", "malformed-name", id="space"),
     pytest.param("φ", "malformed-name", id="not ASCII"),
@@ -120,3 +123,27 @@ def test_latex_of_a_name(name: str, latex: str) -> None:
 )
 def test_symbol_in_a_line_of_text(latex: str, text: str) -> None:
     assert in_unicode(latex) == text
+
+
+D = Names((Symbol("x", "coordinate"), Symbol("d", "parameter", positive=True), Symbol("m", "parameter", positive=True)))
+
+
+@pytest.mark.parametrize(
+    ("text", "syntax", "meant"),
+    [
+        ("d*dot(x)", "plain", "d*dot(x)"),
+        ("2 d x", "plain", "2*d*x"),
+        ("d(x + 1)", "plain", "d*(x + 1)"),
+        ("md", "plain", "m*d"),
+        ("d(x)", "plain", "d(x)"),
+        ("dx", "plain", "d(x)"),
+        ("d/dt (d*x)", "plain", "d*dot(x)"),
+        (r"d \dot{x}", "latex", "d*dot(x)"),
+        (r"m d^2", "latex", "m*d^2"),
+        (r"dx", "latex", "d(x)"),
+        (r"\mathrm{d}x", "latex", "d(x)"),
+        (r"\frac{d}{dt}(d \, x)", "latex", "d*dot(x)"),
+    ],
+)
+def test_d_may_be_a_name_beside_the_differential(text: str, syntax: Syntax, meant: str) -> None:
+    assert plain(to_sympy(parse(text, D, syntax).tree, Symbols(D))) == meant

@@ -375,7 +375,7 @@ class Operators:
             for _ in ahead:
                 self._cursor.take()
 
-    def operator(self) -> Node:
+    def operator(self) -> Node:  # noqa: PLR0911 - one case for each kind
         """The operator ahead, applied."""
         token = self._cursor.take()
         match token.kind:
@@ -383,6 +383,8 @@ class Operators:
                 return self._dot(token)
             case "variation":
                 return self._differentiation.variation(*self._operand(token))
+            case "differential" if self._is_letter(token):
+                return self._cursor.made(Name("d", token.span))
             case "differential":
                 return self._differentiation.differential(*self._operand(token))
             case "diff":
@@ -391,6 +393,18 @@ class Operators:
                 return self._partial(token)
             case _:
                 return self._derivative(token)
+
+    def _is_letter(self, token: Token) -> bool:
+        """Whether d is the symbol of this name: there is one, and what stands there is neither d(x) nor dx."""
+        if token.text != "d" or not self._differentiation.kind("d"):
+            return False
+        first, second, third = (self._cursor.ahead(i) for i in range(3))
+        joined = self._moves(first) and first.span == token.span
+        called = first.kind == "open" and self._moves(second) and third.kind == "close"
+        return not joined and not called
+
+    def _moves(self, token: Token) -> bool:
+        return token.kind == "name" and self._differentiation.kind(token.text) in ("coordinate", "time")
 
     def _dot(self, token: Token) -> Node:
         node, span = self._operand(token)

@@ -29,13 +29,14 @@ from .latex_tables import (
     TRANSPOSE,
     UPRIGHT,
 )
-from .names import Names
+from .names import Names, Symbol
 from .plain_lexer import number_token, operator_tokens
 from .spelling import GREEK, GREEK_NAMES, SUPERSCRIPTS, dotted, key
 from .tokens import Token, fail, has_comma, vector_tokens
 from .tree import Span
 from .words import UNITS, word_tokens
 
+UPRIGHT_D = "upright d"  # a differential, also where a symbol is called d
 FENCES = (("$$", "$$"), ("$", "$"), (r"\[", r"\]"), (r"\(", r"\)"))
 
 
@@ -187,7 +188,7 @@ class LatexLexer:
         elif name in UPRIGHT:
             read_upright(self, start)
         elif name in DIFFERENTIAL:
-            self.found.append(Token("differential", "d", span))
+            self.found.append(Token("differential", UPRIGHT_D, span))
         elif name in SIZES:
             read_sized(self, name, start)
         else:
@@ -263,7 +264,7 @@ def read_letters(lexer: LatexLexer) -> None:
     if len(run) > 1:
         single = [lexer.names.resolve(letter) for letter in run[:-1]] + [lexer.names.resolve(run[-1] + index)]
         whole = lexer.names.candidates(run + index) or (run in SPELLINGS and not index)
-        if all(single):
+        if all(single) and not _is_differential(run, single):
             if whole:
                 product = "*".join(symbol.name for symbol in single if symbol)
                 fail("ambiguous-product", span, text=run + index, first=product, second=run + index)
@@ -276,6 +277,11 @@ def read_letters(lexer: LatexLexer) -> None:
             return
     lexer.found += word_tokens(run + index, span, lexer.names, after_number=lexer.after_number())
     lexer.found += power
+
+
+def _is_differential(run: str, parts: list[Symbol | None]) -> bool:
+    """dx is one also where a symbol is called d."""
+    return run[0] == "d" and len(parts) == 2 and parts[1] is not None and parts[1].kind in ("coordinate", "time")
 
 
 def _check_unit(lexer: LatexLexer, run: str, span: Span) -> None:
@@ -347,7 +353,7 @@ def read_upright(lexer: LatexLexer, start: int) -> None:
     word = lexer.source.text[slice(*inside)].strip()
     span = lexer.since(start)
     if word == "d":
-        lexer.found.append(Token("differential", "d", span))
+        lexer.found.append(Token("differential", UPRIGHT_D, span))
     elif word == "e" and lexer.source.next() == "^":
         read_exponential_power(lexer, start)
     elif word in SPELLINGS:

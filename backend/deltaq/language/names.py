@@ -111,8 +111,8 @@ def _table(entries: Iterable[tuple[str, Symbol]]) -> Mapping[str, tuple[Symbol, 
 
 
 def is_reserved(name: str) -> bool:
-    """Whether the language itself uses this word."""
-    return name in OPERATORS or name in SPELLINGS or name in (TIME.name, PI.name)
+    """Whether the language itself uses this word. d may be a distance: d(x) is a differential all the same."""
+    return (name in OPERATORS and name != "d") or name in SPELLINGS or name in (TIME.name, PI.name)
 
 
 def is_name(name: str) -> bool:

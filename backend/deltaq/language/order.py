@@ -31,6 +31,8 @@ _LATE = ("omega", "Omega", "nu", "f", "alpha", "beta", "gamma", "eta", "tau", "T
 _FUNCTION_RANK: Mapping[str, int] = MappingProxyType({"sin": 0, "cos": 1})
 
 _RATE = 1
+_AFTER_SYMBOLS = (2,)
+_AFTER_COORDINATES = ((2,),)  # x (1 − a/s)
 
 Key = tuple[Any, ...]
 
@@ -93,12 +95,17 @@ class Order:
             return (1, (), (), _text(factor))
         moving = [split_symbol(s.name)[0] for s in base.free_symbols if self.is_moving(s)]
         if not moving:
-            return (2 if base.is_Add else 6, (), (), _text(factor))
+            return self._bracket(base, factor) if base.is_Add else (6, (), (), _text(factor))
         if base.is_Add and not max(moving):
-            return (5, (), (1,), _text(factor))
+            return (5, _AFTER_COORDINATES, (1,), _text(factor))
         if base.is_Add:
             return (7 + max(moving), (1,), (), _text(factor))
         return (6, (self._angle(base),), (_FUNCTION_RANK.get(type(base).__name__, 2),), _text(base))
+
+    def _bracket(self, base: sympy.Expr, factor: sympy.Expr) -> Key:
+        """A bracket of parameters stands where the first of them would: (m₁ + m₂) l², m (R − r)²."""
+        rank = min((_head_rank(symbol.name) for symbol in base.free_symbols), default=0)
+        return (3, (rank,), _AFTER_SYMBOLS, _text(factor))
 
     def _angle(self, function: sympy.Expr) -> Key:
         return tuple(sorted(self.place(split_symbol(s.name)[1]) for s in function.free_symbols if self.is_moving(s)))

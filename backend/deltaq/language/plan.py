@@ -7,7 +7,7 @@ operations and what speaks against it by habit: a bracket that mixes masses with
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -120,8 +120,16 @@ class Prices:
         """Against the same product of rates in several terms, and more so against the same acceleration."""
         rates = Counter(self._of_kind(term, Kind.RATE) for term in terms)
         outer = Counter(self._of_kind(term, Kind.OUTER) for term in terms)
+        for term in terms:
+            rates.update({powers for powers in self._inner_rates(term) if powers} - {self._of_kind(term, Kind.RATE)})
         again = RATES_AGAIN * sum(n - 1 for powers, n in rates.items() if powers)
         return again + ACCELERATION_AGAIN * sum(n - 1 for powers, n in outer.items() if powers)
+
+    def _inner_rates(self, term: Product) -> Iterator[Powers]:
+        """The products of rates that a term would have multiplied out, if it has a single plain bracket."""
+        if len(term.brackets) != 1 or term.brackets[0][1] != 1 or self._of_kind(term, Kind.RATE):
+            return
+        yield from (self._of_kind(part, Kind.RATE) for part in term.brackets[0][0].terms if not part.brackets)
 
     def _of_kind(self, term: Product, kind: Kind) -> Powers:
         return tuple((i, e) for i, e in term.powers if self.alphabet.generators[i].kind == kind)

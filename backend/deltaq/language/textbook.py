@@ -155,9 +155,10 @@ class Textbook:
         return Summands(parts, alphabet)
 
     def _summand(self, term: Product, alphabet: Alphabet) -> Summand:
-        sign = -1 if term.number < 0 else 1
         keys = frozenset(alphabet.without_waves(key) for key in expanded(term, alphabet))
-        return Summand(self.value(replace(term, number=abs(term.number)), alphabet), sign, keys, term)
+        value = self.value(term, alphabet)
+        negative = value.as_coeff_Mul()[0] < 0
+        return Summand(negated(value) if negative else value, -1 if negative else 1, keys, term)
 
     def inside(self, summand: Summand, alphabet: Alphabet) -> Iterator[tuple[Any, Any, frozenset[Exponents]]]:
         """Each bracket of a term, its terms, and the products of symbols that each of them stands for there."""
@@ -179,16 +180,35 @@ class Textbook:
             return sympy.Add(*(self.value(term, alphabet) for term in plan.terms))
         number = sympy.Rational(plan.number.numerator, plan.number.denominator)
         factors = [alphabet.generators[i].power(e) for i, e in plan.powers]
-        for inner, e in plan.brackets:
-            bracket = self.value(inner, alphabet)
-            if -bracket in self.given or (number < 0 and e % 2 and self._turns_well(inner, bracket)):
-                bracket, number = -bracket, number * (-1) ** e
-            factors.append(bracket**e)
-        return _product(number, factors)
+        brackets = [(self.value(inner, alphabet), e) for inner, e in plan.brackets]
+        for index, (bracket, e) in enumerate(brackets):
+            if self._is_turned(bracket):
+                brackets[index], number = (-bracket, e), number * (-1) ** e
+        if number < 0:
+            number *= _turn_one(
+                [index for index, (b, e) in enumerate(brackets) if e % 2 and self._may_turn(b)], brackets
+            )
+        return _product(number, [*factors, *(bracket**e for bracket, e in brackets)])
 
-    def _turns_well(self, inner: Sum, bracket: Any) -> bool:
-        """Whether the minus in front may go into the bracket: −(a − b) is b − a."""
-        return bracket not in self.given and any(term.number < 0 for term in inner.terms)
+    def _is_turned(self, bracket: Any) -> bool:
+        """Whether it stands the other way round by the author, or is s/a − 1 and not 1 − s/a."""
+        constant = next((term for term in bracket.args if term.is_Rational), None)
+        return -bracket in self.given or (bracket not in self.given and constant is not None and constant < 0)
+
+    def _may_turn(self, bracket: Any) -> bool:
+        """Whether a minus in front may go into the bracket: −(a − b) is b − a."""
+        if bracket in self.given or any(term.is_Rational for term in bracket.args):
+            return False
+        return any(term.could_extract_minus_sign() for term in bracket.args)
+
+
+def _turn_one(candidates: list[int], brackets: list[tuple[Any, int]]) -> int:
+    """Turn the first of these brackets, if there is one: −1, else 1."""
+    if not candidates:
+        return 1
+    bracket, e = brackets[candidates[0]]
+    brackets[candidates[0]] = -bracket, e
+    return -1
 
 
 def _product(number: Any, factors: list[Any]) -> Any:

@@ -107,7 +107,8 @@ def _length(form: Form) -> int:
 
 
 def _angle_length(phase: Phase) -> int:
-    return 2 * len(phase) + sum(len(mono) - 1 + 2 * int(abs(c) != 1) for mono, c in phase)
+    doubled = len(phase) == 1 and phase[0][1] % 2 == 0  # sin φ cos φ rather than sin 2φ
+    return 2 * len(phase) + sum(len(mono) - 1 + 2 * int(abs(c) != 1) for mono, c in phase) + doubled
 
 
 class _Products:
