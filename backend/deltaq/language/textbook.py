@@ -193,7 +193,9 @@ class Textbook:
     def _is_turned(self, bracket: Any) -> bool:
         """Whether it stands the other way round by the author, or is s/a − 1 and not 1 − s/a."""
         constant = next((term for term in bracket.args if term.is_Rational), None)
-        return -bracket in self.given or (bracket not in self.given and constant is not None and constant < 0)
+        if -bracket in self.given:
+            return any(term.could_extract_minus_sign() for term in bracket.args)
+        return bracket not in self.given and constant is not None and constant < 0
 
     def _may_turn(self, bracket: Any) -> bool:
         """Whether a minus in front may go into the bracket: −(a − b) is b − a."""
