@@ -6,10 +6,13 @@ import pytest
 import sympy as sp
 from tests.lecture.textbook_lines import Line, count, lines
 
+from deltaq.derivation.matrix_form import forcing, left_side, mass_matrix
+from deltaq.derivation.system import System
 from deltaq.language.canonical import is_zero
 from deltaq.language.names import Names, Symbol
 from deltaq.language.parser import parse
 from deltaq.language.symbols import Symbols
+from deltaq.mechanics.library import load_scene, scene_ids
 
 LONGEST = 1.2
 SHARE = 0.9
@@ -33,13 +36,24 @@ def test_nine_of_ten_formulas_are_no_longer_than_the_printed_ones(held_out: bool
 
 @pytest.mark.parametrize("line", ALL, ids=lambda line: line.id)
 def test_no_unity_is_left_in_squares(line: Line) -> None:
-    """Neither sin² + cos² nor a hidden one: what stands as sin² nowhere stands as cos² with the same factors."""
-    terms = [sp.Mul.make_args(term) for term in sp.Add.make_args(sp.expand(line.value))]
+    assert not _has_unity(line.value)
+
+
+def _has_unity(value: sp.Expr) -> bool:
+    """Whether sin² + cos² is in it, open or hidden: sin² and cos² of one angle with the same factors."""
+    terms = [sp.Mul.make_args(term) for term in sp.Add.make_args(sp.expand(value))]
     sines, cosines = (
         {frozenset(_without(term, wave)) | {wave.args[0]} for term in terms for wave in _squared(term, function)}
         for function in (sp.sin, sp.cos)
     )
-    assert not sines & cosines
+    return bool(sines & cosines)
+
+
+@pytest.mark.parametrize("scene", scene_ids())
+def test_no_unity_is_left_in_the_scenes_of_the_library(scene: str) -> None:
+    system = System(load_scene(scene))
+    shown = [system.kinetic_energy, system.potential_energy, *mass_matrix(system), *forcing(system)]
+    assert not any(_has_unity(value) for value in [*shown, *(left_side(system, q) for q in system.free)])
 
 
 def _squared(term: tuple[sp.Expr, ...], function: type) -> list[sp.Expr]:

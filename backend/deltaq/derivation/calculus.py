@@ -42,12 +42,13 @@ class Calculus(SceneSymbols):
 
     @cached_property
     def given_sums(self) -> frozenset[sp.Expr]:
-        """The sums in energies and dissipation functions as the scene states them: x₂ − x₁, and not x₁ − x₂."""
-        stated = (
+        """The sums in positions, energies and dissipation functions as the scene states them: x₂ − x₁, not x₁ − x₂."""
+        stated = [
             load.energy if isinstance(load, PotentialEnergy) else load.function
             for load in self.scene.contributions
             if isinstance(load, PotentialEnergy | DissipationFunction)
-        )
+        ]
+        stated += [component.tree for body in self.scene.bodies for component in body.position]
         return given_sums([self.guided(self.expression(tree)) for tree in stated])
 
     @cached_property

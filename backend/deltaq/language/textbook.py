@@ -193,7 +193,7 @@ class Textbook:
     def _is_turned(self, bracket: Any) -> bool:
         """Whether it stands the other way round by the author, or is s/a − 1 and not 1 − s/a."""
         constant = next((term for term in bracket.args if term.is_Rational), None)
-        if -bracket in self.given:
+        if -bracket in self.given and bracket not in self.given:
             return any(term.could_extract_minus_sign() for term in bracket.args)
         return bracket not in self.given and constant is not None and constant < 0
 
