@@ -10,12 +10,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from fractions import Fraction
+from operator import mul
 
 from .plan import Plan, Powers, Prices, Product, Sum
 from .polynomial import Alphabet, Exponents, Kind, Poly, as_poly
 
 MAX_TERMS = 160
 TRIED = 2  # splits that are followed, of those that look shortest
+SLACK = 2  # how much longer than the plain sum a split of many terms may look
+FEW = 6  # terms of which every split may look longer
 MAX_SINGLE = 8  # terms up to which each single generator is tried
 
 Key = frozenset[tuple[Exponents, int]]
@@ -25,7 +28,7 @@ Parts = dict[Key, tuple[Poly, Poly]]  # for each cofactor, what it is multiplied
 class Planner:
     """Plans for the polynomials of one alphabet; what was planned is kept."""
 
-    def __init__(self, alphabet: Alphabet, budget: int = 400) -> None:
+    def __init__(self, alphabet: Alphabet, budget: int = 150) -> None:
         self.prices = Prices(alphabet)
         self._alphabet = alphabet
         self._known: dict[Key, Plan] = {}
@@ -86,15 +89,17 @@ class Planner:
         factored = self._factored(poly)
         if factored is not None:
             yield factored
-        for parts in self._worth_following(poly):
+        for parts in self._worth_following(poly) if len(poly) > 2 else ():
             yield self._gathered(parts)
 
     def _worth_following(self, poly: Poly) -> list[Parts]:
         """What hangs together, in which squares may be hidden, and the splits that look shortest."""
         seen: set[frozenset[Key]] = set()
         apart = self._splits(poly, self._components(poly), seen)
-        others = self._splits(poly, self._groupings(poly), seen)
-        return [*apart, *sorted(others, key=lambda parts: (self._estimate(parts), len(parts)))[:TRIED]]
+        limit = self._plain(poly) + SLACK if len(poly) > FEW else math.inf
+        estimated = ((self._estimate(parts), parts) for parts in self._splits(poly, self._groupings(poly), seen))
+        others = sorted((each for each in estimated if each[0] < limit), key=lambda each: (each[0], len(each[1])))
+        return [*apart, *(parts for _, parts in others[:TRIED])]
 
     def _factored(self, poly: Poly) -> Product | None:
         number, factors = self._alphabet.context.from_dict(poly).factor()
@@ -126,21 +131,21 @@ class Planner:
 
     def _groupings(self, poly: Poly) -> Iterator[list[tuple[Exponents, Poly]]]:
         alphabet = self._alphabet
+        used = frozenset(i for i, highest in enumerate(map(max, zip(*poly, strict=True))) if highest)
         rates = alphabet.of_kinds(Kind.RATE, Kind.OUTER)
         fixed = alphabet.of_kinds(Kind.MASS, Kind.PARAMETER)
-        for chosen in (
+        kinds = (
             rates,
             fixed,
             rates | fixed,
             alphabet.of_kinds(Kind.MASS),
             alphabet.of_kinds(Kind.KERNEL),
             alphabet.of_kinds(Kind.COORDINATE, Kind.WAVE, Kind.KERNEL),
-        ):
-            yield _grouped(poly, chosen)
-        if len(poly) <= MAX_SINGLE:
-            used = sorted({i for exponents in poly for i, e in enumerate(exponents) if e})
-            for i in used:
-                yield _grouped(poly, frozenset((i,)))
+        )
+        single = (frozenset((i,)) for i in sorted(used)) if len(poly) <= MAX_SINGLE else ()
+        for chosen in dict.fromkeys(part & used for part in (*kinds, *single)):
+            if chosen and chosen != used:
+                yield _grouped(poly, chosen)
 
     def _components(self, poly: Poly) -> Iterator[list[tuple[Exponents, Poly]]]:
         """The terms that hang together by what moves."""
@@ -225,11 +230,13 @@ def ordered(poly: Poly) -> list[tuple[Exponents, int]]:
 
 
 def _grouped(poly: Poly, chosen: frozenset[int]) -> list[tuple[Exponents, Poly]]:
+    """The coefficient of each product of the chosen generators."""
     groups: dict[Exponents, Poly] = {}
+    taken = [int(i in chosen) for i in range(len(next(iter(poly))))]
+    left = [1 - each for each in taken]
     for exponents, number in poly.items():
-        outer = tuple(e if i in chosen else 0 for i, e in enumerate(exponents))
-        inner = tuple(0 if i in chosen else e for i, e in enumerate(exponents))
-        groups.setdefault(outer, {})[inner] = number
+        outer = tuple(map(mul, exponents, taken))
+        groups.setdefault(outer, {})[tuple(map(mul, exponents, left))] = number
     return sorted(groups.items(), reverse=True)
 
 

@@ -163,6 +163,7 @@ class Alphabet:
             return None
         return {key: int(c.p) for key, c in keys.items()} if all(c.q == 1 for c in keys.values()) else None
 
+    @cached_method
     def of_kinds(self, *kinds: Kind) -> frozenset[int]:
         """The generators of these kinds."""
         return frozenset(i for i, g in enumerate(self.generators) if g.kind in kinds)
