@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from .cursor import Cursor
-from .tokens import between, fail
+from .tokens import Token, between, fail
 from .tree import (
     Differential,
     Name,
@@ -36,6 +36,18 @@ class Differentiation:
         """What a name stands for (coordinate, time, parameter …), "" if it is not known."""
         symbol = self._cursor.names.get(name)
         return symbol.kind if symbol else ""
+
+    def is_letter(self, token: Token) -> bool:
+        """Whether d is the symbol of this name: there is one, and what stands there is neither d(x) nor dx."""
+        if token.text != "d" or not self.kind("d"):
+            return False
+        first, second, third = (self._cursor.ahead(i) for i in range(3))
+        joined = self._moves(first) and first.span == token.span
+        called = first.kind == "open" and self._moves(second) and third.kind == "close"
+        return not joined and not called
+
+    def _moves(self, token: Token) -> bool:
+        return token.kind == "name" and self.kind(token.text) in ("coordinate", "time")
 
     def time_derivative(self, operand: Node, span: Span) -> Node:
         """d/dt: a coordinate becomes its rate; anything else is kept for the chain rule, which an algebra carries out.

@@ -383,7 +383,7 @@ class Operators:
                 return self._dot(token)
             case "variation":
                 return self._differentiation.variation(*self._operand(token))
-            case "differential" if self._is_letter(token):
+            case "differential" if self._differentiation.is_letter(token):
                 return self._cursor.made(Name("d", token.span))
             case "differential":
                 return self._differentiation.differential(*self._operand(token))
@@ -393,18 +393,6 @@ class Operators:
                 return self._partial(token)
             case _:
                 return self._derivative(token)
-
-    def _is_letter(self, token: Token) -> bool:
-        """Whether d is the symbol of this name: there is one, and what stands there is neither d(x) nor dx."""
-        if token.text != "d" or not self._differentiation.kind("d"):
-            return False
-        first, second, third = (self._cursor.ahead(i) for i in range(3))
-        joined = self._moves(first) and first.span == token.span
-        called = first.kind == "open" and self._moves(second) and third.kind == "close"
-        return not joined and not called
-
-    def _moves(self, token: Token) -> bool:
-        return token.kind == "name" and self._differentiation.kind(token.text) in ("coordinate", "time")
 
     def _dot(self, token: Token) -> Node:
         node, span = self._operand(token)

@@ -29,7 +29,7 @@ from .latex_tables import (
     TRANSPOSE,
     UPRIGHT,
 )
-from .names import Names, Symbol
+from .names import Names, is_differential
 from .plain_lexer import number_token, operator_tokens
 from .spelling import GREEK, GREEK_NAMES, SUPERSCRIPTS, dotted, key
 from .tokens import Token, fail, has_comma, vector_tokens
@@ -264,7 +264,7 @@ def read_letters(lexer: LatexLexer) -> None:
     if len(run) > 1:
         single = [lexer.names.resolve(letter) for letter in run[:-1]] + [lexer.names.resolve(run[-1] + index)]
         whole = lexer.names.candidates(run + index) or (run in SPELLINGS and not index)
-        if all(single) and not _is_differential(run, single):
+        if all(single) and not is_differential(run, single):
             if whole:
                 product = "*".join(symbol.name for symbol in single if symbol)
                 fail("ambiguous-product", span, text=run + index, first=product, second=run + index)
@@ -277,11 +277,6 @@ def read_letters(lexer: LatexLexer) -> None:
             return
     lexer.found += word_tokens(run + index, span, lexer.names, after_number=lexer.after_number())
     lexer.found += power
-
-
-def _is_differential(run: str, parts: list[Symbol | None]) -> bool:
-    """dx is one also where a symbol is called d."""
-    return run[0] == "d" and len(parts) == 2 and parts[1] is not None and parts[1].kind in ("coordinate", "time")
 
 
 def _check_unit(lexer: LatexLexer, run: str, span: Span) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -133,3 +133,8 @@ def _problems(symbols: tuple[Symbol, ...]) -> Iterable[Problem]:
         elif symbol.name in seen:
             yield Problem("duplicate-name", parameters={"name": symbol.name})
         seen.add(symbol.name)
+
+
+def is_differential(run: str, parts: Sequence[Symbol | None]) -> bool:
+    """Whether letters are dx, which is a differential also where a symbol is called d."""
+    return run[0] == "d" and len(parts) == 2 and parts[1] is not None and parts[1].kind in ("coordinate", "time")
