@@ -28,7 +28,8 @@ from ..language.symbols import Symbols
 
 Reason = Literal["denominators", "constants", "points"]
 POWERS = (1, -1, 2, -2)
-LARGEST = 600  # operations: what is longer is not factored while someone waits
+# Operations times symbols, and powers of sums: what is more is not factored while someone waits.
+LARGEST, STEEPEST = 1000, 8
 ORDERS = {0: 0, 1: 1, 2: 2, 3: 3, 8: 4}  # kind of a symbol → order of its rate
 
 
@@ -46,7 +47,7 @@ def cleared(expression: sp.Expr, symbols: Symbols, function: str = "") -> Cleare
 
     The highest rate of `function`, if it is named, gets a positive factor.
     """
-    if expression.is_number or expression.count_ops() > LARGEST:
+    if expression.is_number or _is_large(expression):
         return Cleared(expression)
     try:
         return _Fraction(expression, symbols, function).cleared
@@ -83,7 +84,7 @@ def upright_roots(expression: sp.Expr) -> sp.Expr:
 def factored(expression: sp.Expr, symbols: Symbols) -> sp.Expr:
     """The expression as one product, or with one term for each power of a root, if that is short; else displayed."""
     otherwise = canonical.display(expression, symbols)
-    if expression.count_ops() > LARGEST or not any(_divides(power) for power in expression.atoms(sp.Pow)):
+    if _is_large(expression) or not any(_divides(power) for power in expression.atoms(sp.Pow)):
         return otherwise
     try:
         fraction = _Fraction(expression, symbols)
@@ -268,6 +269,13 @@ class _Fraction:
         value = sp.N(leading.subs(places))
         negative = value < 0 if value.is_extended_real else leading.could_extract_minus_sign()
         return -1 if negative else 1
+
+
+def _is_large(expression: sp.Expr) -> bool:
+    """Whether multiplying it out and factoring it may take seconds."""
+    powers = (p.exp for p in expression.atoms(sp.Pow) if p.base.is_Add and p.exp.is_Rational)
+    size = expression.count_ops() * len(expression.free_symbols)
+    return bool(size > LARGEST or any(abs(exponent) > STEEPEST for exponent in powers))
 
 
 def _divides(power: sp.Pow) -> bool:
