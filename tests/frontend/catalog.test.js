@@ -9,8 +9,8 @@ import { FORMS, SHOWN } from "../../frontend/model/share.js";
 import { PAGES } from "../../frontend/model/url.js";
 import { OPTIONS } from "../../frontend/model/labs/experiments.js";
 import { SIDES } from "../../frontend/model/homework/place.js";
-import { EXAMPLES } from "../../frontend/model/variations/examples.js";
-import { KINDS } from "../../frontend/model/variations/question.js";
+import { EXAMPLES, GROUPS } from "../../frontend/model/variations/examples.js";
+import { HOLDS, KINDS } from "../../frontend/model/variations/question.js";
 
 const FRONTEND = new URL("../../frontend/", import.meta.url);
 const LOCALES = new URL("../../backend/deltaq/narration/locales/", import.meta.url);
@@ -61,8 +61,9 @@ const EDITOR = [
 /** What the page of variations asks for by example, kind, end and quotient. */
 const VARIATIONS = [
   ...EXAMPLES.map((id) => `variations.example.${id}`),
+  ...Object.keys(GROUPS).map((group) => `variations.group.${group}`),
   ...KINDS.map((kind) => `variations.kind-${kind}`),
-  ...["from", "to", "end-from", "end-to", "end-fixed", "end-free", "syntax-plain", "syntax-latex", "declare-functions", "declare-parameters", "one_sided", "central"].map((key) => `variations.${key}`),
+  ...["from", "to", "end-from", "end-to", ...HOLDS.map((hold) => `end-${hold}`), "syntax-plain", "syntax-latex", "declare-functions", "declare-parameters", "one_sided", "central"].map((key) => `variations.${key}`),
 ];
 
 /** What the help asks for by part and entry. */
