@@ -64,7 +64,7 @@ def drive(
     The schemas named `closed` are any object, so that no cases are made of what is inside of them.
     """
     (folder / "schemathesis.toml").write_text(SETTINGS, encoding="utf-8")
-    document = httpx.get(f"{address}api/v1/openapi.json").json()
+    document = httpx.get(f"{address}api/v1/openapi.json", timeout=60).json()  # it may only just begin
     document["components"]["schemas"] |= {name: {"type": "object"} for name in closed}
     (folder / "openapi.json").write_text(json.dumps(document), encoding="utf-8")
     command = [sys.executable, "-m", "schemathesis.cli", "run", "openapi.json", "--url", address, "--no-color"]
