@@ -1,6 +1,6 @@
-"""The form in which a result is shown: the shortest of a few equivalent ones.
+"""The form in which a result is shown: as a textbook prints it, or as it was given where that is shorter.
 
-They are its arrangement by kinds of terms, the same over a common denominator, and what was given.
+What is too long to be planned is arranged by kinds of terms, over a common denominator or not, whichever is shorter.
 """
 
 from __future__ import annotations
