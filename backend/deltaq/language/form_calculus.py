@@ -17,7 +17,7 @@ from .fourier import Form, Term, TooLargeError
 from .normal_form import Reader
 from .symbols import Symbols
 
-LONG = 6  # terms
+LONG = 2  # terms: forms are faster than SymPy from there on, whatever is in brackets
 
 
 @dataclass(frozen=True)
