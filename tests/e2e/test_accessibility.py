@@ -1,4 +1,7 @@
-"""Every page against WCAG 2.2 AA as far as axe-core sees it: in both languages, in light and in dark."""
+"""Every page against WCAG 2.2 AA as far as axe-core sees it: German in dark, English in light.
+
+Contrast is a matter of the theme, labels are one of the language: each is seen once with each page.
+"""
 
 from __future__ import annotations
 
@@ -115,7 +118,7 @@ def violations(page: Page, axe: str) -> list[Any]:
     return found
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize(("language", "theme"), [("de", "dark"), ("en", "light")])
 @pytest.mark.parametrize(("place", "ready", "first"), PLACES)
 def test_page(
     request: pytest.FixtureRequest,
@@ -124,18 +127,18 @@ def test_page(
     place: str,
     ready: str,
     first: Callable[[Page], None],
+    language: str,
     theme: str,
 ) -> None:
     page = lecture.page
     if first is measure:
         request.getfixturevalue("bench")
     page.emulate_media(reduced_motion="reduce")
-    for language in ("de", "en"):
-        page.goto(f"{lecture.address}{place}&lang={language}&theme={theme}")
-        page.locator(ready).first.wait_for(state="attached")
-        first(page)
-        assert page.locator("html").get_attribute("lang") == language
-        assert violations(page, axe) == []
+    page.goto(f"{lecture.address}{place}&lang={language}&theme={theme}")
+    page.locator(ready).first.wait_for(state="attached")
+    first(page)
+    assert page.locator("html").get_attribute("lang") == language
+    assert violations(page, axe) == []
 
 
 @pytest.mark.parametrize(("language", "theme"), [("de", "dark"), ("en", "light")])
