@@ -87,17 +87,21 @@ def test_large_head_is_refused(service: Served, head: bytes) -> None:
 
 
 def test_slow_reader_is_cut_off(service: Served) -> None:
-    """Long answers are asked for, and none is read."""
+    """Long answers are asked for, and none is read; on a busy machine it may take the service a while to write them."""
+    long = 100 * len(httpx.get(f"{service.address}api/v1/catalogs/de", timeout=PATIENCE).content)
+    assert any(unread(service, seconds) < long for seconds in (2.0, 4.0, 8.0, 16.0))
+
+
+def unread(service: Served, seconds: float) -> int:
+    """How much comes of 300 long answers if they are read that late."""
     request = b"GET /api/v1/catalogs/de HTTP/1.1\r\nHost: localhost\r\n\r\n"
     with socket.socket() as connection:
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         connection.connect(service.place)
         connection.settimeout(PATIENCE)
         connection.sendall(300 * request)
-        time.sleep(2.0)
-        assert received(connection) < 100 * len(
-            httpx.get(f"{service.address}api/v1/catalogs/de", timeout=PATIENCE).content
-        )
+        time.sleep(seconds)
+        return received(connection)
 
 
 def test_patient_connection_is_kept(service: Served) -> None:

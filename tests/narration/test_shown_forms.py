@@ -138,3 +138,15 @@ def test_every_step_of_hard_forms_is_verified() -> None:
     system, derivation = derive(read_scene(document))
     assert [step.id for step in derivation.steps() if not step.verified] == []
     assert result_of(system).equations
+
+
+@pytest.mark.parametrize("scene", ["elastic-pendulum", "base-pendulum", "double-pendulum"])
+def test_what_cancels_in_an_equation_is_a_term_by_itself_in_both_parts(scene: str) -> None:
+    """d/dt ∂L/∂q̇ and ∂L/∂q: the last of each pair of terms that the equation no longer has, as it is written."""
+    steps = {step["id"]: step for chapter in derive_request({"scene": scene})["chapters"] for step in chapter["steps"]}
+    last = "phi2" if scene == "double-pendulum" else "phi"
+    _, change, slope = (part["latex"] for part in steps[f"equation:{last}"]["substeps"])
+    rates = {"double-pendulum": r"\dot{\varphi}_1 \dot{\varphi}_2"}.get(scene, r"\dot{q}_1 \dot{q}_2")
+    assert rates in change
+    assert rates in slope
+    assert "(" not in slope.replace(r"(\varphi_1 - \varphi_2)", "").split("&=")[-1]

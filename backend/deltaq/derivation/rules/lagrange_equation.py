@@ -36,9 +36,17 @@ def _parts(system: System, coordinate: str, lagrangian: Named) -> tuple[Step, ..
     momentum = system.momentum(coordinate)
     name = Named(Quantity("momentum", coordinate), momentum)
     about = {"coordinate": coordinate}
+    change, slope = _with_what_cancels(system.shown_rate(momentum), system.derivative(system.lagrangian, q))
     lines = {
         MOMENTUM: (name, Partial(lagrangian, rate), Explicit(momentum)),
-        MOMENTUM_RATE: (Rate(name), Explicit(system.shown_rate(momentum))),
-        SLOPE: (Partial(lagrangian, q), Explicit(system.derivative(system.lagrangian, q))),
+        MOMENTUM_RATE: (Rate(name), Explicit(change)),
+        SLOPE: (Partial(lagrangian, q), Explicit(slope)),
     }
     return tuple(Step(rule, coordinate, (Relation(members),), (), about) for rule, members in lines.items())
+
+
+def _with_what_cancels(change: sp.Expr, slope: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Both multiplied out where a term of one cancels one of the other, so that it stands alone; else as they are."""
+    apart = [sp.Add(*(sp.expand_mul(term, deep=False) for term in sp.Add.make_args(part))) for part in (change, slope)]
+    terms = [set(sp.Add.make_args(part)) for part in apart]
+    return (apart[0], apart[1]) if terms[0] & terms[1] else (change, slope)
