@@ -25,7 +25,9 @@ import httpx
 from tests.serving import PATIENT, Served, served
 
 API = "api/v1"
-CLIENTS, PAUSE = 6, 0.1  # seconds between two kills
+CLIENTS = 6
+ANSWERS_A_KILL = 6  # as many answers lie between two kills: the pace is the service's, on a slow machine, too
+PAUSE = 0.1  # seconds between two kills at least
 Question = tuple[str, dict[str, Any]]
 QUESTIONS: tuple[Question, ...] = (
     *(("derivations", {"scene": scene}) for scene in ("pendulum", "guided-pendulum", "elastic-pendulum")),
@@ -89,6 +91,8 @@ def workers_of(service: Served) -> list[int]:
 async def kill(service: Served, wanted: int, tally: Tally) -> None:
     """Kill workers, whatever they do at the moment, until enough are dead."""
     while tally.kills < wanted:
+        while tally.statuses.total() < ANSWERS_A_KILL * tally.kills:
+            await asyncio.sleep(PAUSE)
         for worker in random.sample(found := workers_of(service), min(1, len(found))):
             with suppress(ProcessLookupError):
                 os.kill(worker, signal.SIGKILL)
