@@ -1,0 +1,284 @@
+"""Where each term of a line comes from: terms of the line before it, and terms of the steps it rests on.
+
+A line is a sum, and what is done to it is linear in each of its terms: they are derived, multiplied, integrated one by
+one. So a term of the next line comes from those terms of the last one that have a product of its normal form in common
+with it. Nothing but carrying each term out by itself is needed for that, whatever the law was (`normal_algebra`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal, Protocol, TypeAlias
+
+import sympy as sp
+
+from . import formula as f
+from .premises import Names, Signature, concluded, signature
+from .step import Relation, Step
+
+Change = Literal["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged"]
+Products: TypeAlias = Mapping[tuple[int, object], object]  # coefficients by component and product
+Rebuild: TypeAlias = Callable[[f.Formula], f.Formula]
+DERIVATIVES = (f.Partial, f.Rate, f.Gateaux, f.Directional, f.LimitOfQuotient)
+INTEGRALS = (f.Integral, f.MassIntegral)
+MOST = 160  # terms of a line; longer ones are told as a whole
+
+
+class Algebra(Protocol):
+    """What is able to carry a formula out."""
+
+    def products(self, formula: f.Formula) -> Products | None:
+        """The normal form product by product; None if there is none."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """A term of an earlier line, by its id, and what became of it."""
+
+    term: str
+    change: Change
+
+
+@dataclass(frozen=True)
+class Summand:
+    """A term of a line.
+
+    `shown` is what is written, without `sign`; `alone` is the line with no other term in it. `side` is −1 on the right
+    of an equation.
+    """
+
+    id: str
+    shown: f.Formula
+    alone: f.Formula
+    sign: int = 1
+    side: int = 1
+    sources: tuple[str, ...] = ()
+    origins: tuple[Origin, ...] = ()
+
+
+@dataclass(frozen=True)
+class Line:
+    """A member of a relation, term by term, and the terms of the line before it that cancelled."""
+
+    terms: tuple[Summand, ...]
+    cancelled: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A term that may have become another: `carried_out` is what it is in the line that it stands in."""
+
+    id: str
+    carried_out: f.Formula
+    change: Change | None = None  # by the operation that is done to it
+    side: int = 1
+
+
+@dataclass(frozen=True)
+class History:
+    """Tells the lines of steps, one after the other; `known` are the terms of what earlier steps gave a value to."""
+
+    algebra: Algebra
+    names: Names = field(default_factory=Names)
+    known: dict[Signature, tuple[Summand, ...]] = field(default_factory=dict)
+
+    def lines(self, step: Step) -> tuple[tuple[Line, ...], ...]:
+        """All members of all relations of the step."""
+        return tuple(self._lines(step, number, relation) for number, relation in enumerate(step.relations))
+
+    def remember(self, step: Step, lines: tuple[tuple[Line, ...], ...]) -> None:
+        """What the step has given a value to consists of these terms from here on."""
+        for relation, members in zip(step.relations, lines, strict=True):
+            name = self.names.join(concluded(relation))
+            if name is not None:
+                self.known[name] = members[-1].terms
+
+    def _lines(self, step: Step, number: int, relation: Relation) -> tuple[Line, ...]:
+        found: list[Line] = []
+        for place, member in enumerate(relation.members):
+            terms = tuple(
+                replace(term, id=f"{step.id}/{number}.{place}.{index}") for index, term in enumerate(summands(member))
+            )
+            if place == 0:
+                found.append(Line(self._started(terms)))
+                continue
+            before = [*_as_candidates(found[-1].terms), *self._inside(found[-1].terms)]
+            here = list(self._inside(terms))
+            found.append(self._told(terms, before, here, {term.id for term in found[-1].terms}))
+        return tuple(found)
+
+    def _started(self, terms: tuple[Summand, ...]) -> tuple[Summand, ...]:
+        """The terms of the first member: what they name comes from the steps that said what it is."""
+        return tuple(replace(term, origins=self._named_in(term)) for term in terms)
+
+    def _named_in(self, term: Summand) -> tuple[Origin, ...]:
+        """Every known term in it that is not zero there."""
+        found = (one for one in self._inside((term,)) if self.algebra.products(one.carried_out) != {})
+        return tuple(Origin(*pair) for pair in dict.fromkeys((one.id, one.change or "kept") for one in found))
+
+    def _told(
+        self, terms: tuple[Summand, ...], before: list[Candidate], here: list[Candidate], own: set[str]
+    ) -> Line:
+        """The terms of a member with their origins."""
+        if len(before) > MOST or len(terms) > MOST:
+            return Line(terms)
+        carried = {one: self.algebra.products(one.carried_out) for one in (*before, *here)}
+        told, used = [], set[str]()
+        for term in terms:
+            products = self.algebra.products(term.alone)
+            origins = tuple(_matching(term, products, carried, own))
+            used |= {origin.term for origin in origins}
+            told.append(replace(term, origins=origins))
+        lost = dict.fromkeys(one.id for one in before if carried[one] and one.id not in used)
+        return Line(tuple(told), tuple(lost) if all(term.origins for term in told) else ())
+
+    def _inside(self, terms: tuple[Summand, ...]) -> Iterator[Candidate]:
+        """The known terms of what the terms name, each put in the place of the whole."""
+        for term in terms:
+            for name, rebuild, change in self._occurrences(term.alone):
+                for one in self.known[name]:
+                    yield Candidate(one.id, rebuild(one.alone), change, term.side)
+
+    def _occurrences(self, formula: f.Formula) -> Iterator[tuple[Signature, Rebuild, Change | None]]:
+        """All that is known by a name, how to put something in its place, and what is done to it there."""
+        name = signature(formula)
+        if name is not None and self.names.one(name) in self.known:
+            yield self.names.one(name), _itself, None
+            return
+        change = _done_by(formula)
+        for part, rebuild in _linear_parts(formula):
+            for inner, build, below in self._occurrences(part):
+                yield inner, _nested(rebuild, build), change or below
+
+
+def _as_candidates(terms: tuple[Summand, ...]) -> Iterator[Candidate]:
+    for term in terms:
+        yield Candidate(term.id, term.alone, _operation(term.shown), term.side)
+
+
+def _matching(
+    term: Summand, products: Products | None, carried: Mapping[Candidate, Products | None], own: set[str]
+) -> Iterator[Origin]:
+    """The candidates that have a product in common with the term, each with what became of it."""
+    if products is None:
+        only = [one for one in carried if one.id in own]
+        yield from (Origin(one.id, one.change or "expanded") for one in only if len(only) == 1)
+        return
+    sharing = {one: found for one, found in carried.items() if found is not None and found.keys() & products.keys()}
+    several = len({one.id for one in sharing if one.id in own}) > 1
+    told: dict[str, Change] = {}
+    for one, found in sharing.items():
+        told.setdefault(one.id, one.change or _change(found, products, one.side * term.side, several=several))
+    yield from (Origin(name, change) for name, change in told.items())
+
+
+def _change(before: Products, after: Products, sides: int, *, several: bool) -> Change:
+    """What became of a term that was not derived or integrated."""
+    if before == after:
+        return "kept" if sides > 0 else "sign-turned"
+    return "merged" if several else "expanded"
+
+
+def _done_by(formula: f.Formula) -> Change | None:
+    """What an operation does to the terms in it."""
+    if isinstance(formula, DERIVATIVES):
+        return "differentiated"
+    return "integrated" if isinstance(formula, INTEGRALS) else None
+
+
+def _operation(formula: f.Formula) -> Change | None:
+    """What is still to be done to a term as it is written."""
+    below = (_operation(part) for part, _ in _linear_parts(formula))
+    return _done_by(formula) or next(filter(None, below), None)
+
+
+def summands(formula: f.Formula) -> Iterator[Summand]:
+    """The terms of a line as they are written, with the line in which they stand alone."""
+    match formula:
+        case f.Plus(terms):
+            for term in terms:
+                if not (isinstance(term.formula, f.Explicit) and term.formula.value == 0):
+                    yield Summand("", term.formula, f.Plus((term,)), term.sign, 1, term.sources)
+        case f.Equation(left, right):
+            yield from (one for one in summands(left) if not _is_zero(one.shown))
+            for one in summands(right):
+                if not _is_zero(one.shown):
+                    yield replace(one, alone=_negative(one.alone), side=-1)
+        case f.Explicit(value) if isinstance(value, sp.MatrixBase):
+            yield from _entries(value)
+        case f.Explicit(value) if isinstance(value, sp.Add):
+            yield from (Summand("", *_signed(part)) for part in value.args)
+        case f.Integral(of, material):
+            yield from (replace(one, alone=f.Integral(one.alone, material)) for one in summands(of))
+        case f.AtTime(of, time):
+            yield from (replace(one, alone=f.AtTime(one.alone, time)) for one in summands(of))
+        case _:
+            yield Summand("", formula, formula)
+
+
+def _entries(value: sp.MatrixBase) -> Iterator[Summand]:
+    for place, entry in enumerate(value.flat()):
+        for part in sp.Add.make_args(entry):
+            if part != 0:
+                alone = [sp.Integer(0)] * len(value)
+                alone[place] = part
+                shown, _, sign = _signed(part)
+                yield Summand("", shown, f.Explicit(sp.ImmutableMatrix(*value.shape, alone)), sign)
+
+
+def _signed(part: sp.Expr) -> tuple[f.Formula, f.Formula, int]:
+    """A term without its sign, as it stands, and the sign."""
+    negative = part.could_extract_minus_sign()
+    return f.Explicit(-part if negative else part), f.Explicit(part), -1 if negative else 1
+
+
+def _is_zero(formula: f.Formula) -> bool:
+    return isinstance(formula, f.Explicit) and formula.value == 0
+
+
+def _negative(formula: f.Formula) -> f.Formula:
+    return f.Plus((f.minus(formula),))
+
+
+def _itself(formula: f.Formula) -> f.Formula:
+    return formula
+
+
+def _nested(outer: Rebuild, inner: Rebuild) -> Rebuild:
+    return lambda other: outer(inner(other))
+
+
+def _linear_parts(formula: f.Formula) -> Iterator[tuple[f.Formula, Rebuild]]:
+    """The formulas inside in which this one is linear, and this one with another in the place of each.
+
+    In a sum the other terms are left out: they say nothing of this one.
+    """
+    match formula:
+        case f.Plus(terms):
+            for term in terms:
+                yield term.formula, lambda other, term=term: f.Plus((replace(term, formula=other),))
+        case f.Times(factors):
+            for place, factor in enumerate(factors):
+                yield factor, lambda other, place=place: f.Times((*factors[:place], other, *factors[place + 1 :]))
+        case f.Dot(left, right):
+            yield left, lambda other: f.Dot(other, right)
+            yield right, lambda other: f.Dot(left, other)
+        case f.Equation(left, right):
+            yield left, _itself
+            yield right, _negative
+        case f.Stack(rows):
+            zeros = (f.Explicit(sp.Integer(0)),) * len(rows)
+            for place, row in enumerate(rows):
+                yield row, lambda other, place=place: f.Stack((*zeros[:place], other, *zeros[place + 1 :]))
+        case f.MatrixTimes(matrix, vector):
+            yield matrix, lambda other: f.MatrixTimes(other, vector)
+            yield vector, lambda other: f.MatrixTimes(matrix, other)
+        case f.Summed(_, terms):
+            yield from ((term, _itself) for term in terms)
+        case f.Partial(of) | f.Rate(of) | f.Gateaux(of) | f.Integral(of) | f.AtTime(of) | f.Boundary(of):
+            yield of, lambda other: replace(formula, of=other)
+        case f.Directional(of) | f.LimitOfQuotient(of) | f.MassIntegral(of) | f.Jacobian(of):
+            yield of, lambda other: replace(formula, of=other)
+        case f.AtEquilibrium(of) | f.Inserted(of) | f.Substituted(of) | f.Called(_, of):
+            yield of, lambda other: replace(formula, of=other)
