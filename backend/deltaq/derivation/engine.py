@@ -7,9 +7,11 @@ from difflib import get_close_matches
 from ..errors import Problem, UnknownNameError
 from ..mechanics.scene import Scene
 from ..packages import modules_of
+from .grounds import Grounds
+from .normal_algebra import NormalAlgebra
 from .step import Derivation
 from .system import System
-from .verification import verified
+from .verification import SAMPLED, verified
 
 FORMULATIONS = "deltaq.derivation.formulations"
 USUAL = "dalembert-lagrange"  # if none is asked for
@@ -21,11 +23,22 @@ def formulation_names() -> tuple[str, ...]:
 
 
 def derive(scene: Scene, formulation: str = USUAL) -> tuple[System, Derivation]:
-    """The derivation of a scene, every step verified. Raises UnknownNameError for an unknown formulation."""
+    """The derivation of a scene, every step verified and with its grounds. UnknownNameError: no such formulation."""
     check_formulation(formulation)
     road = next(module for module in modules_of(FORMULATIONS) if formulation == module.FORMULATION)
     system = System(scene)
-    return system, verified(road.derive(system), system)
+    return system, _grounds(system).of(verified(road.derive(system), system))
+
+
+def _grounds(system: System) -> Grounds:
+    """How steps of a scene are told: normal forms prove what they say.
+
+    Only the second algebra knows that variations vanish at both ends: a term that is zero there is one all the same.
+    """
+    plain = NormalAlgebra(system.coordinates)
+    held = frozenset((f"delta({q})", end) for q in system.coordinates for end in system.ends)
+    fixed = NormalAlgebra(system.coordinates, held, plain.reader)
+    return Grounds(plain, lambda relation: plain.holds(relation) or fixed.holds(relation), SAMPLED)
 
 
 def check_formulation(formulation: str) -> None:

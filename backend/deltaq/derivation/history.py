@@ -9,15 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal, Protocol, TypeAlias
+from functools import partial
+from itertools import repeat
+from typing import Protocol, TypeAlias
 
 import sympy as sp
 
 from . import formula as f
 from .premises import Names, Signature, concluded, signature
-from .step import Relation, Step
+from .step import Change, Line, Origin, Relation, Step, Summand
 
-Change = Literal["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged"]
 Products: TypeAlias = Mapping[tuple[int, object], object]  # coefficients by component and product
 Rebuild: TypeAlias = Callable[[f.Formula], f.Formula]
 DERIVATIVES = (f.Partial, f.Rate, f.Gateaux, f.Directional, f.LimitOfQuotient)
@@ -30,39 +31,6 @@ class Algebra(Protocol):
 
     def products(self, formula: f.Formula) -> Products | None:
         """The normal form product by product; None if there is none."""
-
-
-@dataclass(frozen=True)
-class Origin:
-    """A term of an earlier line, by its id, and what became of it."""
-
-    term: str
-    change: Change
-
-
-@dataclass(frozen=True)
-class Summand:
-    """A term of a line.
-
-    `shown` is what is written, without `sign`; `alone` is the line with no other term in it. `side` is −1 on the right
-    of an equation.
-    """
-
-    id: str
-    shown: f.Formula
-    alone: f.Formula
-    sign: int = 1
-    side: int = 1
-    sources: tuple[str, ...] = ()
-    origins: tuple[Origin, ...] = ()
-
-
-@dataclass(frozen=True)
-class Line:
-    """A member of a relation, term by term, and the terms of the line before it that cancelled."""
-
-    terms: tuple[Summand, ...]
-    cancelled: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -84,15 +52,19 @@ class History:
     known: dict[Signature, tuple[Summand, ...]] = field(default_factory=dict)
 
     def lines(self, step: Step) -> tuple[tuple[Line, ...], ...]:
-        """All members of all relations of the step."""
-        return tuple(self._lines(step, number, relation) for number, relation in enumerate(step.relations))
-
-    def remember(self, step: Step, lines: tuple[tuple[Line, ...], ...]) -> None:
-        """What the step has given a value to consists of these terms from here on."""
-        for relation, members in zip(step.relations, lines, strict=True):
-            name = self.names.join(concluded(relation))
+        """All members of all relations of the step, which have given a value to something from here on."""
+        found = tuple(self._lines(step, number, relation) for number, relation in enumerate(step.relations))
+        for name, members in zip(map(self._name, step.relations), found, strict=True):
             if name is not None:
                 self.known[name] = members[-1].terms
+        return found
+
+    def concluded(self, step: Step) -> Iterator[Signature]:
+        """What the step has given a value to."""
+        return filter(None, map(self._name, step.relations))
+
+    def _name(self, relation: Relation) -> Signature | None:
+        return self.names.join(concluded(relation))
 
     def _lines(self, step: Step, number: int, relation: Relation) -> tuple[Line, ...]:
         found: list[Line] = []
@@ -117,12 +89,13 @@ class History:
         found = (one for one in self._inside((term,)) if self.algebra.products(one.carried_out) != {})
         return tuple(Origin(*pair) for pair in dict.fromkeys((one.id, one.change or "kept") for one in found))
 
-    def _told(
-        self, terms: tuple[Summand, ...], before: list[Candidate], here: list[Candidate], own: set[str]
-    ) -> Line:
+    def _told(self, terms: tuple[Summand, ...], before: list[Candidate], here: list[Candidate], own: set[str]) -> Line:
         """The terms of a member with their origins."""
         if len(before) > MOST or len(terms) > MOST:
             return Line(terms)
+        if len(before) == 1 and not here:
+            (only,) = before
+            return Line(tuple(replace(term, origins=(Origin(only.id, only.change or "expanded"),)) for term in terms))
         carried = {one: self.algebra.products(one.carried_out) for one in (*before, *here)}
         told, used = [], set[str]()
         for term in terms:
@@ -193,12 +166,12 @@ def _operation(formula: f.Formula) -> Change | None:
     return _done_by(formula) or next(filter(None, below), None)
 
 
-def summands(formula: f.Formula) -> Iterator[Summand]:
+def summands(formula: f.Formula) -> Iterator[Summand]:  # noqa: C901 - one case for each kind
     """The terms of a line as they are written, with the line in which they stand alone."""
     match formula:
         case f.Plus(terms):
             for term in terms:
-                if not (isinstance(term.formula, f.Explicit) and term.formula.value == 0):
+                if not _is_zero(term.formula):
                     yield Summand("", term.formula, f.Plus((term,)), term.sign, 1, term.sources)
         case f.Equation(left, right):
             yield from (one for one in summands(left) if not _is_zero(one.shown))
@@ -215,6 +188,41 @@ def summands(formula: f.Formula) -> Iterator[Summand]:
             yield from (replace(one, alone=f.AtTime(one.alone, time)) for one in summands(of))
         case _:
             yield Summand("", formula, formula)
+
+
+def with_names(formula: f.Formula, names: Iterator[str]) -> f.Formula:  # noqa: PLR0911 - one case for each kind
+    """The line with a class for each of its `summands`, in their order, where it is a sum as it is written."""
+    match formula:
+        case f.Plus(terms):
+            return f.Plus(tuple(_with_role(term, names) for term in terms))
+        case f.Equation(left, right):
+            return f.Equation(
+                with_names(left, _unless_zero(left, names)), with_names(right, _unless_zero(right, names))
+            )
+        case f.Explicit(value, owners) if isinstance(value, sp.MatrixBase):
+            entries = [(entry, tuple(part for part in sp.Add.make_args(entry) if part != 0)) for entry in value.flat()]
+            named = [(entry, tuple((part, (next(names),)) for part in parts)) for entry, parts in entries]
+            return f.Explicit(value, (*owners, *(pair for pair in named if len(pair[1]) > 1)))
+        case f.Explicit(value, owners) if isinstance(value, sp.Add):
+            return f.Explicit(value, (*owners, (value, tuple((part, (next(names),)) for part in value.args))))
+        case f.Integral(of, material):
+            return f.Integral(with_names(of, names), material)
+        case f.AtTime(of, time):
+            return f.AtTime(with_names(of, names), time)
+        case _:
+            next(names)
+            return formula
+
+
+def _with_role(term: f.Term, names: Iterator[str]) -> f.Term:
+    if _is_zero(term.formula):
+        return term
+    return replace(term, role=f"{term.role} {next(names)}".strip())
+
+
+def _unless_zero(side: f.Formula, names: Iterator[str]) -> Iterator[str]:
+    """A side that is 0 has no term, and takes no name."""
+    return repeat("") if _is_zero(side) else names
 
 
 def _entries(value: sp.MatrixBase) -> Iterator[Summand]:
@@ -249,28 +257,25 @@ def _nested(outer: Rebuild, inner: Rebuild) -> Rebuild:
     return lambda other: outer(inner(other))
 
 
-def _linear_parts(formula: f.Formula) -> Iterator[tuple[f.Formula, Rebuild]]:
+def _linear_parts(formula: f.Formula) -> Iterator[tuple[f.Formula, Rebuild]]:  # noqa: C901 - one case for each kind
     """The formulas inside in which this one is linear, and this one with another in the place of each.
 
     In a sum the other terms are left out: they say nothing of this one.
     """
     match formula:
         case f.Plus(terms):
-            for term in terms:
-                yield term.formula, lambda other, term=term: f.Plus((replace(term, formula=other),))
+            yield from ((term.formula, partial(_sum_of, term)) for term in terms)
         case f.Times(factors):
-            for place, factor in enumerate(factors):
-                yield factor, lambda other, place=place: f.Times((*factors[:place], other, *factors[place + 1 :]))
+            yield from ((factor, partial(_among, f.Times, factors, place)) for place, factor in enumerate(factors))
+        case f.Stack(rows):
+            zeros = (f.Explicit(sp.Integer(0)),) * len(rows)
+            yield from ((row, partial(_among, f.Stack, zeros, place)) for place, row in enumerate(rows))
         case f.Dot(left, right):
             yield left, lambda other: f.Dot(other, right)
             yield right, lambda other: f.Dot(left, other)
         case f.Equation(left, right):
             yield left, _itself
             yield right, _negative
-        case f.Stack(rows):
-            zeros = (f.Explicit(sp.Integer(0)),) * len(rows)
-            for place, row in enumerate(rows):
-                yield row, lambda other, place=place: f.Stack((*zeros[:place], other, *zeros[place + 1 :]))
         case f.MatrixTimes(matrix, vector):
             yield matrix, lambda other: f.MatrixTimes(other, vector)
             yield vector, lambda other: f.MatrixTimes(matrix, other)
@@ -280,5 +285,16 @@ def _linear_parts(formula: f.Formula) -> Iterator[tuple[f.Formula, Rebuild]]:
             yield of, lambda other: replace(formula, of=other)
         case f.Directional(of) | f.LimitOfQuotient(of) | f.MassIntegral(of) | f.Jacobian(of):
             yield of, lambda other: replace(formula, of=other)
-        case f.AtEquilibrium(of) | f.Inserted(of) | f.Substituted(of) | f.Called(_, of):
+        case f.Substituted(of) | f.Called(_, of):
             yield of, lambda other: replace(formula, of=other)
+
+
+def _sum_of(term: f.Term, other: f.Formula) -> f.Formula:
+    return f.Plus((replace(term, formula=other),))
+
+
+def _among(
+    kind: Callable[[tuple[f.Formula, ...]], f.Formula], others: tuple[f.Formula, ...], place: int, one: f.Formula
+) -> f.Formula:
+    """A product or a column with another formula in one place."""
+    return kind((*others[:place], one, *others[place + 1 :]))

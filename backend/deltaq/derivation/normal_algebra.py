@@ -39,7 +39,7 @@ class NotCarriedOutError(Exception):
 
 @dataclass(frozen=True, eq=False)
 class NormalAlgebra:
-    """Carries out formulas about functions of time; `held` are the pairs of a variation and an instant where it is 0."""
+    """Carries out formulas about functions of time; `held` names variations with the instants where they vanish."""
 
     functions: tuple[str, ...]
     held: frozenset[tuple[str, sp.Expr]] = frozenset()
@@ -79,7 +79,7 @@ class NormalAlgebra:
         return self._carried_out(formula)
 
     @cached_method
-    def _carried_out(self, formula: f.Formula) -> Forms:  # noqa: PLR0911, PLR0912 - one case for each kind
+    def _carried_out(self, formula: f.Formula) -> Forms:  # noqa: C901, PLR0911, PLR0912 - one case for each kind
         match formula:
             case f.Given(_, value) | f.Explicit(value) | f.Named(_, value) | f.Rounded(value):
                 return self.value(value)
@@ -109,7 +109,7 @@ class NormalAlgebra:
             case f.Stack() | f.MatrixTimes() | f.Jacobian() | f.Determinant() | f.Power():
                 return self._of_matrix(formula)
 
-    def _of_functions(self, formula: f.FunctionFormula) -> Forms:
+    def _of_functions(self, formula: f.FunctionFormula) -> Forms:  # noqa: PLR0911 - one case for each kind
         match formula:
             case f.Called(_, of):
                 return self._carried_out(of)
@@ -205,7 +205,7 @@ class NormalAlgebra:
         """The form with symbols replaced; what is multiplied by a zero is left out first."""
         zeros = {symbol.name for symbol, value in values.items() if value == 0}
         left = {term: number for term, number in form.items() if not any(n in zeros and e > 0 for n, e in term[0])}
-        return self._read(self.reader.expression(left).subs(values, simultaneous=True))
+        return self._read(self.reader.expression(left).xreplace(dict(values)))
 
     def _integral(self, of: f.Formula, material: tuple[f.Bounds, ...]) -> Forms:
         forms = self._carried_out(of)
@@ -214,7 +214,7 @@ class NormalAlgebra:
         return forms
 
     def _integrated(self, form: Form, bounds: f.Bounds) -> Form:
-        """Over the time by parts, as long as variations have rates; over a body, what is polynomial in its coordinate."""
+        """Over the time by parts until variations have no rates; over a body, what is polynomial in its coordinate."""
         if bounds.symbol.name == "t":
             return self._over_time(form, bounds.lower, bounds.upper)
         name = bounds.symbol.name
@@ -293,12 +293,11 @@ class NormalAlgebra:
             return matrix[0]
         rows = [matrix[start : start + size] for start in range(0, len(matrix), size)]
         minors = (
-            self._determinant(tuple(form for row in rows[1:] for form in (*row[:k], *row[k + 1 :]))) for k in range(size)
+            self._determinant(tuple(form for row in rows[1:] for form in (*row[:k], *row[k + 1 :])))
+            for k in range(size)
         )
         signed = (fourier.scale(entry, fmpq((-1) ** k)) for k, entry in enumerate(rows[0]))
         return self.add(self.times(entry, minor) for entry, minor in zip(signed, minors, strict=True))
-
-
 
 
 def _is_rounded(value: sp.Basic) -> bool:

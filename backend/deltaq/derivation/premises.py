@@ -7,14 +7,15 @@ A relation `E = … = ½ m l² φ̇²` says what E is. Whoever speaks of E later
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
-from typing import TypeAlias
+from dataclasses import dataclass, field, fields
+from typing import Any, TypeAlias, get_args
 
 from . import formula as f
 from .step import Relation, Step
 
+KINDS = get_args(f.Formula)
 # A quantity, or what is done with it: ("Gateaux", r), ("Partial", L, "phi").
-Signature: TypeAlias = tuple[object, ...]
+Signature: TypeAlias = tuple[Any, ...]
 
 
 def signature(formula: f.Formula) -> Signature | None:
@@ -54,35 +55,30 @@ class Names:
     def one(self, name: Signature) -> Signature:
         """The name that stands for this one: d/dt ∂L/∂q̇ is d/dt p where p = ∂L/∂q̇."""
         match name:
-            case ("Rate" | "Gateaux" as kind, inner):
-                name = (kind, self.one(inner))
-            case ("Partial", inner, by):
-                name = ("Partial", self.one(inner), by)
+            case ("Rate" | "Gateaux" | "Partial" as kind, inner, *by):
+                name = (kind, self.one(inner), *by)
             case ("Plus", *inside):
-                name = ("Plus", *((sign, self.one(inner)) for sign, inner in inside))
+                name = ("Plus", *((signed[0], self.one(signed[1])) for signed in inside))
         return self.same.get(name, name)
 
     def join(self, names: tuple[Signature, ...]) -> Signature | None:
         """These mean the same from here on; the first one stands for all."""
-        first, *others = [self.one(name) for name in names] or [None]
-        self.same |= {other: first for other in others if other != first and first is not None and other is not None}
+        if not names:
+            return None
+        first, *others = map(self.one, names)
+        self.same |= {other: first for other in others if other != first}
         return first
 
 
-def parts(formula: object) -> Iterator[f.Formula]:
+def parts(formula: f.Formula) -> Iterator[f.Formula]:
     """The formulas inside, one level down."""
-    if not is_dataclass(formula):
-        return
     for one in fields(formula):
         value = getattr(formula, one.name)
         for each in value if isinstance(value, tuple) else (value,):
             if isinstance(each, f.Term):
                 yield each.formula
-            elif is_dataclass(each) and isinstance(each, FORMULAS):
+            elif isinstance(each, KINDS):
                 yield each
-
-
-FORMULAS = (*(kind for kind in f.Formula.__args__), f.MatrixFormula)
 
 
 def premises(step: Step, names: Names, known: Mapping[Signature, str]) -> tuple[str, ...]:

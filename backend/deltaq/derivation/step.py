@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
+from typing import Literal
 
 from .formula import Formula
 
@@ -31,12 +32,64 @@ class Relation:
         return self.members[-1]
 
 
+Change = Literal["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged"]
+EvidenceKind = Literal["exact", "sampled", "stated"]
+
+
+@dataclass(frozen=True)
+class Origin:
+    """A term of an earlier line, by its id, and what became of it."""
+
+    term: str
+    change: Change
+
+
+@dataclass(frozen=True)
+class Summand:
+    """A term of a line.
+
+    `shown` is what is written, without `sign`; `alone` is the line with no other term in it. `side` is −1 on the right
+    of an equation.
+    """
+
+    id: str
+    shown: Formula
+    alone: Formula
+    sign: int = 1
+    side: int = 1
+    sources: tuple[str, ...] = ()
+    origins: tuple[Origin, ...] = ()
+
+
+@dataclass(frozen=True)
+class Line:
+    """A member of a relation, term by term, and the ids of the terms it was made of that cancelled."""
+
+    terms: tuple[Summand, ...]
+    cancelled: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """How it is known that the relations of a step hold.
+
+    `exact`: their members have one normal form, whatever the values are. `sampled`: they agree at `points` random
+    points to `digits` decimal digits. `stated`: nothing is said to be equal, as a principle is not derived.
+    """
+
+    kind: EvidenceKind
+    points: int = 0
+    digits: int = 0
+
+
 @dataclass(frozen=True)
 class Step:
     """One law applied once.
 
     `rule` names the law, `subject` what it is applied to, `about` the names its sentence needs. The relations are the
-    law's premise turned into its conclusion. `verified` is set by the verification, never by the rule itself.
+    law's premise turned into its conclusion. `premises` are the ids of the steps it rests on: a rule names those that
+    its formulas do not show. `verified`, `evidence` and the `lines` of each relation, member by member, are found out
+    about the step, never said by the rule itself.
     """
 
     rule: str
@@ -45,7 +98,10 @@ class Step:
     sources: tuple[str, ...] = ()
     about: Mapping[str, str] = field(default_factory=dict)
     substeps: tuple[Step, ...] = ()
+    premises: tuple[str, ...] = ()
     verified: bool = False
+    evidence: Evidence | None = None
+    lines: tuple[tuple[Line, ...], ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "about", MappingProxyType(dict(self.about)))

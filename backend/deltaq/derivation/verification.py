@@ -21,12 +21,13 @@ from flint import arb, ctx
 from .evaluation import evaluate
 from .formula import Formula
 from .points import Place, Point
-from .step import Chapter, Derivation, Relation, Step
+from .step import Chapter, Derivation, Evidence, Relation, Step
 from .system import System
 
 BITS = 512
 TOLERANCE = arb(2) ** -80
 POINTS = 2
+SAMPLED = Evidence("sampled", POINTS, 24)  # 2⁻⁸⁰ ≈ 10⁻²⁴
 ATTEMPTS = 8
 HALF = arb(2) ** -20  # of the interval of an action: so short that few nodes integrate over it
 

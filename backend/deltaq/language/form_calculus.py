@@ -71,8 +71,30 @@ def plain_forms(exprs: Iterable[Any], reader: Reader) -> list[Form] | None:
     return forms if is_plain else None
 
 
+def derivative(reader: Reader, form: Form, by: str) -> Form:
+    """∂/∂by of a form of any generators, by the chain rule through those that are no symbols. Raises TooLargeError."""
+    names = dict.fromkeys(
+        name for mono, phase, _ in form for part in (mono, *(m for m, _ in phase)) for name, _ in part
+    )
+    inner = ((name, _slope(reader, name, by)) for name in names)
+    return fourier.add(reader.multiply(form_derivative(form, name), slope) for name, slope in inner if slope)
+
+
+def _slope(reader: Reader, name: str, by: str) -> Form:
+    """∂(generator)/∂by: 1 for the symbol itself, 0 for other symbols."""
+    if name == by:
+        return fourier.constant(1)
+    if name in reader.bases:
+        return derivative(reader, reader.bases[name], by)
+    meaning = reader.meaning[name]
+    if meaning.is_Symbol or meaning.is_number:
+        return {}
+    symbol = next((symbol for symbol in meaning.free_symbols if symbol.name == by), None)
+    return reader.form(meaning.diff(symbol)) if symbol is not None else {}
+
+
 def form_derivative(form: Form, name: str) -> Form:
-    """∂/∂name of every term."""
+    """∂/∂name of every term, other generators being constant."""
     return fourier.add(
         {changed: coefficient * number}
         for term, coefficient in form.items()

@@ -23,6 +23,10 @@ class Generators:
         self._work = 0
         self._has_roots = False
 
+    def begin(self) -> None:
+        """What was read so far stays known; the bound of work counts from here."""
+        self._work = 0
+
     def multiply(self, left: Form, right: Form) -> Form:
         """The product, as long as all products together stay within bounds."""
         # Whole powers of roots have to be looked for in every product.

@@ -20,7 +20,7 @@ def apply(action: Action) -> Step:
     left: Formula = Plus((Term(variation(action)), Term(action.on(outside)))) if outside else variation(action)
     line = Relation((Equation(left, Explicit(system.zero)),))
     sources = tuple(dict.fromkeys(source for x in action.functions for source in other_sources(action, x)))
-    return Step(RULE, "", (line,), sources, {"outcome": "driven" if outside else "text"})
+    return Step(RULE, "", (line,), sources, {"outcome": "driven" if outside else "text"}, premises=("action",))
 
 
 def other_work(action: Action) -> Plus | None:
