@@ -37,6 +37,15 @@ class GeneralAlgebra:
             return any(other != first for other in others)
         return all(other == first for other in others)
 
+    def products(self, formula: f.Formula) -> dict[tuple[int, object], object] | None:
+        """The number before each product of the normal form, by component; None where there is no normal form."""
+        try:
+            values = tuple(map(self.normal, self.carried_out(formula)))
+        except (TypeError, ValueError):  # ValueError: one of all instances of an index has more components
+            return None
+        found = ((place, part.as_coeff_Mul()) for place, value in enumerate(values) for part in sp.Add.make_args(value))
+        return {(place, product): number for place, (number, product) in found if number != 0}
+
     @cached_method
     def carried_out(self, formula: f.Formula) -> Values:  # noqa: PLR0911 - one case for each kind
         """The components of a formula with every operation done."""

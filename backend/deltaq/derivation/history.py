@@ -133,12 +133,15 @@ def _as_candidates(terms: tuple[Summand, ...]) -> Iterator[Candidate]:
 def _matching(
     term: Summand, products: Products | None, carried: Mapping[Candidate, Products | None], own: set[str]
 ) -> Iterator[Origin]:
-    """The candidates that have a product in common with the term, each with what became of it."""
-    if products is None:
-        only = [one for one in carried if one.id in own]
-        yield from (Origin(one.id, one.change or "expanded") for one in only if len(only) == 1)
+    """The candidates that have a product in common with the term, each with what became of it.
+
+    Where no normal form shows them, as when fractions are brought together, all terms of the line before are.
+    """
+    sharing = {} if products is None else {one: p for one, p in carried.items() if p and p.keys() & products.keys()}
+    if not sharing:
+        whole = [one for one in carried if one.id in own and carried[one] != {} and products != {}]
+        yield from (Origin(one.id, one.change or ("merged" if len(whole) > 1 else "expanded")) for one in whole)
         return
-    sharing = {one: found for one, found in carried.items() if found is not None and found.keys() & products.keys()}
     several = len({one.id for one in sharing if one.id in own}) > 1
     told: dict[str, Change] = {}
     for one, found in sharing.items():
@@ -146,7 +149,7 @@ def _matching(
     yield from (Origin(name, change) for name, change in told.items())
 
 
-def _change(before: Products, after: Products, sides: int, *, several: bool) -> Change:
+def _change(before: Products, after: Products | None, sides: int, *, several: bool) -> Change:
     """What became of a term that was not derived or integrated."""
     if before == after:
         return "kept" if sides > 0 else "sign-turned"

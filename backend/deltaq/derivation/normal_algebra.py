@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import reduce
 
 import sympy as sp
@@ -109,10 +109,16 @@ class NormalAlgebra:
             case f.Stack() | f.MatrixTimes() | f.Jacobian() | f.Determinant() | f.Power():
                 return self._of_matrix(formula)
 
-    def _of_functions(self, formula: f.FunctionFormula) -> Forms:  # noqa: PLR0911 - one case for each kind
+    def _of_functions(self, formula: f.FunctionFormula) -> Forms:  # noqa: C901, PLR0911 - one case for each kind
         match formula:
             case f.Called(_, of):
                 return self._carried_out(of)
+            case f.Directional(f.Called(_, of)) | f.LimitOfQuotient(f.Called(_, of)):
+                return self._carried_out(replace(formula, of=of))
+            case f.Directional(f.Integral(of, material)) | f.LimitOfQuotient(f.Integral(of, material)):
+                return self._carried_out(f.Integral(replace(formula, of=of), material))
+            case f.Directional(f.AtTime(of, time)) | f.LimitOfQuotient(f.AtTime(of, time)):
+                return self._carried_out(f.AtTime(replace(formula, of=of), time))
             case f.Directional(of, along) | f.LimitOfQuotient(of, along):
                 return self._each(of, lambda form: self._along(form, along))
             case f.AtTime(of, time):

@@ -18,9 +18,10 @@ from . import general_lagrange as lagrange
 from . import general_variations as variations
 from .abstract_motion import MOVING, AbstractMotion, arbitrary, sample
 from .carrying_out import GeneralAlgebra
+from .grounds import Grounds
 from .points import Point
 from .step import Chapter, Derivation, Step
-from .verification import POINTS, verified_step
+from .verification import POINTS, SAMPLED, verified_step
 
 PROOF = "dalembert-lagrange"
 Rule = Callable[[AbstractMotion], Step]
@@ -59,9 +60,8 @@ def prove(chapters: Mapping[str, tuple[Rule, ...]] = CHAPTERS) -> Derivation:
         sound = all(map(algebra.holds, step.relations)) and verified_step(rule(concrete), points).verified
         return replace(step, verified=sound)
 
-    return Derivation(
-        PROOF, tuple(starmap(Chapter, ((name, tuple(map(proved, rules))) for name, rules in chapters.items())))
-    )
+    told = tuple(starmap(Chapter, ((name, tuple(map(proved, rules))) for name, rules in chapters.items())))
+    return Grounds(algebra, algebra.holds, SAMPLED).of(Derivation(PROOF, told))
 
 
 def _points(seed: int = 1) -> tuple[Point, ...]:

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import sympy as sp
+
+from .differential_expression import direction
 from .domain import Interval
 from .function_points import function_points
 from .functional import Functional
+from .grounds import Grounds
+from .normal_algebra import NormalAlgebra
 from .rules import (
     beltrami_identity,
     both_routes,
@@ -21,7 +26,7 @@ from .rules import (
     variation_by_definition,
 )
 from .step import Chapter, Derivation, Step
-from .verification import verified_step
+from .verification import SAMPLED, verified_step
 
 FORMULATION = "first-variation"
 
@@ -39,7 +44,24 @@ def vary(subject: Functional) -> Derivation:
     found = [Chapter(name, tuple(verified_step(s, points) for s in steps)) for name, steps in chapters.items()]
     if isinstance(subject.domain, Interval):
         found += [Chapter(name, tuple(verified_step(s, at_ends) for s in steps)) for name, steps in _integral(subject)]
-    return Derivation(FORMULATION, tuple(found))
+    return _grounds(subject).of(Derivation(FORMULATION, tuple(found)))
+
+
+def _grounds(subject: Functional) -> Grounds:
+    """How steps about a functional are told; the second algebra knows where its variations vanish."""
+    held = (
+        (direction(x, order).name, end)
+        for x in subject.functions
+        for order in range(2)
+        for end in _held(subject, order)
+    )
+    plain = NormalAlgebra(subject.functions)
+    fixed = NormalAlgebra(subject.functions, frozenset(held), plain.reader)
+    return Grounds(plain, lambda relation: plain.holds(relation) or fixed.holds(relation), SAMPLED)
+
+
+def _held(subject: Functional, order: int) -> tuple[sp.Expr, ...]:
+    return subject.held_ends(order) if isinstance(subject.domain, Interval) else ()
 
 
 def _integral(subject: Functional) -> Iterator[tuple[str, tuple[Step, ...]]]:
