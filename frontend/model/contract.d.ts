@@ -2198,6 +2198,28 @@ export interface components {
             error: number | null;
         };
         /**
+         * Evidence
+         * @description How it is known that a step holds.
+         */
+        Evidence: {
+            /**
+             * Kind
+             * @description all members have one normal form; they agree at random points; nothing is said to be equal
+             * @enum {string}
+             */
+            kind: "exact" | "sampled" | "stated";
+            /**
+             * Points
+             * @description how many random points, each in ball arithmetic; 0 if not sampled
+             */
+            points: number;
+            /**
+             * Digits
+             * @description to how many decimal digits the members agree there; 0 if not sampled
+             */
+            digits: number;
+        };
+        /**
          * ExponentialReading
          * @description Growth read as e^(rate t).
          */
@@ -3507,6 +3529,24 @@ export interface components {
             measured: number;
             /** Theory */
             theory: number;
+        };
+        /**
+         * Origin
+         * @description A term of an earlier line that a term comes from.
+         */
+        Origin: {
+            /**
+             * Term
+             * @description its id
+             * @example momentum-rate:phi/0.1.0
+             */
+            term: string;
+            /**
+             * Change
+             * @description what became of it: it is still there, stands on the other side with the other sign, was differentiated, integrated, multiplied out into several terms, or merged with others into one
+             * @enum {string}
+             */
+            change: "kept" | "sign-turned" | "differentiated" | "integrated" | "expanded" | "merged";
         };
         /**
          * OwnSymbol
@@ -5147,11 +5187,27 @@ export interface components {
              * @description whether an independent route confirmed the step
              */
             verified: boolean;
+            evidence: components["schemas"]["Evidence"];
+            /**
+             * Premises
+             * @description ids of the steps that this one rests on
+             */
+            premises: string[];
             /**
              * Sources
              * @description bodies and loads that the terms come from
              */
             sources: string[];
+            /**
+             * Terms
+             * @description the summands of all lines, with where they come from
+             */
+            terms: components["schemas"]["TermOfLine"][];
+            /**
+             * Cancelled
+             * @description ids of terms that cancelled in this step
+             */
+            cancelled: string[];
             /** Substeps */
             substeps: components["schemas"]["Step"][];
         };
@@ -5472,6 +5528,34 @@ export interface components {
              *     ]
              */
             sources: string[];
+        };
+        /**
+         * TermOfLine
+         * @description A summand of a line: with `marked`, its class there is `t-` and the numbers behind the `/` of its id.
+         */
+        TermOfLine: {
+            /**
+             * Id
+             * @description step/line.member.term, counted from 0: the third member of the first line has 0.2
+             * @example equation:phi/0.1.0
+             */
+            id: string;
+            /**
+             * Latex
+             * @description with its sign
+             * @example -m g \ell \sin\varphi
+             */
+            latex: string;
+            /**
+             * Sources
+             * @description bodies and loads that it comes from
+             */
+            sources: string[];
+            /**
+             * Origins
+             * @description the terms it comes from: of the member before it, and of steps that this one rests on
+             */
+            origins: components["schemas"]["Origin"][];
         };
         /**
          * TwinRuns

@@ -10,6 +10,7 @@ from .base import Answer, AskedLanguage, SceneWithChanges, examples
 from .result import DerivationResult
 
 Formulation = Literal["dalembert-lagrange", "hamilton"]
+Change = Literal["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged"]
 ROAD = "which road leads to the equations"
 
 
@@ -29,6 +30,40 @@ class DerivationRequest(SceneWithChanges):
     )
 
 
+class Origin(Answer):
+    """A term of an earlier line that a term comes from."""
+
+    term: str = Field(description="its id", examples=["momentum-rate:phi/0.1.0"])
+    change: Change = Field(
+        description="what became of it: it is still there, stands on the other side with the other sign, was"
+        " differentiated, integrated, multiplied out into several terms, or merged with others into one"
+    )
+
+
+class TermOfLine(Answer):
+    """A summand of a line: with `marked`, its class there is `t-` and the numbers behind the `/` of its id."""
+
+    id: str = Field(
+        description="step/line.member.term, counted from 0: the third member of the first line has 0.2",
+        examples=["equation:phi/0.1.0"],
+    )
+    latex: str = Field(description="with its sign", examples=["-m g \\ell \\sin\\varphi"])
+    sources: tuple[str, ...] = Field(description="bodies and loads that it comes from")
+    origins: tuple[Origin, ...] = Field(
+        description="the terms it comes from: of the member before it, and of steps that this one rests on"
+    )
+
+
+class Evidence(Answer):
+    """How it is known that a step holds."""
+
+    kind: Literal["exact", "sampled", "stated"] = Field(
+        description="all members have one normal form; they agree at random points; nothing is said to be equal"
+    )
+    points: int = Field(description="how many random points, each in ball arithmetic; 0 if not sampled")
+    digits: int = Field(description="to how many decimal digits the members agree there; 0 if not sampled")
+
+
 class Step(Answer):
     """One law applied once."""
 
@@ -39,7 +74,11 @@ class Step(Answer):
     latex: str = Field(examples=["\\delta E = m\\ell^2\\dot{\\varphi}\\,\\delta\\dot{\\varphi}"])
     marked: str = Field(description="the same with \\htmlClass hooks that tell which term is what")
     verified: bool = Field(description="whether an independent route confirmed the step")
+    evidence: Evidence
+    premises: tuple[str, ...] = Field(description="ids of the steps that this one rests on")
     sources: tuple[str, ...] = Field(description="bodies and loads that the terms come from")
+    terms: tuple[TermOfLine, ...] = Field(description="the summands of all lines, with where they come from")
+    cancelled: tuple[str, ...] = Field(description="ids of terms that cancelled in this step")
     substeps: tuple[Step, ...]
 
 

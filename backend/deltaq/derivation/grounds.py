@@ -60,4 +60,4 @@ class Grounds:
         return "exact" if self.proves(relation) else "sampled"
 
     def _kinds_below(self, step: Step) -> Iterator[EvidenceKind]:
-        return (substep.evidence.kind for substep in step.substeps if substep.evidence)
+        return (substep.evidence.kind for substep in step.substeps)

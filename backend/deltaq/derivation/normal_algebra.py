@@ -10,8 +10,8 @@ carried out raises `NotCarriedOutError`, and the relation is seen at points only
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import reduce
 
 import sympy as sp
@@ -47,8 +47,6 @@ class NormalAlgebra:
 
     def holds(self, relation: Relation) -> bool:
         """Whether all members have one normal form (or, for the sign ≠, two)."""
-        if any(map(_is_rounded, _values(relation.members))):
-            return False
         try:
             first, *others = map(self.carried_out, relation.members)
             gaps = [self._gap(first, other) for other in others]
@@ -81,7 +79,9 @@ class NormalAlgebra:
     @cached_method
     def _carried_out(self, formula: f.Formula) -> Forms:  # noqa: C901, PLR0911, PLR0912 - one case for each kind
         match formula:
-            case f.Given(_, value) | f.Explicit(value) | f.Named(_, value) | f.Rounded(value):
+            case f.Given(_, value) | f.Explicit(value) | f.Named(_, value):
+                return self.value(value)
+            case f.Rounded(value) if not _is_rounded(value):
                 return self.value(value)
             case f.Partial(of, by):
                 return self._each(of, lambda form: derivative(self.reader, form, by.name))
@@ -102,12 +102,15 @@ class NormalAlgebra:
                 return self.value(value.diff(h).xreplace({h: sp.Integer(0)}))
             case f.Integral(of, material):
                 return self._integral(of, material)
-            case f.Substituted(of, values) | f.AtEquilibrium(of, values) | f.Inserted(of, values):
+            case f.Substituted(of, values) | f.AtEquilibrium(of, values) | f.Inserted(of, values) if not any(
+                map(_is_rounded, values.values())
+            ):
                 return self._each(of, lambda form: self._replaced(form, values))
             case f.FunctionFormula():
                 return self._of_functions(formula)
             case f.Stack() | f.MatrixTimes() | f.Jacobian() | f.Determinant() | f.Power():
                 return self._of_matrix(formula)
+        raise NotCarriedOutError  # what is written with very many digits is rounded
 
     def _of_functions(self, formula: f.FunctionFormula) -> Forms:  # noqa: C901, PLR0911 - one case for each kind
         match formula:
@@ -151,13 +154,7 @@ class NormalAlgebra:
     def value(self, value: f.Value) -> Forms:
         """The forms of an expression or a vector."""
         parts = value.flat() if isinstance(value, sp.MatrixBase) else [value]
-        return tuple(map(self._read, parts))
-
-    def _read(self, value: sp.Expr) -> Form:
-        """The form of an expression; what holds a number rounded to very many digits is no matter of normal forms."""
-        if _is_rounded(value):
-            raise NotCarriedOutError
-        return self.reader.form(value)
+        return tuple(map(self.reader.form, parts))
 
     def add(self, forms: Iterable[Form]) -> Form:
         """The sum."""
@@ -211,7 +208,7 @@ class NormalAlgebra:
         """The form with symbols replaced; what is multiplied by a zero is left out first."""
         zeros = {symbol.name for symbol, value in values.items() if value == 0}
         left = {term: number for term, number in form.items() if not any(n in zeros and e > 0 for n, e in term[0])}
-        return self._read(self.reader.expression(left).xreplace(dict(values)))
+        return self.reader.form(self.reader.expression(left).xreplace(dict(values)))
 
     def _integral(self, of: f.Formula, material: tuple[f.Bounds, ...]) -> Forms:
         forms = self._carried_out(of)
@@ -306,21 +303,6 @@ class NormalAlgebra:
         return self.add(self.times(entry, minor) for entry, minor in zip(signed, minors, strict=True))
 
 
-def _is_rounded(value: sp.Basic) -> bool:
+def _is_rounded(value: f.Value) -> bool:
     """Whether a root is written as a number with very many digits."""
     return any(number.q.bit_length() > ROUNDED for number in value.atoms(sp.Rational))
-
-
-def _values(part: object) -> Iterator[sp.Basic]:
-    """All expressions in formulas."""
-    match part:
-        case sp.Basic() | sp.MatrixBase():
-            yield part
-        case tuple():
-            for each in part:
-                yield from _values(each)
-        case Mapping():
-            yield from (value for value in part.values())
-        case _ if is_dataclass(part):
-            for one in fields(part):
-                yield from _values(getattr(part, one.name))

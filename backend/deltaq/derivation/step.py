@@ -82,6 +82,9 @@ class Evidence:
     digits: int = 0
 
 
+STATED = Evidence("stated")
+
+
 @dataclass(frozen=True)
 class Step:
     """One law applied once.
@@ -100,7 +103,7 @@ class Step:
     substeps: tuple[Step, ...] = ()
     premises: tuple[str, ...] = ()
     verified: bool = False
-    evidence: Evidence | None = None
+    evidence: Evidence = STATED
     lines: tuple[tuple[Line, ...], ...] = ()
 
     def __post_init__(self) -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field, replace
 
-from ..derivation.step import Chapter, Derivation, Step
+from ..derivation.formula import Formula, Term
+from ..derivation.history import with_names
+from ..derivation.step import Chapter, Derivation, Line, Relation, Step, Summand
 from .aligned import aligned
 from .catalog import filled, template, text
 from .letters import Letters, in_sentence
@@ -38,7 +40,7 @@ class Narrator:
         names = self._names(step.about)
         outcome = step.about.get("outcome")
         key = f"rules.steps.{step.rule}"
-        marked = aligned(step.relations, self.notation.formula)
+        marked = aligned(_with_names(step), self.notation.formula)
         return {
             "id": step.id,
             "rule": step.rule,
@@ -47,8 +49,22 @@ class Narrator:
             "latex": without_classes(marked),
             "marked": marked,
             "verified": step.verified,
+            "evidence": asdict(step.evidence),
+            "premises": list(step.premises),
             "sources": list(step.sources),
+            "terms": [self._term(term) for term in _terms(step)],
+            "cancelled": list(
+                dict.fromkeys(one for members in step.lines for line in members for one in line.cancelled)
+            ),
             "substeps": [self.step(substep) for substep in step.substeps],
+        }
+
+    def _term(self, term: Summand) -> Document:
+        return {
+            "id": term.id,
+            "latex": without_classes(self.notation.term(Term(term.shown, (), term.sign))),
+            "sources": list(term.sources),
+            "origins": [asdict(origin) for origin in term.origins],
         }
 
     def _sentence(self, key: str, names: Mapping[str, CatalogText]) -> CatalogText:
@@ -63,3 +79,22 @@ class Narrator:
             return joined(", ", map(self.notation.symbols.label, value.split(", ")))
         latex = self.notation.symbols.coordinate_latex
         return joined(", ", (formula(latex.get(name, name)) for name in value.split(", ")))
+
+
+def _terms(step: Step) -> Iterator[Summand]:
+    return (term for members in step.lines for line in members for term in line.terms)
+
+
+def _with_names(step: Step) -> tuple[Relation, ...]:
+    """The relations with a class for each of their terms: `t-0-1-2` for the last part of its id."""
+    return tuple(
+        replace(
+            relation, members=tuple(_named(member, line) for member, line in zip(relation.members, lines, strict=True))
+        )
+        for relation, lines in zip(step.relations, step.lines, strict=True)
+    )
+
+
+def _named(member: Formula, line: Line) -> Formula:
+    names = (f"t-{term.id.rpartition('/')[2].replace('.', '-')}" for term in line.terms)
+    return with_names(member, names) if len(line.terms) > 1 else member

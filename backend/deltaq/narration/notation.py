@@ -166,6 +166,10 @@ class Notation:
         letter = self.value(h)
         return rf"\left.\frac{{\partial}}{{\partial {letter}}} {text}\right|_{{{letter}=0}}"
 
+    def term(self, term: Term) -> str:
+        """A single term with its sign."""
+        return self._sum((term,))
+
     def _sum(self, terms: tuple[Term, ...]) -> str:
         pieces: list[str] = []
         for term in filter(_counts, terms):
