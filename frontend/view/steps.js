@@ -68,11 +68,16 @@ function formulaOf(content, { why }, later) {
   return latex ? displayed(latex, later) : nothing;
 }
 
+/** How it is known that a step holds. @param {Step} step @param {Pick<View, "t">} view */
+export function grounds({ verified, evidence: { kind, points, digits } }, { t }) {
+  return verified ? t(`step.${kind}-why`, { points, digits }) : t("step.unverified-why");
+}
+
 /** @param {Step} content @param {Pick<View, "t">} view */
-function verdict(content, { t }) {
+function verdict(content, view) {
   return content.verified
-    ? html`<span class="verdict" title=${t("step.verified-why")}>${icon("verified")}<span>${t("step.verified")}</span></span>`
-    : html`<span class="verdict doubtful" title=${t("step.unverified-why")}><span>${t("step.unverified")}</span></span>`;
+    ? html`<span class="verdict" title=${grounds(content, view)}>${icon("verified")}<span>${view.t("step.verified")}</span></span>`
+    : html`<span class="verdict doubtful" title=${grounds(content, view)}><span>${view.t("step.unverified")}</span></span>`;
 }
 
 /** @param {Step} content @param {Pick<View, "t" | "why">} view @returns {import("lit-html").TemplateResult} */

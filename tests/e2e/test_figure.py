@@ -171,7 +171,7 @@ def test_why_opens_the_law_and_what_changed(lecture: Lecture) -> None:
     """The law with its source, in both languages; sources light up when focused; changed terms are marked."""
     page = open_at_rest(lecture, "?scene=elastic-pendulum&lang=en&step=equation:phi")
     current = page.locator(".step[aria-current]")
-    expect(current.locator(".formula .term-turned").first).to_be_attached()
+    expect(current.locator(".formula .term-sign-turned").first).to_be_attached()
     expect(current.locator(".substeps .term-gone")).to_have_count(2)
     current.locator(".why").click()
     law = current.locator(".law")

@@ -5,7 +5,6 @@ import { test } from "node:test";
 import { originsOf } from "../../frontend/model/figure/origins.js";
 import { portraitsOf } from "../../frontend/model/figure/phase.js";
 import { differences, keyOf, readRuns, withoutRun, withRun } from "../../frontend/model/figure/runs.js";
-import { sidesOf, withTerms } from "../../frontend/model/figure/terms.js";
 import { linesOf } from "../../frontend/model/reveal.js";
 import { rowsOf, tracesOf } from "../../frontend/model/plots.js";
 import { readChanges } from "../../frontend/model/values.js";
@@ -77,33 +76,29 @@ for (const lang of ["de", "en"]) {
   });
 }
 
-/** @param {string} id @param {string} latex @param {import("../../frontend/model/types.js").Step[]} substeps */
-const step = (id, latex, substeps = []) => ({ id, rule: id, title: id, text: "", latex, marked: latex, verified: true, sources: [], substeps });
-const aligned = (/** @type {string[]} */ ...lines) => `\\begin{aligned}${lines.join(" \\\\[0.4em] ")}\\end{aligned}`;
-
-test("a formula is put together again as it was, and its terms are those outside of brackets", () => {
-  const latex = aligned("L &= E - V", " &= \\frac{1}{2} m \\left(a - b\\right) + \\htmlClass{load-w}{k (x + 1)} - c", "& \\begin{bmatrix} a - b \\\\ c \\end{bmatrix} \\neq 0");
-  assert.equal(withTerms(latex, (side) => side.map(() => null)), latex);
-  const sides = sidesOf(latex).map((side) => side.map(({ sign, bare }) => `${sign > 0 ? "+" : "-"}${bare}`));
-  assert.deepEqual(sides, [["+L"], ["+E", "-V"], ["+\\frac12m(a-b)", "+k(x+1)", "-c"], ["+\\beginbmatrixa-b\\\\c\\endbmatrix"], ["+0"]]);
+/** A step as the server tells it. @param {string} id @param {string} marked @param {[string, [string, string][]][]} terms with their origins @param {object} more */
+const step = (id, marked, terms, more = {}) => ({
+  id, rule: id, title: id, text: "", latex: marked, marked, verified: true, evidence: { kind: "exact", points: 0, digits: 0 }, premises: [], sources: [], cancelled: [], substeps: [],
+  terms: terms.map(([place, origins]) => ({ id: `${id}/${place}`, latex: "", sources: [], origins: origins.map(([term, change]) => ({ term, change })) })), ...more,
 });
 
-test("terms are carried over, turned, new or cancelled, whatever their classes", () => {
-  const chapters = [{ id: "a", title: "", steps: [
-    step("energy", aligned("V &= k x^2 - m g x")),
-    step("equation", aligned("& m \\ddot{x} - k x^2 + \\htmlClass{load-w}{m g x} - c \\dot{x} = 0"), [
-      step("rate", aligned("p &= m \\ddot{x} + b \\dot{x} x")), step("slope", aligned("s &= c \\dot{x} + b \\dot{x} x")),
-    ]),
-  ] }];
-  const { formulas, from } = originsOf(linesOf(chapters), 1);
-  const [equation, rate] = [chapters[0].steps[1], chapters[0].steps[1].substeps[0]];
-  const marks = [...(formulas.get(equation) ?? "").matchAll(/term-(\w+)\}\{((?:[^{}]|\{[^{}]*\})*)\}/g)].map(([, change, text]) => `${change} ${text}`);
-  assert.deepEqual(marks, ["kept m \\ddot{x}", "turned k x^2", "turned \\htmlClass{load-w}{m g x}", "turned c \\dot{x}"]);
-  assert.match(formulas.get(rate) ?? "", /\\htmlClass\{term-gone\}\{b \\dot\{x\} x\}/);
-  assert.deepEqual(from, { kept: ["1.2"], turned: ["1.1", "1.2"], new: [], gone: ["1.2"] });
+test("terms of a result are marked with what became of them, and lead to the steps they come from", () => {
+  const energy = step("energy", "V", [["0.1.0", []], ["0.1.1", []]]);
+  const rate = step("rate", "p = \\htmlClass{t-0-1-0}{a} + \\htmlClass{body-b t-0-1-1}{b}", [["0.1.0", []], ["0.1.1", []]]);
+  const equation = step(
+    "equation", "& \\htmlClass{t-0-0-0}{P} \\Leftrightarrow \\htmlClass{t-0-1-0}{a} + \\htmlClass{load-w t-0-1-1}{c} - \\htmlClass{t-0-1-2}{d} = 0",
+    [["0.0.0", [["rate/0.1.0", "kept"]]], ["0.1.0", [["equation/0.0.0", "differentiated"], ["rate/0.1.0", "kept"]]], ["0.1.1", [["energy/0.1.1", "sign-turned"]]], ["0.1.2", []]],
+    { substeps: [rate], cancelled: ["rate/0.1.1"] },
+  );
+  const { formulas, from } = originsOf(linesOf(/** @type {any} */ ([{ id: "a", title: "", steps: [energy, equation] }])), 1);
+  assert.equal(formulas.get(/** @type {any} */ (equation)), equation.marked.replace("{t-0-1-0}", "{t-0-1-0 term-kept}").replace("{load-w t-0-1-1}", "{load-w t-0-1-1 term-sign-turned}"));
+  assert.equal(formulas.get(/** @type {any} */ (rate)), rate.marked.replace("{body-b t-0-1-1}", "{body-b t-0-1-1 term-gone}"));
+  assert.deepEqual([...from], [["kept", ["1.2"]], ["sign-turned", ["1.1"]], ["gone", ["1.2"]]]);
 });
 
-test("where nothing is known before, nothing is marked", () => {
-  const { formulas } = originsOf(linesOf([{ id: "a", title: "", steps: [step("energy", "a b + c d")] }]), 0);
-  assert.equal([...formulas.values()][0], "a b + c d");
+test("a single term and a term that comes from nowhere have no mark", () => {
+  const alone = step("alone", "\\htmlClass{t-0-1-0}{a}", [["0.0.0", []], ["0.1.0", [["alone/0.0.0", "kept"]]]]);
+  const { formulas, from } = originsOf(linesOf(/** @type {any} */ ([{ id: "a", title: "", steps: [alone] }])), 0);
+  assert.equal([...formulas.values()][0], alone.marked);
+  assert.equal(from.size, 0);
 });

@@ -34,7 +34,7 @@ def marked(scene: str, step: str) -> str:
 def test_each_mass_in_a_bracket_belongs_to_its_own_body() -> None:
     equation = marked("double-pendulum", "equation:phi1")
     assert r"(\htmlClass{body-upper}{m_1} + \htmlClass{body-lower}{m_2}) \ell_1^{2}" in equation
-    assert r"\htmlClass{load-weight}{(m_1 + m_2) g" in equation
+    assert r"\htmlClass{load-weight t-0-1-3}{(m_1 + m_2) g" in equation
 
 
 def test_a_turning_plane_has_its_integral_and_no_time() -> None:

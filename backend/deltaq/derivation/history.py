@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import repeat
-from typing import Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 import sympy as sp
 
@@ -19,7 +19,7 @@ from . import formula as f
 from .premises import Names, Signature, concluded, signature
 from .step import Change, Line, Origin, Relation, Step, Summand
 
-Products: TypeAlias = Mapping[tuple[int, object], object]  # coefficients by component and product
+Products: TypeAlias = Mapping[tuple[int, object], Any]  # coefficients by component and product
 Rebuild: TypeAlias = Callable[[f.Formula], f.Formula]
 DERIVATIVES = (f.Partial, f.Rate, f.Gateaux, f.Directional, f.LimitOfQuotient)
 INTEGRALS = (f.Integral, f.MassIntegral)
@@ -35,12 +35,17 @@ class Algebra(Protocol):
 
 @dataclass(frozen=True)
 class Candidate:
-    """A term that may have become another: `carried_out` is what it is in the line that it stands in."""
+    """A term that may have become another.
+
+    `carried_out` is what it is in the line that it stands in, `written` what it was where it was written, with `side`
+    the sign that it had there on the left of an equation.
+    """
 
     id: str
     carried_out: f.Formula
-    change: Change | None = None  # by the operation that is done to it
+    written: f.Formula
     side: int = 1
+    change: Change | None = None  # by the operation that is done to it
 
 
 @dataclass(frozen=True)
@@ -99,19 +104,44 @@ class History:
         carried = {one: self.algebra.products(one.carried_out) for one in (*before, *here)}
         told, used = [], set[str]()
         for term in terms:
-            products = self.algebra.products(term.alone)
-            origins = tuple(_matching(term, products, carried, own))
+            origins = tuple(self._matching(term, carried, own))
             used |= {origin.term for origin in origins}
             told.append(replace(term, origins=origins))
         lost = dict.fromkeys(one.id for one in before if carried[one] and one.id not in used)
         return Line(tuple(told), tuple(lost) if all(term.origins for term in told) else ())
+
+    def _matching(self, term: Summand, carried: Mapping[Candidate, Products | None], own: set[str]) -> Iterator[Origin]:
+        """The candidates that have a product in common with the term, each with what became of it.
+
+        Where no normal form shows them, as when fractions are brought together, all terms of the line before are.
+        """
+        products = self.algebra.products(term.alone)
+        sharing = [one for one, found in carried.items() if products and found and found.keys() & products.keys()]
+        if not sharing:
+            whole = [one for one in carried if one.id in own and carried[one] != {} and products != {}]
+            yield from (Origin(one.id, one.change or ("merged" if len(whole) > 1 else "expanded")) for one in whole)
+            return
+        several = len({one.id for one in sharing if one.id in own}) > 1
+        told: dict[str, Change] = {}
+        for one in sharing:
+            told.setdefault(one.id, one.change or self._change(one, term, several=several))
+        yield from (Origin(name, change) for name, change in told.items())
+
+    def _change(self, one: Candidate, term: Summand, *, several: bool) -> Change:
+        """What became of a term that was not derived or integrated: whether it is written as it was before."""
+        before, after = self.algebra.products(one.written) or {}, self.algebra.products(term.alone) or {}
+        ways: tuple[tuple[int, Change], ...] = ((one.side * term.side, "kept"), (-one.side * term.side, "sign-turned"))
+        for sign, change in ways:
+            if before.keys() == after.keys() and all(number == sign * after[key] for key, number in before.items()):
+                return change
+        return "merged" if several else "expanded"
 
     def _inside(self, terms: tuple[Summand, ...]) -> Iterator[Candidate]:
         """The known terms of what the terms name, each put in the place of the whole."""
         for term in terms:
             for name, rebuild, change in self._occurrences(term.alone):
                 for one in self.known[name]:
-                    yield Candidate(one.id, rebuild(one.alone), change, term.side)
+                    yield Candidate(one.id, rebuild(one.alone), one.alone, one.side, change)
 
     def _occurrences(self, formula: f.Formula) -> Iterator[tuple[Signature, Rebuild, Change | None]]:
         """All that is known by a name, how to put something in its place, and what is done to it there."""
@@ -127,33 +157,7 @@ class History:
 
 def _as_candidates(terms: tuple[Summand, ...]) -> Iterator[Candidate]:
     for term in terms:
-        yield Candidate(term.id, term.alone, _operation(term.shown), term.side)
-
-
-def _matching(
-    term: Summand, products: Products | None, carried: Mapping[Candidate, Products | None], own: set[str]
-) -> Iterator[Origin]:
-    """The candidates that have a product in common with the term, each with what became of it.
-
-    Where no normal form shows them, as when fractions are brought together, all terms of the line before are.
-    """
-    sharing = {} if products is None else {one: p for one, p in carried.items() if p and p.keys() & products.keys()}
-    if not sharing:
-        whole = [one for one in carried if one.id in own and carried[one] != {} and products != {}]
-        yield from (Origin(one.id, one.change or ("merged" if len(whole) > 1 else "expanded")) for one in whole)
-        return
-    several = len({one.id for one in sharing if one.id in own}) > 1
-    told: dict[str, Change] = {}
-    for one, found in sharing.items():
-        told.setdefault(one.id, one.change or _change(found, products, one.side * term.side, several=several))
-    yield from (Origin(name, change) for name, change in told.items())
-
-
-def _change(before: Products, after: Products | None, sides: int, *, several: bool) -> Change:
-    """What became of a term that was not derived or integrated."""
-    if before == after:
-        return "kept" if sides > 0 else "sign-turned"
-    return "merged" if several else "expanded"
+        yield Candidate(term.id, term.alone, term.alone, term.side, _operation(term.shown))
 
 
 def _done_by(formula: f.Formula) -> Change | None:

@@ -86,7 +86,7 @@ def premises(step: Step, names: Names, known: Mapping[Signature, str]) -> tuple[
 
     A step that names nothing which is known rests on what first spoke of its bodies and loads.
     """
-    own = {names.one(name) for relation in step.relations for name in concluded(relation)}
+    own = dict.fromkeys(names.one(name) for relation in step.relations for name in concluded(relation))
     members = (member for relation in step.relations for member in relation.members)
     found = (known[name] for member in members for name in _outermost(member, names, known) if name not in own)
     again = (known[name] for name in own if name in known)

@@ -1,100 +1,80 @@
 /**
- * What a step changes against the steps before it, term by term: carried over, turned in sign (as when a term goes to
- * the other side), new, or cancelled. The server writes the same term the same way everywhere, so that equal texts are
- * equal terms.
+ * What a step does to the terms it was made of: kept, turned in sign (as when a term goes to the other side), derived,
+ * multiplied out, brought together, or cancelled; and the steps they come from. The server tells it, term by term.
  */
-
-import { sidesOf, withTerms } from "./terms.js";
 
 /** @typedef {import("../types.js").Step} Step */
 /** @typedef {import("../reveal.js").Line} Line */
-/** @typedef {"kept" | "turned" | "new" | "gone"} Change */
-/** @typedef {{formulas: Map<Step, string>, from: Record<Change, string[]>}} Origins  LaTeX with marked terms, and the numbers of the steps they come from */
+/** @typedef {Step["terms"][number]} Term */
+/** @typedef {Term["origins"][number]["change"] | "gone"} Change */
+/** @typedef {{formulas: Map<Step, string>, from: Map<Change, string[]>}} Origins  LaTeX with marked terms, and the numbers of the steps they come from */
 
-/** How many steps are looked back: further ones are forgotten by the reader too. */
-const BACK = 16;
-/** Symbols alone, such as L or Q₁, and what is only announced, such as ∂L/∂q, are no terms to follow. */
-const NAME = /^(?:\\[a-z]+)?[A-Za-z]?(?:[_^].{1,12})?$|\\partial|\\mathrmd|\\mathbf|\\int|\\text/;
+/** In this order they are told. @type {readonly Change[]} */
+export const CHANGES = ["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged", "gone"];
+const MARK = /\\htmlClass\{([^}]*\bt-\d+-\d+-\d+)\}/g;
 
-const textOf = (/** @type {Step} */ { marked, latex }) => marked || latex;
+/** @param {string} term its id @returns {string} the id of its step */
+const stepOf = (term) => term.slice(0, term.lastIndexOf("/"));
+/** @param {string} term its id @returns {string} its class in the marked formula */
+const classOf = (term) => `t-${term.slice(term.lastIndexOf("/") + 1).replaceAll(".", "-")}`;
 /** @param {Step} step @returns {Step[]} */
-const within = (step) => step.substeps.flatMap((part) => [...within(part), part]);
+const within = (step) => [step, ...step.substeps.flatMap(within)];
 
 /**
  * @param {readonly Line[]} lines @param {number} index of the step
  * @returns {Origins}
  */
 export function originsOf(lines, index) {
-  const { step, number } = lines[index];
-  /** @type {Map<string, {sign: number, number: string}>} */
-  const known = new Map();
-  const learn = (/** @type {Step} */ from, /** @type {string} */ at) => {
-    for (const side of sidesOf(textOf(from))) {
-      // A whole side may come again as one term, as E does in L = E − V.
-      for (const { bare, sign } of [...side, { bare: joined(side), sign: 1 }])
-        if (!NAME.test(bare)) known.set(bare, { sign, number: at });
-    }
+  const { step } = lines[index];
+  const numbers = new Map(lines.flatMap(({ step, number }) => within(step).map(({ id }) => [id, number])));
+  /** @type {Map<Change, Set<string>>} */
+  const from = new Map();
+  const tell = (/** @type {Change} */ change, /** @type {string} */ id) => {
+    const number = numbers.get(id);
+    if (number) from.set(change, (from.get(change) ?? new Set()).add(number));
   };
-  for (const line of lines.slice(Math.max(0, index - BACK), index))
-    [...within(line.step), line.step].forEach((part) => learn(part, line.number));
-  const parts = within(step);
-  parts.forEach((part) => learn(part, number));
-
-  /** @type {Record<Change, Set<string>>} */
-  const from = { kept: new Set(), turned: new Set(), new: new Set(), gone: new Set() };
-  const mark = (/** @type {Change} */ change, /** @type {string} */ text, /** @type {string} */ at) => {
-    from[change].add(at);
-    return `\\htmlClass{term-${change}}{${text}}`;
-  };
-  const formulas = new Map([
-    [
-      step,
-      withTerms(textOf(step), (side) => {
-        const found = side.map(({ bare }) => known.get(bare));
-        if (side.length < 2 || !found.some(Boolean)) return side.map(() => null);
-        return side.map(({ text, sign, bare }, i) => {
-          const origin = found[i];
-          if (!origin) return NAME.test(bare) || bare === "0" ? null : mark("new", text, number);
-          return mark(origin.sign === sign ? "kept" : "turned", text, origin.number);
-        });
-      }),
-    ],
-  ]);
-  const lost = cancelled(step, parts);
-  for (const part of lost.size ? parts : []) {
-    formulas.set(
-      part,
-      withTerms(textOf(part), (side) =>
-        side.map(({ text, bare }) => (lost.has(bare) ? mark("gone", text, number) : null)),
-      ),
-    );
+  const changes = new Map(results(step).flatMap((term) => changed(term, step, tell)));
+  const formulas = new Map([[step, marked(step, changes)]]);
+  const lost = new Set(step.cancelled);
+  for (const part of within(step).slice(1)) {
+    const gone = part.terms.filter(({ id }) => lost.has(id));
+    if (!gone.length) continue;
+    tell("gone", part.id);
+    formulas.set(part, marked(part, new Map(gone.map(({ id }) => [classOf(id), /** @type {Change} */ ("gone")]))));
   }
-  return {
-    formulas,
-    from: /** @type {Record<Change, string[]>} */ (
-      Object.fromEntries(Object.entries(from).map(([change, numbers]) => [change, [...numbers]]))
-    ),
-  };
+  return { formulas, from: new Map([...from].map(([change, found]) => [change, [...found]])) };
 }
 
-/** A sum as it stands within another. @param {import("./terms.js").Term[]} side */
-const joined = (side) => side.map(({ bare, sign }, i) => (sign < 0 ? "-" : i ? "+" : "") + bare).join("");
-
-/** Terms that two of the intermediate steps have and the result has not: they cancel. @param {Step} step @param {readonly Step[]} parts */
-function cancelled(step, parts) {
-  const result = new Set(
-    sidesOf(textOf(step))
-      .flat()
-      .map(({ bare }) => bare),
-  );
-  const counts = new Map();
-  for (const part of parts) {
-    const last = sidesOf(textOf(part)).at(-1) ?? [];
-    for (const bare of new Set(last.map((term) => term.bare))) counts.set(bare, (counts.get(bare) ?? 0) + 1);
+/** The terms that the lines of a step lead to, where there are several: what stands alone needs no mark. @param {Step} step @returns {Term[]} */
+function results(step) {
+  /** @type {Map<string, Term[]>} */
+  const members = new Map();
+  for (const term of step.terms) {
+    const [line, member] = term.id.slice(term.id.lastIndexOf("/") + 1).split(".");
+    const key = `${line}.${member}`;
+    members.set(key, [...(members.get(key) ?? []), term]);
   }
-  return new Set(
-    [...counts]
-      .filter(([bare, count]) => count > 1 && !result.has(bare) && !NAME.test(bare) && bare !== "0")
-      .map(([bare]) => bare),
-  );
+  const last = new Map([...members.keys()].map((key) => [key.split(".")[0], key]));
+  return [...last.values()]
+    .filter((key) => !key.endsWith(".0"))
+    .map((key) => members.get(key) ?? [])
+    .filter((terms) => terms.length > 1)
+    .flat();
+}
+
+/** The class of a term with its change, as told by the steps before if they are told of. @param {Term} term @param {Step} step @param {(change: Change, id: string) => void} tell @returns {[string, Change][]} */
+function changed(term, step, tell) {
+  const earlier = term.origins.filter(({ term: id }) => stepOf(id) !== step.id);
+  const [first] = earlier.length ? earlier : term.origins;
+  if (!first) return [];
+  for (const { term: id, change } of earlier.length ? earlier : [first]) tell(change, stepOf(id));
+  return [[classOf(term.id), first.change]];
+}
+
+/** The formula with the class of a change beside that of each term. @param {Step} step @param {ReadonlyMap<string, Change>} changes */
+function marked(step, changes) {
+  return (step.marked || step.latex).replace(MARK, (whole, classes) => {
+    const change = changes.get(classes.slice(classes.lastIndexOf("t-")));
+    return change ? `\\htmlClass{${classes} term-${change}}` : whole;
+  });
 }

@@ -2,14 +2,13 @@
 
 import { html, nothing } from "lit-html";
 import { prose } from "../formula.js";
+import { grounds } from "../steps.js";
 import { called } from "../../model/catalog.js";
-import { originsOf } from "../../model/figure/origins.js";
+import { CHANGES, originsOf } from "../../model/figure/origins.js";
 
 /** @typedef {import("../page.js").View} View */
 /** @typedef {import("../../model/types.js").Step} Step */
 /** @typedef {import("../../model/figure/origins.js").Origins} Origins */
-
-const CHANGES = /** @type {const} */ (["kept", "turned", "new", "gone"]);
 
 /** @param {() => import("../../model/state.js").State} state */
 export function createWhy(state) {
@@ -52,6 +51,8 @@ export function createWhy(state) {
         <div class="law" role="note">
           <p>${prose(law)}</p>
           <p class="source">${source}</p>
+          <p class="evidence">${grounds(step, view)}</p>
+          ${step.premises.length ? html`<p class="premises">${view.t("why.premises")} ${step.premises.map((id) => toStep(id, view))}</p>` : nothing}
           ${step.sources.length ? html`<p class="sources">${view.t("why.sources")} ${step.sources.map((name) => chip(name, view))}</p>` : nothing}
           ${changes(found.get(step), view.state.lines.find((line) => line.step === step)?.number, view)}
         </div>`;
@@ -65,17 +66,25 @@ function chip(name, { state, t }) {
   return html`<button class="source-chip quiet small ${kind}-${id}">${called(state.scene?.labels, id, state.place.lang, t)}</button>`;
 }
 
+/** A step that has been made before, by its number; an intermediate one by that of its step. @param {string} id @param {Omit<View, "why">} view */
+function toStep(id, { link, follow, session, state }) {
+  const holds = (/** @type {Step} */ step) => step.id === id || step.substeps.some(holds);
+  const line = state.lines.find((line) => holds(line.step));
+  return line
+    ? html`<a href=${link({ step: line.step.id })} title=${line.step.title} @click=${(/** @type {Event} */ event) => follow(event, () => session.goTo(line.step.id))}>${line.number}</a> `
+    : nothing;
+}
+
 /** What the marks on the terms mean, and from which steps they come. @param {Origins | undefined} origins @param {string | undefined} own number of the step @param {Omit<View, "why">} view */
-function changes(origins, own, { t, link, follow, session, state }) {
-  const shown = CHANGES.filter((change) => origins?.from[change].length);
+function changes(origins, own, view) {
+  const shown = CHANGES.filter((change) => origins?.from.has(change));
   if (!shown.length) return nothing;
-  const step = (/** @type {string} */ number) => {
-    if (number === own) return html`(${t("why.within")}) `;
-    const id = state.lines.find((line) => line.number === number)?.step.id ?? "";
-    return html`<a href=${link({ step: id })} @click=${(/** @type {Event} */ event) => follow(event, () => session.goTo(id))}>${number}</a> `;
-  };
+  const step = (/** @type {string} */ number) =>
+    number === own
+      ? html`(${view.t("why.within")}) `
+      : toStep(view.state.lines.find((line) => line.number === number)?.step.id ?? "", view);
   return html`<ul class="changes">${shown.map(
     (change) => html`
-    <li><span class="term-${change}">${t(`why.${change}`)}</span> ${change === "kept" || change === "turned" ? origins?.from[change].map(step) : nothing}</li>`,
+    <li><span class="term-${change}">${view.t(`why.${change}`)}</span> ${change === "gone" ? nothing : origins?.from.get(change)?.map(step)}</li>`,
   )}</ul>`;
 }
