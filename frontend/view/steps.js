@@ -68,9 +68,11 @@ function formulaOf(content, { why }, later) {
   return latex ? displayed(latex, later) : nothing;
 }
 
+const GROUNDS = { exact: "step.exact-why", sampled: "step.sampled-why", stated: "step.stated-why" };
+
 /** How it is known that a step holds. @param {Step} step @param {Pick<View, "t">} view */
 export function grounds({ verified, evidence: { kind, points, digits } }, { t }) {
-  return verified ? t(`step.${kind}-why`, { points, digits }) : t("step.unverified-why");
+  return verified ? t(GROUNDS[kind], { points, digits }) : t("step.unverified-why");
 }
 
 /** @param {Step} content @param {Pick<View, "t">} view */

@@ -41,9 +41,9 @@ class Grounds:
         substeps = tuple(map(self._of_step, step.substeps))
         whole = replace(step, substeps=substeps)
         rests_on = premises(whole, self.history.names, self.known)
-        told = replace(whole, premises=rests_on, evidence=self._evidence(whole), lines=self.history.lines(whole))
-        for name in self.history.concluded(whole):
-            self.known[name] = step.id
+        lines = self.history.lines(whole)
+        told = replace(whole, premises=rests_on, evidence=self._evidence(whole), lines=lines)
+        self.known.update(dict.fromkeys(self.history.learned(told), step.id))
         for source in step.sources:
             self.known.setdefault((source,), step.id)
         return told

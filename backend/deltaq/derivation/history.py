@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import repeat
+from itertools import pairwise, repeat
 from typing import Any, Protocol, TypeAlias
 
 import sympy as sp
@@ -59,17 +59,31 @@ class History:
     def lines(self, step: Step) -> tuple[tuple[Line, ...], ...]:
         """All members of all relations of the step, which have given a value to something from here on."""
         found = tuple(self._lines(step, number, relation) for number, relation in enumerate(step.relations))
-        for name, members in zip(map(self._name, step.relations), found, strict=True):
-            if name is not None:
-                self.known[name] = members[-1].terms
+        for relation, members in zip(step.relations, found, strict=True):
+            self.known.update(self._learned(relation, members))
         return found
 
-    def concluded(self, step: Step) -> Iterator[Signature]:
-        """What the step has given a value to."""
-        return filter(None, map(self._name, step.relations))
+    def learned(self, step: Step) -> Iterator[Signature]:
+        """What a step whose lines are told has given a value to."""
+        for relation, members in zip(step.relations, step.lines, strict=True):
+            yield from (name for name, _ in self._learned(relation, members))
 
-    def _name(self, relation: Relation) -> Signature | None:
-        return self.names.join(concluded(relation))
+    def _learned(
+        self, relation: Relation, members: tuple[Line, ...]
+    ) -> Iterator[tuple[Signature, tuple[Summand, ...]]]:
+        """What the relation says that something is: its left side, and term by term what stands in a sum by name."""
+        whole = self.names.join(concluded(relation))
+        if whole is not None:
+            yield whole, members[-1].terms
+        for (named, first), (written, second) in pairwise(zip(relation.members, members, strict=True)):
+            match named, written:
+                case f.Plus(names), f.Plus(values) if (
+                    len(names) == len(values) == len(second.terms) == len(first.terms)
+                ):
+                    for name, value, term in zip(names, values, second.terms, strict=True):
+                        is_name = isinstance(name.formula, f.Named) and name.sign == value.sign == 1
+                        if is_name and (signed := signature(name.formula)):
+                            yield self.names.one(signed), (term,)
 
     def _lines(self, step: Step, number: int, relation: Relation) -> tuple[Line, ...]:
         found: list[Line] = []
@@ -121,10 +135,10 @@ class History:
             whole = [one for one in carried if one.id in own and carried[one] != {} and products != {}]
             yield from (Origin(one.id, one.change or ("merged" if len(whole) > 1 else "expanded")) for one in whole)
             return
-        several = len({one.id for one in sharing if one.id in own}) > 1
         told: dict[str, Change] = {}
         for one in sharing:
-            told.setdefault(one.id, one.change or self._change(one, term, several=several))
+            alike = {other.id for other in sharing if (other.id in own) == (one.id in own)}
+            told.setdefault(one.id, one.change or self._change(one, term, several=len(alike) > 1))
         yield from (Origin(name, change) for name, change in told.items())
 
     def _change(self, one: Candidate, term: Summand, *, several: bool) -> Change:

@@ -52,7 +52,7 @@ export function createWhy(state) {
           <p>${prose(law)}</p>
           <p class="source">${source}</p>
           <p class="evidence">${grounds(step, view)}</p>
-          ${step.premises.length ? html`<p class="premises">${view.t("why.premises")} ${step.premises.map((id) => toStep(id, view))}</p>` : nothing}
+          ${premises(step, view)}
           ${step.sources.length ? html`<p class="sources">${view.t("why.sources")} ${step.sources.map((name) => chip(name, view))}</p>` : nothing}
           ${changes(found.get(step), view.state.lines.find((line) => line.step === step)?.number, view)}
         </div>`;
@@ -66,13 +66,29 @@ function chip(name, { state, t }) {
   return html`<button class="source-chip quiet small ${kind}-${id}">${called(state.scene?.labels, id, state.place.lang, t)}</button>`;
 }
 
-/** A step that has been made before, by its number; an intermediate one by that of its step. @param {string} id @param {Omit<View, "why">} view */
-function toStep(id, { link, follow, session, state }) {
+/** The steps that a step rests on, each once. @param {Step} step @param {Omit<View, "why">} view */
+function premises(step, view) {
+  const lines = new Set(step.premises.map((id) => lineOf(id, view)));
+  const own = [...lines].some((line) => line?.step === step);
+  const others = [...lines]
+    .filter((line) => line && line.step !== step)
+    .map((line) => toStep(line?.step.id ?? "", view));
+  if (!own && !others.length) return nothing;
+  return html`<p class="premises">${view.t("why.premises")} ${own ? html`${view.t("why.within")} ` : nothing}${others}</p>`;
+}
+
+/** The line of a step, also of an intermediate one. @param {string} id @param {Omit<View, "why">} view */
+function lineOf(id, { state }) {
   const holds = (/** @type {Step} */ step) => step.id === id || step.substeps.some(holds);
-  const line = state.lines.find((line) => holds(line.step));
-  return line
-    ? html`<a href=${link({ step: line.step.id })} title=${line.step.title} @click=${(/** @type {Event} */ event) => follow(event, () => session.goTo(line.step.id))}>${line.number}</a> `
-    : nothing;
+  return state.lines.find((line) => holds(line.step));
+}
+
+/** A step that has been made before, by its number. @param {string} id @param {Omit<View, "why">} view */
+function toStep(id, view) {
+  const line = lineOf(id, view);
+  if (!line) return nothing;
+  const go = (/** @type {Event} */ event) => view.follow(event, () => view.session.goTo(line.step.id));
+  return html`<a href=${view.link({ step: line.step.id })} title=${line.step.title} @click=${go}>${line.number}</a> `;
 }
 
 /** What the marks on the terms mean, and from which steps they come. @param {Origins | undefined} origins @param {string | undefined} own number of the step @param {Omit<View, "why">} view */
