@@ -5552,10 +5552,10 @@ export interface components {
              */
             sources: string[];
             /**
-             * Origins
+             * From
              * @description the terms it comes from: of the member before it, and of steps that this one rests on
              */
-            origins: components["schemas"]["Origin"][];
+            from: components["schemas"]["Origin"][];
         };
         /**
          * TwinRuns

@@ -50,6 +50,7 @@ class TermOfLine(Answer):
     latex: str = Field(description="with its sign", examples=["-m g \\ell \\sin\\varphi"])
     sources: tuple[str, ...] = Field(description="bodies and loads that it comes from")
     origins: tuple[Origin, ...] = Field(
+        alias="from",
         description="the terms it comes from: of the member before it, and of steps that this one rests on"
     )
 

@@ -64,7 +64,7 @@ class Narrator:
             "id": term.id,
             "latex": without_classes(self.notation.term(Term(term.shown, (), term.sign))),
             "sources": list(term.sources),
-            "origins": [asdict(origin) for origin in term.origins],
+            "from": [asdict(origin) for origin in term.origins],
         }
 
     def _sentence(self, key: str, names: Mapping[str, CatalogText]) -> CatalogText:
