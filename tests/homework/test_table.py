@@ -64,6 +64,10 @@ def test_writing(style: Style, written: str) -> None:
     assert style.written(("a", "b"), [("x", 1.5), ("=1", "p,q")]).decode() == written
 
 
+def test_what_has_no_encoding_becomes_a_question_mark() -> None:
+    assert Style().written(("a",), [("x\ud800",)]) == b"a\nx?\n"
+
+
 def test_rows_are_counted_as_a_spreadsheet_does() -> None:
     """Empty rows count, a row of several lines is one, and the line that tells the separator is none."""
     table = read_table(b'sep=;\n\ntask;answer\n1;"a\nb"\n;\n2;c\n')

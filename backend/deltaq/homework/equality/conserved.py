@@ -15,9 +15,9 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     values = sampler.values(parts[0])
     if not defined(values):
         return None
-    steps = [value - values[0] for value in values[1:]]
-    largest = max(map(abs, values))
-    return () if abs(steps[0]) <= 1e-9 * largest else tuple(step / steps[0] for step in steps[1:])
+    start, *others = values
+    first, *rest = (value - start for value in others)
+    return () if abs(first) <= 1e-9 * max(map(abs, values)) else tuple(step / first for step in rest)
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:

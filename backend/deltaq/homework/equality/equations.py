@@ -88,8 +88,10 @@ def _vanishes(above: sp.Expr, below: sp.Expr, solution: Solution) -> bool:
     choices = [_special(symbol, solution) for symbol in used if symbol not in fixed]
     rest = [1.3 + 0.1 * k for k in range(len(used) - len(choices))]
     pairs = [[function([*state, *rest]) for function in functions] for state in _states(choices)]
-    signs = {_sign(a / b if abs(b) > NOTHING else math.inf) for a, b in pairs if max(abs(a), abs(b)) > NOTHING}
-    return len(signs) > 1 or 0 in signs
+    telling = [(a, b) for a, b in pairs if math.isnan(a) or max(abs(a), abs(b)) > NOTHING]
+    ratios = [a / b if abs(b) > NOTHING else math.inf for a, b in telling]
+    regular = all(NOTHING <= abs(ratio) <= 1 / NOTHING for ratio in ratios)
+    return not regular or len({ratio > 0 for ratio in ratios}) > 1
 
 
 def _states(choices: Sequence[Sequence[float]]) -> Iterator[Sequence[float]]:
@@ -109,9 +111,3 @@ def _special(symbol: sp.Symbol, solution: Solution) -> Sequence[float]:
         return SPECIAL
     inside = [value for value in SPECIAL if found.min <= value <= found.max]
     return [*inside, found.value + 0.3, (found.min + found.max) / 2 + 0.1]
-
-
-def _sign(value: float) -> int:
-    if not math.isfinite(value) or abs(value) < NOTHING or abs(value) > 1 / NOTHING:
-        return 0
-    return 1 if value > 0 else -1

@@ -10,8 +10,8 @@ from . import Fingerprint, Match, Parts, weakest
 
 def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     """The values less the one at the first point."""
-    values = sampler.values(parts[0])
-    return tuple(value - values[0] for value in values[1:]) if defined(values) else None
+    first, *others = values = sampler.values(parts[0])
+    return tuple(value - first for value in others) if defined(values) else None
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
