@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from deltaq.errors import RequestError
 from deltaq.homework.table import BEYOND, Row, Style, read_table
 
 HEADER, ANSWER = ("task", "answer"), {"task": "größe", "answer": "m"}
@@ -45,6 +46,20 @@ def test_tables_of_spreadsheets(data: bytes, style: Style) -> None:
 )
 def test_rows(line: str, row: Row) -> None:
     assert read_table(f"task,answer\n{line}\n".encode()).rows == (row,)
+
+
+@pytest.mark.parametrize(
+    ("content", "code", "row"),
+    [
+        pytest.param('a,b\n1,"2\n3,4\n', "answers-quote", 2, id="a quote that is never closed"),
+        pytest.param('a,b\n\n1,2\n3,"4', "answers-quote", 4, id="in the last row"),
+        pytest.param(f"a,b\n1,2\n3,{'x' * 200_000}\n", "answers-cell", 3, id="a cell beyond all bounds"),
+    ],
+)
+def test_a_table_that_cannot_be_read_says_where(content: str, code: str, row: int) -> None:
+    with pytest.raises(RequestError) as found:
+        read_table(content.encode())
+    assert [(one.code, dict(one.parameters)) for one in found.value.problems] == [(code, {"row": row})]
 
 
 @pytest.mark.parametrize("data", [b"", b"\n\n", b"\xef\xbb\xbf"])

@@ -113,6 +113,6 @@ def _is_filled(line: Sequence[str]) -> bool:
 
 
 def _row(header: Sequence[str], line: Sequence[str]) -> Row:
-    cells = [*line, *[""] * (len(header) - len(line))]
+    cells = [*line, *[""] * len(header)]
     beyond = [cell for cell in cells[len(header) :] if cell.strip()]
     return {**dict(zip(header, cells, strict=False)), **({BEYOND: " ".join(beyond)} if beyond else {})}

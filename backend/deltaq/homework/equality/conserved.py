@@ -12,7 +12,8 @@ from . import Fingerprint, Match, Parts, weakest
 
 def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     """Differences between the points, divided by the first; () for what is constant."""
-    values = sampler.values(parts[0])
+    (part,) = parts
+    values = sampler.values(part)
     if not defined(values):
         return None
     start, *others = values
@@ -22,13 +23,13 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
     """Whether given = c · right + d with c, d depending on parameters alone, c ≠ 0: decided by derivatives."""
-    factor = _factor(given[0], right[0], solution)
+    (own,), (true,) = given, right
+    factor = _factor(own, true, solution)
     if factor is None:
         return Match(equal=False)
-    difference = given[0] - factor * right[0]
+    difference = own - factor * true
     equal = weakest([is_zero(difference.diff(symbol), solution.symbols) for symbol in _moving(difference, solution)])
-    literal = equal is True and is_zero(given[0] - right[0], solution.symbols) is True
-    return Match(equal, "multiple" if equal and not literal else "")
+    return Match(equal, "multiple" if equal and not is_zero(own - true, solution.symbols) else "")
 
 
 def _moving(value: sp.Expr, solution: Solution) -> list[sp.Symbol]:
