@@ -86,6 +86,7 @@ ROWS = [
     ("pendulum", "equation:phi", "g*sin(phi) = 0", "nothing", NO),
     ("pendulum", "equation:phi", "0 = 0", "nothing", NO),
     ("pendulum", "equation:phi", f"{PENDULUM} + {NOWHERE} = 0", "untold", UNDECIDED),
+    ("pendulum", "equation:phi", f"{NOWHERE}*{PENDULUM} = 0", "untold", UNDECIDED),
     ("cart-pendulum", "equation:x", f"{CART} = 0", "alike", YES),
     ("cart-pendulum", "equation:x", f"{BOB} = 0", "other", NO),
     ("cart-pendulum", "equation:phi", f"{BOB} = 0", "alike", YES),
@@ -134,6 +135,21 @@ FACTORS = [
     ("spring-pendulum", f"(1 - cos(phi))*{R}", False),
     ("spring-pendulum", f"k*m/(m + k)*{R}", True),
 ]
+# A mass on a spring that can be between two ends only.
+BETWEEN = [
+    (0.1, 0.6, "q", True),
+    (0.1, 0.6, "(q - 7/10)", True),
+    (0.1, 0.6, "(q - 35/100)", False),
+    (0.1, 0.6, "sqrt(q - 3/10)", False),
+    (0.1, 0.6, "sqrt(4/10 - q)", False),
+    (0.1, 0.6, "q*(7/10 - q)", True),
+    (0.0, 0.9, "q", False),  # the ends belong to it
+    (0.0, 0.9, "(q - 9/10)", False),
+    (0.01, 0.89, "q*(q - 9/10)", True),
+    (None, 0.9, "(q - 2)", False),  # one end is none
+    (0.1, None, "(q + 2/10)", False),
+    (None, None, "(q^2 + q + 1)", True),
+]
 MOMENT = "(m*l^2*ddot(phi) + m*g*l*sin(phi) - M)"  # a moment may have either sign
 
 
@@ -172,6 +188,27 @@ def test_a_factor_is_harmless_where_it_vanishes_nowhere_in_the_range(scene: str,
     book, one = asked(scene, "equation:r")
     decided = one.quantity.equality.same(parts_of(scene, "equation:r", answer), book.right(one), book.solution)
     assert decided == (YES if harmless else VANISHES)
+
+
+@pytest.mark.parametrize(("least", "most", "factor", "harmless"), BETWEEN)
+def test_a_factor_may_vanish_where_the_coordinate_cannot_be(
+    least: float | None, most: float | None, factor: str, harmless: bool
+) -> None:
+    ends = {name: value for name, value in (("min", least), ("max", most)) if value is not None}
+    scene = {
+        "format": 1,
+        "id": "between",
+        "title": {"en": "Between"},
+        "dimension": 2,
+        "coordinates": [{"name": "q", "value": 0.4, **ends}],
+        "parameters": [{"name": "m", "value": 1.0}, {"name": "k", "value": 3.0}],
+        "bodies": [{"name": "mass", "kind": "particle", "mass": "m", "position": ["q", "0"]}],
+        "loads": [{"name": "spring", "kind": "potential", "energy": "k*q^2/2"}],
+    }
+    book = workbook_of({"scene": scene})
+    task = book.task("equation:q")
+    given = read(task, book.solution, f"{factor}*(m*ddot(q) + k*q) = 0", "plain").parts
+    assert task.quantity.equality.same(given, book.right(task), book.solution) == (YES if harmless else VANISHES)
 
 
 @pytest.mark.parametrize(

@@ -166,7 +166,7 @@ class _Tasks:
         worth: dict[tuple[str, str], float] = {}
         for target in self.targets:
             key = (target.working, target.task)
-            worth[key] = max(worth.get(key, 0.0), target.of)
+            worth[key] = max(target.of, worth.get(key, target.of))
         return sum(worth.values())
 
     def number(self, task: str, scene: str) -> int:
