@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -106,11 +107,12 @@ def test_an_assignment_of_a_file(tmp_path: Path, name: str, content: bytes) -> N
         pytest.param("sheet.json", "{", "Expecting property name", id="JSON"),
         pytest.param("sheet.toml", "tasks = [", "Invalid value", id="TOML"),
         pytest.param("sheet.toml", f"a = 1\na = {'1' * 300}", "Cannot overwrite a value", id="twice"),
+        pytest.param("sheet.toml", '# "Blätter"', "'utf-8' codec can't decode byte 0xe4", id="another encoding"),
     ],
 )
 def test_a_file_that_cannot_be_read_says_where(tmp_path: Path, name: str, content: str, detail: str) -> None:
     path = tmp_path / name
-    path.write_text(content, encoding="utf-8")
+    path.write_bytes(content.encode("cp1252"))
     with pytest.raises(InputError) as found:
         load_assignment(path)
     (problem,) = found.value.problems
@@ -133,6 +135,13 @@ def test_a_file_that_cannot_be_read_says_where(tmp_path: Path, name: str, conten
             sheet(title={"en": 1, "de": 2}),
             [("/title/de", "request-not-text", {}), ("/title/en", "request-not-text", {})],
             id="titles that are no text",
+        ),
+        pytest.param(sheet(title=3), [("/title", "request-not-text", {})], id="a title that is no text"),
+        pytest.param(sheet(**{"x" * 60: 1}), [field(f"/{'x' * 60}", "unknown-field", "x" * 40)], id="an endless name"),
+        pytest.param(
+            tasks(TASK | {"x" * 60: 1}),
+            [field(f"/tasks/0/{'x' * 60}", "unknown-field", "x" * 40)],
+            id="an endless name in a task",
         ),
         pytest.param(sheet(title={"en": "x", "a/b": 2}), [("/title/a~1b", "request-not-text", {})], id="an odd name"),
         pytest.param(sheet(individual=1), [("/individual", "request-not-boolean", {})], id="1 is no truth"),
@@ -162,9 +171,9 @@ def test_a_file_that_cannot_be_read_says_where(tmp_path: Path, name: str, conten
             pytest.param(
                 tasks(TASK, TASK | {"points": points}),
                 [("/tasks/1/points", "request-not-number", {})],
-                id=f"points {points}",
+                id=f"points {points}"[:20],
             )
-            for points in (-0.01, 1000.01, True, "1", None)
+            for points in (-0.01, 1000.01, True, "1", None, math.nan, 10**400)
         ),
     ],
 )
@@ -172,7 +181,8 @@ def test_what_is_wrong_is_told_at_its_place(document: object, problems: Told) ->
     assert told(document) == problems
 
 
-def test_the_most_that_a_task_may_count() -> None:
+def test_the_most_that_there_may_be() -> None:
+    assert len(read_assignment(tasks(*[TASK] * 64)).tasks) == 64
     assert read_assignment(tasks(TASK | {"points": 1000})).tasks[0].points == 1000.0
 
 

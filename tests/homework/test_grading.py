@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import math
 from pathlib import Path
 from typing import Any
 
@@ -154,65 +153,6 @@ def test_assignment_names_tasks_by_number_and_counts_their_points(tmp_path: Path
     graded = [each for _, each in grade(table, Sheet(sheet), "en")]
     assert [(each.outcome, each.points, each.of) for each in graded] == [("correct", 5.0, 5.0), ("invalid", 0.0, 0.0)]
     assert [task.points for task in sheet.tasks] == [5.0, None]
-
-
-@pytest.mark.parametrize(
-    ("document", "problems"),
-    [
-        pytest.param([], [("", "request-not-object")], id="list"),
-        pytest.param({"format": 1}, [("/tasks", "assignment-no-task")], id="no task"),
-        pytest.param(
-            {"format": 1, "title": 3}, [("/title", "request-not-text"), ("/tasks", "assignment-no-task")], id="title 3"
-        ),
-        pytest.param(
-            {"format": 1, "title": {"de": {}, "en": "x"}, "tasks": []},
-            [("/title/de", "request-not-text"), ("/tasks", "assignment-no-task")],
-            id="table for a title",
-        ),
-        pytest.param(
-            {"format": 2, "tasks": [{}], "ex/tra": 1, "follow_through": 3},
-            [
-                ("/format", "assignment-format"),
-                ("/ex~1tra", "unknown-field"),
-                ("/follow_through", "assignment-share"),
-                ("/tasks/0/scene", "missing-field"),
-                ("/tasks/0/task", "missing-field"),
-            ],
-            id="several at once",
-        ),
-        *(
-            pytest.param(
-                {"format": 1, "tasks": [{"scene": "pendulum", "task": "lagrangian", "points": points}]},
-                [("/tasks/0/points", "request-not-number")],
-                id=f"points {name}",
-            )
-            for name, points in (("no number", "3"), ("not finite", math.nan), ("beyond all numbers", 10**400))
-        ),
-        pytest.param(
-            {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:psi"}]},
-            [("/tasks/0/task", "unknown-task")],
-            id="unknown task",
-        ),
-        pytest.param(
-            {"format": 1, "tasks": [{"scene": "none", "task": "lagrangian"}]},
-            [("/tasks/0/scene", "unknown-scene")],
-            id="unknown scene",
-        ),
-    ],
-)
-def test_wrong_assignment(document: object, problems: list[tuple[str, str]]) -> None:
-    with pytest.raises(InputError) as caught:
-        read_assignment(document)
-    assert [(problem.pointer, problem.code) for problem in caught.value.problems] == problems
-
-
-@pytest.mark.parametrize("content", [b"tasks = [", '# "Blätter"'.encode("cp1252")], ids=["syntax", "encoding"])
-def test_assignment_that_is_no_toml(tmp_path: Path, content: bytes) -> None:
-    path = tmp_path / "sheet.toml"
-    path.write_bytes(content)
-    with pytest.raises(InputError) as caught:
-        load_assignment(path)
-    assert [problem.code for problem in caught.value.problems] == ["assignment-syntax"]
 
 
 WORKING = """student,task,answer,line
@@ -384,40 +324,12 @@ def test_a_table_may_be_so_long_and_no_longer() -> None:
     assert [dict(problem.parameters) for problem in found.value.problems] == [{"count": 5001, "most": 5000}]
 
 
-def test_an_assignment_may_have_so_many_tasks_and_no_more() -> None:
-    tasks = [{"scene": "pendulum", "task": "equation:phi"}] * 64
-    assert len(read_assignment({"format": 1, "tasks": tasks}).tasks) == 64
-    with pytest.raises(InputError) as found:
-        read_assignment({"format": 1, "tasks": [*tasks, tasks[0]]})
-    assert [(problem.pointer, problem.code) for problem in found.value.problems] == [("/tasks", "request-too-many")]
-
-
 @pytest.mark.parametrize("individual", [False, True])
 def test_everybody_has_the_same_values_unless_the_assignment_says_otherwise(individual: bool) -> None:
     """√(g/l) at the scene's values, for g = 9.81 and l = 1."""
     sheet = {"format": 1, "individual": individual, "tasks": [{"scene": "pendulum", "task": "eigenfrequencies"}]}
     (graded,) = graded_rows("student,task,answer\nada,1,3.13209\n", sheet)
     assert (graded.outcome == "correct") is not individual
-
-
-@pytest.mark.parametrize(
-    ("document", "pointer", "shown"),
-    [
-        pytest.param({"x" * 60: 1}, f"/{'x' * 60}", "x" * 40, id="of the sheet"),
-        pytest.param(
-            {"tasks": [{"scene": "pendulum", "task": "equation:phi", "y" * 60: 1}]},
-            f"/tasks/0/{'y' * 60}",
-            "y" * 40,
-            id="of a task",
-        ),
-    ],
-)
-def test_an_endless_name_is_shown_by_its_beginning(document: dict[str, Any], pointer: str, shown: str) -> None:
-    sheet = {"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi"}], **document}
-    with pytest.raises(InputError) as found:
-        read_assignment(sheet)
-    told = [(problem.pointer, problem.parameters["field"]) for problem in found.value.problems]
-    assert told == [(pointer, shown)]
 
 
 @pytest.mark.parametrize(
