@@ -16,6 +16,7 @@ from deltaq.mechanics.user_text import UserText
 TASK = {"scene": "pendulum", "task": "lagrangian"}
 GUIDED = {
     "scene": "base-pendulum",
+    "freeze": [],
     "guides": [{"coordinate": "y", "value": "0.1*sin(3*t)"}],
     "parameters": {"m": 2.0},
     "task": "equation:phi",
@@ -32,7 +33,7 @@ READ = Assignment(
     {"de": UserText("Blatt"), "en": UserText("Sheet")},
     (
         AssignedTask({"scene": "pendulum"}, "lagrangian", 2.5),
-        AssignedTask({name: GUIDED[name] for name in ("scene", "guides", "parameters")}, "equation:phi", 0.0),
+        AssignedTask({name: GUIDED[name] for name in ("scene", "freeze", "guides", "parameters")}, "equation:phi", 0.0),
     ),
     individual=True,
     follow_through=1.0,
@@ -63,10 +64,12 @@ def test_an_assignment_with_everything() -> None:
 
 
 def test_an_assignment_with_nothing_but_a_task() -> None:
-    usual = Assignment({}, (AssignedTask({"scene": "pendulum"}, "lagrangian", None),), individual=False)
+    usual = Assignment(
+        {}, (AssignedTask({"scene": "pendulum"}, "lagrangian", None),), individual=False, follow_through=0.5
+    )
     assert read_assignment(sheet()) == usual
     assert read_assignment(sheet(title="")) == usual
-    assert (usual.follow_through, read_assignment(sheet(follow_through=0)).follow_through) == (0.5, 0.0)
+    assert read_assignment(sheet(follow_through=0)).follow_through == 0.0
 
 
 @pytest.mark.parametrize(
@@ -86,6 +89,7 @@ task = "lagrangian"
 points = 2.5
 [[tasks]]
 scene = "base-pendulum"
+freeze = []
 guides = [{ coordinate = "y", value = "0.1*sin(3*t)" }]
 parameters = { m = 2.0 }
 task = "equation:phi"
@@ -179,6 +183,15 @@ def test_a_file_that_cannot_be_read_says_where(tmp_path: Path, name: str, conten
 )
 def test_what_is_wrong_is_told_at_its_place(document: object, problems: Told) -> None:
     assert told(document) == problems
+
+
+def test_an_endless_reason_is_told_by_its_beginning(tmp_path: Path) -> None:
+    path = tmp_path / "sheet.toml"
+    path.write_text(f"[{'x' * 300}]\n" * 2, encoding="utf-8")
+    with pytest.raises(InputError) as found:
+        load_assignment(path)
+    told = str(found.value.problems[0].parameters["detail"])
+    assert (told[:16], len(told)) == ("Cannot declare (", 200)
 
 
 def test_the_most_that_there_may_be() -> None:

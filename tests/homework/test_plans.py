@@ -363,6 +363,20 @@ def test_a_class_in_total() -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("outcomes", "best"),
+    [
+        pytest.param(["invalid", "wrong"], "wrong", id="wrong is better than unreadable"),
+        pytest.param(["wrong", "undecided"], "undecided", id="undecided than wrong"),
+        pytest.param(["undecided", "follow_through"], "follow_through", id="what follows than undecided"),
+        pytest.param(["wrong", "correct", "follow_through"], "correct", id="right than all"),
+    ],
+)
+def test_the_best_of_several_answers(outcomes: list[str], best: str) -> None:
+    (student,) = totals([row("ada", outcome, 1.0) for outcome in outcomes], None, "en")["students"]
+    assert student["answers"] == [{"outcome": best, "points": float(len(outcomes))}]
+
+
 def test_what_an_assignment_counts_is_what_everybody_can_earn() -> None:
     found = totals(CLASS, 9.0, "en")
     assert [each["of"] for each in found["students"]] == [9.0, 9.0, 9.0]
@@ -376,7 +390,7 @@ def test_the_rows_of_a_working_without_a_name_count_and_are_no_student() -> None
 
 def test_a_summary_as_it_is_printed() -> None:
     """The most frequent mistake first; a bar of 30 is all answers of the task, and none is shorter than 1."""
-    rare = [row("", "wrong", task="v", mistake="Rare")]
+    rare = [row("", "wrong", task="v", mistake="Rare"), row("", "wrong", task="w")]
     more = [row("", "correct", 4.0, task="v") for _ in range(99)]
     assert summary([*CLASS, *rare, *more], "en").splitlines() == [
         "s  t: 1/6 right",
@@ -387,6 +401,8 @@ def test_a_summary_as_it_is_printed() -> None:
         f"  not readable  {'█' * 10} 1",
         "s  v: 99/100 right",
         "  Rare  █ 1",
+        "s  w: 0/1 right",
+        f"  not diagnosed  {'█' * 30} 1",
     ]
 
 

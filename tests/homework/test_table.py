@@ -79,6 +79,17 @@ def test_writing(style: Style, written: str) -> None:
     assert style.written(("a", "b"), [("x", 1.5), ("=1", "p,q")]).decode() == written
 
 
+@pytest.mark.parametrize(
+    "data",
+    [
+        pytest.param("task,answer\n1,m".encode("utf-16") + b"\x00", id="UTF-16 that is cut off"),
+        pytest.param(b"task,answer\n1,m\x81\n", id="no character of Windows-1252"),
+    ],
+)
+def test_what_cannot_be_decoded_is_marked(data: bytes) -> None:
+    assert read_table(data).rows == ({"task": "1", "answer": "m\ufffd"},)
+
+
 def test_what_has_no_encoding_becomes_a_question_mark() -> None:
     assert Style().written(("a",), [("x\ud800",)]) == b"a\nx?\n"
 

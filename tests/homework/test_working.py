@@ -108,6 +108,11 @@ CASES = [
         [("wrong", 0), ("correct", 3), ("follow_through", 0)],
         id="a worse answer takes nothing away",
     ),
+    pytest.param(
+        [E_DOUBLE, V_SIGN, ("equation:phi", "phi'' = 0"), ("equation:phi", "2*m*l^2*phi'' = m*g*l*sin(phi)")],
+        [("wrong", 0), ("wrong", 0), ("wrong", 0), ("follow_through", 1.5)],
+        id="from both, and not from an earlier answer to the same task",
+    ),
     pytest.param([E_DOUBLE, ("equation:phi", "0 = 0")], [("wrong", 0), ("wrong", 0)], id="says nothing"),
     pytest.param(
         [("equation:phi", "phi'' = 0"), ("equation:phi", "2*phi'' = 0")],
@@ -184,6 +189,20 @@ def test_teacher_sets_the_points() -> None:
             id="as many terms without a coordinate",
         ),
         pytest.param(
+            "pendulum",
+            ("position:bob", "[l*sin(phi), 0]"),
+            ("virtual-displacement:bob", "[l*cos(phi)*delta(phi), 0]"),
+            "wrong",
+            id="one of two components",
+        ),
+        pytest.param(
+            "elastic-pendulum",
+            ("virtual-displacement:bob", "[l*cos(phi)*delta(phi), phi*delta(y)]"),
+            ("potential-energy", "k*y^2"),
+            "wrong",
+            id="forces that have no potential",
+        ),
+        pytest.param(
             "elastic-pendulum",
             ("virtual-work", "(k*y - F0*sin(phi))*delta(y) + F0*l*delta(phi)"),
             ("generalized-force:y", "k*y - F0*sin(phi)"),
@@ -229,3 +248,19 @@ def test_an_answer_in_the_light_of_those_before_it(previous: list[tuple[str, str
     lines = [{"task": task, "answer": {"value": answer}} for task, answer in [*previous, FROM_DOUBLE]]
     assert check_request({"scene": "pendulum", "previous": lines[:-1], **lines[-1]})["outcome"] == outcome
     assert lines_request({"scene": "pendulum", "lines": lines})["lines"][-1]["outcome"] == outcome
+
+
+FORGOTTEN = [
+    ("position:bob", "[l, l]"),
+    ("virtual-displacement:bob", "[l*delta(phi), l*delta(phi)]"),
+    ("virtual-work", "m*g*l*delta(phi)"),
+    ("generalized-force:phi", "m*g*l"),
+    ("linearized:phi", "phi'' = 0"),
+    ("eigenfrequencies", "1"),
+]
+
+
+@pytest.mark.parametrize(("between", "outcome"), [(5, "follow_through"), (6, "wrong")])
+def test_a_line_follows_from_one_of_the_last_six_wrong_ones(between: int, outcome: str) -> None:
+    found = outcomes("pendulum", E_DOUBLE, *FORGOTTEN[:between], FROM_DOUBLE)
+    assert [each for each, _ in found] == ["wrong"] * (1 + between) + [outcome]

@@ -60,7 +60,7 @@ def grade(table: Table, sheet: Sheet, language: str) -> Iterator[tuple[int, Grad
     known: dict[str, Document] = {}
 
     def verdict_on(question: Document) -> Document:
-        key = json.dumps(question, sort_keys=True)
+        key = json.dumps(question)
         if key not in known:
             known[key] = row_verdict({**question, "lang": language})
         return known[key]
