@@ -60,6 +60,20 @@ CASES = [
         id="a misconception",
     ),
     pytest.param(
+        "potential-energy",
+        "m*g*l*cos(phi)",
+        Verdict(
+            "wrong",
+            rf"{WEIGHT} \cos\varphi",
+            misconceptions=("gravity-sign", "derivative-of-cosine", "potential-sign"),
+            about="weight",
+            counterexample=Counterexample(
+                {n: STATE[n] for n in ("m", "l", "g", "phi")}, 2.62416, -2.62416
+            ),  # g cos 1.3
+        ),
+        id="several misconceptions",
+    ),
+    pytest.param(
         "position:bob",
         "[l*sin(phi), -l*cos(phi)]",
         Verdict(

@@ -286,6 +286,14 @@ def test_a_row_is_judged(task: str, answer: str, standing: str, entry: object) -
     assert row_verdict(question) == entry
 
 
+def test_of_several_misconceptions_the_likeliest_is_named() -> None:
+    answer = {"value": "m*g*l*cos(phi)"}
+    found = row_verdict(
+        {"scene": "pendulum", "task": "potential-energy", "answer": answer, "standing": [], "lang": "en"}
+    )
+    assert (found["misconception"], found["mistake"]) == ("gravity-sign", "Sign of the weight")
+
+
 def test_what_cannot_be_asked_of_the_scene_is_told_in_the_row() -> None:
     question = {"scene": "swing", "task": KINETIC, "answer": {"value": T}, "standing": [], "lang": "de"}
     found = row_verdict(question)

@@ -217,21 +217,30 @@ def test_what_follows_must_be_most_of_the_answer(
     assert [found for found, _ in outcomes(scene, wrong, line)] == ["wrong", outcome]
 
 
-def test_a_line_that_follows_is_told_nothing_of_mistakes() -> None:
-    """What it would be by itself is a misconception with a state where it differs."""
-    workbook = workbook_of({"scene": "pendulum"})
-    alone = check(workbook, workbook.task("equation:phi"), FROM_DOUBLE[1], "plain")
-    assert alone.outcome == "wrong"
-    assert alone.misconceptions
-    assert alone.counterexample
-    wrong = wrong_among(workbook, [Line(*E_DOUBLE)])
-    assert check_following(workbook, workbook.task("equation:phi"), Line(*FROM_DOUBLE), wrong) == replace(
-        alone, outcome="follow_through", misconceptions=(), counterexample=None
-    )
-    again = check(workbook, workbook.task("kinetic-energy"), E_DOUBLE[1], "plain")
-    assert check_following(workbook, workbook.task("kinetic-energy"), Line(*E_DOUBLE), wrong) == replace(
-        again, outcome="follow_through", remark="repeated", misconceptions=()
-    )
+@pytest.mark.parametrize(
+    ("wrong", "line"),
+    [
+        pytest.param(E_DOUBLE, FROM_DOUBLE, id="misconceptions"),
+        pytest.param(
+            ("potential-energy", "-2*m*g*l*cos(phi)"),
+            ("equation:phi", "m*l^2*phi'' + 2*m*g*l*sin(phi) = 0"),
+            id="slips",
+        ),
+    ],
+)
+def test_a_line_that_follows_is_told_nothing_of_mistakes(wrong: tuple[str, str], line: tuple[str, str]) -> None:
+    """What it would be by itself is a mistake with a name, and a state where it differs."""
+    book = workbook_of({"scene": "pendulum"})
+    first, alone = (check(book, book.task(task), text, "plain") for task, text in (wrong, line))
+    for verdict in (first, alone):
+        assert verdict.outcome == "wrong"
+        assert verdict.misconceptions or verdict.slip
+        assert verdict.counterexample
+    standing = wrong_among(book, [Line(*wrong)])
+    follows, again = (check_following(book, book.task(one[0]), Line(*one), standing) for one in (line, wrong))
+    nothing = {"outcome": "follow_through", "misconceptions": (), "slip": None}
+    assert follows == replace(alone, counterexample=None, **nothing)
+    assert again == replace(first, remark="repeated", **nothing)
 
 
 @pytest.mark.parametrize(

@@ -213,7 +213,7 @@ class _Tasks:
             )
         if len({self.targets[n].working for n in there}) > 1:
             known = ", ".join(f"{n + 1} ({self.targets[n].scene})" for n in there)
-            raise _wrong("task", "answers-which", name=task[:64], known=known)
+            raise _wrong("task", "answers-which", name=task, known=known)
         return there[0]
 
     def _assigned(self, assigned: AssignedTask) -> Target:
