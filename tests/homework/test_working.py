@@ -190,6 +190,13 @@ def test_teacher_sets_the_points() -> None:
         ),
         pytest.param(
             "pendulum",
+            ("lagrangian", "phi'^2/2 + cos(phi)"),
+            ("equation:phi", "phi'' + sin(phi) = 0"),
+            "follow_through",
+            id="without any parameter",
+        ),
+        pytest.param(
+            "pendulum",
             ("position:bob", "[l*sin(phi), 0]"),
             ("virtual-displacement:bob", "[l*cos(phi)*delta(phi), 0]"),
             "wrong",
