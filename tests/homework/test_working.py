@@ -196,6 +196,13 @@ def test_teacher_sets_the_points() -> None:
             id="without any parameter",
         ),
         pytest.param(
+            "cart-pendulum",
+            ("lagrangian", "x*phi"),
+            ("equation:x", "ddot(x) = phi"),
+            "wrong",
+            id="without accelerations",
+        ),
+        pytest.param(
             "pendulum",
             ("position:bob", "[l*sin(phi), 0]"),
             ("virtual-displacement:bob", "[l*cos(phi)*delta(phi), 0]"),
