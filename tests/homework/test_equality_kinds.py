@@ -196,7 +196,7 @@ def test_a_factor_is_harmless_where_it_vanishes_nowhere_in_the_range(scene: str,
     assert decided == (YES if harmless else VANISHES)
 
 
-def between(energy: str, **ends: float) -> Workbook:
+def between(energy: str, position: str = "q", **ends: float) -> Workbook:
     """A mass on a straight line with a potential energy."""
     scene = {
         "format": 1,
@@ -205,7 +205,7 @@ def between(energy: str, **ends: float) -> Workbook:
         "dimension": 2,
         "coordinates": [{"name": "q", "value": 0.2, **ends}],
         "parameters": [{"name": "m", "value": 1.0}, {"name": "k", "value": 3.0}],
-        "bodies": [{"name": "mass", "kind": "particle", "mass": "m", "position": ["q", "0"]}],
+        "bodies": [{"name": "mass", "kind": "particle", "mass": "m", "position": [position, "0"]}],
         "loads": [{"name": "spring", "kind": "potential", "energy": energy}],
     }
     return workbook_of({"scene": scene})
@@ -236,6 +236,16 @@ def test_a_factor_may_vanish_where_the_coordinate_cannot_be(
     task = book.task("equation:q")
     given = read(task, book.solution, f"{factor}*(m*ddot(q) + k*q) = 0", "plain").parts
     assert task.quantity.equality.same(given, book.right(task), book.solution) == (YES if harmless else VANISHES)
+
+
+def test_where_the_right_equation_is_undefined_no_factor_is_blamed() -> None:
+    """The mass is at q + q√q, so that there is nothing left of q = 0, and no range says so."""
+    book = between("k*q^2/2", "q + q*sqrt(q)")
+    task = book.task("equation:q")
+    equality, right = task.quantity.equality, book.right(task)
+    q = book.solution.q("q")
+    decided = [equality.same((factor * right[0],), right, book.solution) for factor in (2, 1 + q**2, q - 1)]
+    assert decided == [YES, YES, VANISHES]
 
 
 @pytest.mark.parametrize(

@@ -82,13 +82,17 @@ def _pivots(matrix: sp.Matrix, solution: Solution) -> list[int] | None:
 
 
 def _vanishes(above: sp.Expr, below: sp.Expr, solution: Solution) -> bool:
-    """Whether above/below is zero or undefined somewhere, by the states where such things happen; 0/0 tells nothing."""
+    """Whether above/below is zero or undefined somewhere, by the states where such things happen.
+
+    0/0 tells nothing, nor does a state at which the right equation is undefined.
+    """
     positive = {solution.q(p.name): 1.3 + 0.1 * k for k, p in enumerate(solution.scene.parameters) if p.positive}
     slots = {symbol: index for index, symbol in enumerate(above.free_symbols | below.free_symbols)}
     functions = [compiled(part, slots) for part in (above, below)]
     choices = [(positive[symbol],) if symbol in positive else _special(symbol, solution) for symbol in slots]
     pairs = [[function(state) for function in functions] for state in _states(choices)]
-    telling = [(a, b) for a, b in pairs if math.isnan(a) or max(abs(a), abs(b)) > NOTHING]
+    # What is undefined above is told of: NaN is not ≤ anything.
+    telling = [(a, b) for a, b in pairs if not math.isnan(b) and not max(abs(a), abs(b)) <= NOTHING]
     ratios = [a / b if abs(b) > NOTHING else math.inf for a, b in telling]
     regular = all(NOTHING <= abs(ratio) <= 1 / NOTHING for ratio in ratios)
     return not regular or len({ratio > 0 for ratio in ratios}) > 1
