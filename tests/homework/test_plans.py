@@ -102,6 +102,11 @@ def refused(task: str, told: str, scene: str = "") -> Row:
         ),
         pytest.param("ada,,4,a,,,first", ada("4", target=3, refused=NO_NUMBER, column="line"), id="no such line"),
         pytest.param(
+            f"ada,,4,a,,,1,{'z' * 60}",
+            ada("4", target=3, refused=TOO_MANY.replace("more  cells", "z" * 40), column="answer"),
+            id="an endless cell too many",
+        ),
+        pytest.param(
             "ada,,4,a,,,1,more, cells", ada("4", target=3, refused=TOO_MANY, column="answer"), id="cells too many"
         ),
     ],
