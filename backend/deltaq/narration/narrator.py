@@ -30,13 +30,19 @@ class Narrator:
     letters: Letters = field(default_factory=dict)
 
     def chapters(self, derivation: Derivation) -> list[Document]:
+        """The derivation in reading order; chapters without steps are left out."""
         return [self.chapter(chapter) for chapter in derivation.chapters if chapter.steps]
 
     def chapter(self, chapter: Chapter) -> Document:
+        """A JSON object with `id`, `title` and `steps`."""
         title = text(self.language, f"rules.chapters.{chapter.id}")
         return {"id": chapter.id, "title": title, "steps": [self.step(step) for step in chapter.steps]}
 
     def step(self, step: Step) -> Document:
+        """A JSON object: `id`, `rule`, title and sentence in the language, the mathematics, the same of each substep.
+
+        `marked` is LaTeX with the classes of the page, `latex` is without. `verified`, `sources` are those of the step.
+        """
         names = self._names(step.about)
         outcome = step.about.get("outcome")
         key = f"rules.steps.{step.rule}"
