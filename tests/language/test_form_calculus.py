@@ -86,3 +86,13 @@ def test_what_nobody_reads_is_not_arranged() -> None:
     form = plain_form(read("(x + y + m + l + g + k + c)^6"))
     assert form is not None
     assert len(form.displayed(SYMBOLS).args) == 924
+
+
+@pytest.mark.parametrize("factor", [pytest.param("1", id="at rest"), pytest.param("dot(x)^2", id="moving")])
+def test_what_is_too_long_to_be_planned_is_arranged(factor: str) -> None:
+    total = sympy.expand(read(f"{factor}*(x + y + m + l + g + k)^6"))
+    form = plain_form(total)
+    assert form is not None
+    shown = form.displayed(SYMBOLS)
+    assert sympy.expand(shown) == total
+    assert size(shown) < size(total)

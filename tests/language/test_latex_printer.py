@@ -78,6 +78,16 @@ def test_marked_symbols_are_set_off_as_well() -> None:
     assert power == r"\htmlClass{m}{m} \htmlClass{dot(y)}{\dot{q}_1^{2}}"
 
 
+def test_terms_of_a_sum_are_wrapped_without_their_signs() -> None:
+    total = read("m - k*y", names=LECTURE)
+    first, second = read("m", names=LECTURE), read("-k*y", names=LECTURE)
+    wraps = {first: lambda term: f"<{term}>", second: lambda term: f"[{term}]"}
+    typography = Typography(LECTURE, summands={total: wraps})
+    assert latex(total, typography) == "<m> - [k q_1]"
+    assert latex(read("g*(m - k*y)", names=LECTURE), typography) == "g (<m> - [k q_1])"
+    assert latex(read("m + k*y", names=LECTURE), typography) == "k q_1 + m"
+
+
 def test_a_symbol_by_its_plain_name() -> None:
     assert Typography(LECTURE).symbol("delta(phi)") == r"\delta q_2"
 

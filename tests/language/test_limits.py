@@ -20,6 +20,8 @@ CASES = [
     pytest.param(lambda n: "*".join(["1"] * n), 499, "too-many-nodes", id="factors"),
     # 60 levels: n functions and what stands in the innermost
     pytest.param(lambda n: "sin(" * n + "x" + ")" * n, 59, "too-deep", id="functions in functions"),
+    # 120 levels of brackets, which leave no trace in the tree
+    pytest.param(lambda n: "(" * n + "x" + ")" * n, 119, "too-deep", id="brackets in brackets"),
     pytest.param(lambda n: "|" + "abs(" * (n - 1) + "x" + ")" * (n - 1) + "|", 59, "too-deep", id="bars"),
     pytest.param(lambda n: "x" + "/x" * n, 59, "too-deep", id="quotients of quotients"),
     # exponents up to 64, in amount
