@@ -77,6 +77,8 @@ ACCEPTED = [
     ("-m*d(phi)/d(t)", "-m*dot(phi)"),
     ("d/dt (dphi/dt)", "ddot(phi)"),
     ("d(phi)*(1/d(t))", "d(phi)*(1/d(t))"),
+    ("x/d(t)", "x/d(t)"),
+    ("d(phi)/(m*d(t))", "d(phi)/(m*d(t))"),
     ("d/d(t) (phi^2)", "2*phi*dot(phi)"),
     ("d/dt^2 phi", "ddot(phi)"),
     ("dot([x, y])", "[dot(x), dot(y)]"),
