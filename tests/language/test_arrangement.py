@@ -29,6 +29,8 @@ ROWS = [
     pytest.param("m*dot(x)^2 - m*dot(y)^2*(1 - cos(2*phi))/2", "m*(dot(x)^2 - sin(phi)^2*dot(y)^2)", id="squared sine"),
     pytest.param("a*m*x + a*m*y", "m*a*(y + x)", id="several parameters"),
     pytest.param("x*y + x*phi", "y*x + phi*x", id="coordinates are no common factor"),
+    pytest.param("m*x*log(l*x) + m*y*log(l*x)", "m*(y*log(l*x) + x*log(l*x))", id="nor functions of them"),
+    pytest.param("m*x*log(l) + m*y*log(l)", "m*(y + x)*log(l)", id="but those of parameters are"),
 ]  # fmt: skip
 
 

@@ -30,6 +30,7 @@ SUMS = [
     pytest.param("ddot(y) + ddot(phi) + dot(y)^2 + dot(y)*dot(phi) + dot(phi)^2 + x^2 + y + x", id="by derivatives"),
     pytest.param("delta(y) + x*delta(phi) + dot(delta(y))", id="virtual displacements"),
     pytest.param("y^3 + y^2*x + y*x^2 + x^3", id="by powers"),
+    pytest.param("l^2*x + l*x", id="by powers of parameters"),
     pytest.param("m*ddot(y) + sin(phi)*ddot(y)", id="plain factors before functions"),
     pytest.param("m*g - k*y", id="no minus in front where there is a plus"),
     pytest.param("-m - l", id="a minus in front where there is no plus"),
