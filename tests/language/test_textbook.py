@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 import sympy
 
@@ -9,6 +11,7 @@ from deltaq.language.canonical import display, is_zero
 from deltaq.language.fourier import Monomial
 from deltaq.language.kernel_reader import KernelReader
 from deltaq.language.names import Names, Symbol
+from deltaq.language.operations import operations
 from deltaq.language.order import Order
 from deltaq.language.parser import parse
 from deltaq.language.plain_printer import plain
@@ -248,6 +251,28 @@ def test_the_terms_of_a_formula_are_the_formula(raw: str, *, apart: bool) -> Non
     for signed in (terms, book.products(form)):
         assert all(sign in (1, -1) and value.as_coeff_Mul()[0] > 0 for value, sign in signed)
         assert is_zero(sympy.Add(*(sign * value for value, sign in signed)) - read(raw), SYMBOLS)
+
+
+def brackets(generator: random.Random) -> sympy.Expr:
+    """A product of a number, some symbols and two or three sums, the first perhaps squared; masses go other ways."""
+    symbols = [SYMBOLS.name(name) for name in ("x", "y", "phi", "l", "k", "a", "c")]
+    sums = [
+        sympy.Add(*(generator.choice((1, -1, 2)) * symbol for symbol in generator.sample(symbols, terms)))
+        for terms in generator.choice(((2, 2), (2, 3), (2, 2, 2)))
+    ]
+    number = sympy.Rational(generator.choice((1, -1, 2, -3)), generator.choice((1, 2)))
+    power = generator.choice((1, 1, 2))
+    outside = generator.sample(symbols, generator.choice((0, 1, 2)))
+    return sympy.Mul(number, *outside, sums[0] ** power, *sums[1:], evaluate=False)
+
+
+def test_what_was_multiplied_out_is_found_again() -> None:
+    generator = random.Random(11)
+    products = [brackets(generator) for _ in range(60)]
+    shown = [display(sympy.expand(product), SYMBOLS) for product in products]
+    assert [one for one, product in zip(shown, products, strict=True) if sympy.expand(one - product) != 0] == []
+    longer = [one for one, product in zip(shown, products, strict=True) if operations(one) > operations(product)]
+    assert len(longer) <= 2  # a habit may outweigh an operation
 
 
 def test_inertia_is_written_apart() -> None:
