@@ -6,12 +6,11 @@ import difflib
 import re
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
-from itertools import pairwise
 from types import MappingProxyType
 
 from .bounds import MAX_DEPTH
 from .functions import SPELLINGS
-from .latex_source import ONLY_VARIABLES, Range, Source, cells, differential_head, differential_variables
+from .latex_source import ONLY_VARIABLES, Range, Source, cells, differential_head, differential_variables, separators
 from .latex_tables import (
     DIFFERENTIAL,
     INDEX,
@@ -199,9 +198,8 @@ class LatexLexer:
         if name in QUANTITIES:
             fail("unit", span, name="\\" + name)
         suggestions = difflib.get_close_matches(name[:40], [*SPELLINGS, *sorted(GREEK_NAMES)], n=1, cutoff=0.75)
-        if suggestions:
-            fail("unknown-command", span, name="\\" + name[:40], suggestion="\\" + suggestions[0])
-        fail("unknown-command", span, name="\\" + name[:40])
+        likeliest = {"suggestion": "\\" + suggestions[0]} if suggestions else {}
+        fail("unknown-command", span, name="\\" + name[:40], **likeliest)
 
 
 def close_bracket(lexer: LatexLexer, opening: int) -> None:
@@ -465,14 +463,9 @@ def read_environment(lexer: LatexLexer, _name: str, start: int) -> None:
 def _read_system(lexer: LatexLexer, inside: Range) -> None:
     rows = [(row[0][0], row[-1][1]) for row in cells(lexer.source.text, inside)]
     filled = [row for row in rows if lexer.source.text[slice(*row)].strip()]
-    for row, separator in zip(filled, (None, *_separators(filled)), strict=True):
+    for row, separator in zip(filled, (None, *separators(filled)), strict=True):
         lexer.found += [Token("operator", ";", separator)] if separator else []
         lexer.found += lexer.within(row)
-
-
-def _separators(parts: list[Range]) -> list[Span]:
-    """What stands between parts: & or \\\\."""
-    return [Span(one[1], other[0] - one[1]) for one, other in pairwise(parts)]
 
 
 def _read_matrix(lexer: LatexLexer, name: str, inside: Range, span: Span) -> None:
@@ -487,11 +480,11 @@ def _read_matrix(lexer: LatexLexer, name: str, inside: Range, span: Span) -> Non
         lexer.found += _vector(lexer, [cell for row in rows for cell in row], span)
     else:
         lines = [(row[0][0], row[-1][1]) for row in rows]
-        lexer.found += vector_tokens([_vector(lexer, row, span) for row in rows], _separators(lines), span)
+        lexer.found += vector_tokens([_vector(lexer, row, span) for row in rows], separators(lines), span)
 
 
 def _vector(lexer: LatexLexer, parts: list[Range], span: Span) -> list[Token]:
-    return vector_tokens([lexer.within(part) for part in parts], _separators(parts), span)
+    return vector_tokens([lexer.within(part) for part in parts], separators(parts), span)
 
 
 _HANDLERS: Mapping[str, Callable[[LatexLexer, str, int], None]] = MappingProxyType(
