@@ -121,6 +121,8 @@ ACCEPTED = [
     ("[x, y]", "[x, y]"),
     ("[x, y]^\\top", "[x, y]"),
     ("[x, \\sin[\\varphi]]", "[x, sin(phi)]"),
+    ("[m(x + 1), y]", "[m*(x + 1), y]"),
+    ("[\\sin(x), [m + 1]y]", "[sin(x), (1 + m)*y]"),
     ("\\begin{cases} m\\ddot x = 0 \\\\ \\ddot y = g \\end{cases}", "[m*ddot(x) = 0, ddot(y) = g]"),
     ("\\begin{aligned} m\\ddot x &= 0 \\\\ \\ddot y &= g \\end{aligned}", "[m*ddot(x) = 0, ddot(y) = g]"),
     ("m\\left. x \\right.", "m*x"),
