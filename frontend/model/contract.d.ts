@@ -1365,7 +1365,7 @@ export interface components {
         };
         /**
          * ConservedQuantity
-         * @description What does not change along the motion.
+         * @description What does not change along the motion; of a symmetry without terms.
          */
         ConservedQuantity: {
             /**
@@ -1381,12 +1381,30 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "momentum" | "energy";
+            kind: "momentum" | "energy" | "symmetry";
             /**
              * Coordinate
              * @description of a momentum; else empty
              */
             coordinate: string;
+            generator: components["schemas"]["Generator"];
+            /**
+             * Meaning
+             * @description what the generator does in space, in a word
+             * @example rotation-z
+             */
+            meaning: string;
+            /**
+             * Conditions
+             * @description equations between parameters on which it rests
+             */
+            conditions: components["schemas"]["Formula"][];
+            /**
+             * Step
+             * @description id of the step that shows it
+             * @example noether:1
+             */
+            step: string;
         };
         /**
          * ConvergenceAnswer
@@ -2762,6 +2780,21 @@ export interface components {
             conservative: components["schemas"]["CoordinateSum"][];
             /** Nonconservative */
             nonconservative: components["schemas"]["CoordinateSum"][];
+        };
+        /**
+         * Generator
+         * @description A small change q → q + ε ξ, t → t + ε τ that leads from motions to motions.
+         */
+        Generator: {
+            /**
+             * Shifts
+             * @description ξ by coordinate, where it is not zero
+             */
+            shifts: {
+                [key: string]: components["schemas"]["Formula"];
+            };
+            /** @description τ */
+            time: components["schemas"]["Formula"];
         };
         /**
          * GradedRow

@@ -66,11 +66,22 @@ class GeneralizedForces(Answer):
     nonconservative: tuple[CoordinateSum, ...]
 
 
+class Generator(Answer):
+    """A small change q → q + ε ξ, t → t + ε τ that leads from motions to motions."""
+
+    shifts: dict[str, Formula] = Field(description="ξ by coordinate, where it is not zero")
+    time: Formula = Field(description="τ")
+
+
 class ConservedQuantity(Sum):
     """What does not change along the motion."""
 
-    kind: Literal["momentum", "energy"]
+    kind: Literal["momentum", "energy", "symmetry"]
     coordinate: str = Field(description="of a momentum; else empty")
+    generator: Generator
+    meaning: str = Field(description="what the generator does in space, in a word", examples=["rotation-z"])
+    conditions: tuple[Formula, ...] = Field(description="equations between parameters on which it rests")
+    step: str = Field(description="id of the step that shows it", examples=["noether:1"])
 
 
 class JacobiEnergy(Sum):

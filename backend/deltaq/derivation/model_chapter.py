@@ -15,9 +15,11 @@ from .rules import (
     jacobi_energy,
     linearization,
     matrix_form,
+    noether,
     routh_function,
 )
 from .step import Step
+from .symmetry import symmetries
 from .system import System
 
 MOST_SHOWN = 4
@@ -44,6 +46,8 @@ def _conserved(system: System) -> Iterator[Step]:
     for coordinate in cyclic(system):
         yield cyclic_coordinate.apply(system, coordinate)
     yield jacobi_energy.apply(system)
+    for number, symmetry in enumerate(symmetries(system), 1):
+        yield noether.apply(system, symmetry, number)
     reduced = reduction(system)
     if reduced is not None:
         yield routh_function.apply(system, reduced)

@@ -16,6 +16,7 @@ from .notation import Notation
 from .prose import CatalogText, formula, joined
 
 Document = dict[str, object]
+SYMMETRY = ("symmetry", "integral")  # what a generator does, and what its integral is called
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,9 @@ class Narrator:
 
     def _names(self, about: Mapping[str, str]) -> dict[str, CatalogText]:
         """Names for a sentence; coordinates become mathematics between dollar signs."""
-        return {key: self._name(key, value) for key, value in about.items()}
+        names = {key: self._name(key, value) for key, value in about.items() if key not in SYMMETRY}
+        said = {key: f"rules.symmetries.{about[key]}.{key}" for key in SYMMETRY if key in about}
+        return names | {key: text(self.language, entry, **names) for key, entry in said.items()}
 
     def _name(self, key: str, value: str) -> CatalogText:
         if key != "coordinate":

@@ -37,6 +37,8 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "kinetic-energy": ("E{of}", "energy-kinetic"),
     "potential-energy": ("V{of}", "energy-potential"),
     "lagrangian": ("L", ""),
+    "variation-of-lagrangian": (r"\delta L", ""),
+    "integral-of-motion": ("I{of}", ""),
     "integral-functional": ("S", ""),
     "variation-of-integral": (r"\delta S", ""),
     "momentum": ("p_{{{i}}}", ""),
