@@ -1365,7 +1365,7 @@ export interface components {
         };
         /**
          * ConservedQuantity
-         * @description What does not change along the motion; of a symmetry without terms.
+         * @description What does not change along the motion.
          */
         ConservedQuantity: {
             /**
@@ -1784,6 +1784,8 @@ export interface components {
             jacobi_energy: components["schemas"]["JacobiEnergy"];
             /** @description where a coordinate is cyclic */
             routh: components["schemas"]["RouthFunction"] | null;
+            /** Relative Equilibria */
+            relative_equilibria: components["schemas"]["RelativeEquilibrium"][];
             /** Symbols */
             symbols: components["schemas"]["OwnSymbol"][];
         };
@@ -2895,6 +2897,16 @@ export interface components {
             cache: components["schemas"]["CacheHealth"];
         };
         /**
+         * InitialState
+         * @description Where a coordinate starts.
+         */
+        InitialState: {
+            /** Value */
+            value: number;
+            /** Rate */
+            rate: number;
+        };
+        /**
          * InitialValue
          * @description Value and rate of a coordinate at t = 0; what is left out is the scene's own.
          */
@@ -3889,6 +3901,50 @@ export interface components {
             /** Parameters */
             parameters: {
                 [key: string]: string | number;
+            };
+        };
+        /**
+         * RelativeEquilibrium
+         * @description A motion in which cyclic coordinates run evenly while another one rests, where the scene starts.
+         */
+        RelativeEquilibrium: {
+            /**
+             * Step
+             * @description id of the step that shows it
+             * @example relative-equilibrium:1
+             */
+            step: string;
+            /**
+             * Resting
+             * @description the coordinate that rests
+             * @example theta
+             */
+            resting: string;
+            /**
+             * Turning
+             * @description the cyclic coordinate whose rate holds it
+             * @example psi
+             */
+            turning: string;
+            /** @description of the turning coordinate */
+            rate: components["schemas"]["EquilibriumValue"];
+            /**
+             * Stability
+             * @description for fixed momenta
+             * @enum {string}
+             */
+            stability: "stable" | "undecided" | "unstable";
+            /**
+             * Eigenfrequency
+             * @description of small oscillations about it in rad/s, where it is stable
+             */
+            eigenfrequency: number | null;
+            /**
+             * Initial
+             * @description what starts it, by coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["InitialState"];
             };
         };
         /**

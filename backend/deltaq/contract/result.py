@@ -112,6 +112,25 @@ class RouthFunction(Formula):
     momenta: dict[str, str] = Field(description="names of the momenta, by coordinate", examples=[{"psi": "p_psi"}])
 
 
+class InitialState(Answer):
+    """Where a coordinate starts."""
+
+    value: float
+    rate: float
+
+
+class RelativeEquilibrium(Answer):
+    """A motion in which cyclic coordinates run evenly while another one rests, where the scene starts."""
+
+    step: str = Field(description="id of the step that shows it", examples=["relative-equilibrium:1"])
+    resting: str = Field(description="the coordinate that rests", examples=["theta"])
+    turning: str = Field(description="the cyclic coordinate whose rate holds it", examples=["psi"])
+    rate: EquilibriumValue = Field(description="of the turning coordinate")
+    stability: Stability = Field(description="for fixed momenta")
+    eigenfrequency: float | None = Field(description="of small oscillations about it in rad/s, where it is stable")
+    initial: dict[str, InitialState] = Field(description="what starts it, by coordinate")
+
+
 class OwnSymbol(Answer):
     """A name in the results that the scene does not have."""
 
@@ -175,4 +194,5 @@ class DerivationResult(Answer):
     equilibria: tuple[Equilibrium, ...]
     jacobi_energy: JacobiEnergy
     routh: RouthFunction | None = Field(description="where a coordinate is cyclic")
+    relative_equilibria: tuple[RelativeEquilibrium, ...]
     symbols: tuple[OwnSymbol, ...]

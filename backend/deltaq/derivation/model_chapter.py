@@ -16,8 +16,10 @@ from .rules import (
     linearization,
     matrix_form,
     noether,
+    relative_equilibrium,
     routh_function,
 )
+from .steady import steady_motions
 from .step import Step
 from .symmetry import symmetries
 from .system import System
@@ -51,3 +53,5 @@ def _conserved(system: System) -> Iterator[Step]:
     reduced = reduction(system)
     if reduced is not None:
         yield routh_function.apply(system, reduced)
+    for number, motion in enumerate(steady_motions(system), 1):
+        yield relative_equilibrium.apply(system, motion, number)

@@ -18,6 +18,7 @@ from .formula import Explicit, Term
 from .linearization import Linearization, linearizations
 from .matrix_form import forcing, left_side, mass_matrix
 from .rules.curl_test import outcome
+from .steady import SteadyMotion, steady_motions
 from .symmetry import Generator, Symmetry, solved, symmetries
 from .system import System
 from .terms import terms_of
@@ -83,6 +84,7 @@ class Result:
     jacobi_energy: sp.Expr
     is_energy: bool
     routh: Reduction | None
+    steady: tuple[SteadyMotion, ...]
     terms: Terms
     loads: tuple[LoadPotential, ...]
 
@@ -110,6 +112,7 @@ def result_of(system: System) -> Result:
         jacobi_energy=jacobi_energy(system),
         is_energy=is_energy(system),
         routh=reduction(system),
+        steady=steady_motions(system),
         terms=_terms(system),
         loads=tuple(_potential_of(system, load) for load in system.load_names),
     )

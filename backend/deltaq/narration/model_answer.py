@@ -12,6 +12,7 @@ from ..derivation.linearization import Linearization
 from ..derivation.program import number
 from ..derivation.result import LoadPotential, Result
 from ..derivation.spectrum import ComplexMode, Mode
+from ..derivation.steady import SteadyMotion
 from ..language.latex_printer import Typography, latex
 from ..language.plain_printer import plain
 from ..language.spelling import latex_of
@@ -66,7 +67,7 @@ def _complex_mode(mode: ComplexMode, free: list[str]) -> Document:
     }
 
 
-def _float(value: sp.Expr | arb) -> float:
+def _float(value: sp.Expr | arb | float) -> float:
     found = float(f"{float(value):.{DIGITS}g}")
     return found if abs(found) > 10.0**-DIGITS else 0.0
 
@@ -101,3 +102,17 @@ def routh(reduction: Reduction | None, typography: Typography) -> Document | Non
     value = reduction.function
     momenta = {coordinate: symbol.name for coordinate, symbol in reduction.momenta.items()}
     return {"plain": plain(value), "latex": latex(value, typography), "momenta": momenta}
+
+
+def steady(motion: SteadyMotion, number: int, typography: Typography) -> Document:
+    """A relative equilibrium; `initial` starts it, with the scene's own values of the parameters."""
+    rate = {"plain": plain(motion.rate), "latex": latex(motion.rate, typography), "number": _float(motion.number)}
+    return {
+        "step": f"relative-equilibrium:{number}",
+        "resting": motion.coordinate,
+        "turning": motion.turning,
+        "rate": rate,
+        "stability": motion.stability,
+        "eigenfrequency": None if motion.frequency is None else _float(motion.frequency),
+        "initial": {q: {"value": value, "rate": _float(speed)} for q, (value, speed) in motion.initial.items()},
+    }

@@ -13,7 +13,7 @@ from ..derivation.symmetry import Generator
 from ..language.latex_printer import Typography, latex
 from ..language.order import Order
 from ..language.plain_printer import plain
-from .model_answer import equilibrium, load, own_symbols, routh
+from .model_answer import equilibrium, load, own_symbols, routh, steady
 
 Document = dict[str, object]
 
@@ -47,6 +47,7 @@ def written(result: Result, typography: Typography) -> Document:
         "loads": [load(each, typography) for each in result.loads],
         "symbols": own_symbols(result),
         "routh": routh(result.routh, typography),
+        "relative_equilibria": [steady(each, number, typography) for number, each in enumerate(result.steady, 1)],
     }
 
 

@@ -68,6 +68,9 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "work-of-loop": ("W", ""),
     "jacobi-energy": ("h", ""),
     "routh-function": ("R", ""),
+    "negative-routh-function": ("-R", ""),
+    "effective-potential": ("U", ""),
+    "hamiltonian": ("H", ""),
 }
 AXES = ("1", "2", "3")  # the principal axes of a body
 ALWAYS_INDEXED = ("moment",)
