@@ -66,14 +66,13 @@ class SteadyMotion:
         system, q = self.system, self.system.q(self.coordinate)
         lagrangian = system.lagrangian.xreplace({system.rate(self.coordinate): system.zero})
         rates = [system.rate(turning) for turning in self.reduction.momenta]
-        slopes = sp.Matrix([lagrangian.diff(q, rate) for rate in rates])
-        inertia = sp.Matrix([[lagrangian.diff(a, b) for a in rates] for b in rates])
-        determinant = system.display(inertia.det(method="berkowitz"))
         given = {} if self.square is None else self.steady
-        whole = system.display((slopes.T * inertia.adjugate() * slopes)[0, 0].xreplace(given)) / determinant
+        slopes = [lagrangian.diff(q, rate) for rate in rates]
+        inertia = [[lagrangian.diff(a, b) for a in rates] for b in rates]
+        squares = [system.display(part.xreplace(given)) for part in _squares(system, inertia, slopes)]
         rest = system.display(-lagrangian.diff(q, 2).xreplace(given))
         direct = system.display(self.potential.diff(q, 2).xreplace(self.momenta))
-        forms: tuple[sp.Expr, ...] = (direct, rest + whole, system.display(rest + whole))
+        forms: tuple[sp.Expr, ...] = (direct, rest + sp.Add(*squares), system.display(rest + sp.Add(*squares)))
         return min(forms, key=operations)
 
     @cached_property
@@ -146,6 +145,19 @@ def _rates(system: System, condition: sp.Expr, turning: str) -> Iterator[tuple[s
     else:
         root = sp.sqrt(system.display(b**2 - 4 * a * c))
         yield from (((-b + sign * root) / (2 * a), None) for sign in (1, -1))
+
+
+def _squares(system: System, matrix: list[list[sp.Expr]], vector: list[sp.Expr]) -> Iterator[sp.Expr]:
+    """The summands of vᵀ A⁻¹ v, completed to squares one by one; A is symmetric and positive."""
+    if not vector:
+        return
+    *rows, last = matrix
+    pivot, entry = system.display(last[-1]), system.display(vector[-1])
+    yield entry**2 / pivot
+    ratios = [system.display(sp.cancel(row[-1] / pivot)) for row in rows]
+    rest = [[row[k] - ratio * last[k] for k in range(len(rows))] for row, ratio in zip(rows, ratios, strict=True)]
+    shorter = [v - ratio * entry for v, ratio in zip(vector, ratios, strict=False)]
+    yield from _squares(system, [list(map(system.display, row)) for row in rest], shorter)
 
 
 def _without_common_factor(parts: list[sp.Expr]) -> list[sp.Expr]:
