@@ -28,6 +28,7 @@ import { FORMULATIONS, oneOf } from "../model/url.js";
  * @property {() => void} reload
  * @property {((view: View) => unknown) | undefined} overlays  once one has been asked for
  * @property {ReturnType<ReturnType<typeof import("./figure/why.js").createWhy>>} [why]  with the instruments
+ * @property {ReturnType<ReturnType<typeof import("./figure/integrals.js").createIntegrals>>} [integrals]  with the instruments
  * @property {import("./figure/open.js").Instruments | null} instruments  once they have been fetched
  * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
  * @property {() => void} enterLecture

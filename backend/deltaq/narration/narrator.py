@@ -13,7 +13,7 @@ from .catalog import filled, template, text
 from .letters import Letters, in_sentence
 from .marks import without_classes
 from .notation import Notation
-from .prose import CatalogText, formula, joined
+from .prose import CatalogText, formula, joined, words
 
 Document = dict[str, object]
 SYMMETRY = ("symmetry", "integral")  # what a generator does, and what its integral is called
@@ -84,6 +84,8 @@ class Narrator:
         return names | {key: text(self.language, entry, **names) for key, entry in said.items()}
 
     def _name(self, key: str, value: str) -> CatalogText:
+        if key == "rate":
+            return words(value.replace(".", ",") if self.language == "de" else value)
         if key != "coordinate":
             return joined(", ", map(self.notation.symbols.label, value.split(", ")))
         latex = self.notation.symbols.coordinate_latex

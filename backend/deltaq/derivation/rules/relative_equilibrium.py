@@ -37,6 +37,7 @@ def apply(system: System, motion: SteadyMotion, number: int) -> Step:
         "number": str(number),
         "coordinate": motion.coordinate,
         "rate": f"{motion.number:.4g}",
+        "unit": next(c.unit for c in system.scene.free if c.name == motion.turning) or "1",
     }
     return Step(RULE, str(number), lines, (), about)
 
