@@ -1735,6 +1735,11 @@ export interface components {
              */
             formulation?: components["schemas"]["DerivationRequestFormulation"];
             /**
+             * Canonical
+             * @description whether a last chapter has Hamilton's function and canonical equations
+             */
+            canonical?: boolean;
+            /**
              * Lang
              * @description language of the texts; else Accept-Language decides
              */

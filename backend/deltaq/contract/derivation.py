@@ -18,6 +18,9 @@ class DerivationRequest(SceneWithChanges):
     """Which scene to derive, what to change before, and in which language."""
 
     formulation: Formulation = Field("dalembert-lagrange", description=ROAD)
+    canonical: bool = Field(
+        default=False, description="whether a last chapter has Hamilton's function and canonical equations"
+    )
     lang: AskedLanguage = None
 
     model_config = examples(
