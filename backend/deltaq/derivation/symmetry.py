@@ -126,11 +126,20 @@ def _proved(system: System) -> Iterator[Symmetry]:
         if not constant.is_of_the_lecture(vector):
             yield from constant.proved(vector)
     others = generic.kernel()
-    if len(others) > len(vectors):
-        yield from (each for vector in sorted(others, key=generic.rank) for each in generic.proved(vector))
-    special = own.kernel()
-    if len(special) > len(others):
-        yield from (each for vector in sorted(special, key=own.rank) for each in own.proved(vector) if each.conditions)
+    for vector in sorted(_new(others, vectors), key=generic.rank):
+        yield from generic.proved(vector)
+    for vector in sorted(_new(own.kernel(), others), key=own.rank):
+        yield from (each for each in own.proved(vector) if each.conditions)
+
+
+def _new(vectors: list[Row], known: list[Row]) -> list[Row]:
+    """Those that are not among the known ones, where there are more of them at all."""
+
+    def alike(one: Row, other: Row) -> bool:
+        return all(abs(a - b) < NEAR for a, b in zip(one, other, strict=True))
+
+    found = [vector for vector in vectors if not any(alike(vector, other) for other in known)]
+    return found if len(vectors) > len(known) else []
 
 
 @dataclass(frozen=True, eq=False)
