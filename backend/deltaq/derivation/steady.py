@@ -18,7 +18,6 @@ from functools import cached_property
 import sympy as sp
 
 from ..language.memory import cached_method
-from ..language.operations import operations
 from ..vocabulary import Stability
 from .compiled import compiled
 from .conservation import Reduction, reduction
@@ -62,18 +61,15 @@ class SteadyMotion:
 
     @cached_property
     def curvature(self) -> sp.Expr:
-        """∂²U/∂q² at fixed momenta, in this motion: as it is, or as −L_qq + L_qΩ A⁻¹ L_Ωq with A = L_ΩΩ, if shorter."""
+        """∂²U/∂q² at fixed momenta in this motion, or in the same rates −L_qq + L_qΩ A⁻¹ L_Ωq with A = L_ΩΩ."""
         system, q = self.system, self.system.q(self.coordinate)
+        if self.square is not None:
+            return system.display(self.potential.diff(q, 2).xreplace(self.momenta))
         lagrangian = system.lagrangian.xreplace({system.rate(self.coordinate): system.zero})
         rates = [system.rate(turning) for turning in self.reduction.momenta]
-        given = {} if self.square is None else self.steady
-        slopes = [lagrangian.diff(q, rate) for rate in rates]
+        slopes = [system.slope(lagrangian, q).diff(rate) for rate in rates]
         inertia = [[lagrangian.diff(a, b) for a in rates] for b in rates]
-        squares = [system.display(part.xreplace(given)) for part in _squares(system, inertia, slopes)]
-        rest = system.display(-lagrangian.diff(q, 2).xreplace(given))
-        direct = system.display(self.potential.diff(q, 2).xreplace(self.momenta))
-        forms: tuple[sp.Expr, ...] = (direct, rest + sp.Add(*squares), system.display(rest + sp.Add(*squares)))
-        return min(forms, key=operations)
+        return sp.Add(system.display(-lagrangian.diff(q, 2)), *_squares(system, inertia, slopes))
 
     @cached_property
     def numbers(self) -> Mapping[sp.Symbol, float]:

@@ -37,9 +37,11 @@ from .system import System
 MOST_UNKNOWN = 90  # coefficients of a generator: beyond it only shifts are tried
 MOST_OPERATIONS = 4000  # of L and the forces: beyond it nothing is tried
 MOST_SUPPORT = 5  # coefficients that depend on parameters, to be solved for with symbols
+MOST_POINTS = 8  # for what must not depend on parameters
 SPARE = 3  # points more than there are unknowns
 TRIES = 6  # random points for each that is wanted
-STEP = 1e-3  # of central differences of fourth order
+STEP = 1e-3  # of central differences of fourth order, with these weights
+WEIGHTS = {2: -1 / 12, 1: 8 / 12, -1: -8 / 12, -2: 1 / 12}
 NEAR = 1e-6  # of a coefficient to a fraction
 LARGEST_DENOMINATOR = 12
 MOST = 12  # symmetries of one scene that are looked at closely
@@ -153,69 +155,33 @@ class Search:
     system: System
     values: Values
 
-    @cached_property
+    @property
     def monomials(self) -> tuple[Monomial, ...]:
-        """The unknowns. Coordinates mix only where both have one unit and neither is an angle in a sine or cosine."""
-        free = self.system.free
-        straight = [q for q in free if self.system.q(q) not in self._in_waves]
-        units = {coordinate.name: coordinate.unit for coordinate in self.system.scene.coordinates}
-        pairs = [(a, b) for a, b in product(straight, repeat=2) if units[a] == units[b]]
-        shifts = [Monomial("shift", q) for q in free]
-        mixed = [Monomial("linear", a, b) for a, b in pairs] if len(pairs) <= MOST_UNKNOWN else []
-        boosts = [Monomial("boost", q) for q in free]
-        return (*shifts, *mixed, *boosts, Monomial("time"), Monomial("scaling"))
+        """The unknowns."""
+        return _monomials(self.system)
 
-    @cached_property
-    def _in_waves(self) -> frozenset[sp.Symbol]:
-        laws = sp.Tuple(self.system.lagrangian, *self.forces.values())
-        return frozenset[sp.Symbol]().union(*(wave.free_symbols for wave in laws.atoms(sp.sin, sp.cos)))
-
-    @cached_property
-    def forces(self) -> dict[str, sp.Expr]:
-        """∂L/∂qᵢ + Qᵢᵈ"""
-        system = self.system
-        slopes = {q: system.slope(system.lagrangian, system.q(q)) for q in system.free}
-        return {q: slope + system.nonconservative_force(q) for q, slope in slopes.items()}
-
-    @cached_property
-    def _clock(self) -> sp.Expr:
-        """∂L/∂t − Σ Qᵢᵈ q̇ᵢ"""
-        system = self.system
-        power = sp.Add(*(system.nonconservative_force(q) * system.rate(q) for q in system.free))
-        return system.slope(system.lagrangian, system.t) - power
+    @property
+    def _numeric(self) -> Numeric:
+        return _numeric(self.system)
 
     def change(self, monomial: Monomial) -> sp.Expr:
         """The left side of Noether's condition for one monomial."""
         system, t = self.system, self.system.t
         match monomial.kind:
             case "shift":
-                return self.forces[monomial.moved]
+                return _forces(self.system)[monomial.moved]
             case "linear":
                 q, speed = system.q(monomial.by), system.rate(monomial.by)
-                return q * self.forces[monomial.moved] + speed * system.momentum(monomial.moved)
+                return q * _forces(self.system)[monomial.moved] + speed * system.momentum(monomial.moved)
             case "boost":
-                return t * self.forces[monomial.moved] + system.momentum(monomial.moved)
+                return t * _forces(self.system)[monomial.moved] + system.momentum(monomial.moved)
             case "time":
-                return self._clock
+                return _clock(self.system)
             case "scaling":
                 work = sp.Add(*(system.momentum(q) * system.rate(q) for q in system.free))
-                return t * self._clock + system.lagrangian - work
+                return t * _clock(self.system) + system.lagrangian - work
 
     # In numbers: values are those of t, q, q̇ and the parameters, in this order.
-
-    @cached_property
-    def _symbols(self) -> tuple[sp.Symbol, ...]:
-        system = self.system
-        moving = [system.t, *map(system.q, system.free), *map(system.rate, system.free)]
-        return (*moving, *system.parameter_values)
-
-    @cached_property
-    def _numeric(self) -> Numeric:
-        system = self.system
-        momenta = [system.momentum(q) for q in system.free]
-        slots = {symbol: slot for slot, symbol in enumerate(self._symbols)}
-        parts = [*self.forces.values(), *momenta, self._clock, system.lagrangian]
-        return Numeric(self.monomials, system.free, tuple(compiled(part, slots) for part in parts))
 
     def kernel(self) -> list[Row]:
         """A basis of the coefficients."""
@@ -243,8 +209,10 @@ class Search:
     def _curl_rows(self, vectors: list[Row]) -> Iterator[Row]:
         """∂aᵢ/∂t − ∂b/∂qᵢ and ∂aᵢ/∂qₖ − ∂aₖ/∂qᵢ, for W = a·q̇ + b."""
         n = len(self.system.free)
-        each = max(1, n * (n + 1) // 2)
-        for values in self._points(len(vectors) // each + SPARE) if vectors else ():
+        enough = len(vectors) // max(1, n * (n + 1) // 2) + 2
+        if self.values == "any":  # a point says nothing of other values of the parameters
+            enough = max(enough, min(len(vectors) + 1, MOST_POINTS))
+        for values in self._points(enough) if vectors else ():
             slopes = [self._slopes(values, place) for place in range(n + 1)]  # by t, then by each q
             for i in range(n):
                 yield [a - b for a, b in zip(slopes[0][i + 1], slopes[i + 1][0], strict=True)]
@@ -253,15 +221,14 @@ class Search:
 
     def _slopes(self, values: Row, place: int) -> list[Row]:
         """∂/∂(t or q) of b, a₁, a₂ …, by differences of fourth order."""
-        weights = {2: -1 / 12, 1: 8 / 12, -1: -8 / 12, -2: 1 / 12}
         found = {}
-        for steps in weights:
+        for steps in WEIGHTS:
             moved = list(values)
             moved[place] += steps * STEP
             found[steps] = self._parts(moved)
         return [
-            [sum(map(_times, weights.values(), entries)) / STEP for entries in zip(*rows, strict=True)]
-            for rows in zip(*(found[steps] for steps in weights), strict=True)
+            [sum(map(_times, WEIGHTS.values(), entries)) / STEP for entries in zip(*rows, strict=True)]
+            for rows in zip(*(found[steps] for steps in WEIGHTS), strict=True)
         ]
 
     def _parts(self, values: Row) -> list[Row]:
@@ -432,6 +399,43 @@ class Search:
         return None
 
 
+@cached_method
+def _monomials(system: System) -> tuple[Monomial, ...]:
+    """Coordinates mix only where both have one unit and neither is an angle in a sine or cosine."""
+    laws = sp.Tuple(system.lagrangian, *_forces(system).values())
+    in_waves = frozenset[sp.Symbol]().union(*(wave.free_symbols for wave in laws.atoms(sp.sin, sp.cos)))
+    straight = [q for q in system.free if system.q(q) not in in_waves]
+    units = {coordinate.name: coordinate.unit for coordinate in system.scene.coordinates}
+    pairs = [(a, b) for a, b in product(straight, repeat=2) if units[a] == units[b]]
+    shifts = [Monomial("shift", q) for q in system.free]
+    mixed = [Monomial("linear", a, b) for a, b in pairs] if len(pairs) <= MOST_UNKNOWN else []
+    boosts = [Monomial("boost", q) for q in system.free]
+    return (*shifts, *mixed, *boosts, Monomial("time"), Monomial("scaling"))
+
+
+@cached_method
+def _forces(system: System) -> dict[str, sp.Expr]:
+    """∂L/∂qᵢ + Qᵢᵈ"""
+    slopes = {q: system.slope(system.lagrangian, system.q(q)) for q in system.free}
+    return {q: slope + system.nonconservative_force(q) for q, slope in slopes.items()}
+
+
+@cached_method
+def _clock(system: System) -> sp.Expr:
+    """∂L/∂t − Σ Qᵢᵈ q̇ᵢ"""
+    power = sp.Add(*(system.nonconservative_force(q) * system.rate(q) for q in system.free))
+    return system.slope(system.lagrangian, system.t) - power
+
+
+@cached_method
+def _numeric(system: System) -> Numeric:
+    moving = [system.t, *map(system.q, system.free), *map(system.rate, system.free)]
+    slots = {symbol: slot for slot, symbol in enumerate((*moving, *system.parameter_values))}
+    momenta = [system.momentum(q) for q in system.free]
+    parts = [*_forces(system).values(), *momenta, _clock(system), system.lagrangian]
+    return Numeric(_monomials(system), system.free, tuple(compiled(part, slots) for part in parts))
+
+
 @dataclass(frozen=True)
 class Numeric:
     """Noether's condition in floats: what each monomial changes at a point."""
@@ -474,16 +478,24 @@ def is_independent(system: System, known: Sequence[sp.Expr], value: sp.Expr) -> 
     moving = [*map(system.q, system.free), *map(system.rate, system.free)]
     symbols = [*moving, system.t, *system.parameter_values]
     slots = {symbol: slot for slot, symbol in enumerate(symbols)}
-    functions = [compiled(expr.diff(x), slots) for expr in (*known, value) for x in moving]
-    width = len(moving)
+    functions = [compiled(expr, slots) for expr in (*known, value)]
     for seed in range(TRIES):
         source = random.Random(seed)
         point = [source.uniform(0.3, 1.7) for _ in symbols]
-        numbers = [function(point) for function in functions]
-        if all(map(math.isfinite, numbers)):
-            rows = [numbers[i : i + width] for i in range(0, len(numbers), width)]
+        rows = [[_slope(function, point, place) for place in range(len(moving))] for function in functions]
+        if all(math.isfinite(entry) for row in rows for entry in row):
             return _rank(rows) > _rank(rows[:-1])
     return False
+
+
+def _slope(function: Function, point: Row, place: int) -> float:
+    """The partial derivative, by a difference of fourth order."""
+    total = 0.0
+    for steps, weight in WEIGHTS.items():
+        moved = list(point)
+        moved[place] += steps * STEP
+        total += weight * function(moved)
+    return total / STEP
 
 
 def _rank(rows: list[Row]) -> int:
