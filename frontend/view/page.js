@@ -70,18 +70,18 @@ function reading(view) {
   const { t } = view;
   return html`
     <section class="derivation" id="derivation" aria-label=${t("derivation")}>
-      <div class="contents">${road(view)}${chapters(view)}${canonical(view)}</div>
+      <div class="contents">${road(view)}${chapters(view)}</div>
       <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
-        ${trouble(view) ?? steps(view)}
+        ${trouble(view) ?? steps(view)} ${canonical(view)}
       </div>
       ${pager(view)}
     </section>`;
 }
 
-/** Opens the chapter of Hamilton's canonical equations. @param {View} view */
+/** Behind the last step: opens the chapter of Hamilton's canonical equations. @param {View} view */
 const canonical = ({ state, session, t }) =>
-  state.derivation && !state.place.more
-    ? html`<button class="quiet small" @click=${() => session.tellMore("canonical")}>${t("canonical.open")}</button>`
+  state.derivation && !state.place.more && state.lines.at(-1)?.step.id === state.place.step
+    ? html`<button class="quiet small further" @click=${() => session.tellMore("canonical")}>${t("canonical.open")}</button>`
     : nothing;
 
 /** Which formulation leads to the equations. @param {View} view */

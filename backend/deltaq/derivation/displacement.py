@@ -16,7 +16,7 @@ import sympy as sp
 from ..mechanics.kinetics import Rotation
 from .compiled import compiled
 from .elimination import Row, kernel
-from .symmetry import Generator
+from .generator import Generator
 from .system import System
 
 POINTS = 4

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ..language.memory import cached_method
-from .symmetry import Symmetry, solved
+from .generator import Symmetry, solved
 from .system import System
 
 Share = tuple[str, sp.Expr]

@@ -15,11 +15,12 @@ from . import provenance
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
 from .displacement import meaning
 from .formula import Explicit, Term
+from .generator import Generator, Symmetry, solved
 from .linearization import Linearization, linearizations
 from .matrix_form import forcing, left_side, mass_matrix
 from .rules.curl_test import outcome
 from .steady import SteadyMotion, steady_motions
-from .symmetry import Generator, Symmetry, solved, symmetries
+from .symmetry import symmetries
 from .system import System
 from .terms import terms_of
 

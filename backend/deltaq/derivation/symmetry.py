@@ -20,7 +20,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import combinations, islice, product
+from itertools import combinations, islice
 from typing import Literal
 
 import sympy as sp
@@ -32,9 +32,9 @@ from .antiderivative import antiderivative, is_finite
 from .compiled import Function, compiled
 from .conservation import cyclic, jacobi_energy, jacobi_energy_rate
 from .elimination import Row, kernel
+from .generator import Generator, Kind, Monomial, Numeric, Symmetry, clock, forces, monomials, numeric, solved
 from .system import System
 
-MOST_UNKNOWN = 90  # coefficients of a generator: beyond it only shifts are tried
 MOST_OPERATIONS = 4000  # of L and the forces: beyond it nothing is tried
 MOST_SUPPORT = 5  # coefficients that depend on parameters, to be solved for with symbols
 MOST_POINTS = 8  # for what must not depend on parameters
@@ -48,47 +48,6 @@ MOST = 12  # symmetries of one scene that are looked at closely
 
 Values = Literal["any", "one", "own"]
 VALUES: tuple[Values, ...] = ("any", "one", "own")
-Kind = Literal["shift", "linear", "boost", "time", "scaling"]
-
-
-@dataclass(frozen=True)
-class Monomial:
-    """One unknown coefficient of a generator.
-
-    `shift` is ξᵢ = 1, `linear` ξᵢ = qₖ, `boost` ξᵢ = t; `time` is τ = 1, `scaling` τ = t.
-    """
-
-    kind: Kind
-    moved: str = ""
-    by: str = ""
-
-
-@dataclass(frozen=True)
-class Generator:
-    """q → q + ε ξ, t → t + ε τ. `shifts` holds the ξᵢ that are not zero, by coordinate."""
-
-    shifts: Mapping[str, sp.Expr]
-    time: sp.Expr
-
-    def characteristic(self, system: System) -> dict[str, sp.Expr]:
-        """ξᵢ − τ q̇ᵢ, the change at a fixed time, where it is not zero."""
-        moved = system.free if self.time != 0 else tuple(self.shifts)
-        changes = {q: self.shifts.get(q, system.zero) - self.time * system.rate(q) for q in moved}
-        return {q: change for q, change in changes.items() if change != 0}
-
-
-@dataclass(frozen=True)
-class Symmetry:
-    """A generator, the gauge function F and the integral I; `conditions` are what must be zero of the parameters."""
-
-    generator: Generator
-    gauge: sp.Expr
-    value: sp.Expr
-    conditions: tuple[sp.Expr, ...] = ()
-
-    def gauge_at_fixed_time(self, system: System) -> sp.Expr:
-        """F − τ L, of which the change at a fixed time is the derivative."""
-        return self.gauge - self.generator.time * system.lagrangian
 
 
 @cached_method
@@ -158,28 +117,28 @@ class Search:
     @property
     def monomials(self) -> tuple[Monomial, ...]:
         """The unknowns."""
-        return _monomials(self.system)
+        return monomials(self.system)
 
     @property
-    def _numeric(self) -> Numeric:
-        return _numeric(self.system)
+    def numeric(self) -> Numeric:
+        return numeric(self.system)
 
     def change(self, monomial: Monomial) -> sp.Expr:
         """The left side of Noether's condition for one monomial."""
         system, t = self.system, self.system.t
         match monomial.kind:
             case "shift":
-                return _forces(self.system)[monomial.moved]
+                return forces(self.system)[monomial.moved]
             case "linear":
                 q, speed = system.q(monomial.by), system.rate(monomial.by)
-                return q * _forces(self.system)[monomial.moved] + speed * system.momentum(monomial.moved)
+                return q * forces(self.system)[monomial.moved] + speed * system.momentum(monomial.moved)
             case "boost":
-                return t * _forces(self.system)[monomial.moved] + system.momentum(monomial.moved)
+                return t * forces(self.system)[monomial.moved] + system.momentum(monomial.moved)
             case "time":
-                return _clock(self.system)
+                return clock(self.system)
             case "scaling":
                 work = sp.Add(*(system.momentum(q) * system.rate(q) for q in system.free))
-                return t * _clock(self.system) + system.lagrangian - work
+                return t * clock(self.system) + system.lagrangian - work
 
     # In numbers: values are those of t, q, q̇ and the parameters, in this order.
 
@@ -194,7 +153,7 @@ class Search:
     @cached_property
     def _scales(self) -> Row:
         """The size of what each monomial changes."""
-        rows = [self._numeric.row(values) for values in self._points(SPARE)]
+        rows = [self.numeric.row(values) for values in self._points(SPARE)]
         return [max((abs(row[k]) for row in rows), default=0.0) for k in range(len(self.monomials))]
 
     def _quadratic_rows(self) -> Iterator[Row]:
@@ -203,7 +162,7 @@ class Search:
         source = random.Random(2)
         for values in self._points(len(self.monomials) + SPARE):
             nudge = [source.uniform(-1, 1) for _ in range(n)]
-            ahead, here, behind = (self._numeric.row(_pushed(values, nudge, way, n)) for way in (1, 0, -1))
+            ahead, here, behind = (self.numeric.row(_pushed(values, nudge, way, n)) for way in (1, 0, -1))
             yield [a + b - 2 * c for a, b, c in zip(ahead, behind, here, strict=True)]
 
     def _curl_rows(self, vectors: list[Row]) -> Iterator[Row]:
@@ -235,18 +194,18 @@ class Search:
         """b and a₁, a₂ … of W = a·q̇ + b at a point."""
         n = len(self.system.free)
         still = [*values[: n + 1], *[0.0] * n, *values[2 * n + 1 :]]
-        rest = self._numeric.row(still)
+        rest = self.numeric.row(still)
         rows = [rest]
         for i in range(n):
             moving = list(still)
             moving[n + 1 + i] = 1.0
-            rows.append([a - b for a, b in zip(self._numeric.row(moving), rest, strict=True)])
+            rows.append([a - b for a, b in zip(self.numeric.row(moving), rest, strict=True)])
         return rows
 
     def _points(self, count: int) -> Iterator[Row]:
         """Random t, q and q̇ with the parameters, where all is defined."""
         found = map(self._point, range(TRIES * count))
-        return islice((p for p in found if all(map(math.isfinite, self._numeric.row(p)))), count)
+        return islice((p for p in found if all(map(math.isfinite, self.numeric.row(p)))), count)
 
     def _point(self, number: int) -> Row:
         source = random.Random(number)
@@ -399,80 +358,6 @@ class Search:
         return None
 
 
-@cached_method
-def _monomials(system: System) -> tuple[Monomial, ...]:
-    """Coordinates mix only where both have one unit and neither is an angle in a sine or cosine."""
-    laws = sp.Tuple(system.lagrangian, *_forces(system).values())
-    in_waves = frozenset[sp.Symbol]().union(*(wave.free_symbols for wave in laws.atoms(sp.sin, sp.cos)))
-    straight = [q for q in system.free if system.q(q) not in in_waves]
-    units = {coordinate.name: coordinate.unit for coordinate in system.scene.coordinates}
-    pairs = [(a, b) for a, b in product(straight, repeat=2) if units[a] == units[b]]
-    shifts = [Monomial("shift", q) for q in system.free]
-    mixed = [Monomial("linear", a, b) for a, b in pairs] if len(pairs) <= MOST_UNKNOWN else []
-    boosts = [Monomial("boost", q) for q in system.free]
-    return (*shifts, *mixed, *boosts, Monomial("time"), Monomial("scaling"))
-
-
-@cached_method
-def _forces(system: System) -> dict[str, sp.Expr]:
-    """∂L/∂qᵢ + Qᵢᵈ"""
-    slopes = {q: system.slope(system.lagrangian, system.q(q)) for q in system.free}
-    return {q: slope + system.nonconservative_force(q) for q, slope in slopes.items()}
-
-
-@cached_method
-def _clock(system: System) -> sp.Expr:
-    """∂L/∂t − Σ Qᵢᵈ q̇ᵢ"""
-    power = sp.Add(*(system.nonconservative_force(q) * system.rate(q) for q in system.free))
-    return system.slope(system.lagrangian, system.t) - power
-
-
-@cached_method
-def _numeric(system: System) -> Numeric:
-    moving = [system.t, *map(system.q, system.free), *map(system.rate, system.free)]
-    slots = {symbol: slot for slot, symbol in enumerate((*moving, *system.parameter_values))}
-    momenta = [system.momentum(q) for q in system.free]
-    parts = [*_forces(system).values(), *momenta, _clock(system), system.lagrangian]
-    return Numeric(_monomials(system), system.free, tuple(compiled(part, slots) for part in parts))
-
-
-@dataclass(frozen=True)
-class Numeric:
-    """Noether's condition in floats: what each monomial changes at a point."""
-
-    monomials: tuple[Monomial, ...]
-    free: tuple[str, ...]
-    functions: tuple[Function, ...]
-
-    def row(self, values: Row) -> Row:
-        """One number for each monomial."""
-        n = len(self.free)
-        found = [function(values) for function in self.functions]
-        force, momentum = dict(zip(self.free, found, strict=False)), dict(zip(self.free, found[n:], strict=False))
-        place, speed = (
-            dict(zip(self.free, values[1:], strict=False)),
-            dict(zip(self.free, values[n + 1 :], strict=False)),
-        )
-        t, clock, lagrangian = values[0], found[2 * n], found[2 * n + 1]
-        work = sum(momentum[q] * speed[q] for q in self.free)
-
-        def change(monomial: Monomial) -> float:
-            q, by = monomial.moved, monomial.by
-            match monomial.kind:
-                case "shift":
-                    return force[q]
-                case "linear":
-                    return place[by] * force[q] + speed[by] * momentum[q]
-                case "boost":
-                    return t * force[q] + momentum[q]
-                case "time":
-                    return clock
-                case "scaling":
-                    return t * clock + lagrangian - work
-
-        return [change(monomial) for monomial in self.monomials]
-
-
 def is_independent(system: System, known: Sequence[sp.Expr], value: sp.Expr) -> bool:
     """Whether the value is no function of the known ones and t: the rank of the slopes by q and q̇ rises."""
     moving = [*map(system.q, system.free), *map(system.rate, system.free)]
@@ -546,17 +431,3 @@ def _without_units(condition: sp.Expr, system: System) -> sp.Expr:
     own = dict(system.parameter_values)
     kept = [base for base, _ in factors if base not in positive and base.xreplace(own) == 0]
     return sp.Mul(*kept) if kept else condition
-
-
-def solved(conditions: Sequence[sp.Expr], system: System) -> dict[sp.Symbol, sp.Expr]:
-    """Parameters by the others, one for each condition: as it is linear in one, else by the scene's own value."""
-    found: dict[sp.Symbol, sp.Expr] = {}
-    for condition in conditions:
-        left = condition.xreplace(found)
-        symbols = sorted(left.free_symbols, key=str)
-        linear = [s for s in symbols if left.diff(s) != 0 and not left.diff(s).has(s)]
-        if linear:
-            found[linear[-1]] = sp.cancel(linear[-1] - left / left.diff(linear[-1]))
-        else:
-            found |= {symbol: system.parameter_values[symbol] for symbol in symbols}
-    return found

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from ..derivation.formula import Term
+from ..derivation.generator import Generator
 from ..derivation.result import Conserved, Result
-from ..derivation.symmetry import Generator
 from ..language.latex_printer import Typography, latex
 from ..language.order import Order
 from ..language.plain_printer import plain

@@ -27,8 +27,8 @@ from ..formula import (
     Times,
     minus,
 )
+from ..generator import Symmetry, solved
 from ..step import Relation, Step
-from ..symmetry import Symmetry, solved
 from ..system import System
 
 RULE = "noether"
