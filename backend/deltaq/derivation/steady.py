@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import sympy as sp
@@ -27,14 +27,14 @@ from .system import System
 NOTHING = 1e-9  # of ∂²U/∂q², relative to its terms
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class SteadyMotion:
     """`coordinate` rests anywhere, `turning` has the `rate` that this asks for; `square` is Ω² where that is simpler.
 
     Numbers are those where the scene starts.
     """
 
-    system: System
+    system: System = field(compare=False)
     reduction: Reduction
     coordinate: str
     turning: str
