@@ -18,6 +18,7 @@ export const KEYS = [
   [["d"], "help.beside"],
   [["w"], "help.why"],
   [["h"], "help.spot"],
+  [["Enter"], "help.terms"],
   [["?"], "help.help"],
 ];
 
@@ -30,6 +31,7 @@ const ARROWS = /** @type {Record<string, string>} */ ({
 const CALLED = /** @type {Record<string, string>} */ ({
   " ": "key.space",
   Escape: "key.escape",
+  Enter: "key.enter",
   Home: "key.home",
   End: "key.end",
   PageUp: "key.page-up",

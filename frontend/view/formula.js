@@ -3,6 +3,7 @@
 import { html, nothing } from "lit-html";
 import { Directive, directive } from "lit-html/directive.js";
 import { pieces } from "../model/prose.js";
+import { Exploring } from "./exploring.js";
 import { Fitting } from "./fitting.js";
 import { typeset } from "./typesetting.js";
 import { Waiting } from "./waiting.js";
@@ -10,6 +11,7 @@ import { Waiting } from "./waiting.js";
 /** Of the page: templates have no other way to reach it. */
 const fitting = new Fitting();
 const waiting = new Waiting();
+const exploring = new Exploring();
 
 /** There will be long formulas: how they are typeset is fetched before. */
 export const expectLong = () => fitting.expectLong();
@@ -71,9 +73,15 @@ const typesetInto = directive(Typeset);
 export const inline = (latex, className = "", later = false) =>
   html`<span class="math ${className}" ${typesetInto(latex, false, later)}></span>`;
 
-/** A formula on a line of its own. @param {string} latex @param {boolean} [later] it is not seen yet */
-export const displayed = (latex, later = false) =>
-  html`<div class="formula" tabindex="-1" ${typesetInto(latex, true, later)}></div>`;
+/**
+ * A formula on a line of its own; what it says is its name, and its terms can be walked through.
+ * @param {string} latex @param {boolean} [later] it is not seen yet @param {import("../model/spoken.js").Said} [said]  by the server; else KaTeX says what it can
+ */
+export const displayed = (latex, later = false, said = {}) =>
+  said.spoken
+    ? html`<div class="formula" tabindex="0" role="img" aria-label=${said.spoken} @keydown=${(/** @type {KeyboardEvent} */ event) => exploring.press(event, said)}
+        @blur=${() => exploring.leave()} ${typesetInto(latex, true, later)}></div>`
+    : html`<div class="formula" tabindex="-1" ${typesetInto(latex, true, later)}></div>`;
 
 /** A sentence of the server with its formulas. @param {import("../model/prose.js").CatalogText} sentence @param {boolean} [later] it is not seen yet */
 export const prose = (sentence, later = false) =>

@@ -1,7 +1,7 @@
 /** A long formula: its rows, and what is said of it. */
 
 import { planned } from "../model/rows.js";
-import { SMALLEST, bearableIn, resize, typeset } from "./typesetting.js";
+import { SMALLEST, bearableIn, isNamed, resize, typeset } from "./typesetting.js";
 
 /** @typedef {{cell: HTMLElement, latex: string}} Due  a cell, and what is to stand in it */
 
@@ -110,6 +110,7 @@ export class Long {
   }
 
   say() {
+    if (isNamed(this.element)) return;
     const words = made("span", "katex-mathml");
     typeset(words, this.latex, true, "mathml");
     this.#said.replaceChildren(words);

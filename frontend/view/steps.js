@@ -66,7 +66,7 @@ export function step(line, current, view, far = false) {
 /** The marked form carries the colours; some steps are words only. @param {Step} content @param {Pick<View, "why">} view @param {boolean} later */
 function formulaOf(content, { why }, later) {
   const latex = why?.formula(content) ?? (content.marked || content.latex);
-  return latex ? displayed(latex, later) : nothing;
+  return latex ? displayed(latex, later, content) : nothing;
 }
 
 const GROUNDS = { exact: "step.exact-why", sampled: "step.sampled-why", stated: "step.stated-why" };

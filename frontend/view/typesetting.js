@@ -10,8 +10,11 @@ const BEARABLE = 0.78;
 /** @param {{command: string, class?: string}} context  only classes, and only those that carry the colours of formulas */
 const onlyClasses = (context) => context.command === "\\htmlClass" && areOfFormulas(context.class ?? "");
 
+/** What has a name is heard by it, and not a second time. @param {HTMLElement} element */
+export const isNamed = (element) => element.hasAttribute("aria-label");
+
 /** @param {HTMLElement} element @param {string} latex @param {boolean} display @param {"html" | "mathml" | "htmlAndMathml"} [output]  to be seen, to be heard, or both */
-export function typeset(element, latex, display, output = "htmlAndMathml") {
+export function typeset(element, latex, display, output = isNamed(element) ? "html" : "htmlAndMathml") {
   try {
     globalThis.katex.render(latex, element, {
       displayMode: display,

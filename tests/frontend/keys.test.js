@@ -14,7 +14,7 @@ test("every key of the page is told once", () => {
 test("keys are called by what stands on them", () => {
   const t = (/** @type {string} */ key) => `<${key}>`;
   assert.deepEqual(told.filter((key) => key.length > 1 || key === " ").map((key) => labelOf(key, t)), [
-    "→", "<key.space>", "<key.page-down>", "←", "<key.page-up>", "<key.home>", "<key.end>", "<key.escape>", "↓", "↑",
+    "→", "<key.space>", "<key.page-down>", "←", "<key.page-up>", "<key.home>", "<key.end>", "<key.escape>", "↓", "↑", "<key.enter>",
   ]);
   assert.deepEqual(["w", ".", "?"].map((key) => labelOf(key, t)), ["W", ".", "?"]);
 });

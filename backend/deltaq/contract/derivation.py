@@ -77,6 +77,8 @@ class Step(Answer):
     text: str
     latex: str = Field(examples=["\\delta E = m\\ell^2\\dot{\\varphi}\\,\\delta\\dot{\\varphi}"])
     marked: str = Field(description="the same with \\htmlClass hooks that tell which term is what")
+    spoken: str = Field("", description="the same in words of the language of the answer, to be read aloud")
+    spoken_terms: tuple[int, ...] = Field((), description="where in `spoken` each term begins, with its sign before it")
     verified: bool = Field(description="whether an independent route confirmed the step")
     evidence: Evidence
     premises: tuple[str, ...] = Field(description="ids of the steps that this one rests on")

@@ -47,6 +47,7 @@ class ExpressionAnswer(Answer):
 
     latex: str = Field(examples=["\\ell\\sin\\varphi"])
     plain: str = Field(examples=["l*sin(phi)"])
+    spoken: str = Field("", description="the same in words of the language asked for", examples=["l times sine of phi"])
 
 
 class ExpressionOutcome(ExpressionAnswer):

@@ -23,6 +23,7 @@ class Formula(Answer):
 
     plain: str = Field(examples=["m*l^2*dot(phi)^2/2"])
     latex: str
+    spoken: str = Field("", description="the same in words, to be read aloud")
 
 
 class Sum(Formula):
@@ -42,6 +43,7 @@ class VectorFormula(Answer):
 
     plain: tuple[str, ...] = Field(examples=[["l*sin(phi)", "l*cos(phi)"]])
     latex: str
+    spoken: str = Field("", description="the same in words, to be read aloud")
 
 
 class Forcing(VectorFormula):
@@ -55,6 +57,7 @@ class MassMatrix(Answer):
 
     plain: tuple[tuple[str, ...], ...] = Field(examples=[[["l^2*m"]]])
     latex: str
+    spoken: str = Field("", description="the same in words, to be read aloud")
     terms: tuple[tuple[tuple[Term, ...], ...], ...]
 
 

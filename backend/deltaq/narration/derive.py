@@ -32,11 +32,12 @@ def derive_request(document: Mapping[str, object]) -> Document:
     with inside("/scene"):
         system, derivation = derive(scene, formulation, canonical=document.get("canonical") is True)
     language = language_in(document)
+    narrator = narrator_of(system, language)
     return {
         "scene": scene.id,
         "formulation": formulation,
-        "chapters": narrator_of(system, language).chapters(derivation),
-        "result": written(result_of(system), Typography(scene.names, decimals=scene.writes_decimals)),
+        "chapters": narrator.chapters(derivation),
+        "result": written(result_of(system), Typography(scene.names, decimals=scene.writes_decimals), narrator.speech),
     }
 
 

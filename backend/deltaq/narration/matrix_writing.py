@@ -83,8 +83,13 @@ def _column(rows: list[str]) -> str:
 
 
 def _number(value: sp.Expr) -> str:
-    """Also of a number beyond those of IEEE 754."""
+    mantissa, exponent = number_parts(value)
+    return rf"{mantissa} \cdot 10^{{{exponent}}}" if exponent else mantissa
+
+
+def number_parts(value: sp.Expr) -> tuple[str, int]:
+    """Four digits of a number, also of one beyond those of IEEE 754, and the power of ten behind them if it has one."""
     size = float(value) if abs(value) > TINY else 0.0
     text = f"{size:.{DIGITS}g}" if math.isfinite(size) else str(sp.Float(value, DIGITS))
     mantissa, _, exponent = text.partition("e")
-    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
+    return mantissa, int(exponent or 0)

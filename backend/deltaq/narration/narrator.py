@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
+from functools import cached_property
 
 from ..derivation.formula import Formula, Term
 from ..derivation.history import with_names
@@ -14,6 +15,7 @@ from .letters import Letters, in_sentence
 from .marks import without_classes
 from .notation import Notation
 from .prose import CatalogText, formula, joined, words
+from .speech import Speech, speech_of
 
 Document = dict[str, object]
 SYMMETRY = ("symmetry", "integral")  # what a generator does, and what its integral is called
@@ -29,6 +31,11 @@ class Narrator:
     language: str
     notation: Notation
     letters: Letters = field(default_factory=dict)
+
+    @cached_property
+    def speech(self) -> Speech:
+        """Who says aloud what the notation writes."""
+        return speech_of(self.notation, self.language)
 
     def chapters(self, derivation: Derivation) -> list[Document]:
         """The derivation in reading order; chapters without steps are left out."""
@@ -48,6 +55,7 @@ class Narrator:
         outcome = step.about.get("outcome")
         key = f"rules.steps.{step.rule}"
         marked = aligned(_with_names(step), self.notation.formula)
+        spoken, places = self.speech.spoken(step.relations)
         return {
             "id": step.id,
             "rule": step.rule,
@@ -55,6 +63,8 @@ class Narrator:
             "text": self._sentence(f"{key}.{outcome or 'text'}", names),
             "latex": without_classes(marked),
             "marked": marked,
+            "spoken": spoken,
+            "spoken_terms": places,
             "verified": step.verified,
             "evidence": asdict(step.evidence),
             "premises": list(step.premises),

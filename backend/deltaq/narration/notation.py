@@ -174,7 +174,7 @@ class Notation:
 
     def _sum(self, terms: tuple[Term, ...]) -> str:
         pieces: list[str] = []
-        for term in filter(_counts, terms):
+        for term in filter(counts, terms):
             text, negative = self._unsigned(term)
             sign = "-" if negative else "+"
             pieces.append(f"{sign if pieces or negative else ''} {self._marked(term, text)}")
@@ -202,7 +202,7 @@ def _classes(sources: tuple[str, ...]) -> str:
     return " ".join(source.replace(":", "-") for source in sources)
 
 
-def _counts(term: Term) -> bool:
+def counts(term: Term) -> bool:
     """Whether a summand is worth writing: a zero is not."""
     return not (isinstance(term.formula, Explicit) and term.formula.value == 0)
 

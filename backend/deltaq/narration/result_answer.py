@@ -14,13 +14,14 @@ from ..language.latex_printer import Typography, latex
 from ..language.order import Order
 from ..language.plain_printer import plain
 from .model_answer import equilibrium, load, own_symbols, routh, steady
+from .speech import Speech
 
 Document = dict[str, object]
 
 
-def written(result: Result, typography: Typography) -> Document:
+def written(result: Result, typography: Typography, speech: Speech) -> Document:
     """The `result` of the answer to POST /derivations."""
-    write = _Writer(result, typography)
+    write = _Writer(result, typography, speech)
     return {
         "positions": {name: write.vector(value) for name, value in result.positions.items()},
         "points": {name: write.vector(value) for name, value in result.points.items()},
@@ -38,6 +39,7 @@ def written(result: Result, typography: Typography) -> Document:
         "mass_matrix": {
             "plain": [[plain(entry, write.order) for entry in row] for row in result.mass_matrix.tolist()],
             "latex": latex(result.mass_matrix, typography),
+            "spoken": speech.value(result.mass_matrix),
             "terms": write.entries("mass_matrix"),
         },
         "forcing": {**write.vector(result.forcing), "terms": write.rows("forcing")},
@@ -55,6 +57,7 @@ def written(result: Result, typography: Typography) -> Document:
 class _Writer:
     result: Result
     typography: Typography
+    speech: Speech
     order: Order = field(default_factory=Order)
 
     def both(self, value: sp.Expr, suffix: str = "") -> Document:
@@ -62,12 +65,13 @@ class _Writer:
 
     def vector(self, value: sp.ImmutableMatrix) -> Document:
         text = [plain(component, self.order) for component in value]
-        return {"plain": text, "latex": latex(value, self.typography)}
+        return {"plain": text, "latex": latex(value, self.typography), "spoken": self.speech.value(value)}
 
     def sum(self, key: str, value: sp.Expr, coordinate: str = "", suffix: str = "") -> Document:
         """The expression, and its terms with the bodies and loads they come from."""
         terms = self.result.terms[key][coordinate]
-        return {**self.both(value, suffix), "terms": [self._term(term) for term in terms]}
+        spoken = self.speech.equated(value) if suffix else self.speech.value(value)
+        return {**self.both(value, suffix), "spoken": spoken, "terms": [self._term(term) for term in terms]}
 
     def each(self, key: str, values: Mapping[str, sp.Expr], suffix: str = "") -> list[Document]:
         return [{"coordinate": q, **self.sum(key, value, q, suffix)} for q, value in values.items()]

@@ -10,6 +10,7 @@ from typing import Protocol
 
 from ..derivation.formula import Quantity
 from ..derivation.rules.position import UNGUIDED
+from ..language.memory import cached_method
 from ..mechanics.loads.spring import Spring
 from ..mechanics.scene import Scene
 from .catalog import text
@@ -107,6 +108,7 @@ class QuantitySymbols:
     coordinate_latex: Mapping[str, str]
     wrap: Callable[[str, str], str]
 
+    @cached_method
     def latex(self, quantity: Quantity) -> str:
         pattern, css = SYMBOLS[quantity.kind]
         symbol = self._own(quantity.kind, pattern).format(

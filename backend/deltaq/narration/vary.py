@@ -14,7 +14,7 @@ from ..contract.variation import VariationRequest
 from ..derivation.clearing import cleared, constant_of_motion
 from ..derivation.differential_expression import direction
 from ..derivation.domain import Instant, Interval
-from ..derivation.formula import Explicit, Formula, Named, Quantity
+from ..derivation.formula import Equation, Explicit, Formula, Named, Quantity
 from ..derivation.functional import Functional
 from ..derivation.rules.integration_by_parts import boundary_term
 from ..derivation.variation import vary
@@ -29,6 +29,7 @@ from .marks import Wrap, in_class, unmarked
 from .narrator import Narrator
 from .notation import NEIGHBOUR
 from .quotient_answer import quotient_answer
+from .speech import Speech
 from .variation_request import Question, read_question
 
 Document = dict[str, object]
@@ -48,11 +49,12 @@ def vary_request(document: Mapping[str, object]) -> Document:
     if not derivation.chapters[0].steps[0].verified:
         raise RequestError(Problem("value-undefined", "/expression"))  # nowhere could it be evaluated
     clean = _notation(question, unmarked)
+    narrator = Narrator(language, _notation(question, in_class), _letters(question))
     key = json.dumps(document, sort_keys=True, ensure_ascii=False)
     answer: Document = {
         "id": hashlib.sha256(key.encode()).hexdigest()[:24],
-        "chapters": Narrator(language, _notation(question, in_class), _letters(question)).chapters(derivation),
-        "result": _result(question, clean),
+        "chapters": narrator.chapters(derivation),
+        "result": _result(question, clean, narrator.speech),
     }
     if "quotient" in asked.include:
         answer["quotient"] = quotient_answer(question, asked.numeric)
@@ -97,11 +99,11 @@ def _mark(names: Names, wrap: Wrap) -> Wrap:
     return mark
 
 
-def _result(question: Question, notation: FunctionNotation) -> Document:
+def _result(question: Question, notation: FunctionNotation, speech: Speech) -> Document:
     functional = question.functional
-    both = _Writer(question, notation)
+    both = _Writer(question, notation, speech)
     variation = functional.by_chain_rule
-    first = both.vector(variation) | {"latex": notation.formula(functional.on(Explicit(variation)))}
+    first = both.vector(variation) | both.written(functional.on(Explicit(variation)))
     if isinstance(functional.domain, Instant):
         first["at"] = plain(functional.expression(functional.domain.at))
     if not isinstance(functional.domain, Interval):
@@ -126,7 +128,7 @@ def _boundary(functional: Functional, function: str, order: int, both: _Writer) 
         "function": function,
         "order": order,
         "plain": both.plain(momentum * direction(function, order)),
-        "latex": both.formula(boundary_term(functional, Explicit(momentum), function, order)),
+        **both.written(boundary_term(functional, Explicit(momentum), function, order)),
         "vanishes": not ends,
         "at": [plain(end) for end in ends],
         "condition": condition,
@@ -148,8 +150,9 @@ def _first_integrals(functional: Functional, both: _Writer) -> Iterator[Document
 class _Writer:
     """Expressions as plain text in the user's names, and as LaTeX."""
 
-    def __init__(self, question: Question, notation: FunctionNotation) -> None:
+    def __init__(self, question: Question, notation: FunctionNotation, speech: Speech) -> None:
         self._notation = notation
+        self._speech = speech
         self._named = {
             direction(x, n): sp.Symbol(spell_rate(v, n), real=True)
             for x, v in question.directions.items()
@@ -160,17 +163,18 @@ class _Writer:
     def plain(self, value: sp.Expr) -> str:
         return plain(value.xreplace(self._named))
 
-    def formula(self, formula: Formula) -> str:
-        return self._notation.formula(formula)
+    def written(self, formula: Formula) -> Document:
+        return {"latex": self._notation.formula(formula), "spoken": self._speech.formula(formula)}
 
     def vector(self, value: sp.Expr | sp.ImmutableMatrix) -> Document:
         text = [self.plain(c) for c in value] if isinstance(value, sp.MatrixBase) else self.plain(value)
-        return {"plain": text, "latex": self._notation.value(value)}
+        return {"plain": text, "latex": self._notation.value(value), "spoken": self._speech.value(value)}
 
     def constant(self, value: sp.Expr) -> Document:
         """What does not change."""
         named = Named(Quantity("constant"), value)
-        return {"plain": self.plain(value), "latex": f"{self._notation.value(value)} = {self.formula(named)}"}
+        return {"plain": self.plain(value), **self.written(Equation(Explicit(value), named))}
 
     def equation(self, left: sp.Expr) -> Document:
-        return {"plain": f"{self.plain(left)} = 0", "latex": f"{self._notation.value(left)} = 0"}
+        latex, spoken = f"{self._notation.value(left)} = 0", self._speech.equated(left)
+        return {"plain": f"{self.plain(left)} = 0", "latex": latex, "spoken": spoken}

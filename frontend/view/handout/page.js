@@ -106,6 +106,6 @@ function step({ step, number, chapter, chapterIndex }, { substeps }) {
 }
 
 /** @param {Step} step */
-const words = ({ text, marked, latex }) => html`
+const words = ({ text, marked, latex, spoken, spoken_terms }) => html`
   ${text ? html`<p>${prose(text)}</p>` : nothing}
-  ${marked || latex ? displayed(marked || latex) : nothing}`;
+  ${marked || latex ? displayed(marked || latex, false, { spoken, spoken_terms }) : nothing}`;

@@ -124,7 +124,7 @@ export function solution(view) {
     ${
       step
         ? html`<div class="shown-step"><h4>${prose(step.title)}</h4>${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
-      ${step.marked || step.latex ? displayed(step.marked || step.latex) : nothing}
+      ${step.marked || step.latex ? displayed(step.marked || step.latex, false, step) : nothing}
       ${address ? html`<p><a href=${address}>${t("homework.to-step")}</a></p>` : nothing}</div>`
         : nothing
     }

@@ -93,7 +93,7 @@ function sheet({ step, number }, part) {
         (one) => html`
         ${one === step || !one.title ? nothing : html`<h4>${prose(one.title)}</h4>`}
         ${one.text ? html`<p class="prose">${prose(one.text)}</p>` : nothing}
-        ${one.marked || one.latex ? displayed(one.marked || one.latex) : nothing}`,
+        ${one.marked || one.latex ? displayed(one.marked || one.latex, false, one) : nothing}`,
       )}
     </div>`;
 }

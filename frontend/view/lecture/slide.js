@@ -48,7 +48,7 @@ function sheet({ step, number, chapter, chapterIndex }, view) {
 /** @param {Step} step @param {Pick<Shown, "why">} view */
 function words(step, { why }) {
   const latex = why?.formula(step) ?? (step.marked || step.latex);
-  return html`${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}${latex ? displayed(latex) : nothing}`;
+  return html`${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}${latex ? displayed(latex, false, step) : nothing}`;
 }
 
 /** @param {{step: Step, depth: number}} shown @param {number} place @param {Pick<Shown, "why">} view */

@@ -17,7 +17,7 @@ export function understood({ asking, t }) {
   return html`
     <section class="understood ${asking.verdict === "refused" ? "stale" : ""}" aria-label=${t("variations.understood")}>
       <h2>${t("variations.understood")}</h2>
-      <div class="room">${formula ? displayed(formula.marked || formula.latex) : nothing}</div>
+      <div class="room">${formula ? displayed(formula.marked || formula.latex, false, formula) : nothing}</div>
     </section>`;
 }
 
@@ -30,10 +30,10 @@ export function summary({ asking, t }) {
     <section class="outcome ${asking.verdict === "refused" ? "stale" : ""}" aria-label=${t("variations.result")}>
       <h2>${t("variations.result")}</h2>
       <dl>
-        <div><dt>${t("variations.first-variation")}</dt><dd>${displayed(result.first_variation.latex)}</dd></div>
+        <div><dt>${t("variations.first-variation")}</dt><dd>${displayed(result.first_variation.latex, false, result.first_variation)}</dd></div>
         ${terms.length ? html`<div><dt>${t("variations.boundary")}</dt>${terms.map((term) => html`<dd>${boundaryTerm(term, t)}</dd>`)}</div>` : nothing}
-        ${result.euler_lagrange?.length ? html`<div><dt>${t("variations.euler")}</dt>${result.euler_lagrange.map(({ latex }) => html`<dd>${displayed(latex)}</dd>`)}</div>` : nothing}
-        ${result.first_integrals?.length ? html`<div><dt>${t("variations.first-integrals")}</dt>${result.first_integrals.map(({ latex }) => html`<dd>${displayed(latex)}</dd>`)}</div>` : nothing}
+        ${result.euler_lagrange?.length ? html`<div><dt>${t("variations.euler")}</dt>${result.euler_lagrange.map((one) => html`<dd>${displayed(one.latex, false, one)}</dd>`)}</div>` : nothing}
+        ${result.first_integrals?.length ? html`<div><dt>${t("variations.first-integrals")}</dt>${result.first_integrals.map((one) => html`<dd>${displayed(one.latex, false, one)}</dd>`)}</div>` : nothing}
       </dl>
     </section>`;
 }

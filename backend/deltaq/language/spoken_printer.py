@@ -1,0 +1,230 @@
+"""SymPy → words as a lecturer says them: m ℓ² φ̈ is "m times l squared times phi double dot".
+
+The words say which part belongs to which, and no more than is needed for it. What binds more loosely than its place
+asks stands between "open bracket" and "close bracket"; fractions and roots of more than a symbol say where they end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import Any
+
+import sympy
+
+from .memory import cached_method
+from .numerals import Decides, base_exponent, decimal, decimals_of, ends, exact, fraction_parts
+from .order import Order
+from .spoken_symbols import LARGEST, SpokenSymbols, Vocabulary
+
+# How tightly words hold together. A prefix, as "sine of", reaches over one atom and no further.
+SUM, QUOTIENT, PRODUCT, POWER, PREFIX, ATOM = 1, 2, 3, 4, 5, 6
+_NAMES = {"Abs": "abs"}
+_MOST_PARTS = 12
+_SHORT = 4  # words of a term that needs no pause before it
+
+
+class SpokenPrinter:
+    """Says expressions. `decimals` as in a Typography: 0.7 or 7/10, None for each as it is."""
+
+    def __init__(self, symbols: SpokenSymbols, *, decimals: bool | None = None, order: Order | None = None) -> None:
+        self.symbols = symbols
+        self.words: Vocabulary = symbols.vocabulary
+        self._decimals = decimals
+        self._order = order or Order(symbols.names)
+        self._printers: dict[Decides, _Speech] = {}
+
+    def text(self, value: Any, binding: int = 0) -> str:
+        """The words for a value; in brackets if they bind more loosely."""
+        if isinstance(value, sympy.MatrixBase):
+            return self._matrix(value)
+        if isinstance(value, sympy.Eq):
+            return f"{self.text(value.lhs)} {self.words.say('equals', self.text(value.rhs))}"
+        if isinstance(value, sympy.Tuple):
+            return ". ".join(map(self.text, value))
+        expr = sympy.sympify(value, strict=True)
+        return self._for(expr).text(expr, binding)
+
+    def summands(self, value: sympy.Expr) -> list[str]:
+        """The terms of a sum in the order in which they are said, each with its minus."""
+        return self._for(value).summands(value)
+
+    def _for(self, expr: sympy.Expr) -> _Speech:
+        decides = decimals_of(expr, wanted=self._decimals)
+        return self._printers.setdefault(decides, _Speech(self.symbols, self._order, decides))
+
+    def _matrix(self, value: sympy.MatrixBase) -> str:
+        rows = [[self.text(entry) for entry in row] for row in value.tolist()]
+        return said_matrix(self.words, rows)
+
+
+def said_matrix(words: Vocabulary, rows: list[list[str]]) -> str:
+    """A vector by its components, a matrix by its rows."""
+    if all(len(row) == 1 for row in rows):
+        parts = [words.say("component", words.whole(i), row[0]) for i, row in enumerate(rows, 1)]
+        return words.say("vector", ", ".join(parts))
+    joint = words.say("next")
+    parts = [words.say("row", words.whole(i), joint.join(row)) for i, row in enumerate(rows, 1)]
+    return words.say("matrix", ", ".join(parts))
+
+
+class _Speech:
+    def __init__(self, symbols: SpokenSymbols, order: Order, as_decimal: Decides) -> None:
+        self._symbols = symbols
+        self._words = symbols.vocabulary
+        self._order = order
+        self._as_decimal = as_decimal
+
+    def text(self, expr: sympy.Expr, binding: int) -> str:
+        text, own = self._with_binding(expr)
+        if own >= binding:
+            return text
+        return self._long(expr) if own == QUOTIENT else self._words.say("bracket", text)
+
+    def _long(self, expr: sympy.Expr) -> str:
+        """A fraction that says where it ends, although it is short."""
+        sign, upper, lower = fraction_parts(expr, self._as_decimal)
+        text = self._words.say("fraction", self._side(upper), self._side(lower))
+        return self._words.say("minus", text) if sign else text
+
+    @cached_method
+    def _with_binding(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
+        if expr.is_Symbol:
+            return self._symbols.symbol(expr.name), ATOM if self._symbols.is_atom(expr.name) else PREFIX
+        if expr.is_Rational or expr.is_Float:
+            return self._number(expr)
+        if expr is sympy.pi:
+            return self._words.say("greek.pi"), ATOM
+        if expr.is_Add:
+            return joined_terms(self._words, self.summands(expr)), SUM
+        if expr.is_Mul:
+            return self._product(expr)
+        if expr is sympy.E or isinstance(expr, sympy.exp):
+            return self._exponential(expr), POWER
+        return self._power(expr) if expr.is_Pow else (self._call(expr), PREFIX)
+
+    def summands(self, expr: sympy.Expr) -> list[str]:
+        return [self.text(term, QUOTIENT) for term in self._order.terms(expr)] if expr.is_Add else [self.text(expr, 0)]
+
+    def _number(self, number: sympy.Expr) -> tuple[str, int]:
+        value = exact(number)
+        size = abs(value)
+        text, binding = self._size(size, is_float=bool(number.is_Float))
+        return (self._words.say("minus", text), QUOTIENT + 1) if value < 0 else (text, binding)
+
+    def _size(self, size: Fraction, *, is_float: bool) -> tuple[str, int]:
+        if size.denominator == 1:
+            return self._words.whole(size.numerator), ATOM
+        if self._as_decimal(size) or (is_float and ends(size)):
+            return decimal(size).replace(".", self._words.point), ATOM
+        return self._fraction_of_numbers(size), PRODUCT
+
+    def _fraction_of_numbers(self, size: Fraction) -> str:
+        if size.denominator <= _MOST_PARTS and size.numerator <= LARGEST:
+            number = "one" if size.numerator == 1 else "several"
+            count = self._words.say("one") if size.numerator == 1 else self._words.whole(size.numerator)
+            return f"{count} {self._words.say(f'parts.{number}.{size.denominator}')}"
+        return self._words.say("fraction", self._words.whole(size.numerator), self._words.whole(size.denominator))
+
+    def _exponential(self, expr: sympy.Expr) -> str:
+        exponent = expr.args[0] if expr.args else sympy.S.One
+        if "e" in self._symbols.reader.plain:
+            return self._words.say("of", self._words.say("functions.exp"), self.text(exponent, ATOM))
+        return self._words.say("power", self._words.say("euler"), self._exponent(exponent))
+
+    def _product(self, expr: sympy.Expr) -> tuple[str, int]:
+        sign, upper, lower = fraction_parts(expr, self._as_decimal)
+        text, binding = self._unsigned(upper, lower)
+        return (self._words.say("minus", text), binding) if sign else (text, binding)
+
+    def _unsigned(self, upper: list[sympy.Expr], lower: list[sympy.Expr]) -> tuple[str, int]:
+        if not lower:
+            return self._factors(upper), PRODUCT
+        numbers = [f for f in upper if f.is_Rational]
+        rest = [f for f in upper if not f.is_Rational]
+        if all(f.is_Rational for f in lower) and (len(rest) > 1 or numbers or not _is_simple(rest)):
+            size = Fraction(int(sympy.Mul(*numbers)), int(sympy.Mul(*lower)))
+            return self._words.say("times", self._fraction_of_numbers(size), self._factors(rest)), PRODUCT
+        return self._quotient(upper, lower)
+
+    def _quotient(self, upper: list[sympy.Expr], lower: list[sympy.Expr]) -> tuple[str, int]:
+        both = self._side(upper), self._side(lower)
+        simple = _is_simple(upper) and _is_simple(lower)
+        return self._words.say("over" if simple else "fraction", *both), QUOTIENT if simple else ATOM
+
+    def _side(self, factors: list[sympy.Expr]) -> str:
+        """What stands above or below the line; a sum needs no brackets there, but no short fraction may stand in it."""
+        if len(factors) != 1 or not factors[0].is_Add:
+            return self._factors(factors)
+        return joined_terms(self._words, [self.text(term, PRODUCT) for term in self._order.terms(factors[0])])
+
+    def _factors(self, factors: list[sympy.Expr]) -> str:
+        if not factors:
+            return self._words.whole(1)
+        text, *others = (self.text(factor, PRODUCT) for factor in self._order.factors(factors))
+        for other in others:
+            text = self._words.say("times", text, other)
+        return text
+
+    def _power(self, expr: sympy.Expr) -> tuple[str, int]:
+        base, exponent = base_exponent(expr)
+        if exponent.is_Rational and exponent.is_negative:
+            return self._quotient([], [base**-exponent])
+        if exponent == sympy.Rational(1, 2):
+            return self._root(base)
+        if _takes_power(base, exponent):
+            return self._call(base, exponent), PREFIX
+        return self._raised(self.text(base, ATOM), exponent), POWER
+
+    def _root(self, base: sympy.Expr) -> tuple[str, int]:
+        short = _is_simple([base])
+        return self._words.say("root" if short else "long-root", self.text(base, 0)), PREFIX if short else ATOM
+
+    def _raised(self, base: str, exponent: sympy.Expr) -> str:
+        key = f"power-{exponent}" if exponent in (2, 3) else "power"
+        return self._words.say(key, base, self._exponent(exponent))
+
+    def _exponent(self, exponent: sympy.Expr) -> str:
+        return self.text(exponent, 0 if exponent.is_Rational else ATOM)
+
+    def _call(self, expr: sympy.Expr, power: sympy.Expr = sympy.S.One) -> str:
+        """A function with its power: sine squared of phi."""
+        name = _NAMES.get(type(expr).__name__, type(expr).__name__)
+        function = self._words.words.get(f"functions.{name}", name)
+        raised = function if power == 1 else self._raised(function, power)
+        return self._words.say("of", raised, self._arguments(expr))
+
+    def _arguments(self, expr: sympy.Expr) -> str:
+        if len(expr.args) == 1:
+            return self.text(expr.args[0], ATOM)
+        return self._words.say("bracket", self._words.say("and").join(self.text(a, 0) for a in expr.args))
+
+
+def joined_terms(words: Vocabulary, terms: list[str]) -> str:
+    """Terms as a sum: what begins with a minus needs no plus; long terms are set off by pauses."""
+    return paused(signed(words, terms))
+
+
+def signed(words: Vocabulary, terms: Iterable[str]) -> list[str]:
+    """Terms with the sign that joins each to those before."""
+    minus = words.say("minus", "")
+    first, *others = terms
+    return [first, *(term if term.startswith(minus) else words.say("plus", term) for term in others)]
+
+
+def paused(pieces: list[str]) -> str:
+    """Pieces in a row, with pauses unless all are short."""
+    return (", " if any(len(piece.split()) > _SHORT for piece in pieces) else " ").join(pieces)
+
+
+def _is_simple(factors: list[sympy.Expr]) -> bool:
+    """Nothing, one symbol, or one whole number: what needs no word for its end."""
+    if not factors:
+        return True
+    return len(factors) == 1 and bool(factors[0].is_Symbol or factors[0].is_Integer or factors[0] is sympy.pi)
+
+
+def _takes_power(base: sympy.Expr, exponent: sympy.Expr) -> bool:
+    """Whether the power stands behind the name of the function, as in sine squared of phi."""
+    is_call = bool(base.is_Function) and not isinstance(base, sympy.exp)
+    return is_call and bool(exponent == 1 or (exponent.is_Integer and exponent > 0))
