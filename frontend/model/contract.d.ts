@@ -1375,6 +1375,12 @@ export interface components {
             plain: string;
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
             /** Terms */
             terms: components["schemas"]["Term"][];
             /**
@@ -1556,6 +1562,12 @@ export interface components {
             plain: string;
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
             /** Terms */
             terms: components["schemas"]["Term"][];
             /**
@@ -1630,6 +1642,12 @@ export interface components {
             plain: string;
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
             /** Coordinates */
             coordinates: [
                 string,
@@ -2169,6 +2187,12 @@ export interface components {
             /** Latex */
             latex: string;
             /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
+            /**
              * Number
              * @description the value in this scene
              */
@@ -2335,6 +2359,13 @@ export interface components {
              * @example l*sin(phi)
              */
             plain: string;
+            /**
+             * Spoken
+             * @description the same in words of the language asked for
+             * @default
+             * @example l times sine of phi
+             */
+            spoken: string;
         };
         /**
          * ExpressionOutcome
@@ -2351,6 +2382,13 @@ export interface components {
              * @example l*sin(phi)
              */
             plain: string;
+            /**
+             * Spoken
+             * @description the same in words of the language asked for
+             * @default
+             * @example l times sine of phi
+             */
+            spoken: string;
             /** Problems */
             problems: components["schemas"]["ProblemEntry"][];
         };
@@ -2740,6 +2778,12 @@ export interface components {
             plain: string[];
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
             /** Terms */
             terms: components["schemas"]["Term"][][];
         };
@@ -2755,6 +2799,12 @@ export interface components {
             plain: string;
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
         };
         /**
          * FrequentMistake
@@ -2969,6 +3019,12 @@ export interface components {
             plain: string;
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
             /** Terms */
             terms: components["schemas"]["Term"][];
             /**
@@ -3273,6 +3329,12 @@ export interface components {
             plain: string[][];
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
             /** Terms */
             terms: components["schemas"]["Term"][][][];
         };
@@ -3964,6 +4026,12 @@ export interface components {
             plain: string;
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
             /**
              * Momenta
              * @description names of the momenta, by coordinate
@@ -5277,6 +5345,18 @@ export interface components {
              */
             marked: string;
             /**
+             * Spoken
+             * @description the same in words of the language of the answer, to be read aloud
+             * @default
+             */
+            spoken: string;
+            /**
+             * Spoken Terms
+             * @description where in `spoken` each term begins, with its sign before it
+             * @default []
+             */
+            spoken_terms: number[];
+            /**
              * Verified
              * @description whether an independent route confirmed the step
              */
@@ -5367,6 +5447,12 @@ export interface components {
             plain: string;
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
             /** Terms */
             terms: components["schemas"]["Term"][];
         };
@@ -5837,6 +5923,12 @@ export interface components {
             plain: string[];
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
         };
         /**
          * VerdictAnswer

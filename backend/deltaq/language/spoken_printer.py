@@ -34,6 +34,7 @@ class SpokenPrinter:
         self._order = order or Order(symbols.names)
         self._printers: dict[Decides, _Speech] = {}
 
+    @cached_method
     def text(self, value: Any, binding: int = 0) -> str:
         """The words for a value; in brackets if they bind more loosely."""
         if isinstance(value, sympy.MatrixBase):

@@ -54,8 +54,9 @@ class Narrator:
         names = self._names(step.about)
         outcome = step.about.get("outcome")
         key = f"rules.steps.{step.rule}"
-        marked = aligned(_with_names(step), self.notation.formula)
-        spoken, places = self.speech.spoken(step.relations)
+        relations = _with_names(step)
+        marked = aligned(relations, self.notation.formula)
+        spoken, places = self.speech.spoken(relations)
         return {
             "id": step.id,
             "rule": step.rule,
