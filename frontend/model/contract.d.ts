@@ -5335,6 +5335,12 @@ export interface components {
             /** Text */
             text: string;
             /**
+             * Announced
+             * @description title and text as they are read aloud, without mathematics between signs
+             * @default
+             */
+            announced: string;
+            /**
              * Latex
              * @example \delta E = m\ell^2\dot{\varphi}\,\delta\dot{\varphi}
              */

@@ -17,7 +17,10 @@ const drawn = (symbol) =>
 
 /** @param {Element[]} symbols */
 function boxOf(symbols) {
-  const boxes = symbols.flatMap(drawn).map((one) => one.getBoundingClientRect()).filter(({ width }) => width > 0);
+  const boxes = symbols
+    .flatMap(drawn)
+    .map((one) => one.getBoundingClientRect())
+    .filter(({ width }) => width > 0);
   const [left, top] = [Math.min(...boxes.map((box) => box.left)), Math.min(...boxes.map((box) => box.top))];
   const [right, bottom] = [Math.max(...boxes.map((box) => box.right)), Math.max(...boxes.map((box) => box.bottom))];
   return boxes.length ? { left, top, width: right - left, height: bottom - top } : null;

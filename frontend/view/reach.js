@@ -1,7 +1,6 @@
 /** Bringing the current step before the reader's eyes and ears. */
 
 import { indexOf } from "../model/reveal.js";
-import { plainly } from "../model/prose.js";
 
 /** @param {HTMLElement} root @param {string} id */
 const stepElement = (root, id) => root.querySelector(`[data-step="${CSS.escape(id)}"]`);
@@ -53,11 +52,7 @@ export function announce(lines, id, t) {
   const line = lines[indexOf(lines, id)];
   const announcer = document.getElementById("announcer");
   if (!line || !announcer) return;
-  announcer.textContent = t("step.announce", {
-    number: line.number,
-    title: plainly(line.step.title),
-    text: plainly(line.step.text),
-  });
+  announcer.textContent = t("step.announce", { number: line.number, said: line.step.announced ?? "" });
 }
 
 /** Opens or closes the substeps of a step. @param {HTMLElement} root @param {string} id */

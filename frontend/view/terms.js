@@ -16,8 +16,7 @@ const isGroup = (node) =>
 /** @param {Element} node @returns {Iterable<Element>} */
 function* symbols(node) {
   if (isGroup(node)) for (const child of node.children) yield* symbols(child);
-  else if ((node.textContent ?? "").replaceAll(LIMIT, "").trim())
-    yield node;
+  else if ((node.textContent ?? "").replaceAll(LIMIT, "").trim()) yield node;
   else if (node.querySelector("svg")) yield node;
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -43,6 +44,9 @@ def test_a_formula_is_heard_once_in_the_words_of_the_server(lecture: Lecture, pl
     expect(formula.locator(".katex-html").first).to_be_attached()
     name = formula.get_attribute("aria-label") or ""
     assert words in name
+    announced = page.locator("#announcer").text_content() or ""
+    assert re.match(r"(Step|Schritt) \d", announced)
+    assert not re.search(r"[\\{}$_]|varphi|mathrm", announced)
     found = [(role, children) for role, text, children in heard(page) if text == name]
     assert [role for role, _ in found] == ["image"]
     assert formula.locator("math").count() == 0

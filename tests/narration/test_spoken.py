@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from functools import cache
 from itertools import pairwise
 from random import Random
+from typing import Any
 
 import pytest
 from tests.narration.spoken_reader import Reader, UnreadableError
@@ -211,6 +212,27 @@ def test_a_step_is_cut_into_its_terms() -> None:
     )
     (result,) = answer["result"]["equations"]  # type: ignore[index]
     assert equation["spoken"].endswith(result["spoken"])
+
+
+@pytest.mark.parametrize(
+    ("language", "step", "words"),
+    [
+        ("en", "total-differential:bob", "the term with d t comes in"),
+        ("de", "equation:phi", "Bewegungsgleichung zu q zwei. Lagrange"),
+        ("en", "eigenfrequencies:2", "Where omega squared is negative"),
+    ],
+)
+def test_a_step_is_announced_without_mathematics_between_signs(language: str, step: str, words: str) -> None:
+    answer = derive_request({"scene": "elastic-pendulum", "lang": language})
+    steps = {one["id"]: one for chapter in answer["chapters"] for one in _all(chapter["steps"])}  # type: ignore[attr-defined]
+    assert words in steps[step]["announced"]
+    assert [one["id"] for one in steps.values() if re.search(r"[$\\\\_{}]|[A-Za-z]\d", one["announced"])] == []
+
+
+def _all(steps: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+    for step in steps:
+        yield step
+        yield from _all(step["substeps"])
 
 
 def test_an_expression_is_said_in_the_language_asked_for() -> None:

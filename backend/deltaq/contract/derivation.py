@@ -75,6 +75,7 @@ class Step(Answer):
     rule: str = Field(description="the law", examples=["virtual-displacement"])
     title: str
     text: str
+    announced: str = Field("", description="title and text as they are read aloud, without mathematics between signs")
     latex: str = Field(examples=["\\delta E = m\\ell^2\\dot{\\varphi}\\,\\delta\\dot{\\varphi}"])
     marked: str = Field(description="the same with \\htmlClass hooks that tell which term is what")
     spoken: str = Field("", description="the same in words of the language of the answer, to be read aloud")

@@ -14,7 +14,7 @@ from .names import Names
 from .order import split_symbol
 from .spelling import GREEK_NAMES, latex_of
 
-TOKEN = re.compile(r"\\([A-Za-z]+)\s*|\\.|([^\W\d_]+|\d+)|([{}_^,'*+-])|(\s+)|.")
+TOKEN = re.compile(r"\\([A-Za-z]+)\s*|\\.|([^\W\d_]+|\d+)|([{}_^,'*+/=(-])|(\s+)|.")
 ACCENTS = ("dot", "ddot", "dddot", "ddddot", "hat", "bar", "tilde", "vec")
 UPRIGHT = frozenset({"mathrm", "text", "textrm", "operatorname", "mathit", "mathsf", "textit"})
 SAME = {"ell": "l", "imath": "i", "jmath": "j"}
@@ -61,6 +61,8 @@ class SymbolReader:
                 return
             if token[0] == "{":
                 yield from self._read(tokens, place)
+            elif single and token[2] and token[2].isalpha():  # without braces only one letter is the argument
+                yield from (self._letter(letter, place) for letter in token[2])
             else:
                 yield from self._one(token, tokens, place)
             if single:
@@ -87,13 +89,17 @@ class SymbolReader:
             yield self.vocabulary.say("script", *self._read(tokens, place, single=True))
         elif command in ACCENTS:
             yield self.vocabulary.say(command, " ".join(self._read(tokens, place, single=True)))
+        elif f"signs.{command}" in self.vocabulary.words:
+            yield self.vocabulary.say(f"signs.{command}")
         else:
             yield self._letter(SAME.get(command, command.removeprefix("var")), place)
 
     def _index(self, sign: str, tokens: Iterator[re.Match[str]]) -> Iterator[str]:
         words = " ".join(self._read(tokens, "index", single=True))
         number = words in (self.vocabulary.words[f"numbers.{n}"] for n in range(LARGEST + 1)) or words[:1].isdigit()
-        if sign == "^":
+        if sign == "^" and words == self.vocabulary.whole(2):
+            yield self.vocabulary.say("power-2", "").strip()
+        elif sign == "^":
             yield self.vocabulary.say("superscript", words)
         else:
             yield words if number else self.vocabulary.say("subscript", words)

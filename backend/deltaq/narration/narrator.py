@@ -57,11 +57,14 @@ class Narrator:
         relations = _with_names(step)
         marked = aligned(relations, self.notation.formula)
         spoken, places = self.speech.spoken(relations)
+        title = text(self.language, f"{key}.title", **names)
+        sentence = self._sentence(f"{key}.{outcome or 'text'}", names)
         return {
             "id": step.id,
             "rule": step.rule,
-            "title": text(self.language, f"{key}.title", **names),
-            "text": self._sentence(f"{key}.{outcome or 'text'}", names),
+            "title": title,
+            "text": sentence,
+            "announced": self.speech.sentences(title, sentence),
             "latex": without_classes(marked),
             "marked": marked,
             "spoken": spoken,

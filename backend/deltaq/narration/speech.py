@@ -73,6 +73,7 @@ from .function_notation import OF_TIME, VARIATION, FunctionNotation, FunctionTyp
 from .marks import unmarked
 from .matrix_writing import number_parts
 from .notation import NEIGHBOUR, Notation, counts, moved
+from .prose import CatalogText, pieces
 from .symbols import SymbolTable
 
 SIGNS: Mapping[str, str] = {"=": "equals", "≠": "unequal", "≈": "nearly", "⇔": "equivalent"}
@@ -155,6 +156,14 @@ class Speech:
                 places.append(len(text))
                 text += piece
         return text, places
+
+    def sentences(self, *texts: CatalogText) -> str:
+        """Sentences with the symbols in them in words."""
+        return ". ".join(self._heard(text).removesuffix(".") for text in texts if text)
+
+    def _heard(self, text: CatalogText) -> str:
+        reader = self.words.reader
+        return "".join(reader.words(piece.text) if piece.is_formula else piece.text for piece in pieces(text))
 
     def formula(self, formula: Formula) -> str:
         return self._said(formula)[0]
