@@ -77,6 +77,8 @@ def test_result_of_an_integral_with_fixed_ends() -> None:
     assert result["first_variation"] == {
         "plain": "-k*x*delta(x) + m*dot(x)*dot(delta(x))",
         "latex": r"\int_{0}^{T} \left(-k x \, \delta x + m \dot{x} \, \delta \dot{x}\right)\,\mathrm{d}t",
+        "spoken": "the integral from zero to capital T of open bracket minus k times x times delta x, "
+        "plus m times x dot times delta x dot close bracket d t",
         "from": "0",
         "to": "T",
         "ends": "fixed",
@@ -91,7 +93,7 @@ def test_natural_conditions_at_free_ends() -> None:
     result = vary(**OSCILLATOR, functional={**INTEGRAL, "ends": "free"})["result"]
     (boundary,) = result["boundary_terms"]
     assert boundary["vanishes"] is False
-    assert boundary["condition"] == {"plain": "dot(x) = 0", "latex": r"\dot{x} = 0"}
+    assert boundary["condition"] == {"plain": "dot(x) = 0", "latex": r"\dot{x} = 0", "spoken": "x dot equals zero"}
 
 
 def test_named_directions_are_read_back_by_the_parser() -> None:
