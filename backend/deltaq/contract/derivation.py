@@ -54,7 +54,7 @@ class TermOfLine(Answer):
     sources: tuple[str, ...] = Field(description="bodies and loads that it comes from")
     origins: tuple[Origin, ...] = Field(
         alias="from",
-        description="the terms it comes from: of the member before it, and of steps that this one rests on"
+        description="the terms it comes from: of the member before it, and of steps that this one rests on",
     )
 
 

@@ -89,6 +89,7 @@ def clock(system: System) -> sp.Expr:
 
 @cached_method
 def numeric(system: System) -> Numeric:
+    """Noether's condition compiled for floats: t, the free q, their rates and the parameters, in this order."""
     moving = [system.t, *map(system.q, system.free), *map(system.rate, system.free)]
     slots = {symbol: slot for slot, symbol in enumerate((*moving, *system.parameter_values))}
     momenta = [system.momentum(q) for q in system.free]
