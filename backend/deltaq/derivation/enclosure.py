@@ -113,7 +113,30 @@ class _Recorder:
 
 def tape(expressions: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], *, clipped: bool = False) -> Tape:
     """The tape of expressions in the unknowns alone; `clipped`: arguments are cut to where functions are real."""
-    return _Recorder({**BY_CLASS, **CLIPPED} if clipped else BY_CLASS, unknowns).tape(expressions)
+    recorder = _Recorder({**BY_CLASS, **CLIPPED} if clipped else BY_CLASS, unknowns)
+    return recorder.tape([centred(each, unknowns) for each in expressions])
+
+
+def centred(expression: sp.Expr, unknowns: Sequence[sp.Symbol]) -> sp.Expr:
+    """The same with completed squares: over a box (x + a)² is known better than x² + 2ax + a²."""
+    sums = [each for each in expression.atoms(sp.Add) if each.has(*unknowns) and each != expression]
+    return expression.xreplace({each: _squares(each, unknowns) for each in sums})
+
+
+def _squares(total: sp.Expr, unknowns: Sequence[sp.Symbol]) -> sp.Expr:
+    present = [q for q in unknowns if total.has(q)]
+    if not total.is_polynomial(*present):
+        return total
+    terms = sp.Poly(total, *present).terms()
+    if not all(sum(powers) <= 2 and max(powers) == sum(powers) for powers, _ in terms):  # noqa: PLR2004 - squares
+        return total
+    rest = sum((each for powers, each in terms if not any(powers)), sp.Integer(0))
+    for index, q in enumerate(present):
+        linear, square = (
+            sum((each for powers, each in terms if powers[index] == degree), sp.Integer(0)) for degree in (1, 2)
+        )
+        rest += linear * q if square == 0 else square * (q + linear / square / 2) ** 2 - linear**2 / square / 4
+    return rest
 
 
 def _cut(x: arb, low: float, high: float) -> arb:

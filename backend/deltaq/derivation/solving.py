@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import sympy as sp
@@ -29,6 +29,7 @@ MOST_STARTS = 24
 SMALL = 1e-8  # of the size of its terms: what is below it solves an equation
 SHIFT = 0.0173  # a turn is searched from −π − SHIFT on, so that π is not at its end
 DEGENERATE = 1e-7  # pivots, relative to the largest
+NEXT = 1e-4  # of a range: undecided boxes that are as near to one another make one cluster
 FAR = 1e3  # times the size of the starts: there a force only fades away
 
 Values = dict[sp.Symbol, float]
@@ -154,8 +155,17 @@ class Solver:
         ranged = frozenset(unknowns) - self.domain.angles
         solutions = [Solution(dict(zip(unknowns, root, strict=True)), (), chosen) for root in found.roots]
         solutions += [_flat(box, unknowns, chosen) for box in _joined(found)]
-        more = self._by_newton(chosen, unknowns, complete=found.complete, near=found.undecided)
+        more = self._by_newton(chosen, unknowns, complete=found.complete, near=self._apart(found.undecided, unknowns))
         return Solutions((*solutions, *more.found), more.complete, ranged)
+
+    def _apart(self, points: Sequence[Sequence[float]], unknowns: tuple[sp.Symbol, ...]) -> list[Sequence[float]]:
+        """One for each cluster of points."""
+        widths = [NEXT * (high - low) for low, high in self.domain.box(unknowns)]
+        kept: list[Sequence[float]] = []
+        for point in points:
+            if not any(all(map(_is_within, point, other, widths)) for other in kept):
+                kept.append(point)
+        return kept
 
     def _exactly(self, equation: sp.Expr, q: sp.Symbol) -> Solutions | None:
         zeros = real_zeros(equation, q, is_angle=q in self.domain.angles)
@@ -292,19 +302,29 @@ def _pivots(rows: list[list[float]]) -> list[int]:
 
 
 def _factors(equation: sp.Expr, unknowns: tuple[sp.Symbol, ...]) -> tuple[sp.Expr, ...]:
-    """The factors of the numerator that hold an unknown, each once; the equation itself where that would take long."""
-    if equation.count_ops() > LONGEST:
-        return (equation,)
+    """What an equation is a product of, each once, without denominators and what never vanishes."""
+    found: dict[sp.Expr, None] = {}
+    for part in sp.Mul.make_args(equation):
+        for base in _without_root(part):
+            found |= dict.fromkeys(_irreducible(base, unknowns))
+    return tuple(found)
+
+
+def _irreducible(part: sp.Expr, unknowns: tuple[sp.Symbol, ...]) -> tuple[sp.Expr, ...]:
+    """The factors of its numerator that hold an unknown; the part as it stands if there is but one."""
+    if not part.has(*unknowns):
+        return ()
+    if not part.is_Add or part.count_ops() > LONGEST:
+        return (part,)
     try:
-        upper, _ = sp.fraction(sp.together(sp.expand_trig(equation)))
+        upper, _ = sp.fraction(sp.together(sp.expand_trig(part)))
         _, powers = sp.factor_list(upper)
     except (sp.PolynomialError, NotImplementedError, RecursionError):
-        return (equation,)
+        return (part,)
     held = [base for base, _ in powers if base.has(*unknowns)]
-    factors = dict.fromkeys(each for base in held for each in _without_root(base))
-    if not factors or len(factors) == 1 and len(held) == 1 and powers[0][1] == 1:
-        return (equation,) if factors else ()
-    return tuple(factors)
+    if len(held) == 1 and dict(powers)[held[0]] == 1:
+        return (part,)
+    return tuple(dict.fromkeys(each for base in held for each in _without_root(base)))
 
 
 def _without_root(base: sp.Expr) -> Iterator[sp.Expr]:
@@ -325,14 +345,20 @@ def _value(expression: sp.Expr, values: Mapping[sp.Symbol, float]) -> float:
 def _solves(equations: Sequence[sp.Expr], values: Mapping[sp.Symbol, float]) -> bool:
     """Whether all equations hold, but for rounding; they do not where they have no value."""
     point = {q.name: arb(value) for q, value in values.items()}
-    for equation in equations:
-        terms = [number(term, point) for term in sp.Add.make_args(equation)]
-        size = sum(map(abs, terms), arb(0))
-        slopes = (abs(number(equation.diff(q), point)) * (1 + abs(point[q.name])) for q in values)
-        size += sum((slope for slope in slopes if slope.is_finite()), arb(0))
-        if not size.is_finite() or not float(abs(sum(terms, arb(0))).mid()) <= SMALL * float(size.mid()):
-            return False
-    return True
+    return all(_holds(equation, values, point) for equation in equations)
+
+
+def _holds(equation: sp.Expr, unknowns: Iterable[sp.Symbol], point: Mapping[str, arb]) -> bool:
+    terms = [number(term, point) for term in sp.Add.make_args(equation)]
+    size, rest = sum(map(abs, terms), arb(0)), float(abs(sum(terms, arb(0))).mid())
+    if not size.is_finite() or rest <= SMALL * float(size.mid()):
+        return bool(size.is_finite())
+    slopes = (abs(number(equation.diff(q), point)) * (1 + abs(point[q.name])) for q in unknowns)
+    return rest <= SMALL * float(sum((slope for slope in slopes if slope.is_finite()), size).mid())
+
+
+def _is_within(one: float, other: float, width: float) -> bool:
+    return abs(one - other) <= width
 
 
 def _joined(found: Enclosed) -> list[Box]:
@@ -362,12 +388,11 @@ def _distinct(found: Sequence[Solution], angles: frozenset[sp.Symbol]) -> list[S
 
 
 def _same(one: Solution, other: Solution, angles: frozenset[sp.Symbol]) -> bool:
-    if other.free and _solves(other.equations, one.values) and len(one.free) <= len(other.free):
-        return True
-    return all(
+    same = all(
         abs(math.remainder(one.values[q] - x, 2 * math.pi) if q in angles else one.values[q] - x) < 1e-6 * (1 + abs(x))
         for q, x in other.values.items()
     )
+    return same or (len(one.free) <= len(other.free) > 0 and _solves(other.equations, one.values))
 
 
 def turned(angle: float) -> float:
