@@ -154,7 +154,8 @@ def _potential_of(system: System, load: str) -> LoadPotential:
     differences = {
         (a, b): forces[a].diff(system.q(b)) - forces[b].diff(system.q(a)) for a, b in combinations(system.free, 2)
     }
-    curl = {pair: system.zero if system.is_zero(d) else system.display(d) for pair, d in differences.items()}
+    known = system.has_potential(load)
+    curl = {p: system.zero if known or system.is_zero(d) else system.display(d) for p, d in differences.items()}
     potential = system.load_potential(load) if system.is_conservative(load) else None
     return LoadPotential(load, outcome(system, load), system.has_potential(load), potential, curl)
 
