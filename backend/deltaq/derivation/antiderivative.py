@@ -53,7 +53,7 @@ def _over_powers(terms: Iterable[sp.Expr], x: sp.Symbol) -> tuple[dict[sp.Pow, l
 
 def _is_root_of_quadratic(power: sp.Pow, x: sp.Symbol) -> bool:
     base = power.base
-    return bool(power.exp.is_Rational and base.is_polynomial(x) and sp.degree(base, x) == 2)  # noqa: PLR2004
+    return bool(power.exp.is_Rational and base.is_polynomial(x) and sp.degree(base, x) == 2)
 
 
 def _of_quotient(upper: sp.Expr, power: sp.Pow, x: sp.Symbol) -> sp.Expr:

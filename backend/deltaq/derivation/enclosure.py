@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import sympy as sp
 from flint import arb, arb_mat, ctx
@@ -61,7 +62,7 @@ class Tape:
     """Expressions as operations on a list of balls, what they have in common computed once."""
 
     constants: tuple[tuple[int, arb], ...]
-    operations: tuple[tuple[Callable[..., arb], tuple[int, ...]], ...]
+    operations: tuple[tuple[Callable[..., Any], tuple[int, ...]], ...]
     outputs: tuple[int, ...]
     inputs: int
 
@@ -69,8 +70,8 @@ class Tape:
     def cost(self) -> int:
         return len(self.operations) + 1
 
-    def __call__(self, values: Sequence[arb]) -> list[arb]:
-        """The expressions at a point, or over a box."""
+    def __call__(self, values: Sequence[Any]) -> list[Any]:
+        """The expressions at a point, over a box, or as power series."""
         known = [*values, *(constant for _, constant in self.constants)]
         for operation, parts in self.operations:
             known.append(operation(*[known[part] for part in parts]))
@@ -78,8 +79,10 @@ class Tape:
 
 
 @dataclass
-class _Recorder:
-    functions: Mapping[str, Callable[..., arb]]
+class Recorder:
+    """Writes the tape of expressions, in the functions it is given by the names of SymPy's classes."""
+
+    functions: Mapping[str, Callable[..., Any]]
     inputs: Sequence[sp.Symbol]
     constants: dict[sp.Basic, arb] = field(default_factory=dict)
     order: list[sp.Basic] = field(default_factory=list)
@@ -99,21 +102,20 @@ class _Recorder:
             self.order.append(expression)
 
     def tape(self, outputs: Sequence[sp.Expr]) -> Tape:
+        """The tape of expressions; KeyError for a function that is not given."""
         for output in outputs:
             self.visit(output)
         slots: dict[sp.Basic, int] = {q: slot for slot, q in enumerate(self.inputs)}
         for expression in (*self.constants, *self.order):
             slots[expression] = len(slots)
-        operations = [
-            (self.functions[type(e).__name__], tuple(slots[part] for part in e.args)) for e in self.order
-        ]
+        operations = [(self.functions[type(e).__name__], tuple(slots[part] for part in e.args)) for e in self.order]
         constants = tuple((slots[e], value) for e, value in self.constants.items())
         return Tape(constants, tuple(operations), tuple(slots[e] for e in outputs), len(self.inputs))
 
 
 def tape(expressions: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], *, clipped: bool = False) -> Tape:
     """The tape of expressions in the unknowns alone; `clipped`: arguments are cut to where functions are real."""
-    recorder = _Recorder({**BY_CLASS, **CLIPPED} if clipped else BY_CLASS, unknowns)
+    recorder = Recorder({**BY_CLASS, **CLIPPED} if clipped else BY_CLASS, unknowns)
     return recorder.tape([centred(each, unknowns) for each in expressions])
 
 
@@ -128,7 +130,7 @@ def _squares(total: sp.Expr, unknowns: Sequence[sp.Symbol]) -> sp.Expr:
     if not total.is_polynomial(*present):
         return total
     terms = sp.Poly(total, *present).terms()
-    if not all(sum(powers) <= 2 and max(powers) == sum(powers) for powers, _ in terms):  # noqa: PLR2004 - squares
+    if not all(sum(powers) <= 2 and max(powers) == sum(powers) for powers, _ in terms):
         return total
     rest = sum((each for powers, each in terms if not any(powers)), sp.Integer(0))
     for index, q in enumerate(present):
@@ -186,9 +188,7 @@ def enclosed(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], box: B
 
 
 class _Search:
-    def __init__(
-        self, equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], box: Box, budget: Budget
-    ) -> None:
+    def __init__(self, equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], box: Box, budget: Budget) -> None:
         self.size = len(unknowns)
         self.field = tape(equations, unknowns, clipped=True)
         self.slopes = tape([e.diff(q) for e in equations for q in unknowns], unknowns)
@@ -208,15 +208,7 @@ class _Search:
 
     def _pieces(self, box: Box) -> list[Box]:
         """What is left to look at of a box."""
-        self.budget.pays(self.field.cost)
-        try:
-            values = self.field([ball(*each) for each in box])
-        except OutsideDomainError:
-            return []
-        if any(value.is_finite() and not value.contains(0) for value in values):
-            return []
-        if all(value == 0 for value in values):
-            self.flat.append(box)
+        if not self._may_vanish(box):
             return []
         if max(self._relative(box)) < TINY:
             self.undecided.append(tuple((low + high) / 2 for low, high in box))
@@ -225,9 +217,19 @@ class _Search:
         if narrowed is None:
             return []
         wide, narrow = self._relative(box), self._relative(narrowed)
-        if max(narrow) < 0.6 * max(wide):
-            return [narrowed]
-        return self._halves(narrowed, narrow)
+        return [narrowed] if max(narrow) < 0.6 * max(wide) else self._halves(narrowed, narrow)
+
+    def _may_vanish(self, box: Box) -> bool:
+        """Whether the enclosures leave it open; where everything vanishes all over a box, that is kept."""
+        self.budget.pays(self.field.cost)
+        try:
+            values = self.field([ball(*each) for each in box])
+        except OutsideDomainError:
+            return False
+        flat = all(value == 0 for value in values)
+        if flat:
+            self.flat.append(box)
+        return not flat and not any(value.is_finite() and not value.contains(0) for value in values)
 
     def _relative(self, box: Box) -> list[float]:
         return [(high - low) / width for (low, high), width in zip(box, self.widths, strict=True)]
@@ -241,9 +243,7 @@ class _Search:
     def _narrowed(self, box: Box) -> Box | None:
         """The part of the box that can hold roots; None if there is none, or just one that is known now."""
         self.budget.pays(self.slopes.cost + self.field.cost + self.size**3)
-        larger = tuple(
-            (low - ENLARGED * (high - low), high + ENLARGED * (high - low)) for low, high in box
-        )
+        larger = tuple((low - ENLARGED * (high - low), high + ENLARGED * (high - low)) for low, high in box)
         image = self._krawczyk(larger)
         if image is None:
             return box

@@ -42,8 +42,7 @@ class Equilibrium:
 
     `values` are closed forms in the parameters (exact), or the numbers at the scene's values of them. Coordinates in
     `free` may have any value: those that are not in `values`, whose values may depend on them; and where numbers stand
-    for a whole family of equilibria, those that may be chosen near them. In a `band` dry friction holds one coordinate
-    anywhere between two values.
+    for a whole family of equilibria, those that may be chosen near them.
     """
 
     values: Mapping[sp.Symbol, sp.Expr]
@@ -167,15 +166,18 @@ def _recognized(system: System, part: _Part, solution: Solution) -> Equilibrium 
     angles = frozenset(q for q in sought if is_angle(system, q))
     if sought:
         values: Known | None = closed_form(Sought(system, part.equations, sought, angles, known))
-        if values is not None and _holds_beside(system, values, held):
+        if values is not None and _holds_beside(values, held):
             return Equilibrium(values, exact=True, free=free)
     rounded = refined([e.xreplace(held) for e in solution.equations], sought) if sought else {}
     return None if rounded is None else Equilibrium({**held, **rounded}, exact=False, free=free)
 
 
-def _holds_beside(system: System, values: Known, held: Mapping[sp.Symbol, sp.Expr]) -> bool:
-    """Whether the free coordinates of a family may have other values than those it was found with."""
-    return not held or all(value.free_symbols <= {*held, *system.parameter_values} for value in values.values())
+def _holds_beside(known: Known, held: Mapping[sp.Symbol, sp.Expr]) -> bool:
+    """Whether the free coordinates of a family may have any value: a root or an arcsine of them would not be real."""
+    if not held:
+        return True
+    limited = [each for value in known.values() for each in value.atoms(sp.Pow, sp.Function)]
+    return not any(each.has(*held) for each in limited if not (each.is_Pow and each.exp.is_Integer))
 
 
 @cached_method

@@ -16,6 +16,7 @@ from ..vocabulary import Stability
 from .calculus import column
 from .equilibria import Equilibrium, equilibria, start_point
 from .evaluation import components
+from .friction import Band, band
 from .matrix_form import forces_at_rest, forcing, mass_matrix
 from .program import number
 from .refinement import rational
@@ -34,6 +35,7 @@ class Linearization:
     """The matrices about one equilibrium, in the parameters where it is exact, else in numbers.
 
     `spectrum` holds the numbers at the scene's parameter values; there is none where M₀ is singular or a force jumps.
+    In a `band` dry friction holds the system.
     """
 
     equilibrium: Equilibrium
@@ -43,6 +45,7 @@ class Linearization:
     spectrum: Spectrum | None
     verdict: Verdict
     is_smooth: bool
+    band: Band | None = None
 
     @property
     def stability(self) -> Stability:
@@ -110,12 +113,13 @@ def _about(system: System, equilibrium: Equilibrium) -> Linearization:
         mass, damping, stiffness = numbers = [list(components(matrix, point)) for matrix in raw]
         smooth = all(part.is_finite() for values in numbers for part in values)
         found = spectrum(mass, damping, stiffness, len(system.free)) if smooth else None
-        judged = verdict(system, equilibrium, point, numbers, found)
+        held = band(system, equilibrium)
+        judged = Verdict("stable", kind="band") if held else verdict(system, equilibrium, point, numbers, found)
         if equilibrium.exact:
             matrices = [system.display(matrix.xreplace(dict(equilibrium.values))) for matrix in raw]
         else:
             matrices = [_rational(values, len(system.free)) for values in numbers]
-    return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged, smooth)
+    return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged, smooth, held)
 
 
 def _rational(values: list[arb], size: int) -> sp.ImmutableMatrix:

@@ -12,7 +12,9 @@ from ..language.memory import cached_method
 from ..mechanics.scene import Scene
 from ..vocabulary import CurlOutcome
 from . import provenance
+from .conditions import Conditions, conditions
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
+from .equilibria import Search, search
 from .formula import Explicit, Term
 from .linearization import Linearization, linearizations
 from .matrix_form import forcing, left_side, mass_matrix
@@ -47,6 +49,14 @@ class LoadPotential:
 
 
 @dataclass(frozen=True)
+class Told:
+    """An equilibrium with its small motions, and the conditions in the parameters where they are known."""
+
+    linear: Linearization
+    conditions: Conditions | None
+
+
+@dataclass(frozen=True)
 class Result:
     """Expressions in the scene's symbols; vectors are columns, forces and equations go by coordinate.
 
@@ -70,7 +80,8 @@ class Result:
     mass_matrix: sp.ImmutableMatrix
     forcing: sp.ImmutableMatrix
     conserved: tuple[Conserved, ...]
-    equilibria: tuple[Linearization, ...]
+    equilibria: tuple[Told, ...]
+    search: Search | None
     jacobi_energy: sp.Expr
     is_energy: bool
     routh: Reduction | None
@@ -97,7 +108,8 @@ def result_of(system: System) -> Result:
         mass_matrix=mass_matrix(system),
         forcing=forcing(system),
         conserved=tuple(_conserved(system)),
-        equilibria=linearizations(system),
+        equilibria=tuple(Told(linear, conditions(system, linear)) for linear in linearizations(system)),
+        search=search(system),
         jacobi_energy=jacobi_energy(system),
         is_energy=is_energy(system),
         routh=reduction(system),

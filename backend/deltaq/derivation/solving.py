@@ -29,6 +29,7 @@ MOST_STARTS = 24
 SMALL = 1e-8  # of the size of its terms: what is below it solves an equation
 SHIFT = 0.0173  # a turn is searched from −π − SHIFT on, so that π is not at its end
 DEGENERATE = 1e-7  # pivots, relative to the largest
+BESIDE = 1e-2  # of a range: how far around a multiple root nothing can be decided
 NEXT = 1e-4  # of a range: undecided boxes that are as near to one another make one cluster
 FAR = 1e3  # times the size of the starts: there a force only fades away
 
@@ -67,9 +68,7 @@ class Solutions:
     ranged: frozenset[sp.Symbol] = frozenset()
 
     def __add__(self, other: Solutions) -> Solutions:
-        return Solutions(
-            (*self.found, *other.found), self.complete and other.complete, self.ranged | other.ranged
-        )
+        return Solutions((*self.found, *other.found), self.complete and other.complete, self.ranged | other.ranged)
 
 
 @dataclass
@@ -94,10 +93,15 @@ class Solver:
         absent = tuple(q for q in unknowns if not any(e.has(q) for e in left))
         if absent:
             there = {q: float(self.domain.starts[q]) for q in absent}
-            rest = self._solve(left, tuple(q for q in unknowns if q not in absent)) if left else Solutions((Solution({}),))
-            return replace(rest, found=tuple(
-                Solution({**there, **each.values}, (*absent, *each.free), each.equations) for each in rest.found
-            ))
+            rest = (
+                self._solve(left, tuple(q for q in unknowns if q not in absent)) if left else Solutions((Solution({}),))
+            )
+            return replace(
+                rest,
+                found=tuple(
+                    Solution({**there, **each.values}, (*absent, *each.free), each.equations) for each in rest.found
+                ),
+            )
         return self._split(left, unknowns) or self._eliminated(left, unknowns) or self._searched(left, unknowns)
 
     def _split(self, equations: tuple[sp.Expr, ...], unknowns: tuple[sp.Symbol, ...]) -> Solutions | None:
@@ -108,15 +112,15 @@ class Solver:
         several = next((each for each in parts if len(each) > 1), None)
         if several is None:
             simple = tuple(each[0] for each in parts)
-            return None if simple == equations else self._eliminated(simple, unknowns) or self._searched(simple, unknowns)
+            return (
+                None if simple == equations else self._eliminated(simple, unknowns) or self._searched(simple, unknowns)
+            )
         total = Solutions()
         for factor in several:
             self.branches -= 1
             if self.branches < 0:
                 return replace(total, complete=False)
-            others = [
-                sp.Mul(*each) for each in parts if factor not in each
-            ]
+            others = [sp.Mul(*each) for each in parts if factor not in each]
             total += self._solve((factor, *others), unknowns)
         return total
 
@@ -132,10 +136,14 @@ class Solver:
                 rest = tuple(each for each in unknowns if each != q)
                 known = self._solve(others, rest) if rest else self._constants(others)
                 made = ((each, _value(value, each.values)) for each in known.found)
-                return replace(known, found=tuple(
-                    Solution({**each.values, q: there}, each.free, (*each.equations, equation))
-                    for each, there in made if math.isfinite(there)
-                ))
+                return replace(
+                    known,
+                    found=tuple(
+                        Solution({**each.values, q: there}, each.free, (*each.equations, equation))
+                        for each, there in made
+                        if math.isfinite(there)
+                    ),
+                )
         return None
 
     def _constants(self, equations: tuple[sp.Expr, ...]) -> Solutions:
@@ -185,16 +193,37 @@ class Solver:
         newton = Newton(equations, unknowns, self.domain)
         starts = [] if complete else list(newton.starts())
         found: list[Solution] = []
-        decided = True
+        lost: list[Sequence[float]] = []
         for start in (*near, *starts):
             there = newton.root(start)
             if there is not None:
-                found.append(Solution(there, newton.free(there), equations))
+                free = newton.free(there)
+                snapped = None if free or start not in near else self._snapped(equations, there)
+                found.append(Solution(snapped or there, free, equations))
             elif start in near and not newton.is_singular(start):
-                decided = False
+                lost.append(start)
         distinct = _distinct(found, self.domain.angles)
+        decided = all(any(self._is_beside(unknowns, start, each) for each in distinct) for start in lost)
         isolated = not any(each.free for each in distinct)
         return Solutions(tuple(distinct), complete and decided and isolated, frozenset(unknowns) - self.domain.angles)
+
+    def _is_beside(self, unknowns: tuple[sp.Symbol, ...], point: Sequence[float], solution: Solution) -> bool:
+        """Whether an undecided point belongs to a solution that was found next to it."""
+        box = self.domain.box(unknowns)
+        return all(
+            abs(x - solution.values[q]) <= BESIDE * (high - low)
+            or (
+                q in self.domain.angles
+                and abs(math.remainder(x - solution.values[q], 2 * math.pi)) <= BESIDE * 2 * math.pi
+            )
+            for q, x, (low, high) in zip(unknowns, point, box, strict=True)
+        )
+
+    def _snapped(self, equations: tuple[sp.Expr, ...], root: Values) -> Values | None:
+        """A multiple root, which floats find to half their digits, at round numbers if these solve the equations."""
+        guess = {q: _round(x, angle=q in self.domain.angles) for q, x in root.items()}
+        solved = all(self.is_zero(e.xreplace(guess)) for e in equations)
+        return {q: float(x) for q, x in guess.items()} if solved else None
 
     def _family(self, equations: tuple[sp.Expr, ...], unknowns: tuple[sp.Symbol, ...]) -> Solutions:
         """One solution that stands for all of fewer equations than unknowns."""
@@ -209,9 +238,7 @@ class Solver:
 class Newton:
     """Newton's method, damped, for equations in unknowns; it also finds roots that are not isolated."""
 
-    def __init__(
-        self, equations: tuple[sp.Expr, ...], unknowns: tuple[sp.Symbol, ...], domain: Domain
-    ) -> None:
+    def __init__(self, equations: tuple[sp.Expr, ...], unknowns: tuple[sp.Symbol, ...], domain: Domain) -> None:
         slots = {q: slot for slot, q in enumerate(unknowns)}
         self.unknowns, self.domain, self.size = unknowns, domain, len(unknowns)
         self.field = compiled_together(equations, slots)
@@ -355,6 +382,11 @@ def _holds(equation: sp.Expr, unknowns: Iterable[sp.Symbol], point: Mapping[str,
         return bool(size.is_finite())
     slopes = (abs(number(equation.diff(q), point)) * (1 + abs(point[q.name])) for q in unknowns)
     return rest <= SMALL * float(sum((slope for slope in slopes if slope.is_finite()), size).mid())
+
+
+def _round(x: float, *, angle: bool) -> sp.Expr:
+    """The multiple of π/12, or of 1/60, next to a number."""
+    return sp.Rational(round(12 * x / math.pi), 12) * sp.pi if angle else sp.Rational(round(60 * x), 60)
 
 
 def _is_within(one: float, other: float, width: float) -> bool:
