@@ -130,7 +130,8 @@ published(
 )  # fmt: skip
 for slow in (True, False):
     published(
-        f"bead on a hoop that turns {'slowly' if slow else 'fast'}", "Goldstein, Classical Mechanics, 3rd ed., ch. 2, 18",
+        f"bead on a hoop that turns {'slowly' if slow else 'fast'}", 
+        "Goldstein, Classical Mechanics, 3rd ed., ch. 2, 18",
         "phi", {"m": 1, "r": 0.5, "g": 10, "Omega": 4 if slow else 5},
         [particle("r*sin(phi)*cos(Omega*t)", "r*sin(phi)*sin(Omega*t)", "-r*cos(phi)")], [down(3)],
         lambda p: [
@@ -167,21 +168,25 @@ def links(n: int) -> list[dict[str, Any]]:
 def hanging(n: int, squares: Sequence[float]) -> list[Rest]:
     corners = [[(k >> i) & 1 for i in range(n)] for k in range(2**n)]
     return [
-        Rest({f"q{i + 1}": pi * up for i, up in enumerate(c)}, "unstable" if any(c) else "stable", None if any(c) else squares)
+        Rest({f"q{i + 1}": pi * up for i, up in enumerate(c)}, "unstable" if any(c) else "stable",
+        None if any(c) else squares)
         for c in corners
     ]  # fmt: skip
 
 
 published(
-    "double pendulum", "Landau, Lifshitz, Mechanics, §23, problem 2", "q1 q2", {"m": 1, "l": 0.8, "g": G}, links(2), [down()],
+    "double pendulum", "Landau, Lifshitz, Mechanics, §23, problem 2", "q1 q2", {"m": 1, "l": 0.8, "g": G}, links(2),
+    [down()],
     lambda p: hanging(2, [p.g / p.l * (2 - sqrt(2)), p.g / p.l * (2 + sqrt(2))]),
 )  # fmt: skip
 published(
-    "triple pendulum", "Meirovitch, Methods of Analytical Dynamics, §6.4", "q1 q2 q3", {"m": 1, "l": 1, "g": G}, links(3),
+    "triple pendulum", "Meirovitch, Methods of Analytical Dynamics, §6.4", "q1 q2 q3", {"m": 1, "l": 1, "g": G},
+    links(3),
     [down()], lambda p: hanging(3, [p.g * x for x in (0.4157745567834791, 2.294280360279042, 6.289945082937479)]),
 )  # fmt: skip
 published(
-    "chain of four", "Meirovitch, Methods of Analytical Dynamics, §6.4", "q1 q2 q3 q4", {"m": 1, "l": 1, "g": G}, links(4),
+    "chain of four", "Meirovitch, Methods of Analytical Dynamics, §6.4", "q1 q2 q3 q4", {"m": 1, "l": 1, "g": G},
+    links(4),
     [down()],
     lambda p: hanging(
         4, [p.g * x for x in (0.3225476896193923, 1.7457611011583466, 4.536620296921128, 9.395070912301133)]
@@ -202,7 +207,8 @@ published(
     springs("q1", "q2-q1", "q2"), lambda p: [Rest({"q1": 0, "q2": 0}, "stable", [p.k / p.m, 3 * p.k / p.m])],
 )  # fmt: skip
 published(
-    "three masses, four springs", "Meirovitch, Methods of Analytical Dynamics, §6.4", "q1 q2 q3", {"m": 2, "k": 5}, beads(3),
+    "three masses, four springs", "Meirovitch, Methods of Analytical Dynamics, §6.4", "q1 q2 q3", {"m": 2, "k": 5},
+    beads(3),
     springs("q1", "q2-q1", "q3-q2", "q3"),
     lambda p: [
         Rest({"q1": 0, "q2": 0, "q3": 0}, "stable", [p.k / p.m * x for x in (2 - sqrt(2), 2, 2 + sqrt(2))])
@@ -216,15 +222,18 @@ published(
     lambda p: [Rest({"y": 0.8, "z": 1.3}, "stable", [0, p.k / p.m, p.k / p.m * (1 + 2 * p.m / p.M)], "family")],
 )  # fmt: skip
 published(
-    "two masses and a spring on a line", "Landau, Lifshitz, Mechanics, §13 and §21", "x y", {"m": 1, "M": 3, "k": 7, "b": 0.5},
+    "two masses and a spring on a line", "Landau, Lifshitz, Mechanics, §13 and §21", "x y", {"m": 1, "M": 3, "k": 7,
+    "b": 0.5},
     [particle("x", "0", name="a"), particle("y", "0", mass="M", name="c")], springs("y-x-b"),
     lambda p: [Rest({"y": 0.8}, "stable", [0, p.k * (1 / p.m + 1 / p.M)], "family")],
 )  # fmt: skip
 published(
-    "coupled pendulums", "Goldstein, Classical Mechanics, 3rd ed., ch. 6; Kuypers, §7.3", "u v", {"m": 1, "l": 1, "g": G, "k": 2},
+    "coupled pendulums", "Goldstein, Classical Mechanics, 3rd ed., ch. 6; Kuypers, §7.3", "u v", {"m": 1, "l": 1,
+    "g": G, "k": 2},
     [particle("l*sin(u)", "-l*cos(u)", name="a"), particle("l*sin(v)", "-l*cos(v)", name="c")],
     [down(), potential("k*l^2*(sin(u)-sin(v))^2/2")],
-    lambda p: [Rest({"u": 0, "v": 0}, "stable", [p.g / p.l, p.g / p.l + 2 * p.k / p.m]), Rest({"u": pi, "v": pi}, "unstable")],
+    lambda p: [Rest({"u": 0, "v": 0}, "stable", [p.g / p.l, p.g / p.l + 2 * p.k / p.m]), Rest({"u": pi, "v": pi},
+    "unstable")],
     whole=False,
 )  # fmt: skip
 published(
@@ -262,7 +271,8 @@ def well(
 
 
 well(
-    "radial motion in Kepler's field", "Goldstein, Classical Mechanics, 3rd ed., §3.3", "L^2/(2*m*x^2)-k/x", {"L": 1.5, "k": 3},
+    "radial motion in Kepler's field", "Goldstein, Classical Mechanics, 3rd ed., §3.3", "L^2/(2*m*x^2)-k/x",
+    {"L": 1.5, "k": 3},
     lambda p: [Rest({"x": p.L**2 / p.m / p.k}, "stable", [p.k / p.m / (p.L**2 / p.m / p.k) ** 3])],
 )  # fmt: skip
 well(
@@ -320,7 +330,8 @@ well(
     ],
 )  # fmt: skip
 published(
-    "pendulum under a moment", "Gross, Hauger, Technische Mechanik 3, §5", "phi", {"m": 1, "l": 1, "g": G, "M": 4}, [BOB],
+    "pendulum under a moment", "Gross, Hauger, Technische Mechanik 3, §5", "phi", {"m": 1, "l": 1, "g": G, "M": 4},
+    [BOB],
     [down(), potential("-M*phi")],
     lambda p: [
         Rest({"phi": asin(p.M / p.g)}, "stable", [p.g * cos(asin(p.M / p.g))]),
@@ -332,7 +343,8 @@ published(
     [force("-k*x-c*dot(x)", "0")], lambda _: [Rest({"x": 0}, "stable")],
 )  # fmt: skip
 published(
-    "oscillator with a drag of the square", "Magnus, Popp, Sextro, Schwingungen, §3.1", "x", {"m": 2, "k": 3, "c": 0.4}, [X],
+    "oscillator with a drag of the square", "Magnus, Popp, Sextro, Schwingungen, §3.1", "x", {"m": 2, "k": 3,
+    "c": 0.4}, [X],
     [*springs("x"), force("-c*abs(dot(x))*dot(x)", "0")], lambda _: [Rest({"x": 0}, "stable")],
 )  # fmt: skip
 published(
@@ -382,7 +394,8 @@ for mu, verdict, kind, points in (
     (0.1, "unstable", "", None),
 ):
     published(
-        f"restricted problem of three bodies, μ = {mu}", "Goldstein, Classical Mechanics, 3rd ed., §3.12; Szebehely, §5.3",
+        f"restricted problem of three bodies, μ = {mu}", 
+        "Goldstein, Classical Mechanics, 3rd ed., §3.12; Szebehely, §5.3",
         "x y", {"m": 1, "mu": mu, "Omega": 1},
         [particle("x*cos(Omega*t)-y*sin(Omega*t)", "x*sin(Omega*t)+y*cos(Omega*t)")],
         [potential("-m*(1-mu)/sqrt((x+mu)^2+y^2)-m*mu/sqrt((x-1+mu)^2+y^2)")],
@@ -395,7 +408,8 @@ for mu, verdict, kind, points in (
 Y = particle("0", "y")
 TRUSS = "k*(sqrt(a^2+y^2)-l)^2"
 published(
-    "flat truss, pressed", "Gross, Hauger, Technische Mechanik 4, §6 (von Mises truss)", "y", {"m": 1, "k": 50, "a": 1, "l": 1.2},
+    "flat truss, pressed", "Gross, Hauger, Technische Mechanik 4, §6 (von Mises truss)", "y", {"m": 1, "k": 50,
+    "a": 1, "l": 1.2},
     [Y], [potential(TRUSS)],
     lambda p: [
         Rest({"y": 0}, "unstable", [2 * p.k / p.m * (1 - p.l / p.a)]),
@@ -442,7 +456,8 @@ published(
     ],
 )  # fmt: skip
 published(
-    "Kapitza's pendulum on average", "Landau, Lifshitz, Mechanics, §30", "phi", {"m": 1, "l": 1, "g": G, "U": 12}, [BOB],
+    "Kapitza's pendulum on average", "Landau, Lifshitz, Mechanics, §30", "phi", {"m": 1, "l": 1, "g": G, "U": 12},
+    [BOB],
     [down(), potential("U*sin(phi)^2")],
     lambda p: [
         Rest({"phi": 0}, "stable", [p.g + 2 * p.U]), Rest({"phi": pi}, "stable", [2 * p.U - p.g]),
@@ -455,7 +470,8 @@ published(
     lambda p: [Rest({"r": p.k * p.b / (p.k - p.m * p.Omega**2)}, "stable", [p.k / p.m - p.Omega**2])],
 )  # fmt: skip
 published(
-    "disc that rolls on a spring", "Gross, Hauger, Technische Mechanik 3, §5.2", "x", {"m": 2, "r": 0.3, "J": 0.09, "k": 12},
+    "disc that rolls on a spring", "Gross, Hauger, Technische Mechanik 3, §5.2", "x", {"m": 2, "r": 0.3, "J": 0.09,
+    "k": 12},
     [rigid("J", "x/r", "x", "0")], springs("x"), lambda p: [Rest({"x": 0}, "stable", [2 * p.k / (3 * p.m)])],
 )  # fmt: skip
 published(
@@ -468,7 +484,8 @@ published(
     ],
 )  # fmt: skip
 published(
-    "rod that leans on a wall", "Gross, Hauger, Technische Mechanik 3, §4", "theta", {"m": 1, "l": 1, "J": 1 / 12, "g": G},
+    "rod that leans on a wall", "Gross, Hauger, Technische Mechanik 3, §4", "theta", {"m": 1, "l": 1, "J": 1 / 12,
+    "g": G},
     [rigid("J", "theta", "l/2*sin(theta)", "l/2*cos(theta)")], [down()],
     lambda p: [Rest({"theta": 0}, "unstable", [-1.5 * p.g / p.l]), Rest({"theta": pi}, "stable", [1.5 * p.g / p.l])],
 )  # fmt: skip
