@@ -130,7 +130,7 @@ published(
 )  # fmt: skip
 for slow in (True, False):
     published(
-        f"bead on a hoop that turns {'slowly' if slow else 'fast'}", 
+        f"bead on a hoop that turns {'slowly' if slow else 'fast'}",
         "Goldstein, Classical Mechanics, 3rd ed., ch. 2, 18",
         "phi", {"m": 1, "r": 0.5, "g": 10, "Omega": 4 if slow else 5},
         [particle("r*sin(phi)*cos(Omega*t)", "r*sin(phi)*sin(Omega*t)", "-r*cos(phi)")], [down(3)],
@@ -356,7 +356,7 @@ published(
     [*springs("x"), force("-R*sign(dot(x))", "0")], lambda _: [Rest({"x": 0}, "stable", None, "band")],
 )  # fmt: skip
 XY = particle("x", "y")
-O = {"x": 0.0, "y": 0.0}  # noqa: E741 - the origin
+O = {"x": 0.0, "y": 0.0}
 published(
     "circulatory force", "Merkin, Introduction to the Theory of Stability, §6.6", "x y", {"m": 1, "k": 3}, [XY],
     [force("-k*y", "k*x")], lambda _: [Rest(O, "unstable")],
@@ -394,7 +394,7 @@ for mu, verdict, kind, points in (
     (0.1, "unstable", "", None),
 ):
     published(
-        f"restricted problem of three bodies, μ = {mu}", 
+        f"restricted problem of three bodies, μ = {mu}",
         "Goldstein, Classical Mechanics, 3rd ed., §3.12; Szebehely, §5.3",
         "x y", {"m": 1, "mu": mu, "Omega": 1},
         [particle("x*cos(Omega*t)-y*sin(Omega*t)", "x*sin(Omega*t)+y*cos(Omega*t)")],

@@ -211,8 +211,8 @@ def rests(system: System, equilibrium: Equilibrium) -> bool:
 
 def start_point(system: System) -> dict[str, arb]:
     """The parameters' values, and the coordinates where the scene starts."""
-    values = {p.name: number(value, {}) for p, value in system.parameter_values.items()}
-    return values | {c.name: arb(c.value) for c in system.scene.free}
+    known = {**system.parameter_values, **domain(system).starts}
+    return {symbol.name: number(value, {}) for symbol, value in known.items()}
 
 
 def _inverted(system: System, point: Mapping[str, arb]) -> arb_mat | None:

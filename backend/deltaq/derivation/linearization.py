@@ -123,7 +123,8 @@ def _about(system: System, equilibrium: Equilibrium) -> Linearization:
 
 
 def _rational(values: list[arb], size: int) -> sp.ImmutableMatrix:
-    return sp.ImmutableMatrix(size, size, [rational(value) for value in values])
+    """The numbers, exactly; NaN where a force has no slope."""
+    return sp.ImmutableMatrix(size, size, [rational(value) if value.is_finite() else sp.nan for value in values])
 
 
 def numeric_point(system: System, equilibrium: Equilibrium) -> dict[str, arb]:
