@@ -1,7 +1,8 @@
-"""Random scenes that are valid: bodies, guides and loads with roots, poles, kinks and drags, in coordinates of many kinds.
+"""Random scenes that are valid: bodies, guides and loads with roots, poles, kinks and drags, in many coordinates.
 
-As a command, `python -m tests.derivation.random_scenes 2000 1`, it tries so many of them from a seed on: each is derived
-with every step verified, its equations are those of SymPy's LagrangesMethod, its equilibria are at rest, and it moves.
+As a command, `python -m tests.derivation.random_scenes 2000 1`, it tries so many of them from a seed on: each is
+derived with every step verified, its equations are those of SymPy's LagrangesMethod, its equilibria are at rest, and it
+moves.
 """
 
 from __future__ import annotations
@@ -91,30 +92,37 @@ class Maker:
         return known[0] if known else self.coordinate("phi")
 
     def in_the_plane(self) -> list[str]:
-        match self.draw.randrange(8):
-            case 0:
-                return [self.coordinate("x"), "0"]
-            case 1:
-                return [self.coordinate("x"), self.coordinate("y")]
-            case 2:
-                return self.arm(self.coordinate("phi"))
-            case 3:
-                r, phi = self.coordinate("r"), self.coordinate("phi")
-                return [f"{r}*sin({phi})", f"-{r}*cos({phi})"]
-            case 4:
-                x, phi, l = self.coordinate("x"), self.coordinate("phi"), self.constant("l")
-                return [f"{x} + {l}*sin({phi})", f"-{l}*cos({phi})"]
-            case 5:
-                x, a = self.coordinate("x"), self.constant("a")
-                return [x, self.draw.choice((f"{a}*{x}^2", f"{a}*cosh({x}/{a})", f"{a}*sin({x}/{a})"))]
-            case 6:
-                return self.guided()
-            case _:
-                r, w = self.coordinate("r"), self.constant("w")
-                return [f"{r}*cos({w}*t)", f"{r}*sin({w}*t)"]
+        kinds = (self.line, self.plane, self.pendulum, self.polar, self.sliding, self.curve, self.guided, self.turned)
+        return self.draw.choice(kinds)()
+
+    def line(self) -> list[str]:
+        return [self.coordinate("x"), "0"]
+
+    def plane(self) -> list[str]:
+        return [self.coordinate("x"), self.coordinate("y")]
+
+    def pendulum(self) -> list[str]:
+        return self.arm(self.coordinate("phi"))
+
+    def polar(self) -> list[str]:
+        r, phi = self.coordinate("r"), self.coordinate("phi")
+        return [f"{r}*sin({phi})", f"-{r}*cos({phi})"]
+
+    def sliding(self) -> list[str]:
+        x = self.coordinate("x")
+        across, down = self.pendulum()
+        return [f"{x} + {across}", down]
+
+    def curve(self) -> list[str]:
+        x, a = self.coordinate("x"), self.constant("a")
+        return [x, self.draw.choice((f"{a}*{x}^2", f"{a}*cosh({x}/{a})", f"{a}*sin({x}/{a})"))]
+
+    def turned(self) -> list[str]:
+        r, w = self.coordinate("r"), self.constant("w")
+        return [f"{r}*cos({w}*t)", f"{r}*sin({w}*t)"]
 
     def arm(self, angle: str) -> list[str]:
-        l = self.constant("l")  # noqa: E741 - a length
+        l = self.constant("l")
         return [f"{l}*sin({angle})", f"-{l}*cos({angle})"]
 
     def guided(self) -> list[str]:
@@ -209,6 +217,7 @@ def faults(scene: Scene) -> list[str]:
 
 STATUSES = (
     "ok",
+    "stopped",
     "diverged",
     "singular_mass_matrix",
     "unresolved",

@@ -124,5 +124,5 @@ def test_all_equilibria_are_counted_and_those_not_told_in_full_stand_below() -> 
     steps = model_steps(chain(4))
     assert len([step for step in steps if step.startswith("equilibrium:")]) == 16
     assert len([step for step in steps if step.startswith("linearization:")]) == 4
-    assert steps["equilibrium-search"].about == {"outcome": "everywhere", "shown": "4", "count": "16"}
+    assert steps["equilibrium-search"].about == {"outcome": "everywhere", "shown": "4", "count": "16", "listed": "16"}
     assert len(steps["equilibrium-search"].substeps) == 12

@@ -22,6 +22,7 @@ RULE = "equilibrium-search"
 def apply(system: System, search: Search, shown: int, others: tuple[Step, ...]) -> Step:
     """The ranges, and the equilibria that are not told in full, one below the other."""
     about = {"outcome": _outcome(search), "shown": str(shown), "count": str(search.count)}
+    about["listed"] = str(len(search.found))
     return Step(RULE, "", tuple(_ranges(system, search)), (), about, others)
 
 
@@ -30,6 +31,8 @@ def _outcome(search: Search) -> str:
         return search.left_out if search.found else f"{search.left_out}-none"
     if not search.found:
         return "none-in-range"
+    if search.count > len(search.found):
+        return "many"
     return "in-range" if search.ranges else "everywhere"
 
 
