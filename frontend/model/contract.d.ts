@@ -1378,16 +1378,10 @@ export interface components {
          *     An empty list: for all that make sense.
          */
         Conditions: {
-            /**
-             * Existence
-             * @description inequalities `a < b`
-             */
-            existence: components["schemas"]["Formula"][];
-            /**
-             * Stability
-             * @description inequalities `a < b`
-             */
-            stability: components["schemas"]["Formula"][];
+            /** Existence */
+            existence: components["schemas"]["Inequality"][];
+            /** Stability */
+            stability: components["schemas"]["Inequality"][];
         };
         /**
          * ConservedQuantity
@@ -2930,6 +2924,14 @@ export interface components {
             version: string;
             workers: components["schemas"]["WorkerHealth"];
             cache: components["schemas"]["CacheHealth"];
+        };
+        /**
+         * Inequality
+         * @description smaller < larger.
+         */
+        Inequality: {
+            smaller: components["schemas"]["Formula"];
+            larger: components["schemas"]["Formula"];
         };
         /**
          * InitialValue

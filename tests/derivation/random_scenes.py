@@ -273,6 +273,8 @@ def main(count: int, seed: int) -> None:
         outcomes["faulty" if wrong else "sound"] += 1
         for each in wrong[:2]:
             print(k, each[:300], flush=True)
+        if len(times) % 50 == 0:
+            print(f"{len(times)} scenes", dict(outcomes), flush=True)
         if times[-1] > SLOW:
             print(k, f"slow: {times[-1]:.1f} s", flush=True)
     print(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Mapping
 from dataclasses import replace
 
 import pytest
@@ -26,8 +27,8 @@ def told(scene: Scene) -> list[tuple[str, list[str], list[str]]]:
     return [
         (
             each["stability"],
-            [line["plain"] for line in each["conditions"]["existence"]],
-            [line["plain"] for line in each["conditions"]["stability"]],
+            [written(line) for line in each["conditions"]["existence"]],
+            [written(line) for line in each["conditions"]["stability"]],
         )
         for each in result["equilibria"]
         if each["conditions"] is not None
@@ -65,6 +66,10 @@ def told(scene: Scene) -> list[tuple[str, list[str], list[str]]]:
 def test_conditions_in_the_parameters(scene: Scene, expected: list[tuple[str, list[str], list[str]]]) -> None:
     found = [(verdict, *[[ordered(line) for line in lines] for lines in two]) for verdict, *two in told(scene)]
     assert found == [(verdict, *[[ordered(line) for line in lines] for lines in two]) for verdict, *two in expected]
+
+
+def written(line: Mapping[str, Mapping[str, str]]) -> str:
+    return f"{line['smaller']['plain']} < {line['larger']['plain']}"
 
 
 def ordered(line: str) -> str:

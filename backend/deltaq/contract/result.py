@@ -131,14 +131,21 @@ class EquilibriumValue(Formula):
     number: float = Field(description="the value in this scene")
 
 
+class Inequality(Answer):
+    """smaller < larger."""
+
+    smaller: Formula
+    larger: Formula
+
+
 class Conditions(Answer):
     """For which parameters an equilibrium exists, and for which its stability is what it was found to be.
 
     An empty list: for all that make sense.
     """
 
-    existence: tuple[Formula, ...] = Field(description="inequalities `a < b`")
-    stability: tuple[Formula, ...] = Field(description="inequalities `a < b`")
+    existence: tuple[Inequality, ...]
+    stability: tuple[Inequality, ...]
 
 
 class Band(Answer):

@@ -62,8 +62,8 @@ def _conditions(found: Conditions | None, typography: Typography) -> Document | 
 
 
 def _comparison(each: Comparison, typography: Typography) -> Document:
-    sides = (each.smaller, each.larger)
-    return {"plain": " < ".join(map(plain, sides)), "latex": " < ".join(latex(side, typography) for side in sides)}
+    sides = {"smaller": each.smaller, "larger": each.larger}
+    return {name: {"plain": plain(side), "latex": latex(side, typography)} for name, side in sides.items()}
 
 
 def _band(linear: Linearization, point: Mapping[str, arb], typography: Typography) -> Document | None:
