@@ -288,15 +288,18 @@ class Newton:
         """The unknowns that may have other values near a root: steps along the kernel of J lead to roots again."""
         point = [values[q] for q in self.unknowns]
         pivots = _pivots(self.slopes(point))
-        candidates = [i for i in range(self.size) if i not in pivots]
-        return tuple(self.unknowns[i] for i in candidates if all(self._moves(point, i, d) for d in (1e-3, -1e-3)))
+        chosen: list[int] = []
+        for i in (k for k in range(self.size) if k not in pivots):
+            if all(self._moves(point, i, chosen, part) for part in (1e-3, -1e-3)):
+                chosen.append(i)
+        return tuple(self.unknowns[i] for i in chosen)
 
-    def _moves(self, point: list[float], index: int, part: float) -> bool:
-        """Whether there is a root with another value of this unknown, the pivots adjusted."""
+    def _moves(self, point: list[float], index: int, held: list[int], part: float) -> bool:
+        """Whether there is a root with another value of this unknown, all but those that are held adjusted."""
         q = self.unknowns[index]
         low, high = (-math.pi, math.pi) if q in self.domain.angles else self.domain.ranges[q]
         wanted = point[index] + part * (high - low)
-        others = [i for i in range(self.size) if i != index]
+        others = [i for i in range(self.size) if i != index and i not in held]
         x = [*point]
         x[index] = wanted
         for _ in range(12):
