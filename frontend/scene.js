@@ -78,7 +78,7 @@ function view() {
     follow,
     reload: () => void session.start(state.place),
   };
-  return { ...view, why: motion.instruments?.why(view) };
+  return { ...view, why: motion.instruments?.why(view), integrals: motion.instruments?.integrals(view) };
 }
 
 function update() {

@@ -21,6 +21,8 @@ DOCUMENTED = (
     "contract",
     "simulation",
     "model",
+    "derivation",
+    "narration",
     "lab",
     "homework",
     "mechanics",

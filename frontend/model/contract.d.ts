@@ -1401,12 +1401,30 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "momentum" | "energy";
+            kind: "momentum" | "energy" | "symmetry";
             /**
              * Coordinate
              * @description of a momentum; else empty
              */
             coordinate: string;
+            generator: components["schemas"]["Generator"];
+            /**
+             * Meaning
+             * @description what the generator does in space, in a word
+             * @example rotation-z
+             */
+            meaning: string;
+            /**
+             * Conditions
+             * @description equations between parameters on which it rests
+             */
+            conditions: components["schemas"]["Formula"][];
+            /**
+             * Step
+             * @description id of the step that shows it
+             * @example noether:1
+             */
+            step: string;
         };
         /**
          * ConvergenceAnswer
@@ -1737,6 +1755,11 @@ export interface components {
              */
             formulation?: components["schemas"]["DerivationRequestFormulation"];
             /**
+             * Canonical
+             * @description whether a last chapter has Hamilton's function and canonical equations
+             */
+            canonical?: boolean;
+            /**
              * Lang
              * @description language of the texts; else Accept-Language decides
              */
@@ -1788,6 +1811,8 @@ export interface components {
             jacobi_energy: components["schemas"]["JacobiEnergy"];
             /** @description where a coordinate is cyclic */
             routh: components["schemas"]["RouthFunction"] | null;
+            /** Relative Equilibria */
+            relative_equilibria: components["schemas"]["RelativeEquilibrium"][];
             /** Symbols */
             symbols: components["schemas"]["OwnSymbol"][];
         };
@@ -2828,6 +2853,21 @@ export interface components {
             nonconservative: components["schemas"]["CoordinateSum"][];
         };
         /**
+         * Generator
+         * @description A small change q → q + ε ξ, t → t + ε τ that leads from motions to motions.
+         */
+        Generator: {
+            /**
+             * Shifts
+             * @description ξ by coordinate, where it is not zero
+             */
+            shifts: {
+                [key: string]: components["schemas"]["Formula"];
+            };
+            /** @description τ */
+            time: components["schemas"]["Formula"];
+        };
+        /**
          * GradedRow
          * @description A row of a table, marked.
          */
@@ -2932,6 +2972,16 @@ export interface components {
         Inequality: {
             smaller: components["schemas"]["Formula"];
             larger: components["schemas"]["Formula"];
+        };
+        /**
+         * InitialState
+         * @description Where a coordinate starts.
+         */
+        InitialState: {
+            /** Value */
+            value: number;
+            /** Rate */
+            rate: number;
         };
         /**
          * InitialValue
@@ -3928,6 +3978,50 @@ export interface components {
             /** Parameters */
             parameters: {
                 [key: string]: string | number;
+            };
+        };
+        /**
+         * RelativeEquilibrium
+         * @description A motion in which cyclic coordinates run evenly while another one rests, where the scene starts.
+         */
+        RelativeEquilibrium: {
+            /**
+             * Step
+             * @description id of the step that shows it
+             * @example relative-equilibrium:1
+             */
+            step: string;
+            /**
+             * Resting
+             * @description the coordinate that rests
+             * @example theta
+             */
+            resting: string;
+            /**
+             * Turning
+             * @description the cyclic coordinate whose rate holds it
+             * @example psi
+             */
+            turning: string;
+            /** @description of the turning coordinate */
+            rate: components["schemas"]["EquilibriumValue"];
+            /**
+             * Stability
+             * @description for fixed momenta
+             * @enum {string}
+             */
+            stability: "stable" | "undecided" | "unstable";
+            /**
+             * Eigenfrequency
+             * @description of small oscillations about it in rad/s, where it is stable
+             */
+            eigenfrequency: number | null;
+            /**
+             * Initial
+             * @description what starts it, by coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["InitialState"];
             };
         };
         /**
@@ -5624,10 +5718,10 @@ export interface components {
              */
             sources: string[];
             /**
-             * Origins
+             * From
              * @description the terms it comes from: of the member before it, and of steps that this one rests on
              */
-            origins: components["schemas"]["Origin"][];
+            from: components["schemas"]["Origin"][];
         };
         /**
          * TwinRuns

@@ -16,16 +16,18 @@ export function createDerivations(store, api, attempt) {
   const move = mover(store);
   return async function derive() {
     const scene = sceneOf(get());
-    const { lang, formulation, n } = get().place;
+    const { lang, formulation, n, more } = get().place;
     const isWanted = () => {
       const { place } = get();
-      return sceneOf(get()) === scene && place.lang === lang && place.formulation === formulation && place.n === n;
+      const asked = [place.lang, place.formulation, place.n, place.more];
+      return sceneOf(get()) === scene && asked.every((value, i) => value === [lang, formulation, n, more][i]);
     };
     await attempt("derivation", async () => {
       const derivation = await api.derive({
         scene: scene ?? OWN,
         lang,
         formulation,
+        ...(more ? { canonical: true } : {}),
         ...(n ? { parameters: { n } } : {}),
       });
       if (!isWanted()) return;

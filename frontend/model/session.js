@@ -94,6 +94,14 @@ export function createSession(store, api, clock) {
       move({ formulation });
       await derive();
     },
+    /** Another chapter behind the others, opened at its first step. @param {import("./types.js").More} more */
+    async tellMore(more) {
+      move({ more });
+      await derive();
+      move({
+        step: store.get().derivation?.chapters.find(({ id }) => id === more)?.steps[0]?.id ?? store.get().place.step,
+      });
+    },
     /** @param {Partial<Place>} patch */
     move(patch) {
       speech.needFor(patch);

@@ -90,9 +90,10 @@
  * @typedef {"" | "substeps"} Pace  whether a lecture goes on by steps or by substeps
  * @typedef {"" | "plots" | "nothing"} Beside  what stands beside a step in a lecture, besides the drawing or without it
  * @typedef {"" | "figure" | "derivation"} Shown  what a frame of another page shows; "" for both
+ * @typedef {"" | "canonical"} More  a chapter that is told when it is asked for
  * @typedef {{scene: string, step: string, lang: Lang, theme: string, method: string, n: number, formulation: Formulation,
  *   duration: number, speed: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside,
- *   vary: string, set: string, at: number, with: string, runs: string, show: Shown, why: string}} Place  what is shown
+ *   vary: string, set: string, at: number, with: string, runs: string, show: Shown, why: string, more: More}} Place  what is shown
  * @typedef {Omit<Place, "lang"> & {lang: Lang | ""}} Address  what an address says of it: perhaps no language
  */
 export {};

@@ -27,6 +27,7 @@ export const HOME = {
   runs: "",
   show: "",
   why: "",
+  more: "",
 };
 
 /** @type {readonly import("./types.js").Lang[]} */
@@ -34,6 +35,8 @@ export const LANGUAGES = ["de", "en"];
 const THEMES = ["auto", "light", "dark", "projector"];
 /** @type {readonly import("./types.js").Formulation[]} */
 export const FORMULATIONS = ["dalembert-lagrange", "hamilton"];
+/** @type {readonly import("./types.js").More[]} */
+const MORE = ["canonical"];
 /** @type {readonly import("./types.js").Panel[]} */
 const PANELS = ["derivation", "plots", "values"];
 /** @type {readonly import("./types.js").Editing[]} */
@@ -81,6 +84,7 @@ export function readPlace(query) {
     runs: slug(given.get("runs")),
     show: oneOf(SHOWN, given.get("show"), HOME.show),
     why: slug(given.get("why")),
+    more: oneOf(MORE, given.get("more"), HOME.more),
   };
 }
 

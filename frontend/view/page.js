@@ -28,6 +28,7 @@ import { FORMULATIONS, oneOf } from "../model/url.js";
  * @property {() => void} reload
  * @property {((view: View) => unknown) | undefined} overlays  once one has been asked for
  * @property {ReturnType<ReturnType<typeof import("./figure/why.js").createWhy>>} [why]  with the instruments
+ * @property {ReturnType<ReturnType<typeof import("./figure/integrals.js").createIntegrals>>} [integrals]  with the instruments
  * @property {import("./figure/open.js").Instruments | null} instruments  once they have been fetched
  * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
  * @property {() => void} enterLecture
@@ -71,11 +72,17 @@ function reading(view) {
     <section class="derivation" id="derivation" aria-label=${t("derivation")}>
       <div class="contents">${road(view)}${chapters(view)}</div>
       <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
-        ${trouble(view) ?? steps(view)}
+        ${trouble(view) ?? steps(view)} ${canonical(view)}
       </div>
       ${pager(view)}
     </section>`;
 }
+
+/** Behind the last step: opens the chapter of Hamilton's canonical equations. @param {View} view */
+const canonical = ({ state, session, t }) =>
+  state.derivation && !state.place.more && state.lines.at(-1)?.step.id === state.place.step
+    ? html`<button class="quiet small further" @click=${() => session.tellMore("canonical")}>${t("canonical.open")}</button>`
+    : nothing;
 
 /** Which formulation leads to the equations. @param {View} view */
 function road({ state, session, t }) {

@@ -10,7 +10,7 @@ import { indexOf } from "../model/reveal.js";
 /** @typedef {import("../model/reveal.js").Line} Line */
 /** @typedef {{state: Pick<import("./page.js").View["state"], "place" | "lines" | "derivation">,
  *   session: Pick<import("./page.js").View["session"], "go" | "goTo">,
- *   why?: import("./page.js").View["why"], link: (patch: {step: string}) => string, follow: import("./page.js").View["follow"], t: import("./page.js").View["t"]}} View  what steps need of a page */
+ *   why?: import("./page.js").View["why"], integrals?: import("./page.js").View["integrals"], link: (patch: {step: string}) => string, follow: import("./page.js").View["follow"], t: import("./page.js").View["t"]}} View  what steps need of a page */
 
 /** So many steps before the current one are laid out at once, so that scrolling to it arrives; those before when they are seen. */
 const NEAR = 3;
@@ -41,7 +41,7 @@ export function steps(view) {
 
 const skeleton = () => [62, 88, 74].map((width) => html`<div class="bone" style="width:${width}%"></div>`);
 
-/** @param {Line} line @param {boolean} current @param {Pick<View, "link" | "follow" | "session" | "t" | "why">} view @param {boolean} [far] from the current one */
+/** @param {Line} line @param {boolean} current @param {Pick<View, "link" | "follow" | "session" | "t" | "why" | "integrals">} view @param {boolean} [far] from the current one */
 export function step(line, current, view, far = false) {
   const opens = line.number.endsWith(".1");
   const { step: content, number } = line;
@@ -57,6 +57,7 @@ export function step(line, current, view, far = false) {
       ${view.why?.panel(content)}
       ${content.text ? html`<p class="prose">${prose(content.text, far)}</p>` : nothing}
       ${formulaOf(content, view, far)}
+      ${view.integrals?.actions(content)}
       ${content.substeps.length ? substeps(content, view) : nothing}
     </li>
   `;

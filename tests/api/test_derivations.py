@@ -53,6 +53,7 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "equilibrium_search",
         "jacobi_energy",
         "routh",
+        "relative_equilibria",
         "loads",
         "symbols",
     }
@@ -67,6 +68,26 @@ async def test_formulations_are_those_of_the_engine(client: httpx.AsyncClient) -
     assert answers["hamilton"]["formulation"] == "hamilton"
     assert answers["hamilton"]["result"] == answers["dalembert-lagrange"]["result"]
     assert answers["hamilton"]["id"] != answers["dalembert-lagrange"]["id"]
+
+
+async def test_canonical_equations_come_on_request(client: httpx.AsyncClient) -> None:
+    response = await client.post(DERIVATIONS, json={"scene": "foucault", "canonical": True})
+    *others, last = DerivationAnswer.model_validate(response.json()).chapters
+    assert [chapter.id for chapter in others] == CHAPTERS
+    assert last.id == "canonical"
+    assert all(step.verified for step in last.steps)
+    assert [step.id for step in last.steps if step.rule == "poisson-bracket"] == [
+        "poisson-bracket:1",
+        "poisson-bracket:2",
+    ]
+
+
+async def test_a_steady_motion_has_its_start(client: httpx.AsyncClient) -> None:
+    response = await client.post(DERIVATIONS, json={"scene": "conical-pendulum"})
+    (motion,) = DerivationAnswer.model_validate(response.json()).result.relative_equilibria
+    assert (motion.resting, motion.turning, motion.stability) == ("theta", "psi", "stable")
+    assert motion.initial["theta"].rate == 0
+    assert motion.initial["psi"].rate == motion.rate.number
 
 
 async def test_language_changes_the_texts_and_nothing_else(client: httpx.AsyncClient) -> None:

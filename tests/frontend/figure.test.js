@@ -79,7 +79,7 @@ for (const lang of ["de", "en"]) {
 /** A step as the server tells it. @param {string} id @param {string} marked @param {[string, [string, string][]][]} terms with their origins @param {object} more */
 const step = (id, marked, terms, more = {}) => ({
   id, rule: id, title: id, text: "", latex: marked, marked, verified: true, evidence: { kind: "exact", points: 0, digits: 0 }, premises: [], sources: [], cancelled: [], substeps: [],
-  terms: terms.map(([place, origins]) => ({ id: `${id}/${place}`, latex: "", sources: [], origins: origins.map(([term, change]) => ({ term, change })) })), ...more,
+  terms: terms.map(([place, origins]) => ({ id: `${id}/${place}`, latex: "", sources: [], from: origins.map(([term, change]) => ({ term, change })) })), ...more,
 });
 
 test("terms of a result are marked with what became of them, and lead to the steps they come from", () => {

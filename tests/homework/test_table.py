@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from deltaq.errors import RequestError
 from deltaq.homework.table import BEYOND, Row, Style, read_table
 
 HEADER, ANSWER = ("task", "answer"), {"task": "größe", "answer": "m"}
@@ -47,6 +48,20 @@ def test_rows(line: str, row: Row) -> None:
     assert read_table(f"task,answer\n{line}\n".encode()).rows == (row,)
 
 
+@pytest.mark.parametrize(
+    ("content", "code", "row"),
+    [
+        pytest.param('a,b\n1,"2\n3,4\n', "answers-quote", 2, id="a quote that is never closed"),
+        pytest.param('a,b\n\n1,2\n3,"4', "answers-quote", 4, id="in the last row"),
+        pytest.param(f"a,b\n1,2\n3,{'x' * 200_000}\n", "answers-cell", 3, id="a cell beyond all bounds"),
+    ],
+)
+def test_a_table_that_cannot_be_read_says_where(content: str, code: str, row: int) -> None:
+    with pytest.raises(RequestError) as found:
+        read_table(content.encode())
+    assert [(one.code, dict(one.parameters)) for one in found.value.problems] == [(code, {"row": row})]
+
+
 @pytest.mark.parametrize("data", [b"", b"\n\n", b"\xef\xbb\xbf"])
 def test_a_table_of_nothing(data: bytes) -> None:
     table = read_table(data)
@@ -62,6 +77,21 @@ def test_a_table_of_nothing(data: bytes) -> None:
 )
 def test_writing(style: Style, written: str) -> None:
     assert style.written(("a", "b"), [("x", 1.5), ("=1", "p,q")]).decode() == written
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        pytest.param("task,answer\n1,m".encode("utf-16") + b"\x00", id="UTF-16 that is cut off"),
+        pytest.param(b"task,answer\n1,m\x81\n", id="no character of Windows-1252"),
+    ],
+)
+def test_what_cannot_be_decoded_is_marked(data: bytes) -> None:
+    assert read_table(data).rows == ({"task": "1", "answer": "m\ufffd"},)
+
+
+def test_what_has_no_encoding_becomes_a_question_mark() -> None:
+    assert Style().written(("a",), [("x\ud800",)]) == b"a\nx?\n"
 
 
 def test_rows_are_counted_as_a_spreadsheet_does() -> None:

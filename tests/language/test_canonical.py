@@ -51,6 +51,7 @@ EQUAL = [
     ("sqrt(sqrt(4*abs(x)))", "sqrt(2)*sqrt(sqrt(abs(x)))"),
     ("sqrt((sqrt(x^2 + 1) + 1)*(sqrt(x^2 + 1) - 1) + 1)", "sqrt(x^2 + 1)"),
     ("sqrt(m)*sqrt(k)", "sqrt(k*m)"),
+    ("sqrt(m*(x + 1) - m*(x + 2))*sqrt(m*(y + 1) - m*(y + 2))", "-m"),
     ("sqrt(x^2 + y^2)^3", "(x^2 + y^2)*sqrt(y^2 + x^2)"),
     ("(x^2 + y^2)/sqrt(x^2 + y^2)", "sqrt(x^2 + y^2)"),
     ("sqrt(l^2*(sin(phi)^2 + cos(phi)^2))", "l"),
@@ -127,6 +128,7 @@ def test_equal_expressions_have_the_same_canonical_form(left: str, right: str) -
         pytest.param("sqrt(-x)", id="root of what may be negative"),
         pytest.param("exp(1/(x + 1))", id="exponential of a quotient"),
         pytest.param("sin(1/(x + 1))", id="sine of a quotient"),
+        pytest.param("x*sin(t*sin(phi))", id="sine of an angle with a wave in it"),
     ],
 )
 def test_what_has_no_form_is_a_generator_of_its_own(text: str) -> None:

@@ -70,12 +70,54 @@ ROWS = [
     pytest.param("cosh(x)^2 - sinh(x)^2", "1", id="hyperbolic unity"),
     pytest.param("k*cosh(x/k)", "k*cosh(x/k)", id="catenary"),
     pytest.param("9.81*m*(1 + 1)", "19.62*m", id="decimal"),
+    pytest.param("y*abs(x) + sign(x)", "y*abs(x) + sign(x)", id="size and sign apart"),
+    pytest.param("y*abs(x)^2", "y*x^2", id="square of a size"),
+    pytest.param("y*abs(x)^3", "y*x^2*abs(x)", id="cube of a size"),
+    pytest.param("x^3*sign(x)", "x^2*abs(x)", id="a power times its sign"),
+    pytest.param("x*sin(phi)*sign(x)", "sin(phi)*abs(x)", id="a coordinate beside a wave times its sign"),
+    pytest.param("x*sign(x)/y", "abs(x)/y", id="a coordinate over another times its sign"),
+    pytest.param("x*sign(2*x - y)", "x*sign(2*x - y)", id="the sign of another sum"),
+    pytest.param("x*y*sign(x)*sign(y)", "abs(y)*abs(x)", id="two signs"),
+    pytest.param("abs(x)*abs(y)*sign(x)", "x*abs(y)", id="one sign of two sizes"),
+    pytest.param("abs(x)*sign(y)", "sign(y)*abs(x)", id="sign of another"),
+    pytest.param("abs(-2*m*x) + abs(m)", "m*(1 + 2*abs(x))", id="positive factors leave the bars"),
+    pytest.param("y*sign(-2*m*x)", "-y*sign(x)", id="positive factors leave the sign"),
+    pytest.param("x*sign(m) + sign(x - x)", "x", id="signs that are known"),
+    pytest.param("abs(m*x^2 - m*y*x)", "m*abs(x^2 - y*x)", id="size of a sum"),
+    pytest.param("(x^2 - y^2)*sign(x - y)", "(y + x)*abs(x - y)", id="a sum that holds its sign's"),
+    pytest.param("x/(x^2 + x*y)", "1/(y + x)", id="a fraction that cancels"),
+    pytest.param("x^2/(x + y) - y^2/(x + y)", "x - y", id="fractions that cancel together"),
+    pytest.param("x/sqrt(x + y) + y/sqrt(x + y)", "sqrt(y + x)", id="fractions that cancel to a root"),
+    pytest.param("(x + y)^2/(x + y)", "y + x", id="a power that cancels"),
+    pytest.param("1/(m*x + m*y)", "1/(m*(y + x))", id="factor below the line"),
+    pytest.param("1/(x/2 + y/3)", "6/(2*y + 3*x)", id="whole numbers below the line"),
+    pytest.param("sqrt(4*m*x^2 + 4*m*y^2)", "2*sqrt(m)*sqrt(y^2 + x^2)", id="squares leave a root"),
+    pytest.param("sqrt(8*x^2 + 8)", "sqrt(8*x^2 + 8)", id="what is no square stays under the root"),
+    pytest.param("sqrt(x^3 + x^2*y)", "sqrt(y*x^2 + x^3)", id="what may be negative stays under the root"),
+    pytest.param("sqrt(x^2 + y^2)^3", "(y^2 + x^2)^(3/2)", id="a power of a root"),
+    pytest.param("sqrt(4*x^2 + 4*y^2)^3", "8*(y^2 + x^2)^(3/2)", id="a square leaves a power of a root"),
+    pytest.param("1/sqrt(9*x^2 + 9*y^2)", "1/(3*sqrt(y^2 + x^2))", id="a square leaves a root below the line"),
+    pytest.param("1/sqrt(m*x^2/4 + m*y^2/4)", "2/(sqrt(m)*sqrt(y^2 + x^2))", id="a quarter under a root"),
+    pytest.param("sqrt(12)*m + sqrt(3)*m", "3*sqrt(3)*m", id="roots of numbers"),
+    pytest.param("(8*m)^(1/3)", "2*m^(1/3)", id="cube root of a product"),
+    pytest.param("tan(phi)*sin(phi)", "sin(phi)*tan(phi)", id="a tangent that does not cancel"),
+    pytest.param("sin(phi)*cos(x) + cos(phi)*sin(x)", "sin(phi + x)", id="sum of two angles"),
+    pytest.param("sin(phi)^2 - sin(phi)^4", "sin(2*phi)^2/4", id="product of squares"),
+    pytest.param("cos(phi)^2 - sin(phi)^2", "cos(2*phi)", id="double angle"),
+    pytest.param("sin(phi/2)*cos(phi/2)", "sin(phi)/2", id="half angle"),
+    pytest.param("cos(phi)^3", "cos(phi)^3", id="a cube stays a cube"),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("text", "shown"), ROWS)
 def test_shown_as(text: str, shown: str) -> None:
     assert plain(display(read(text), SYMBOLS), Order(NAMES)) == shown
+
+
+@pytest.mark.parametrize("text", [row.values[0] for row in ROWS], ids=[row.id for row in ROWS])
+def test_what_is_shown_is_shown_as_it_is(text: str) -> None:
+    shown = display(read(text), SYMBOLS)
+    assert display(shown, SYMBOLS) == shown
 
 
 DOUBLE_ROWS = [

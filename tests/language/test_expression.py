@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
+
 import pytest
 from tests.language.scene_names import NAMES
 
@@ -9,6 +12,27 @@ from deltaq.errors import ExpressionError, Problem
 from deltaq.language.expression import Expression
 from deltaq.language.names import Names, Symbol
 from deltaq.language.parser import parse
+from deltaq.language.tree import (
+    NOWHERE,
+    Call,
+    Differential,
+    Equation,
+    Name,
+    Negation,
+    Node,
+    Number,
+    PartialDerivative,
+    Power,
+    Product,
+    Quotient,
+    Rate,
+    Span,
+    Sum,
+    TimeDerivative,
+    Variation,
+    Vector,
+    walk,
+)
 
 
 def parsed(text: str) -> Expression:
@@ -50,3 +74,24 @@ def test_too_many_names() -> None:
         parse(text, Names(symbols))
     assert caught.value.problems == (Problem("too-many-names", "", 0, len(text), {"count": 65, "limit": 64}),)
     assert len(parse(text.removesuffix("+p64"), Names(symbols)).names) == 64
+
+
+NODES = [
+    Number(Fraction(1, 2)), Name("x"), Rate("x", 1), Variation("x"), Differential("x"), Sum((Name("x"),)),
+    Product((Name("x"),)), Quotient(Name("x"), Name("y")), Negation(Name("x")), Power(Name("x"), Name("y")),
+    Call("sin", (Name("x"),)), TimeDerivative(Name("x")), PartialDerivative(Name("x"), Name("y")), Vector((Name("x"),)),
+    Equation(Name("x"), Name("y")),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("node", NODES, ids=[type(node).__name__ for node in NODES])
+def test_a_node_is_the_same_wherever_it_stands(node: Node) -> None:
+    elsewhere = replace(node, span=Span(3, 4))
+    assert node.span == NOWHERE == Span(0, 0)
+    assert (elsewhere, hash(elsewhere), elsewhere.span) == (node, hash(node), Span(3, 4))
+    assert list(walk(Equation(node, Name("z"))))[1:] == [*walk(node), Name("z")]
+
+
+def test_nodes_of_other_kinds_or_parts_differ() -> None:
+    assert len(set(NODES)) == len(NODES)
+    assert Variation("x") == Variation("x", 0) != Variation("x", 1)

@@ -10,7 +10,9 @@ from tests.language.scene_names import NAMES, SYMBOLS, read
 
 from deltaq.language.canonical import is_zero
 from deltaq.language.display import size
-from deltaq.language.form_calculus import plain_form
+from deltaq.language.form_calculus import derivative, plain_form
+from deltaq.language.kernel_reader import KernelReader
+from deltaq.language.normal_form import Reader
 from deltaq.language.sympy_algebra import rates_of, time_derivative
 
 LONG = [
@@ -86,3 +88,29 @@ def test_what_nobody_reads_is_not_arranged() -> None:
     form = plain_form(read("(x + y + m + l + g + k + c)^6"))
     assert form is not None
     assert len(form.displayed(SYMBOLS).args) == 924
+
+
+@pytest.mark.parametrize("factor", [pytest.param("1", id="at rest"), pytest.param("dot(x)^2", id="moving")])
+def test_what_is_too_long_to_be_planned_is_arranged(factor: str) -> None:
+    total = sympy.expand(read(f"{factor}*(x + y + m + l + g + k)^6"))
+    form = plain_form(total)
+    assert form is not None
+    shown = form.displayed(SYMBOLS)
+    assert sympy.expand(shown) == total
+    assert size(shown) < size(total)
+
+
+OF_ANY_GENERATORS = [
+    "x^3*sin(2*phi - x) + m", "sqrt(x^2 + y^2)", "x/(x + y)^2", "1/sqrt(m*x^2 + l)", "log(x^2 + 1)*y", "exp(-x*phi)",
+    "sin(sqrt(x^2 + 1))", "atan2(y, x)", "tan(phi)*x", "sinh(x*y)^2", "sqrt(1 + 1/(x^2 + 1))", "pi*log(m)*x",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", OF_ANY_GENERATORS)
+@pytest.mark.parametrize("reader", [Reader, KernelReader])
+def test_derivative_through_roots_quotients_and_functions(text: str, reader: type[Reader]) -> None:
+    expr, forms = read(text), reader()
+    form = forms.form(expr)
+    for name in ("x", "phi", "m"):
+        slope = forms.expression(derivative(forms, form, name))
+        assert is_zero(slope - expr.diff(SYMBOLS.name(name)), SYMBOLS)

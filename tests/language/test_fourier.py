@@ -8,6 +8,7 @@ import pytest
 
 from deltaq.language import fourier
 from deltaq.language.fourier import Form, TooLargeError
+from deltaq.language.generators import Generators
 
 
 def powers(name: str, count: int) -> Form:
@@ -26,6 +27,29 @@ def powers(name: str, count: int) -> Form:
 def test_too_large(grow: Callable[[], Form]) -> None:
     with pytest.raises(TooLargeError):
         grow()
+
+
+@pytest.mark.parametrize(
+    ("grow", "most"),
+    [
+        pytest.param(lambda n: fourier.add([powers("x", n)]), fourier.MAX_TERMS, id="terms of a sum"),
+        pytest.param(lambda n: fourier.multiply(powers("x", n), powers("x", 1)), fourier.MAX_TERMS, id="of a product"),
+        pytest.param(lambda n: fourier.multiply(powers("x", n), powers("x", 240)), 250, id="work of a product"),
+        pytest.param(lambda n: Generators().multiply(powers("x", n), powers("x", 240)), 250, id="work altogether"),
+    ],
+)
+def test_the_largest_that_are_made(grow: Callable[[int], Form], most: int) -> None:
+    assert len(grow(most)) >= most
+    with pytest.raises(TooLargeError):
+        grow(most + 1)
+
+
+def test_all_products_of_one_reader_count_together() -> None:
+    reader = Generators()
+    for _ in range(6):
+        reader.multiply(powers("x", 100), powers("x", 100))
+    with pytest.raises(TooLargeError):
+        reader.multiply(powers("x", 1), powers("x", 1))
 
 
 def test_large_ones_are_made() -> None:

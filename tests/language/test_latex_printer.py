@@ -78,8 +78,34 @@ def test_marked_symbols_are_set_off_as_well() -> None:
     assert power == r"\htmlClass{m}{m} \htmlClass{dot(y)}{\dot{q}_1^{2}}"
 
 
-def test_a_symbol_by_its_plain_name() -> None:
-    assert Typography(LECTURE).symbol("delta(phi)") == r"\delta q_2"
+def test_terms_of_a_sum_are_wrapped_without_their_signs() -> None:
+    total = read("m - k*y", names=LECTURE)
+    first, second = read("m", names=LECTURE), read("-k*y", names=LECTURE)
+    wraps = {first: lambda term: f"<{term}>", second: lambda term: f"[{term}]"}
+    typography = Typography(LECTURE, summands={total: wraps})
+    assert latex(total, typography) == "<m> - [k q_1]"
+    assert latex(read("g*(m - k*y)", names=LECTURE), typography) == "g (<m> - [k q_1])"
+    assert latex(read("m + k*y", names=LECTURE), typography) == "k q_1 + m"
+
+
+@pytest.mark.parametrize(
+    ("name", "written"),
+    [
+        ("y", "q_1"),
+        ("dot(y)", r"\dot{q}_1"),
+        ("ddot(y)", r"\ddot{q}_1"),
+        ("dddot(y)", r"\dddot{q}_1"),
+        ("ddddot(y)", r"\ddddot{q}_1"),
+        ("d(y)", r"\mathrm{d}q_1"),
+        ("delta(phi)", r"\delta q_2"),
+        ("dot(delta(phi))", r"\delta \dot{q}_2"),
+        ("ddot(delta(phi))", r"\delta \ddot{q}_2"),
+        ("dot(theta_12)", r"\dot{\theta}_{12}"),
+        ("epsilon_max", r"\varepsilon_{\mathrm{max}}"),
+    ],
+)
+def test_a_symbol_by_its_plain_name(name: str, written: str) -> None:
+    assert Typography(LECTURE).symbol(name) == written
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,8 @@ CASES = [
     pytest.param(lambda n: "*".join(["1"] * n), 499, "too-many-nodes", id="factors"),
     # 60 levels: n functions and what stands in the innermost
     pytest.param(lambda n: "sin(" * n + "x" + ")" * n, 59, "too-deep", id="functions in functions"),
+    # 120 levels of brackets, which leave no trace in the tree
+    pytest.param(lambda n: "(" * n + "x" + ")" * n, 119, "too-deep", id="brackets in brackets"),
     pytest.param(lambda n: "|" + "abs(" * (n - 1) + "x" + ")" * (n - 1) + "|", 59, "too-deep", id="bars"),
     pytest.param(lambda n: "x" + "/x" * n, 59, "too-deep", id="quotients of quotients"),
     # exponents up to 64, in amount
@@ -29,6 +31,12 @@ CASES = [
     # degrees up to 64
     pytest.param(lambda n: f"((x+1)^{n})^8", 8, "degree-too-large", id="degree of a power of a power"),
     pytest.param(lambda n: f"(x*y)^{n}", 32, "degree-too-large", id="degree of a product"),
+    pytest.param(lambda n: f"(x/y)^{n}", 32, "degree-too-large", id="degree of a quotient"),
+    pytest.param(lambda n: f"(x + y^2)^{n}", 32, "degree-too-large", id="degree of a sum"),
+    pytest.param(lambda n: f"(-x^2/3)^{n}", 32, "degree-too-large", id="degree with a sign and a number"),
+    pytest.param(lambda n: f"sin(x^4)^{n}", 16, "degree-too-large", id="degree in a function"),
+    pytest.param(lambda n: f"diff(x^2*y, x)^{n}", 21, "degree-too-large", id="degree of a derivative"),
+    pytest.param(lambda n: f"atan2(x^2, y^4)^{n}", 16, "degree-too-large", id="degree of several arguments"),
     # 30 digits
     pytest.param(lambda n: "1" * n, 30, "too-many-digits", id="digits"),
     pytest.param(lambda n: "1." + "2" * (n - 1), 30, "too-many-digits", id="decimals"),
@@ -36,6 +44,14 @@ CASES = [
     pytest.param(lambda n: f"exp({n})", 690, "value-too-large", id="value"),
     pytest.param(lambda n: f"exp(-{n})", 690, "value-too-small", id="small value"),
     pytest.param(lambda n: f"exp({n} + x)", 700, "value-too-large", id="exponential"),
+    # values up to 10^±300, however they come about
+    pytest.param(lambda n: f"(10^10)^{n}", 30, "value-too-large", id="value of a power"),
+    pytest.param(lambda n: f"(10^-10)^{n}", 30, "value-too-small", id="small value of a power"),
+    pytest.param(lambda n: f"(10^-10)^-{n}", 30, "value-too-large", id="value of a negative power"),
+    pytest.param(lambda n: f"(10^10)^-{n}", 30, "value-too-small", id="small value of a negative power"),
+    pytest.param(lambda n: "*".join(["10^50"] * n), 6, "value-too-large", id="value of a product"),
+    pytest.param(lambda n: "1" + "/10^50" * n, 6, "value-too-small", id="value of a quotient"),
+    pytest.param(lambda n: "+".join(["(10^10)^30/2"] * n), 2, "value-too-large", id="value of a sum"),
     # 64 different names
     pytest.param(lambda n: "+".join(f"a{k}" for k in range(n)), 64, "too-many-names", id="names"),
 ]

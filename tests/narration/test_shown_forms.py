@@ -41,7 +41,7 @@ def test_a_turning_plane_has_its_integral_and_no_time() -> None:
     result = derive_request({"scene": "foucault"})["result"]
     shown = [result["kinetic_energy"]["plain"], *result["forcing"]["plain"], str(result["mass_matrix"]["plain"])]
     assert not any("Omega*t" in text or "cos(" in text for text in shown)
-    assert [each["kind"] for each in result["conserved"]] == ["energy"]
+    assert [each["kind"] for each in result["conserved"]] == ["energy", "symmetry"]
 
 
 def ball(inertia: str) -> dict[str, object]:

@@ -18,6 +18,9 @@ class DerivationRequest(SceneWithChanges):
     """Which scene to derive, what to change before, and in which language."""
 
     formulation: Formulation = Field("dalembert-lagrange", description=ROAD)
+    canonical: bool = Field(
+        default=False, description="whether a last chapter has Hamilton's function and canonical equations"
+    )
     lang: AskedLanguage = None
 
     model_config = examples(
@@ -50,7 +53,8 @@ class TermOfLine(Answer):
     latex: str = Field(description="with its sign", examples=["-m g \\ell \\sin\\varphi"])
     sources: tuple[str, ...] = Field(description="bodies and loads that it comes from")
     origins: tuple[Origin, ...] = Field(
-        description="the terms it comes from: of the member before it, and of steps that this one rests on"
+        alias="from",
+        description="the terms it comes from: of the member before it, and of steps that this one rests on",
     )
 
 

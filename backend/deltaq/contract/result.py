@@ -66,11 +66,22 @@ class GeneralizedForces(Answer):
     nonconservative: tuple[CoordinateSum, ...]
 
 
+class Generator(Answer):
+    """A small change q → q + ε ξ, t → t + ε τ that leads from motions to motions."""
+
+    shifts: dict[str, Formula] = Field(description="ξ by coordinate, where it is not zero")
+    time: Formula = Field(description="τ")
+
+
 class ConservedQuantity(Sum):
     """What does not change along the motion."""
 
-    kind: Literal["momentum", "energy"]
+    kind: Literal["momentum", "energy", "symmetry"]
     coordinate: str = Field(description="of a momentum; else empty")
+    generator: Generator
+    meaning: str = Field(description="what the generator does in space, in a word", examples=["rotation-z"])
+    conditions: tuple[Formula, ...] = Field(description="equations between parameters on which it rests")
+    step: str = Field(description="id of the step that shows it", examples=["noether:1"])
 
 
 class JacobiEnergy(Sum):
@@ -99,6 +110,25 @@ class RouthFunction(Formula):
     """L − Σ p q̇ over the cyclic coordinates, whose constant momenta it holds instead of their rates."""
 
     momenta: dict[str, str] = Field(description="names of the momenta, by coordinate", examples=[{"psi": "p_psi"}])
+
+
+class InitialState(Answer):
+    """Where a coordinate starts."""
+
+    value: float
+    rate: float
+
+
+class RelativeEquilibrium(Answer):
+    """A motion in which cyclic coordinates run evenly while another one rests, where the scene starts."""
+
+    step: str = Field(description="id of the step that shows it", examples=["relative-equilibrium:1"])
+    resting: str = Field(description="the coordinate that rests", examples=["theta"])
+    turning: str = Field(description="the cyclic coordinate whose rate holds it", examples=["psi"])
+    rate: EquilibriumValue = Field(description="of the turning coordinate")
+    stability: Stability = Field(description="for fixed momenta")
+    eigenfrequency: float | None = Field(description="of small oscillations about it in rad/s, where it is stable")
+    initial: dict[str, InitialState] = Field(description="what starts it, by coordinate")
 
 
 class OwnSymbol(Answer):
@@ -206,4 +236,5 @@ class DerivationResult(Answer):
     equilibrium_search: EquilibriumSearch | None = Field(description="null where the laws depend on time")
     jacobi_energy: JacobiEnergy
     routh: RouthFunction | None = Field(description="where a coordinate is cyclic")
+    relative_equilibria: tuple[RelativeEquilibrium, ...]
     symbols: tuple[OwnSymbol, ...]

@@ -73,7 +73,7 @@ def reduction(system: System) -> Reduction | None:
     if not names or len(names) > MOST_CYCLIC or len(names) == len(system.free):
         return None
     momenta = {q: system.fresh(f"p_{q}", f"p_{q}_0", f"momentum_{q}") for q in names}
-    rates = _solved(system, momenta)
+    rates = solved_rates(system, momenta)
     if rates is None:
         return None
     still = {system.rate(q): system.zero for q in names}
@@ -83,7 +83,7 @@ def reduction(system: System) -> Reduction | None:
     return Reduction(momenta, rates, function)
 
 
-def _solved(system: System, momenta: dict[str, sp.Symbol]) -> dict[str, sp.Expr] | None:
+def solved_rates(system: System, momenta: dict[str, sp.Symbol]) -> dict[str, sp.Expr] | None:
     """The cyclic rates from pᵢ = ∂L/∂q̇ᵢ, which is linear in them."""
     rates = [system.rate(q) for q in momenta]
     laws = [system.momentum(q) for q in momenta]

@@ -73,6 +73,7 @@ class DifferentialExpression:
         return fresh(self.names, *SMALL)
 
     def expression(self, node: Node) -> sp.Expr:
+        """A tree as SymPy's expression in the symbols of this problem; functions and rates are symbols x, ẋ, ẍ."""
         return to_sympy(node, self.symbols)
 
     def display(self, value: Value) -> Value:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from difflib import get_close_matches
 
 from ..errors import Problem, UnknownNameError
 from ..mechanics.scene import Scene
 from ..packages import modules_of
+from . import model_chapter
 from .grounds import Grounds
 from .normal_algebra import NormalAlgebra
-from .step import Derivation
+from .step import Chapter, Derivation
 from .system import System
 from .verification import SAMPLED, verified
 
@@ -22,12 +24,18 @@ def formulation_names() -> tuple[str, ...]:
     return tuple(module.FORMULATION for module in modules_of(FORMULATIONS))
 
 
-def derive(scene: Scene, formulation: str = USUAL) -> tuple[System, Derivation]:
-    """The derivation of a scene, every step verified and with its grounds. UnknownNameError: no such formulation."""
+def derive(scene: Scene, formulation: str = USUAL, *, canonical: bool = False) -> tuple[System, Derivation]:
+    """The derivation of a scene, every step verified and with its grounds. UnknownNameError: no such formulation.
+
+    `canonical` adds the chapter of Hamilton's canonical equations.
+    """
     check_formulation(formulation)
     road = next(module for module in modules_of(FORMULATIONS) if formulation == module.FORMULATION)
     system = System(scene)
-    return system, _grounds(system).of(verified(road.derive(system), system))
+    told = road.derive(system)
+    if canonical:
+        told = replace(told, chapters=(*told.chapters, Chapter("canonical", tuple(model_chapter.canonical(system)))))
+    return system, _grounds(system).of(verified(told, system))
 
 
 def _grounds(system: System) -> Grounds:

@@ -81,6 +81,7 @@ def kinetic_energy(motion: AbstractMotion) -> Called:
 
 
 def potential_energy(motion: AbstractMotion) -> Named:
+    """V(q, t) of all forces that have a potential, under its letter."""
     return Named(Quantity("potential-energy"), motion.potential)
 
 
@@ -90,10 +91,12 @@ def lagrangian(motion: AbstractMotion) -> Called:
 
 
 def generalized_force(motion: AbstractMotion, index: str) -> Named:
+    """Qᵢ of all forces, under its letter."""
     return Named(Quantity("generalized-force", index), motion.force(index))
 
 
 def dissipative_force(motion: AbstractMotion, index: str) -> Named:
+    """Qᵢᵈ of the forces that have no potential, under its letter."""
     return Named(Quantity("nonconservative-force", index), motion.dissipative(index))
 
 

@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .conditions import conditions
-from .conservation import cyclic, reduction
+from .conservation import cyclic, jacobi_energy_rate, reduction
+from .conservation import jacobi_energy as energy_of
 from .equilibria import search
+from .formula import Named, Quantity
+from .hamiltonian import hamiltonian as hamiltonian_of
 from .linearization import Linearization, linearizations
 from .matrix_form import is_autonomous
 from .rules import (
+    canonical_equations,
     cyclic_coordinate,
     eigenfrequencies,
     equilibrium,
@@ -17,13 +21,19 @@ from .rules import (
     equilibrium_search,
     existence_condition,
     friction_band,
+    hamiltonian,
     jacobi_energy,
     linearization,
     matrix_form,
+    noether,
+    poisson_bracket,
+    relative_equilibrium,
     routh_function,
     stability_condition,
 )
+from .steady import steady_motions
 from .step import Step
+from .symmetry import symmetries
 from .system import System
 
 MOST_SHOWN = 4
@@ -67,6 +77,33 @@ def _conserved(system: System) -> Iterator[Step]:
     for coordinate in cyclic(system):
         yield cyclic_coordinate.apply(system, coordinate)
     yield jacobi_energy.apply(system)
+    for number, symmetry in enumerate(symmetries(system), 1):
+        yield noether.apply(system, symmetry, number)
     reduced = reduction(system)
     if reduced is not None:
         yield routh_function.apply(system, reduced)
+    for number, motion in enumerate(steady_motions(system), 1):
+        yield relative_equilibrium.apply(system, motion, number)
+
+
+def canonical(system: System) -> Iterator[Step]:
+    """Hamilton's function, the canonical equations, and the brackets of the integrals of motion with it."""
+    found = hamiltonian_of(system)
+    yield hamiltonian.apply(system, found)
+    if found is None:
+        return
+    for coordinate in system.free:
+        yield canonical_equations.apply(system, found, coordinate)
+    for number, integral in enumerate(_integrals(system), 1):
+        yield poisson_bracket.apply(system, found, integral, str(number))
+
+
+def _integrals(system: System) -> Iterator[Named]:
+    """Those that hold for all values of the parameters, as they are named in the chapter before."""
+    for q in cyclic(system):
+        yield Named(Quantity("momentum", q), system.momentum(q))
+    if system.is_zero(jacobi_energy_rate(system)):
+        yield Named(Quantity("jacobi-energy"), energy_of(system))
+    for number, symmetry in enumerate(symmetries(system), 1):
+        if not symmetry.conditions:
+            yield Named(Quantity("integral-of-motion", str(number)), symmetry.value)

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ..language.memory import cached_method
+from .generator import Symmetry, solved
 from .system import System
 
 Share = tuple[str, sp.Expr]
@@ -71,6 +72,17 @@ def of_jacobi_energy(system: System) -> Iterator[Share]:
         work = sp.Add(*(system.rate(q) * system.slope(energy, system.rate(q)) for q in system.free))
         yield source, work - energy
     yield from of_potential_energy(system)
+
+
+def of_symmetry(system: System, symmetry: Symmetry) -> Iterator[Share]:
+    """Σ ξᵢ ∂L/∂q̇ᵢ − τ h: what is left of the integral without its gauge function, which is the work of all together."""
+    time, special = symmetry.generator.time, solved(symmetry.conditions, system)
+    changes = symmetry.generator.characteristic(system)
+    for source, energy in of_kinetic_energy(system):
+        moved = sp.Add(*(change * system.slope(energy, system.rate(q)) for q, change in changes.items()))
+        yield source, (moved + time * energy).xreplace(special)
+    for source, energy in of_potential_energy(system):
+        yield source, (-time * energy).xreplace(special)
 
 
 @cached_method

@@ -14,11 +14,15 @@ from ..vocabulary import CurlOutcome
 from . import provenance
 from .conditions import Conditions, conditions
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
+from .displacement import meaning
 from .equilibria import Search, search
 from .formula import Explicit, Term
+from .generator import Generator, Symmetry, solved
 from .linearization import Linearization, linearizations
 from .matrix_form import forcing, left_side, mass_matrix
 from .rules.curl_test import outcome
+from .steady import SteadyMotion, steady_motions
+from .symmetry import symmetries
 from .system import System
 from .terms import terms_of
 
@@ -27,11 +31,18 @@ Terms = Mapping[str, Mapping[str, tuple[Term, ...]]]
 
 @dataclass(frozen=True)
 class Conserved:
-    """A quantity that does not change along the motion: a momentum or the Jacobi energy."""
+    """A quantity that does not change along the motion: a momentum, the Jacobi energy, or that of another symmetry.
+
+    `meaning` says in a word what its generator does, `step` is the id of the step that shows it.
+    """
 
     kind: str
     coordinate: str
     value: sp.Expr
+    generator: Generator
+    meaning: str
+    step: str
+    conditions: tuple[sp.Expr, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -85,6 +96,7 @@ class Result:
     jacobi_energy: sp.Expr
     is_energy: bool
     routh: Reduction | None
+    steady: tuple[SteadyMotion, ...]
     terms: Terms
     loads: tuple[LoadPotential, ...]
 
@@ -113,6 +125,7 @@ def result_of(system: System) -> Result:
         jacobi_energy=jacobi_energy(system),
         is_energy=is_energy(system),
         routh=reduction(system),
+        steady=steady_motions(system),
         terms=_terms(system),
         loads=tuple(_potential_of(system, load) for load in system.load_names),
     )
@@ -136,9 +149,19 @@ def _terms(system: System) -> Terms:
         **{key: {"": terms_of(system, shares(system))} for key, shares in whole.items()},
         **{key: {q: terms_of(system, of(system, q)) for q in system.free} for key, of in by_coordinate.items()},
         "equations": {q: _equation_terms(system, q) for q in system.free},
+        "integrals": {f"noether:{n}": _integral_terms(system, each) for n, each in enumerate(symmetries(system), 1)},
         "forcing": {q: _forcing_terms(system, q) for q in system.free},
         "mass_matrix": {f"{q} {other}": _mass_terms(system, q, other) for q in system.free for other in system.free},
     }
+
+
+def _integral_terms(system: System, symmetry: Symmetry) -> tuple[Term, ...]:
+    """Term by term; those of the gauge function come from all bodies and loads."""
+    gauge = symmetry.gauge.xreplace(solved(symmetry.conditions, system)).expand()
+    sources = (*system.body_sources, *(f"load:{load}" for load in system.load_names))
+    parts = [term.as_coeff_Mul() for term in sp.Add.make_args(gauge) if term != 0]
+    outside = tuple(Term(Explicit(abs(c) * rest), sources, -1 if c > 0 else 1) for c, rest in parts)
+    return terms_of(system, provenance.of_symmetry(system, symmetry)) + outside
 
 
 def _mass_terms(system: System, coordinate: str, other: str) -> tuple[Term, ...]:
@@ -173,8 +196,18 @@ def _potential_of(system: System, load: str) -> LoadPotential:
 
 
 def _conserved(system: System) -> list[Conserved]:
-    """Momenta of cyclic coordinates, and the Jacobi energy where nothing changes it."""
-    found = [Conserved("momentum", q, system.momentum(q)) for q in cyclic(system)]
+    """Momenta of cyclic coordinates, the Jacobi energy where nothing changes it, and what other symmetries lead to."""
+    found = [_momentum(system, q) for q in cyclic(system)]
     if system.is_zero(jacobi_energy_rate(system)):
-        found.append(Conserved("energy", "", jacobi_energy(system)))
+        generator = Generator({}, sp.Integer(1))
+        found.append(Conserved("energy", "", jacobi_energy(system), generator, "time", "jacobi-energy"))
+    for number, each in enumerate(symmetries(system), 1):
+        word = meaning(system, each.generator).word
+        found.append(Conserved("symmetry", "", each.value, each.generator, word, f"noether:{number}", each.conditions))
     return found
+
+
+def _momentum(system: System, coordinate: str) -> Conserved:
+    generator = Generator({coordinate: sp.Integer(1)}, system.zero)
+    word, step = meaning(system, generator).word, f"cyclic-coordinate:{coordinate}"
+    return Conserved("momentum", coordinate, system.momentum(coordinate), generator, word, step)

@@ -29,6 +29,7 @@ class Eigenvalue:
 
     @property
     def size(self) -> float:
+        """|λ| in 1/s."""
         return abs(complex(float(self.real), float(self.imaginary)))
 
 

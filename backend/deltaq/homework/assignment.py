@@ -56,8 +56,8 @@ class Assignment:
 
     title: Translated
     tasks: tuple[AssignedTask, ...]
-    individual: bool = False
-    follow_through: float = FOLLOW_THROUGH
+    individual: bool
+    follow_through: float
 
 
 def load_assignment(path: Path) -> Assignment:
@@ -116,7 +116,7 @@ def _task_problems(entry: object, pointer: str) -> Iterator[Problem]:
     for name in ("scene", "task"):
         if name not in entry:
             yield Problem("missing-field", f"{pointer}/{name}", parameters={"field": name})
-    if not _is_number(entry.get("points", 1), 1000.0):
+    if "points" in entry and not _is_number(entry["points"], 1000.0):
         yield Problem("request-not-number", f"{pointer}/points")
 
 
@@ -127,7 +127,7 @@ def _is_number(value: object, most: float) -> bool:
 def _task(entry: Mapping[str, object], pointer: str) -> AssignedTask:
     """The task, if its scene has it."""
     scene = {name: entry[name] for name in ("scene", "guides", "freeze", "parameters") if name in entry}
-    points = None if entry.get("points") is None else float(cast("float", entry["points"]))
+    points = float(cast("float", entry["points"])) if "points" in entry else None
     assigned = AssignedTask(scene, str(entry["task"]), points)
     try:
         assigned.resolved(None)

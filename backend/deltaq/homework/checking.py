@@ -14,6 +14,7 @@ from .equality import Match, Parts, equation
 from .partwise import part_outcomes
 from .reading import Reading, read
 from .sampling import DISTINCT, close
+from .solution import Solution
 from .task import Task
 from .verdict import Slip, Verdict
 from .workbook import Workbook
@@ -38,26 +39,22 @@ def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
 
 def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
     """Whether an answer is right. Numbers that differ settle it; else the exact test of the quantity decides."""
+    if task.quantity.form == "set":  # numbers at the scene's values are answers, too
+        return task.quantity.equality.same(given, workbook.right(task), workbook.solution)
     own = task.quantity.equality.fingerprint(given, workbook.sampler)
     right = workbook.fingerprint(task)
-    if own == () and task.quantity.form != "set":
+    if own == ():
         return Match(equal=False, remark="degenerate")
-    differs = own is not None and right is not None and not (len(own) == len(right) and close(own, right, DISTINCT))
-    if task.quantity.form == "set":
-        differs = False  # numbers at the scene's values are answers, too
-    if not differs:
+    if own is None or right is None or (len(own) == len(right) and close(own, right, DISTINCT)):
         return task.quantity.equality.same(given, workbook.right(task), workbook.solution)
-    return _solved(workbook, task, given)
+    return _solved(workbook.solution, task, given)
 
 
-def _solved(workbook: Workbook, task: Task, given: Parts) -> Match:
+def _solved(solution: Solution, task: Task, given: Parts) -> Match:
     """An equation solved for its own acceleration is another combination of the set, and right as well."""
-    others = {workbook.solution.acceleration(q) for q in workbook.solution.free if q != task.subject}
-    own = workbook.solution.acceleration(task.subject) if task.subject else None
-    symbols = given[0].free_symbols if given else set()
-    if task.quantity.kind == "equation" and len(workbook.solution.free) > 1 and own in symbols and not symbols & others:
-        match = equation.same_solved(given, workbook.solution)
-        return match if match.equal else Match(equal=False)
+    others = {solution.acceleration(q) for q in solution.free if q != task.subject}
+    if task.quantity.kind == "equation" and not given[0].free_symbols & others:
+        return equation.same_solved(given, solution)
     return Match(equal=False)
 
 

@@ -60,7 +60,7 @@ def grade(table: Table, sheet: Sheet, language: str) -> Iterator[tuple[int, Grad
     known: dict[str, Document] = {}
 
     def verdict_on(question: Document) -> Document:
-        key = json.dumps(question, sort_keys=True)
+        key = json.dumps(question)
         if key not in known:
             known[key] = row_verdict({**question, "lang": language})
         return known[key]
@@ -166,7 +166,7 @@ class _Tasks:
         worth: dict[tuple[str, str], float] = {}
         for target in self.targets:
             key = (target.working, target.task)
-            worth[key] = max(worth.get(key, 0.0), target.of)
+            worth[key] = max(target.of, worth.get(key, target.of))
         return sum(worth.values())
 
     def number(self, task: str, scene: str) -> int:
@@ -213,7 +213,7 @@ class _Tasks:
             )
         if len({self.targets[n].working for n in there}) > 1:
             known = ", ".join(f"{n + 1} ({self.targets[n].scene})" for n in there)
-            raise _wrong("task", "answers-which", name=task[:64], known=known)
+            raise _wrong("task", "answers-which", name=task, known=known)
         return there[0]
 
     def _assigned(self, assigned: AssignedTask) -> Target:

@@ -157,5 +157,5 @@ def summary(graded: Iterable[Graded], language: str) -> str:
 
 
 def _bars(counts: Sequence[tuple[str, int]], of: int) -> list[str]:
-    widest = max((len(name) for name, _ in counts), default=0)
+    widest = len(max((name for name, _ in counts), key=len, default=""))
     return [f"  {name:<{widest}}  {'█' * max(1, round(BAR * count / of))} {count}" for name, count in counts]

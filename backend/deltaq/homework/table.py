@@ -74,7 +74,7 @@ def read_table(data: bytes) -> Table:
     (_, names), *lines = filled or [(1, [])]
     header = tuple(name.strip().lower() for name in names)
     rows = tuple(_row(header, line) for _, line in lines)
-    return Table(header, rows, Style(separator, not _is_plain(data)), tuple(number for number, _ in lines))
+    return Table(header, rows, Style(separator, _is_marked(data)), tuple(number for number, _ in lines))
 
 
 def _lines(content: str, separator: str) -> list[list[str]]:
@@ -100,12 +100,12 @@ def _decoded(data: bytes) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-def _is_plain(data: bytes) -> bool:
-    """UTF-8 without a mark, as programs write it."""
+def _is_marked(data: bytes) -> bool:
+    """Not UTF-8 without a mark, as programs write it."""
     try:
-        return not data.decode("utf-8").startswith("\ufeff")
+        return data.decode("utf-8").startswith("\ufeff")
     except UnicodeDecodeError:
-        return False
+        return True
 
 
 def _is_filled(line: Sequence[str]) -> bool:
@@ -113,6 +113,6 @@ def _is_filled(line: Sequence[str]) -> bool:
 
 
 def _row(header: Sequence[str], line: Sequence[str]) -> Row:
-    cells = [*line, *[""] * (len(header) - len(line))]
+    cells = [*line, *[""] * len(header)]
     beyond = [cell for cell in cells[len(header) :] if cell.strip()]
     return {**dict(zip(header, cells, strict=False)), **({BEYOND: " ".join(beyond)} if beyond else {})}

@@ -95,7 +95,7 @@ def _judged(
 def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[str, Parts]) -> Verdict:
     """The verdict on a line in the light of the wrong lines before it."""
     verdict = check(workbook, task, line.text, line.syntax)
-    if verdict.outcome != "wrong" or not wrong or verdict.remark == "degenerate":
+    if verdict.outcome != "wrong" or not wrong:
         return verdict
     given = read(task, workbook.solution, line.text, line.syntax).parts
     if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.solution).equal:
@@ -108,11 +108,9 @@ def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[s
 def _ways_from_wrong_lines(workbook: Workbook, task: Task, wrong: Mapping[str, Parts]) -> Iterator[Solution]:
     """From all wrong lines, then from each of them alone; never from an earlier answer to the same task."""
     others = {name: parts for name, parts in wrong.items() if name != task.id}
-    if not others:
-        return
-    yield OwnSolution(workbook.scene, workbook.solution, others)
-    for name in list(others)[-MOST_WRONG:] if len(others) > 1 else ():
-        yield OwnSolution(workbook.scene, workbook.solution, {name: others[name]})
+    alone = [{name: parts} for name, parts in others.items()]
+    for answers in [others, *alone[-MOST_WRONG:]] if len(alone) > 1 else alone:
+        yield OwnSolution(workbook.scene, workbook.solution, answers)
 
 
 def _follows(workbook: Workbook, task: Task, given: Parts, solution: Solution) -> bool:
@@ -121,9 +119,8 @@ def _follows(workbook: Workbook, task: Task, given: Parts, solution: Solution) -
         expected = task.value(solution)
     except (ValueError, ZeroDivisionError):
         return False
-    if not expected or not task.quantity.equality.same(given, expected, solution).equal:
-        return False
-    return _substantial(expected, workbook.shown(task), workbook)
+    same = task.quantity.equality.same(given, expected, solution).equal
+    return same is True and _substantial(expected, workbook.shown(task), workbook)
 
 
 def _substantial(expected: Parts, right: Parts, workbook: Workbook) -> bool:

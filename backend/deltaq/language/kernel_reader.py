@@ -67,7 +67,6 @@ class KernelReader(Reader):
     def _kernel(self, form: Form, exponent: Any) -> Form:
         key = f"~~{sympy.sstr(self.expression(form))}"
         self.bases[key] = form
-        self.is_exact = self.is_exact and exponent.q == 1
         return fourier.monomial(key, exponent if exponent.q > 1 else int(exponent.p))
 
     def cleared(self, form: Form) -> tuple[Form, Monomial]:
@@ -83,7 +82,6 @@ class KernelReader(Reader):
         key = f"~|{sympy.sstr(self.expression(inner))}|"
         self.meaning[key] = sympy.Abs(self.expression(inner))
         self.sizes[key] = inner
-        self.is_exact = False
         return self.multiply(fourier.scale(front, abs(number)), fourier.monomial(key))
 
     def _sign_of(self, form: Form) -> Form:
@@ -99,7 +97,6 @@ class KernelReader(Reader):
         self.signs[key] = (f"~|{text}|", inner)
         self.sizes.setdefault(f"~|{text}|", inner)
         self.meaning.setdefault(f"~|{text}|", sympy.Abs(self.expression(inner)))
-        self.is_exact = False
         return fourier.scale(fourier.monomial(key), sign)
 
     def _oriented(self, form: Form) -> tuple[Form, Any, Form]:

@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 from .bounds import MAX_DEPTH
 from .functions import SPELLINGS
-from .latex_source import ONLY_VARIABLES, Range, Source, cells, differential_head, differential_variables
+from .latex_source import ONLY_VARIABLES, Range, Source, cells, differential_head, differential_variables, separators
 from .latex_tables import (
     DIFFERENTIAL,
     INDEX,
@@ -113,7 +113,7 @@ class LatexLexer:
     def _number(self, start: int) -> None:
         prefix = PREFIX.match(self.source.text, start, self.source.end)
         if prefix:
-            fail("number-format", Span(start, len(prefix[0])), number=prefix[0])
+            fail("number-format", Span(start, len(prefix[0])), number=prefix[0][:40])
         match = self.source.match(NUMBER)
         if match is None:
             fail("unexpected-character", Span(start, 1), character=".")
@@ -198,9 +198,8 @@ class LatexLexer:
         if name in QUANTITIES:
             fail("unit", span, name="\\" + name)
         suggestions = difflib.get_close_matches(name[:40], [*SPELLINGS, *sorted(GREEK_NAMES)], n=1, cutoff=0.75)
-        if suggestions:
-            fail("unknown-command", span, name="\\" + name, suggestion="\\" + suggestions[0])
-        fail("unknown-command", span, name="\\" + name)
+        likeliest = {"suggestion": "\\" + suggestions[0]} if suggestions else {}
+        fail("unknown-command", span, name="\\" + name[:40], **likeliest)
 
 
 def close_bracket(lexer: LatexLexer, opening: int) -> None:
@@ -464,9 +463,8 @@ def read_environment(lexer: LatexLexer, _name: str, start: int) -> None:
 def _read_system(lexer: LatexLexer, inside: Range) -> None:
     rows = [(row[0][0], row[-1][1]) for row in cells(lexer.source.text, inside)]
     filled = [row for row in rows if lexer.source.text[slice(*row)].strip()]
-    for position, row in enumerate(filled):
-        if position:
-            lexer.found.append(Token("operator", ";", Span(row[0], 0)))
+    for row, separator in zip(filled, (None, *separators(filled)), strict=True):
+        lexer.found += [Token("operator", ";", separator)] if separator else []
         lexer.found += lexer.within(row)
 
 
@@ -479,9 +477,14 @@ def _read_matrix(lexer: LatexLexer, name: str, inside: Range, span: Span) -> Non
     if not rows:
         fail("empty", span)
     if len(rows) == 1 or all(len(row) == 1 for row in rows):
-        lexer.found += vector_tokens([lexer.within(cell) for row in rows for cell in row], span)
+        lexer.found += _vector(lexer, [cell for row in rows for cell in row], span)
     else:
-        lexer.found += vector_tokens([vector_tokens([lexer.within(cell) for cell in row], span) for row in rows], span)
+        lines = [(row[0][0], row[-1][1]) for row in rows]
+        lexer.found += vector_tokens([_vector(lexer, row, span) for row in rows], separators(lines), span)
+
+
+def _vector(lexer: LatexLexer, parts: list[Range], span: Span) -> list[Token]:
+    return vector_tokens([lexer.within(part) for part in parts], separators(parts), span)
 
 
 _HANDLERS: Mapping[str, Callable[[LatexLexer, str, int], None]] = MappingProxyType(

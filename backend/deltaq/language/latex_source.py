@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 from .tokens import fail
 from .tree import Span
@@ -157,6 +158,11 @@ def cells(text: str, inside: Range) -> list[list[Range]]:
             source.at += 1
     rows[-1].append((start, source.end))
     return rows
+
+
+def separators(parts: list[Range]) -> list[Span]:
+    """Where the & or \\\\ between neighbouring cells or rows stands."""
+    return [Span(one[1], other[0] - one[1]) for one, other in pairwise(parts)]
 
 
 def differential_head(text: str, inside: Range) -> tuple[str, int, Range] | None:

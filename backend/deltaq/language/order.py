@@ -104,7 +104,7 @@ class Order:
 
     def _bracket(self, base: sympy.Expr, factor: sympy.Expr) -> Key:
         """A bracket of parameters stands where the first of them would: (m₁ + m₂) l², m (R − r)²."""
-        rank = min((_head_rank(symbol.name) for symbol in base.free_symbols), default=0)
+        rank = min(_head_rank(symbol.name) for symbol in base.free_symbols)
         return (3, (rank,), _AFTER_SYMBOLS, _text(factor))
 
     def _angle(self, function: sympy.Expr) -> Key:

@@ -102,19 +102,17 @@ class Planner:
         return [*apart, *(parts for _, parts in others[:TRIED])]
 
     def _factored(self, poly: Poly) -> Product | None:
+        """The factors of a primitive polynomial, each a sum; None if it has none."""
         number, factors = self._alphabet.context.from_dict(poly).factor()
         if len(factors) == 1 and factors[0][1] == 1:
             return None
-        total, powers, brackets = Fraction(int(number)), [], []
+        total, brackets = Fraction(int(number)), []
         for factor, times in sorted(((as_poly(f), int(e)) for f, e in factors), key=lambda f: sorted(f[0].items())):
-            if len(factor) == 1:
-                powers += [(i, e * times) for i, e in _powers(next(iter(factor)))]
-                continue
             content, _, primitive = split_off(factor)
             total *= Fraction(content) ** times
             inner = self._primitive(primitive)
             brackets.append((inner if isinstance(inner, Sum) else self.prices.sum((inner,)), times))
-        return self.prices.product(total, tuple(sorted(powers)), tuple(brackets))
+        return self.prices.product(total, (), tuple(brackets))
 
     def _splits(
         self, poly: Poly, groupings: Iterator[list[tuple[Exponents, Poly]]], seen: set[frozenset[Key]]

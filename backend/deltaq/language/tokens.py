@@ -60,11 +60,9 @@ def has_comma(tokens: list[Token]) -> bool:
     return False
 
 
-def vector_tokens(parts: list[list[Token]], span: Span) -> list[Token]:
-    """[a, b, …] of the tokens of its components."""
-    tokens = [Token("open", "[", Span(span.offset, 1))]
-    for position, part in enumerate(parts):
-        if position:
-            tokens.append(Token("operator", ",", Span(span.offset, 0)))
-        tokens += part
+def vector_tokens(parts: list[list[Token]], separators: list[Span], span: Span) -> list[Token]:
+    """[a, b, …] of the tokens of its components; `separators` are the places between them."""
+    tokens = [Token("open", "[", Span(span.offset, 1)), *parts[0]]
+    for separator, part in zip(separators, parts[1:], strict=True):
+        tokens += [Token("operator", ",", separator), *part]
     return [*tokens, Token("close", "]", Span(span.offset + span.length - 1, 1))]

@@ -23,13 +23,14 @@ Document = dict[str, object]
 def derive_request(document: Mapping[str, object]) -> Document:
     """Derives what the request names, all but its id. Raises InputError for what cannot be read.
 
-    `document`: {scene: id or document, guides?, freeze?, parameters?, formulation?, lang?}, already checked for types.
+    `document`: {scene: id or document, guides?, freeze?, parameters?, formulation?, canonical?, lang?},
+    already checked for types.
     """
     scene = changed_scene(document)
     formulation = str(document.get("formulation") or USUAL)
     check_formulation(formulation)
     with inside("/scene"):
-        system, derivation = derive(scene, formulation)
+        system, derivation = derive(scene, formulation, canonical=document.get("canonical") is True)
     language = language_in(document)
     return {
         "scene": scene.id,

@@ -31,11 +31,14 @@ class Writer(Protocol):
     """What writes the parts of a formula."""
 
     @property
-    def symbols(self) -> SymbolTable: ...
+    def symbols(self) -> SymbolTable:
+        """How quantities are lettered."""
 
-    def formula(self, formula: Formula) -> str: ...
+    def formula(self, formula: Formula) -> str:
+        """LaTeX of a formula that stands alone."""
 
-    def factor(self, formula: Formula) -> str: ...
+    def factor(self, formula: Formula) -> str:
+        """LaTeX of a formula as a factor of a product: a sum is in brackets."""
 
 
 def write_matrix(writer: Writer, formula: MatrixFormula) -> str:  # noqa: PLR0911 - one case for each kind

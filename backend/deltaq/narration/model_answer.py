@@ -14,6 +14,7 @@ from ..derivation.linearization import Linearization
 from ..derivation.program import number
 from ..derivation.result import LoadPotential, Result, Told
 from ..derivation.spectrum import ComplexMode, Mode
+from ..derivation.steady import SteadyMotion
 from ..language.latex_printer import Typography, latex
 from ..language.plain_printer import plain
 from ..language.spelling import latex_of
@@ -150,3 +151,17 @@ def routh(reduction: Reduction | None, typography: Typography) -> Document | Non
     value = reduction.function
     momenta = {coordinate: symbol.name for coordinate, symbol in reduction.momenta.items()}
     return {"plain": plain(value), "latex": latex(value, typography), "momenta": momenta}
+
+
+def steady(motion: SteadyMotion, number: int, typography: Typography) -> Document:
+    """A relative equilibrium; `initial` starts it, with the scene's own values of the parameters."""
+    rate = {"plain": plain(motion.rate), "latex": latex(motion.rate, typography), "number": _float(motion.number)}
+    return {
+        "step": f"relative-equilibrium:{number}",
+        "resting": motion.coordinate,
+        "turning": motion.turning,
+        "rate": rate,
+        "stability": motion.stability,
+        "eigenfrequency": None if motion.frequency is None else _float(motion.frequency),
+        "initial": {q: {"value": value, "rate": _float(speed)} for q, (value, speed) in motion.initial.items()},
+    }

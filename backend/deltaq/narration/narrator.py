@@ -13,9 +13,10 @@ from .catalog import filled, template, text
 from .letters import Letters, in_sentence
 from .marks import without_classes
 from .notation import Notation
-from .prose import CatalogText, formula, joined
+from .prose import CatalogText, formula, joined, words
 
 Document = dict[str, object]
+SYMMETRY = ("symmetry", "integral")  # what a generator does, and what its integral is called
 
 
 @dataclass(frozen=True)
@@ -30,13 +31,19 @@ class Narrator:
     letters: Letters = field(default_factory=dict)
 
     def chapters(self, derivation: Derivation) -> list[Document]:
+        """The derivation in reading order; chapters without steps are left out."""
         return [self.chapter(chapter) for chapter in derivation.chapters if chapter.steps]
 
     def chapter(self, chapter: Chapter) -> Document:
+        """A JSON object with `id`, `title` and `steps`."""
         title = text(self.language, f"rules.chapters.{chapter.id}")
         return {"id": chapter.id, "title": title, "steps": [self.step(step) for step in chapter.steps]}
 
     def step(self, step: Step) -> Document:
+        """A JSON object: `id`, `rule`, title and sentence in the language, the mathematics, the same of each substep.
+
+        `marked` is LaTeX with the classes of the page, `latex` is without. `verified`, `sources` are those of the step.
+        """
         names = self._names(step.about)
         outcome = step.about.get("outcome")
         key = f"rules.steps.{step.rule}"
@@ -64,7 +71,7 @@ class Narrator:
             "id": term.id,
             "latex": without_classes(self.notation.term(Term(term.shown, (), term.sign))),
             "sources": list(term.sources),
-            "origins": [asdict(origin) for origin in term.origins],
+            "from": [asdict(origin) for origin in term.origins],
         }
 
     def _sentence(self, key: str, names: Mapping[str, CatalogText]) -> CatalogText:
@@ -72,9 +79,13 @@ class Narrator:
 
     def _names(self, about: Mapping[str, str]) -> dict[str, CatalogText]:
         """Names for a sentence; coordinates become mathematics between dollar signs."""
-        return {key: self._name(key, value) for key, value in about.items()}
+        names = {key: self._name(key, value) for key, value in about.items() if key not in SYMMETRY}
+        said = {key: f"rules.symmetries.{about[key]}.{key}" for key in SYMMETRY if key in about}
+        return names | {key: text(self.language, entry, **names) for key, entry in said.items()}
 
     def _name(self, key: str, value: str) -> CatalogText:
+        if key == "rate":
+            return words(value.replace(".", ",") if self.language == "de" else value)
         if key != "coordinate":
             return joined(", ", map(self.notation.symbols.label, value.split(", ")))
         latex = self.notation.symbols.coordinate_latex

@@ -58,9 +58,11 @@ class Notation:
     h: sp.Symbol
 
     def value(self, value: Value) -> str:
+        """LaTeX of a scalar, vector or matrix."""
         return latex(value, self.typography)
 
     def formula(self, formula: Formula) -> str:  # noqa: PLR0912 - one case for each kind
+        """LaTeX of a formula that stands alone; what is not computed (∂, d/dt, ∫ of a letter) stays as it is."""
         match formula:
             case Given(_, value) | Explicit(value, ()):
                 return self.value(value)

@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from ..derivation.formula import Term
+from ..derivation.generator import Generator
 from ..derivation.result import Conserved, Result
 from ..language.latex_printer import Typography, latex
 from ..language.order import Order
 from ..language.plain_printer import plain
-from .model_answer import equilibrium, load, own_symbols, routh, search
+from .model_answer import equilibrium, load, own_symbols, routh, search, steady
 
 Document = dict[str, object]
 
@@ -47,6 +48,7 @@ def written(result: Result, typography: Typography) -> Document:
         "loads": [load(each, typography) for each in result.loads],
         "symbols": own_symbols(result),
         "routh": routh(result.routh, typography),
+        "relative_equilibria": [steady(each, number, typography) for number, each in enumerate(result.steady, 1)],
     }
 
 
@@ -83,9 +85,27 @@ class _Writer:
         return list(rows.values())
 
     def conserved(self, quantity: Conserved) -> Document:
+        return {
+            "kind": quantity.kind,
+            "coordinate": quantity.coordinate,
+            **self._integral(quantity),
+            "generator": self._generator(quantity.generator),
+            "meaning": quantity.meaning,
+            "conditions": [self.both(condition, " = 0") for condition in quantity.conditions],
+            "step": quantity.step,
+        }
+
+    def _integral(self, quantity: Conserved) -> Document:
+        """With the bodies and loads that its terms come from."""
+        if quantity.kind == "symmetry":
+            terms = self.result.terms["integrals"][quantity.step]
+            return {**self.both(quantity.value), "terms": [self._term(term) for term in terms]}
         key = "momentum" if quantity.coordinate else "jacobi_energy"
-        head = {"kind": quantity.kind, "coordinate": quantity.coordinate}
-        return head | self.sum(key, quantity.value, quantity.coordinate)
+        return self.sum(key, quantity.value, quantity.coordinate)
+
+    def _generator(self, generator: Generator) -> Document:
+        shifts = {q: self.both(shift) for q, shift in generator.shifts.items()}
+        return {"shifts": shifts, "time": self.both(generator.time)}
 
     def _term(self, term: Term) -> Document:
         return {**self.both(term.sign * term.written_out), "sources": list(term.sources)}

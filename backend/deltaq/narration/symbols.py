@@ -37,6 +37,8 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "kinetic-energy": ("E{of}", "energy-kinetic"),
     "potential-energy": ("V{of}", "energy-potential"),
     "lagrangian": ("L", ""),
+    "variation-of-lagrangian": (r"\delta L", ""),
+    "integral-of-motion": ("I{of}", ""),
     "integral-functional": ("S", ""),
     "variation-of-integral": (r"\delta S", ""),
     "momentum": ("p_{{{i}}}", ""),
@@ -66,6 +68,9 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "work-of-loop": ("W", ""),
     "jacobi-energy": ("h", ""),
     "routh-function": ("R", ""),
+    "negative-routh-function": ("-R", ""),
+    "effective-potential": ("U", ""),
+    "hamiltonian": ("H", ""),
 }
 AXES = ("1", "2", "3")  # the principal axes of a body
 ALWAYS_INDEXED = ("moment",)

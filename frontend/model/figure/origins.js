@@ -6,7 +6,7 @@
 /** @typedef {import("../types.js").Step} Step */
 /** @typedef {import("../reveal.js").Line} Line */
 /** @typedef {Step["terms"][number]} Term */
-/** @typedef {Term["origins"][number]["change"] | "gone"} Change */
+/** @typedef {Term["from"][number]["change"] | "gone"} Change */
 /** @typedef {{formulas: Map<Step, string>, from: Map<Change, string[]>}} Origins  LaTeX with marked terms, and the numbers of the steps they come from */
 
 /** In this order they are told. @type {readonly Change[]} */
@@ -64,8 +64,8 @@ function results(step) {
 
 /** The class of a term with its change, as told by the steps before if they are told of. @param {Term} term @param {Step} step @param {(change: Change, id: string) => void} tell @returns {[string, Change][]} */
 function changed(term, step, tell) {
-  const earlier = term.origins.filter(({ term: id }) => stepOf(id) !== step.id);
-  const [first] = earlier.length ? earlier : term.origins;
+  const earlier = term.from.filter(({ term: id }) => stepOf(id) !== step.id);
+  const [first] = earlier.length ? earlier : term.from;
   if (!first) return [];
   for (const { term: id, change } of earlier.length ? earlier : [first]) tell(change, stepOf(id));
   return [[classOf(term.id), first.change]];

@@ -5,6 +5,7 @@ import { kinematicsOf } from "../../model/kinematics/kinematics.js";
 import { snapshotAt } from "../../model/trajectory.js";
 import { createEnergies } from "./energies.js";
 import { createHand } from "./hand.js";
+import { createIntegrals } from "./integrals.js";
 import { layerIn } from "./layer.js";
 import { createPaths } from "./paths.js";
 import { createPhase } from "./phase.js";
@@ -66,6 +67,7 @@ export function open(around) {
     panel: virtual.panel,
     steppers,
     why: createWhy(state),
+    integrals: createIntegrals(bench),
     /** @param {View} view */
     tools(view) {
       hand.handles(view);

@@ -11,6 +11,7 @@ from ..system import System
 
 
 def is_scalar(system: System) -> bool:
+    """Whether the system has one degree of freedom, so that M, f, x are numbers."""
     return len(system.free) == 1
 
 
@@ -25,6 +26,7 @@ def shaped(system: System, kind: str, form: str, value: sp.ImmutableMatrix) -> N
 
 
 def zero(system: System) -> Named | Explicit:
+    """The right side 0 of an equation of motion: a number, or a bold zero of as many rows as coordinates are free."""
     if is_scalar(system):
         return Explicit(system.zero)
     return Named(Quantity("zero-vector"), sp.ImmutableMatrix.zeros(len(system.free), 1))

@@ -13,6 +13,7 @@ RULE = "action"
 
 
 def apply(action: Action) -> Step:
+    """S = ∫ L dt as the functional of the motion, then with L written out. Sources: bodies, and loads with V."""
     whole = Called(Quantity("integral-functional"), action.on(action.explicit))
     line = Relation((whole, action.on(action.named), action.on(action.explicit)))
     system = action.system

@@ -18,6 +18,10 @@ RULE = "beltrami-identity"
 
 
 def apply(functional: Functional) -> Step:
+    """H = Σ ẋ ∂F/∂ẋ − F written out, its rate dH/dt = −Σ ẋ (∂F/∂x − d/dt ∂F/∂ẋ), and H = const.
+
+    It is meant for an autonomous F (`Functional.has_energy`); nothing here checks it.
+    """
     value = functional.energy
     name = Called(Quantity("first-energy"), Explicit(value))
     rates = ((x, Explicit(functional.symbols.rate(x, 1))) for x in functional.moving)

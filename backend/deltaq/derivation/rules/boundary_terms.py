@@ -23,6 +23,10 @@ ZERO = Explicit(sp.Integer(0))
 
 
 def apply(functional: Functional) -> Step:
+    """For each δx⁽ⁿ⁾ of the boundary terms: δx⁽ⁿ⁾ = 0 at the ends that hold it, its factor = 0 at those that are free.
+
+    The outcome in `about` is `fixed` or `free` where all ends are alike; else `mixed`, or `partly` with second rates.
+    """
     pairs = tuple(functional.boundary)
     lines = (line for pair in pairs for line in (*_vanishing(functional, *pair), *_natural(functional, *pair)))
     return Step(RULE, "", tuple(lines), (), {"outcome": _outcome(functional, pairs)})

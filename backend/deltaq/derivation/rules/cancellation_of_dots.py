@@ -13,6 +13,7 @@ RULE = "cancellation-of-dots"
 
 
 def apply(system: System, place: str) -> Step:
+    """∂v/∂q̇ᵢ = (its value) = ∂r/∂qᵢ at a place, one line for each coordinate that its position depends on."""
     position, velocity = system.named_position(place), system.named_velocity(place)
     lines = tuple(
         Relation(

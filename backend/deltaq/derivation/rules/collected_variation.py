@@ -21,6 +21,7 @@ RULE = "collected-variation"
 
 
 def apply(functional: Functional) -> Step:
+    """δI = Σ [p δx] + ∫ (left side of Euler–Lagrange) δx dt over the functions: by the letters, then written out."""
     formal = _sum(functional, lambda x: euler_expression(functional, x), lambda x, n: momentum(functional, x, n))
     written = _sum(
         functional, lambda x: Explicit(functional.euler_lagrange(x)), lambda x, n: Explicit(functional.momentum(x, n))

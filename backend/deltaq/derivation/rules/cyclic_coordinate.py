@@ -13,6 +13,7 @@ RULE = "cyclic-coordinate"
 
 
 def apply(system: System, coordinate: str) -> Step:
+    """The two premises ∂L/∂q = 0 and Qᵈ = 0, then p = ∂L/∂q̇ written out. The coordinate must be cyclic already."""
     lagrangian = Named(Quantity("lagrangian"), system.lagrangian)
     outside = Named(Quantity("nonconservative-force", coordinate), system.nonconservative_force(coordinate))
     momentum = Named(Quantity("momentum", coordinate), system.momentum(coordinate))

@@ -19,6 +19,10 @@ RULE = "cyclic-function"
 
 
 def apply(functional: Functional, function: str) -> Step:
+    """p = ∂F/∂ẋ written out, the Euler–Lagrange equation as −dp/dt = 0, and p = const.
+
+    It is meant for a function that is not in F itself (`Functional.ignorable`); nothing here checks it.
+    """
     value, zero = functional.momentum(function), Explicit(sp.Integer(0))
     name = Called(Quantity("first-momentum", function), Explicit(value))
     equation = Equation(euler_expression(functional, function), zero)

@@ -16,6 +16,7 @@ RULE = "euler-lagrange-equation"
 
 
 def apply(functional: Functional, function: str) -> Step:
+    """The equation of one function, ∂F/∂x − d/dt ∂F/∂ẋ (+ d²/dt² ∂F/∂ẍ) = 0, by its symbols ⇔ written out."""
     zero = Explicit(sp.Integer(0))
     law = Equation(euler_expression(functional, function), zero)
     written = Equation(Explicit(functional.euler_lagrange(function)), zero)

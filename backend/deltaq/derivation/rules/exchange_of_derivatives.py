@@ -13,6 +13,7 @@ RULE = "exchange-of-derivatives"
 
 
 def apply(system: System, place: str) -> Step:
+    """d/dt ∂r/∂qᵢ = (its value) = ∂v/∂qᵢ at a place, one line for each coordinate that its position depends on."""
     position, velocity = system.named_position(place), system.named_velocity(place)
     lines = tuple(
         Relation(

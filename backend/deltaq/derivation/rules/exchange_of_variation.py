@@ -14,5 +14,6 @@ RULE = "exchange-of-variation"
 
 
 def apply(action: Action) -> Step:
+    """δq̇ = d/dt δq, one line for each function whose rate occurs in L."""
     lines = tuple(Relation((Explicit(direction(x, 1)), Rate(Explicit(direction(x))))) for x in action.moving)
     return Step(RULE, "", lines)

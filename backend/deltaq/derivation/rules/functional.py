@@ -15,6 +15,7 @@ KINDS = {Instant: "value", Interval: "integral"}
 
 
 def apply(functional: Functional) -> Step:
+    """The functional under its name = as it was given; an integral has ∫ F dt between them."""
     inside = (functional.on(functional.named),) if isinstance(functional.domain, Interval) else ()
     line = Relation((named(functional), *inside, functional.on(functional.given)))
     return Step(RULE, "", (line,), (), {"outcome": KINDS.get(type(functional.domain), "text")})

@@ -13,6 +13,7 @@ RULE = "gateaux-differential"
 
 
 def apply(system: System, place: str) -> Step:
+    """δr at a place by its definition: r(q + h δq), its slope in h at h = 0, and what that gives."""
     position = system.named_position(place)
     left = Named(Quantity("virtual-displacement", place), system.virtual_displacement(place), position.arguments)
     shifted = position.value.xreplace({q: q + system.h * dq for q, dq in system.variations.items()})

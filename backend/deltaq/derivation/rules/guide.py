@@ -15,6 +15,7 @@ RULE = "guide"
 
 
 def apply(system: System, guide: Guide) -> Step:
+    """q := q(t) for one guided coordinate, with q(t) as the scene states it."""
     given = Given((guide.value.tree,), system.expression(guide.value.tree))
     name = Named(Quantity("coordinate", guide.coordinate), given.value)
     return Step(RULE, guide.coordinate, (Relation((name, given)),), (), {"coordinate": guide.coordinate})

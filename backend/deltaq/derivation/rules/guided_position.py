@@ -13,6 +13,7 @@ RULE = "guided-position"
 
 
 def apply(system: System, place: str) -> Step:
+    """r at a place: as the scene states it, with q(t) put in for the guided coordinates, and the result r(q, t)."""
     free = system.given(system.trees(place))
     substituted = Substituted(free, system.guides)
     line = Relation((system.named_position(place), substituted, Explicit(system.position(place))))

@@ -15,6 +15,7 @@ RULE = "hamilton-principle"
 
 
 def apply(action: Action) -> Step:
+    """δS = 0, or δS + ∫ Qᵢᵈ δqᵢ dt = 0 (outcome `driven`) with the loads without potential as its sources."""
     system = action.system
     outside = other_work(action)
     left: Formula = Plus((Term(variation(action)), Term(action.on(outside)))) if outside else variation(action)
@@ -34,6 +35,7 @@ def other_work(action: Action) -> Plus | None:
 
 
 def has_other_force(action: Action, coordinate: str) -> bool:
+    """Whether Qᵢᵈ ≠ 0: a force without potential acts on the coordinate."""
     return bool(action.system.nonconservative_force(coordinate) != 0)
 
 

@@ -27,6 +27,7 @@ def steps(functional: Functional, function: str) -> Iterator[Step]:
 
 
 def apply(functional: Functional, function: str) -> Step:
+    """∫ ∂F/∂ẋ δẋ dt of one function = boundary term − integral: by the letters, then differentiated."""
     momentum = Partial(functional.named, functional.symbols.rate(function, 1))
     formal = _parts(functional, momentum, Rate(momentum), function)
     written = _parts(
@@ -43,6 +44,7 @@ def _parts(functional: Functional, momentum: Formula, rate: Formula, function: s
 
 
 def twice(functional: Functional, function: str) -> Step:
+    """∫ ∂F/∂ẍ δẍ dt of one function, by parts once and again; the last line has the derivatives carried out."""
     moment = Partial(functional.named, functional.symbols.rate(function, 2))
     once = Plus(
         (

@@ -17,6 +17,7 @@ BODY = Continuum
 
 
 def apply(system: System, body: Body) -> Step:
+    """E = ∫ 1/2 v · v dm over the body: with the letter v, with v written out, and integrated."""
     velocity = system.named_velocity(body.name)
     laws = tuple(
         Integral(

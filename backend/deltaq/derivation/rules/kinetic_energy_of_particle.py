@@ -16,6 +16,7 @@ BODY = Particle
 
 
 def apply(system: System, body: Body) -> Step:
+    """E = m/2 v · v of one body, then its value in the coordinates."""
     law = half_mass_times_square(system, body)
     line = Relation((system.named_kinetic_energy(body), law, Explicit(system.kinetic_energy_of(body))))
     return Step(RULE, body.name, (line,), (f"body:{body.name}",), {"place": body.name})

@@ -22,6 +22,7 @@ BODY = RigidBody
 
 
 def apply(system: System, body: Body) -> Step:
+    """Each ωₖ by the rates of the coordinates, then E = m/2 v · v + 1/2 Σ Jₖ ωₖ² of one body and its value."""
     turning = [part for part in body.kinetics if isinstance(part, Rotation)]
     law = Plus((Term(half_mass_times_square(system, body)), *(t for part in turning for t in _rotation(system, part))))
     lines = (

@@ -13,6 +13,7 @@ RULE = "lagrangian"
 
 
 def apply(system: System) -> Step:
+    """L = E − V by the letters, then written out. The sources of V's term are the loads that have a potential."""
     kinetic = Named(Quantity("kinetic-energy"), system.kinetic_energy)
     potential = Named(Quantity("potential-energy"), system.potential_energy)
     written = (*_energies(system), *_potentials(system))

@@ -14,6 +14,7 @@ UNGUIDED = "unguided"  # as the scene states it, where a guide moves it
 
 
 def apply(system: System, place: str) -> Step:
+    """r(q, t) at a place as the scene states it; guided coordinates still stand under their letters."""
     given = system.given(system.trees(place))
     arguments = tuple(system.q(name) for name in system.coordinates if given.value.has(system.q(name)))
     part = UNGUIDED if given.value.has(*system.guides) else ""

@@ -15,6 +15,7 @@ RULE = "potential"
 
 
 def apply(system: System, load: str) -> Step:
+    """V of one load, and for each free coordinate the proof −∂V/∂qᵢ = Qᵢ. The load must be conservative."""
     energy = system.load_potential(load)
     source = f"load:{load}"
     potential = Named(Quantity("potential-energy", load), energy)

@@ -17,6 +17,10 @@ RULE = "product-rule"
 
 
 def apply(system: System, place: str) -> Step:
+    """∂r/∂qᵢ · v̇ at a place, one line for each coordinate that its position depends on.
+
+    By the product rule first, then by d/dt ∂/∂q̇ᵢ − ∂/∂qᵢ of v · v/2. Both are formulas of letters; nothing is computed.
+    """
     lines = tuple(_line(system, place, q) for q in system.coordinates_of(place))
     return Step(RULE, place, lines, (system.source(place),), {"place": place})
 

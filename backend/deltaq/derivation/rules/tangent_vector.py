@@ -14,6 +14,7 @@ RULE = "tangent-vector"
 
 
 def apply(system: System, place: str, coordinate: str) -> Step:
+    """∂r/∂qᵢ at a place with respect to one coordinate, and its value."""
     derivative = Partial(system.named_position(place), system.q(coordinate))
     line = Relation((derivative, Explicit(system.tangent(place, coordinate))))
     about = {"place": place, "coordinate": coordinate}

@@ -13,6 +13,10 @@ RULE = "total-differential"
 
 
 def apply(system: System, place: str) -> Step:
+    """dr at a place: Σ ∂r/∂qᵢ dqᵢ + ∂r/∂t dt by the letters, with the derivatives put in, and collected.
+
+    The term of dt has the role `time-term` and is there only if r depends on t. A place that is fixed has dr = 0.
+    """
     position = system.named_position(place)
     pairs = [(system.q(q), system.symbols.differential(q), "") for q in system.coordinates_of(place)]
     if position.value.has(system.t):

@@ -13,6 +13,7 @@ RULE = "kinetic-energy"
 
 
 def apply(system: System) -> Step:
+    """E = Σ E⁽ᵇ⁾ by the letters, each term with its body as the source, then the sum written out."""
     bodies = system.scene.bodies
     terms = tuple(
         Term(Named(Quantity("kinetic-energy", body.name), system.kinetic_energy_of(body)), (f"body:{body.name}",))

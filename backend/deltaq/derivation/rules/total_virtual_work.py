@@ -13,6 +13,7 @@ RULE = "virtual-work"
 
 
 def apply(system: System) -> Step:
+    """δW = Σ δW⁽ᵏ⁾ by the letters, each term with its load as the source, then the sum collected by the δqᵢ."""
     parts = [(load, system.virtual_work(load)) for load in system.scene.contributions]
     total = system.collected(sum((work for _, work in parts), system.zero))
     terms = tuple(

@@ -17,6 +17,7 @@ SLOPE = "partial-derivative"
 
 
 def apply(functional: Functional) -> Step:
+    """δf = Σ ∂f/∂x⁽ⁿ⁾ δx⁽ⁿ⁾ by the letters, then with the slopes put in; its substeps are the slopes one by one."""
     pairs = functional.along.items()
     formal = Plus(tuple(Term(Times((Partial(functional.named, by), Explicit(v)))) for by, v in pairs))
     written = Plus(tuple(Term(_times(functional.slopes[by], v)) for by, v in pairs))

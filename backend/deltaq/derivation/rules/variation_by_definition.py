@@ -16,6 +16,7 @@ RULE = "variation-by-definition"
 
 
 def apply(functional: Functional) -> Step:
+    """δf = ∂/∂h f(x + h δx) at h = 0: by the letters, with the functions put in, and carried out."""
     members = (
         variation(functional),
         definition(functional, named(functional)),

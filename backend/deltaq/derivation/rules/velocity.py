@@ -13,6 +13,7 @@ RULE = "velocity"
 
 
 def apply(system: System, place: str) -> Step:
+    """v = dr/dt = Σ ∂r/∂qᵢ q̇ᵢ + ∂r/∂t at a place, by the letters, then its value; v = 0 at a place that is fixed."""
     position = system.named_position(place)
     velocity = system.velocity(place)
     names = system.coordinates_of(place)

@@ -14,6 +14,10 @@ RULE = "virtual-displacement"
 
 
 def apply(system: System, place: str) -> Step:
+    """δr = Σ ∂r/∂qᵢ δqᵢ at a place by the letters, then with the tangents put in; δr = 0 at a place that is fixed.
+
+    Its substeps are δr by the definition and each ∂r/∂qᵢ.
+    """
     position, total = system.named_position(place), system.virtual_displacement(place)
     names = system.coordinates_of(place)
     formal = [Times((Partial(position, system.q(q)), Explicit(system.variation(q)))) for q in names]

@@ -15,6 +15,7 @@ LOAD = DissipationFunction
 
 
 def apply(system: System, load: DissipationFunction, subject: str) -> Step:
+    """R as the scene states it, with guides put in, then δW = −Σ ∂R/∂q̇ᵢ δqᵢ over the rates that are in R."""
     source = f"load:{load.source}"
     function = _function(system, load)
     stated = Given((load.function,), system.expression(load.function))

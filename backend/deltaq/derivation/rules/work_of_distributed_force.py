@@ -16,6 +16,7 @@ LOAD = DistributedForce
 
 
 def apply(system: System, load: DistributedForce, subject: str) -> Step:
+    """δW = ∫ f · δr over the material: by the letters, with f and δr put in, and integrated."""
     bounds = system.bounds(load.material)
     displacement = system.virtual_displacement(load.place)
     members = (

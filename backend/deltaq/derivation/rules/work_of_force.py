@@ -15,6 +15,7 @@ LOAD = PointForce
 
 
 def apply(system: System, load: PointForce, subject: str) -> Step:
+    """δW = F · δr at the place of the load: by the letters, with F and δr put in, and collected by the δqᵢ."""
     displacement = system.virtual_displacement(load.place)
     members = (
         Named(Quantity("virtual-work", load.source, load.place), system.virtual_work(load)),

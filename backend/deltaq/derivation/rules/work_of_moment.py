@@ -15,6 +15,7 @@ LOAD = Moment
 
 
 def apply(system: System, load: Moment, subject: str) -> Step:
+    """M as the scene states it (with guides put in, where there are some), then δW = M δφ and its value."""
     work = Explicit(system.virtual_work(load))
     moment = _moment(system, load)
     lines = (

@@ -15,6 +15,7 @@ LOAD = PotentialEnergy
 
 
 def apply(system: System, load: PotentialEnergy, subject: str) -> Step:
+    """V as the scene states it, with guides put in, then δW = −δV and its value."""
     source = f"load:{load.source}"
     energy = _energy(system, load)
     stated = Given((load.energy,), system.expression(load.energy))

@@ -12,23 +12,24 @@ from . import Fingerprint, Match, Parts, weakest
 
 def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     """Differences between the points, divided by the first; () for what is constant."""
-    values = sampler.values(parts[0])
+    (part,) = parts
+    values = sampler.values(part)
     if not defined(values):
         return None
-    steps = [value - values[0] for value in values[1:]]
-    largest = max(map(abs, values))
-    return () if abs(steps[0]) <= 1e-9 * largest else tuple(step / steps[0] for step in steps[1:])
+    start, *others = values
+    first, *rest = (value - start for value in others)
+    return () if abs(first) <= 1e-9 * max(map(abs, values)) else tuple(step / first for step in rest)
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
     """Whether given = c · right + d with c, d depending on parameters alone, c ≠ 0: decided by derivatives."""
-    factor = _factor(given[0], right[0], solution)
+    (own,), (true,) = given, right
+    factor = _factor(own, true, solution)
     if factor is None:
         return Match(equal=False)
-    difference = given[0] - factor * right[0]
+    difference = own - factor * true
     equal = weakest([is_zero(difference.diff(symbol), solution.symbols) for symbol in _moving(difference, solution)])
-    literal = equal is True and is_zero(given[0] - right[0], solution.symbols) is True
-    return Match(equal, "multiple" if equal and not literal else "")
+    return Match(equal, "multiple" if equal and not is_zero(own - true, solution.symbols) else "")
 
 
 def _moving(value: sp.Expr, solution: Solution) -> list[sp.Symbol]:

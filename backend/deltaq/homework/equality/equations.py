@@ -37,7 +37,8 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
     """Whether A q̈ + b = 0 is an invertible combination of the right equations: X A₀ = A, X b₀ = b with det X ≠ 0.
 
-    The remark tells where det X can vanish; undecided where no regular block of A₀ is found.
+    The remark tells where det X can vanish; undecided where no regular block of A₀ is found, or whether that
+    of A is regular.
     """
     if len(given) != len(right):
         return Match(equal=False)
@@ -50,8 +51,9 @@ def same(given: Parts, right: Parts, solution: Solution) -> Match:
         return Match(equal=None)
     square, given_square = matrix[:, columns], own[:, columns]
     determinant, factor = square.det(method="berkowitz"), given_square.det(method="berkowitz")
-    if is_zero(factor, solution.symbols) is not False:
-        return Match(equal=False)
+    singular = is_zero(factor, solution.symbols)
+    if singular is not False:
+        return Match(equal=False if singular else None)
     # own = X · right with X = given_square · square⁻¹: cleared of the determinant, so that nothing is divided.
     combined = given_square * square.adjugate()
     whole, own_whole = matrix.row_join(rest), own.row_join(own_rest)
@@ -80,16 +82,20 @@ def _pivots(matrix: sp.Matrix, solution: Solution) -> list[int] | None:
 
 
 def _vanishes(above: sp.Expr, below: sp.Expr, solution: Solution) -> bool:
-    """Whether above/below is zero or undefined somewhere, by the states where such things happen; 0/0 tells nothing."""
-    fixed = {solution.q(p.name) for p in solution.scene.parameters if p.positive}
-    used = sorted(above.free_symbols | below.free_symbols, key=lambda symbol: (symbol in fixed, symbol.name))
-    slots = {symbol: index for index, symbol in enumerate(used)}
+    """Whether above/below is zero or undefined somewhere, by the states where such things happen.
+
+    0/0 tells nothing, nor does a state at which the right equation is undefined.
+    """
+    positive = {solution.q(p.name): 1.3 + 0.1 * k for k, p in enumerate(solution.scene.parameters) if p.positive}
+    slots = {symbol: index for index, symbol in enumerate(above.free_symbols | below.free_symbols)}
     functions = [compiled(part, slots) for part in (above, below)]
-    choices = [_special(symbol, solution) for symbol in used if symbol not in fixed]
-    rest = [1.3 + 0.1 * k for k in range(len(used) - len(choices))]
-    pairs = [[function([*state, *rest]) for function in functions] for state in _states(choices)]
-    signs = {_sign(a / b if abs(b) > NOTHING else math.inf) for a, b in pairs if max(abs(a), abs(b)) > NOTHING}
-    return len(signs) > 1 or 0 in signs
+    choices = [(positive[symbol],) if symbol in positive else _special(symbol, solution) for symbol in slots]
+    pairs = [[function(state) for function in functions] for state in _states(choices)]
+    # What is undefined above is told of: NaN is not ≤ anything.
+    telling = [(a, b) for a, b in pairs if not math.isnan(b) and not max(abs(a), abs(b)) <= NOTHING]
+    ratios = [a / b if abs(b) > NOTHING else math.inf for a, b in telling]
+    regular = all(NOTHING <= abs(ratio) <= 1 / NOTHING for ratio in ratios)
+    return not regular or len({ratio > 0 for ratio in ratios}) > 1
 
 
 def _states(choices: Sequence[Sequence[float]]) -> Iterator[Sequence[float]]:
@@ -99,7 +105,7 @@ def _states(choices: Sequence[Sequence[float]]) -> Iterator[Sequence[float]]:
         return
     for index, values in enumerate(choices):
         for value in values:
-            yield [value if k == index else own[-1] - 0.01 * k for k, own in enumerate(choices)]
+            yield [value if k == index else own[-1] for k, own in enumerate(choices)]
 
 
 def _special(symbol: sp.Symbol, solution: Solution) -> Sequence[float]:
@@ -108,10 +114,5 @@ def _special(symbol: sp.Symbol, solution: Solution) -> Sequence[float]:
     if found is None or found.min is None or found.max is None:
         return SPECIAL
     inside = [value for value in SPECIAL if found.min <= value <= found.max]
-    return [*inside, found.value + 0.3, (found.min + found.max) / 2 + 0.1]
-
-
-def _sign(value: float) -> int:
-    if not math.isfinite(value) or abs(value) < NOTHING or abs(value) > 1 / NOTHING:
-        return 0
-    return 1 if value > 0 else -1
+    width = found.max - found.min
+    return [*inside, found.min + 0.3 * width, found.min + 0.8 * width]

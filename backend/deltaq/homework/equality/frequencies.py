@@ -47,4 +47,4 @@ def _simple(part: sp.Expr, solution: Solution) -> sp.Expr:
 
 def _near(given: sp.Expr, right: sp.Expr, solution: Solution) -> bool:
     a, b = number_of(given, solution), number_of(right, solution)
-    return a > 0 and abs(a - b) <= ROUNDED * abs(b)
+    return a > 0 and abs(a - b) <= ROUNDED * b

@@ -9,15 +9,17 @@ from __future__ import annotations
 import sympy as sp
 
 from ...language.canonical import is_zero
-from ..sampling import Sampler
+from ..sampling import Sampler, defined
 from ..solution import Solution
 from . import Fingerprint, Match, Parts, up_to_constant, weakest
 
 
 def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     """The Euler–Lagrange expressions of every coordinate at all points."""
-    values = [v for q in sampler.solution.free for v in sampler.values(_euler_lagrange(parts[0], q, sampler.solution))]
-    return tuple(values) if all(abs(value) < 1e100 for value in values) else None
+    (part,) = parts
+    solution = sampler.solution
+    values = tuple(v for q in solution.free for v in sampler.values(_euler_lagrange(part, q, solution)))
+    return values if defined(values) else None
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
@@ -25,7 +27,8 @@ def same(given: Parts, right: Parts, solution: Solution) -> Match:
     constant = up_to_constant.same(given, right, solution)
     if constant.equal:
         return constant
-    difference = given[0] - right[0]
+    (own,), (true,) = given, right
+    difference = own - true
     if difference.free_symbols & {solution.acceleration(q) for q in solution.coordinates}:
         return Match(equal=False)
     equal = weakest([is_zero(_euler_lagrange(difference, q, solution), solution.symbols) for q in solution.free])

@@ -10,18 +10,17 @@ from . import Fingerprint, Match, Parts, weakest
 
 def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
     """The values less the one at the first point."""
-    values = sampler.values(parts[0])
-    return tuple(value - values[0] for value in values[1:]) if defined(values) else None
+    (part,) = parts
+    first, *others = values = sampler.values(part)
+    return tuple(value - first for value in others) if defined(values) else None
 
 
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
     """Whether given − right depends on no coordinate and no rate: its derivatives vanish identically."""
-    difference = given[0] - right[0]
-    moving = sorted(
-        difference.free_symbols - {solution.q(p.name) for p in solution.scene.parameters} - {solution.t}, key=str
-    )
+    (own,), (true,) = given, right
+    difference = own - true
+    moving = difference.free_symbols - {solution.q(p.name) for p in solution.scene.parameters} - {solution.t}
     equal = weakest([is_zero(difference.diff(symbol), solution.symbols) for symbol in moving])
-    literal = equal is True and is_zero(difference, solution.symbols) is True
-    if not equal or literal:
+    if not equal or is_zero(difference, solution.symbols):
         return Match(equal)
     return Match(equal, "function-of-time" if difference.has(solution.t) else "constant")

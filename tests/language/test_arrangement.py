@@ -1,0 +1,63 @@
+"""Forms too long to be planned are arranged: terms gathered, what an energy's terms share in front."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+import sympy
+from tests.language.scene_names import NAMES, SYMBOLS, read
+
+from deltaq.language.arrangement import Arrangement
+from deltaq.language.canonical import display
+from deltaq.language.normal_form import Reader
+from deltaq.language.order import Order
+from deltaq.language.plain_printer import plain
+
+ROWS = [
+    pytest.param("m*l*x/2 + m*l*y/2", "m*l*(y + x)/2", id="half of a common factor"),
+    pytest.param("-m*x/3 - m*y/4", "-m*(3*y + 4*x)/12", id="common denominator and sign"),
+    pytest.param("m*x/13 + m*y/13", "m*(y/13 + x/13)", id="no large denominator in front"),
+    pytest.param("m*g*x - k*g*x", "(m - k)*g*x", id="equal coefficients"),
+    pytest.param("m*dot(x)^2/2 + m1*dot(x)^2/2", "(m + m1)*dot(x)^2/2", id="equal rates"),
+    pytest.param("m*l*dot(x)^2 + m*g*l*x", "m*l*dot(x)^2 + m*g*l*x", id="an energy beside a potential"),
+    pytest.param("m*dot(x)^2 + m*dot(x)*omega + m*omega^2", "m*(dot(x)^2 + omega*dot(x) + omega^2)", id="with a guide"),
+    pytest.param("m*dot(x) + m*l*dot(phi)", "m*l*dot(phi) + m*dot(x)", id="momenta stay sums"),
+    pytest.param("m*delta(x) + m*l*delta(phi)", "m*l*delta(phi) + m*delta(x)", id="work stays a sum"),
+    pytest.param("m*l*ddot(x) - m*l", "m*l*ddot(x) - m*l", id="equations stay sums"),
+    pytest.param("m*x^2 + m^2*x^2", "m*(1 + m)*x^2", id="powers of a parameter"),
+    pytest.param("m*dot(x)^2 - m*dot(y)^2*(1 - cos(2*phi))/2", "m*(dot(x)^2 - sin(phi)^2*dot(y)^2)", id="squared sine"),
+    pytest.param("a*m*x + a*m*y", "m*a*(y + x)", id="several parameters"),
+    pytest.param("x*y + x*phi", "y*x + phi*x", id="coordinates are no common factor"),
+    pytest.param("m*x*log(l*x) + m*y*log(l*x)", "m*(y*log(l*x) + x*log(l*x))", id="nor functions of them"),
+    pytest.param("m*x*log(l) + m*y*log(l)", "m*(y + x)*log(l)", id="but those of parameters are"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "arranged"), ROWS)
+def test_arranged_as(text: str, arranged: str) -> None:
+    reader = Reader()
+    found = Arrangement(reader, Order(NAMES)).expression(reader.form(read(text)))
+    assert plain(found, Order(NAMES)) == arranged
+
+
+@pytest.mark.parametrize(
+    ("factor", "in_front"),
+    [
+        pytest.param("m*l/2", "m*l/2", id="potential"),
+        pytest.param("-m*l/2", "-m*l/2", id="negative potential"),
+        pytest.param("m*l/13", "m*l", id="large denominator"),
+        pytest.param("m*l*dot(x)", "dot(x)", id="momentum"),
+        pytest.param("m*l*ddot(x)", "ddot(x)", id="equation"),
+        pytest.param("m*l*delta(x)", "delta(x)", id="work"),
+    ],
+)
+def test_what_stands_before_a_long_sum(factor: str, in_front: str) -> None:
+    x, y, phi = (SYMBOLS.name(name) for name in ("x", "y", "phi"))
+    powers = [(i, j, k) for i, j, k in itertools.product(range(10), repeat=3) if i + j + k <= 9]
+    terms = [read(factor) * x**i * y**j * phi**k for i, j, k in powers]
+    shown = display(sympy.Add(*terms), SYMBOLS)
+    (bracket,) = (part for part in shown.args if part.is_Add)
+    assert len(bracket.args) == len(terms) == 220
+    assert shown / bracket == read(in_front)
+    assert sympy.expand(shown) == sympy.Add(*terms)
