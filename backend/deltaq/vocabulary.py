@@ -31,6 +31,10 @@ TriedStatus = Literal[Status, "too_slow"]
 RungStatus = Literal[Status, "refused"]
 # What the linearization says of a state of rest.
 Stability = Literal["stable", "undecided", "unstable"]
+# What it leaves open: neighbours at rest, too; forces across the velocity that hold it; zero eigenvalues; friction.
+StabilityKind = Literal["family", "gyroscopic", "degenerate", "band"]
+# Why a search for equilibria is not complete: its operations were spent, or equilibria are not isolated.
+SearchEnd = Literal["budget", "continuum"]
 # Whether a load has a potential, by the curl of its generalized forces.
 CurlOutcome = Literal[
     "conservative",

@@ -931,6 +931,14 @@ export interface components {
             lang?: ("de" | "en") | null;
         };
         /**
+         * Band
+         * @description Between which values dry friction holds the coordinate at rest.
+         */
+        Band: {
+            low: components["schemas"]["EquilibriumValue"];
+            high: components["schemas"]["EquilibriumValue"];
+        };
+        /**
          * BatchAnswer
          * @description The verdicts in the order of the checks.
          */
@@ -1362,6 +1370,18 @@ export interface components {
                     number
                 ];
             };
+        };
+        /**
+         * Conditions
+         * @description For which parameters an equilibrium exists, and for which its stability is what it was found to be.
+         *
+         *     An empty list: for all that make sense.
+         */
+        Conditions: {
+            /** Existence */
+            existence: components["schemas"]["Inequality"][];
+            /** Stability */
+            stability: components["schemas"]["Inequality"][];
         };
         /**
          * ConservedQuantity
@@ -1804,6 +1824,8 @@ export interface components {
             conserved: components["schemas"]["ConservedQuantity"][];
             /** Equilibria */
             equilibria: components["schemas"]["Equilibrium"][];
+            /** @description null where the laws depend on time */
+            equilibrium_search: components["schemas"]["EquilibriumSearch"] | null;
             jacobi_energy: components["schemas"]["JacobiEnergy"];
             /** @description where a coordinate is cyclic */
             routh: components["schemas"]["RouthFunction"] | null;
@@ -2149,10 +2171,24 @@ export interface components {
              */
             exact: boolean;
             /**
+             * Free
+             * @description coordinates that may have any value; where they are among the values, this stands for a family
+             */
+            free: string[];
+            /**
              * Stability
              * @enum {string}
              */
             stability: "stable" | "undecided" | "unstable";
+            /**
+             * Kind
+             * @description what the linearization leaves open
+             */
+            kind: ("family" | "gyroscopic" | "degenerate" | "band") | null;
+            /** @description null where the verdict holds at the scene's values only */
+            conditions: components["schemas"]["Conditions"] | null;
+            /** @description where dry friction holds the system */
+            band: components["schemas"]["Band"] | null;
             /**
              * Eigenvalues
              * @description [real, imaginary] in 1/s; none, and no modes, where a number of them is beyond double precision
@@ -2173,6 +2209,34 @@ export interface components {
              * @description elsewhere
              */
             complex_modes: components["schemas"]["ComplexMode"][];
+        };
+        /**
+         * EquilibriumSearch
+         * @description Whether the equilibria are all there are.
+         */
+        EquilibriumSearch: {
+            /** Complete */
+            complete: boolean;
+            /**
+             * Count
+             * @description how many there are; the first 32 are listed
+             */
+            count: number;
+            /**
+             * Range
+             * @description coordinates that were searched between two values; angles go once around, others are unbounded
+             */
+            range: {
+                [key: string]: [
+                    number,
+                    number
+                ];
+            };
+            /**
+             * Left Out
+             * @description why it is not complete
+             */
+            left_out: ("budget" | "continuum") | null;
         };
         /**
          * EquilibriumValue
@@ -2950,6 +3014,14 @@ export interface components {
             version: string;
             workers: components["schemas"]["WorkerHealth"];
             cache: components["schemas"]["CacheHealth"];
+        };
+        /**
+         * Inequality
+         * @description smaller < larger.
+         */
+        Inequality: {
+            smaller: components["schemas"]["Formula"];
+            larger: components["schemas"]["Formula"];
         };
         /**
          * InitialState

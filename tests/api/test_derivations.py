@@ -50,6 +50,7 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "forcing",
         "conserved",
         "equilibria",
+        "equilibrium_search",
         "jacobi_energy",
         "routh",
         "relative_equilibria",

@@ -59,7 +59,7 @@ class Reading:
         return base**exponent
 
     def call(self, function: str, arguments: Any) -> Any:
-        return getattr(sp, function)(*arguments)
+        return (sp.Abs if function == "abs" else getattr(sp, function))(*arguments)
 
     def time_derivative(self, operand: Any) -> Any:
         return operand.diff(T)

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from ..vocabulary import CurlOutcome, Stability
+from ..vocabulary import CurlOutcome, SearchEnd, Stability, StabilityKind
 from .base import Answer
 
 
@@ -164,18 +164,59 @@ class EquilibriumValue(Formula):
     number: float = Field(description="the value in this scene")
 
 
+class Inequality(Answer):
+    """smaller < larger."""
+
+    smaller: Formula
+    larger: Formula
+
+
+class Conditions(Answer):
+    """For which parameters an equilibrium exists, and for which its stability is what it was found to be.
+
+    An empty list: for all that make sense.
+    """
+
+    existence: tuple[Inequality, ...]
+    stability: tuple[Inequality, ...]
+
+
+class Band(Answer):
+    """Between which values dry friction holds the coordinate at rest."""
+
+    low: EquilibriumValue
+    high: EquilibriumValue
+
+
 class Equilibrium(Answer):
     """A state of rest, and the small motions about it; frequencies in rad/s."""
 
     values: dict[str, EquilibriumValue] = Field(description="a coordinate that is missing may have any value")
     exact: bool = Field(description="whether the values are closed forms in the parameters")
+    free: tuple[str, ...] = Field(
+        description="coordinates that may have any value; where they are among the values, this stands for a family"
+    )
     stability: Stability
+    kind: StabilityKind | None = Field(description="what the linearization leaves open")
+    conditions: Conditions | None = Field(description="null where the verdict holds at the scene's values only")
+    band: Band | None = Field(description="where dry friction holds the system")
     eigenvalues: tuple[tuple[float, float], ...] = Field(
         description="[real, imaginary] in 1/s; none, and no modes, where a number of them is beyond double precision"
     )
     eigenfrequencies: tuple[float, ...]
     modes: tuple[Mode, ...] = Field(description="where no force depends on rates")
     complex_modes: tuple[ComplexMode, ...] = Field(description="elsewhere")
+
+
+class EquilibriumSearch(Answer):
+    """Whether the equilibria are all there are."""
+
+    complete: bool
+    count: int = Field(description="how many there are; the first 32 are listed")
+    range: dict[str, tuple[float, float]] = Field(
+        description="coordinates that were searched between two values; angles go once around, others are unbounded"
+    )
+    left_out: SearchEnd | None = Field(description="why it is not complete")
 
 
 class DerivationResult(Answer):
@@ -195,6 +236,7 @@ class DerivationResult(Answer):
     forcing: Forcing
     conserved: tuple[ConservedQuantity, ...]
     equilibria: tuple[Equilibrium, ...]
+    equilibrium_search: EquilibriumSearch | None = Field(description="null where the laws depend on time")
     jacobi_energy: JacobiEnergy
     routh: RouthFunction | None = Field(description="where a coordinate is cyclic")
     relative_equilibria: tuple[RelativeEquilibrium, ...]

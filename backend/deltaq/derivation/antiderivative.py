@@ -8,7 +8,7 @@ long as it is made of functions that the language has: an erf or Si would be no 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import sympy as sp
 
@@ -24,10 +24,52 @@ NEAR = 1e-6  # double zeros are found no better
 
 
 def antiderivative(integrand: sp.Expr, x: sp.Symbol, symbols: Symbols) -> sp.Expr | None:
-    """F with ∂F/∂x = integrand, term by term of the canonical form; None if it has no closed form."""
-    terms = sp.Add.make_args(canonical(integrand, symbols).expand())
-    whole = sp.Add(*(_of_term(term, x) for term in terms))
+    """F with ∂F/∂x = integrand; None if it has no closed form.
+
+    Terms over roots of quadratics are taken as they stand, where one denominator for all would be long; others in the
+    canonical form.
+    """
+    over_powers, others = _over_powers(sp.Add.make_args(sp.expand_mul(integrand, deep=False)), x)
+    rest = sp.Add(*others)
+    terms = sp.Add.make_args(canonical(rest, symbols).expand()) if rest != 0 else ()
+    parts = (_of_quotient(sp.Add(*upper), power, x) for power, upper in over_powers.items())
+    whole = sp.Add(*parts, *(_of_term(term, x) for term in terms))
     return whole if _is_closed(whole) else None
+
+
+def _over_powers(terms: Iterable[sp.Expr], x: sp.Symbol) -> tuple[dict[sp.Pow, list[sp.Expr]], list[sp.Expr]]:
+    """The terms (ax + b) Pˢ with P of second degree and s = n/2, by their Pˢ without that factor; and all others."""
+    found: dict[sp.Pow, list[sp.Expr]] = {}
+    others = []
+    for term in terms:
+        powers = [each for each in sp.Mul.make_args(term) if each.has(x) and each.is_Pow and not each.exp.is_Integer]
+        upper = term / powers[0] if len(powers) == 1 else term
+        if len(powers) == 1 and _is_root_of_quadratic(powers[0], x) and upper.is_polynomial(x) and not upper.diff(x, 2):
+            found.setdefault(powers[0], []).append(upper)
+        else:
+            others.append(term)
+    return found, others
+
+
+def _is_root_of_quadratic(power: sp.Pow, x: sp.Symbol) -> bool:
+    base = power.base
+    return bool(power.exp.is_Rational and base.is_polynomial(x) and sp.degree(base, x) == 2)
+
+
+def _of_quotient(upper: sp.Expr, power: sp.Pow, x: sp.Symbol) -> sp.Expr:
+    """∫ (c P′ + r) Pˢ dx: the first part is c Pˢ⁺¹/(s + 1), the second one 2r P′/(Δ √P) for s = −3/2, Δ = 4ac − b²."""
+    P, s = power.base, power.exp
+    c, b, a = (P.expand().coeff(x, n) for n in range(3))
+    upper = upper.expand()
+    share = upper.coeff(x, 1) / (2 * a)
+    rest = (upper.coeff(x, 0) - share * b).expand()
+    whole = share * P ** (s + 1) / (s + 1)
+    if rest == 0:
+        return whole
+    delta = (4 * a * c - b**2).expand()
+    if s == sp.Rational(-3, 2) and delta != 0:
+        return whole + 2 * rest * P.diff(x) / (delta * sp.sqrt(P))
+    return whole + sp.integrate(rest * power, x)
 
 
 def definite_integral(integrand: sp.Expr, bounds: Bounds, symbols: Symbols, values: Values) -> sp.Expr:

@@ -1,7 +1,8 @@
 """Recognizing roots that were found as numbers: angles at multiples of π/2, then one equation for one unknown each.
 
-An equation gives its unknown if it is linear in it, or in its sine or its cosine. Nothing is believed before the
-equations vanish identically; what is not recognized quickly stays a number.
+An equation gives its unknown if it is linear in it, or in its sine or its cosine, if it is a binomial or a quadratic in
+it, or has one root of such. Nothing is believed before the equations vanish identically; what is not recognized
+quickly stays a number.
 """
 
 from __future__ import annotations
@@ -108,6 +109,8 @@ def _candidates(left: sp.Expr, q: sp.Symbol, *, angle: bool) -> Iterator[sp.Expr
             yield -left.xreplace({q: sp.Integer(0)}) / slope
         return
     if not angle:
+        for part in sp.Mul.make_args(left):
+            yield from _of_root(part, q)
         return
     waves = sp.expand_trig(left).expand().xreplace({sp.sin(q): SINE, sp.cos(q): COSINE})
     if waves.has(q):
@@ -121,6 +124,38 @@ def _candidates(left: sp.Expr, q: sp.Symbol, *, angle: bool) -> Iterator[sp.Expr
             yield from (sp.acos(-rest / c), -sp.acos(-rest / c))
         if rest == 0 and not (s.has(SINE, COSINE) or c.has(SINE, COSINE)) and s != 0 and c != 0:
             yield from (sp.atan(-c / s), sp.pi + sp.atan(-c / s))
+
+
+def _of_root(part: sp.Expr, q: sp.Symbol) -> Iterator[sp.Expr]:
+    """The zeros of a + b Pʳ, which are those of P − (−a/b)^(1/r); without a root, of the part itself."""
+    roots = [each for each in part.atoms(sp.Pow) if each.has(q) and not each.exp.is_Integer]
+    if not roots:
+        yield from _of_powers(part, q)
+    if len(roots) != 1 or not roots[0].exp.is_Rational:
+        return
+    linear = part.xreplace({roots[0]: SINE})
+    slope = linear.diff(SINE)
+    if not linear.has(q) and slope != 0 and not slope.has(SINE):
+        value = -linear.xreplace({SINE: sp.Integer(0)}) / slope
+        yield from _of_powers(roots[0].base - value ** (1 / roots[0].exp), q)
+
+
+def _of_powers(left: sp.Expr, q: sp.Symbol) -> Iterator[sp.Expr]:
+    """The zeros of a + b qⁿ, and of a quadratic, beside q = 0."""
+    upper = sp.fraction(sp.together(left))[0]
+    if not upper.is_polynomial(q):
+        return
+    terms = sorted(sp.Poly(upper, q).terms(), reverse=True)
+    lowest = terms[-1][0][0]
+    powers = {degree - lowest: factor for (degree,), factor in terms}
+    n = max(powers)
+    if len(powers) == 2:
+        ratio = sp.factor_terms(sp.cancel(-powers[0] / powers[n]))
+        yield from (sp.root(ratio, n), -sp.root(ratio, n)) if n % 2 == 0 else (sp.root(ratio, n), -sp.root(-ratio, n))
+    elif n == 2 and len(powers) == 3:
+        a, b, c = (powers[k] for k in (2, 1, 0))
+        root = sp.sqrt(sp.factor_terms((b**2 - 4 * a * c).expand()))
+        yield from ((-b + root) / (2 * a), (-b - root) / (2 * a))
 
 
 def _without_factor(waves: sp.Expr) -> Iterator[sp.Expr]:

@@ -39,6 +39,13 @@ def power(system: System) -> sp.Expr:
 
 
 @cached_method
+def is_passive(system: System) -> bool:
+    """Whether the forces without potential never feed energy in, by the look of their power: −c |v|³ ≤ 0."""
+    found = power(system)
+    return system.is_zero(found) or bool(found.is_nonpositive)
+
+
+@cached_method
 def jacobi_energy_rate(system: System) -> sp.Expr:
     """dh/dt along the motion: Σ Qᵢᵈ q̇ᵢ − ∂L/∂t."""
     return system.display(power(system) - system.slope(system.lagrangian, system.t))

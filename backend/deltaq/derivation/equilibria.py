@@ -1,47 +1,73 @@
 """Equilibria: configurations q₀ in which nothing moves and nothing starts to, f(q₀, 0) = 0.
 
-Equations that share no unknown are solved apart, at the scene's parameter values: one equation that is algebraic in
-its unknown, or in its sine and cosine, completely; others by damped Newton's method from fixed starts within the
-coordinates' ranges. What is found is then recognized as a closed form where that is quick.
-Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.1.
+Equations that share no unknown are solved apart, at the scene's parameter values: at their factors, by elimination and
+by exact isolation completely, else by subdivision with interval Newton steps over a stated range. What is found is then
+recognized as a closed form where that is quick. A search says whether it is complete.
+
+Where the mass matrix is singular the coordinates describe a position badly, and f = 0 is not enough: it is an
+equilibrium only if fᵀM⁻¹f, the square of the acceleration out of rest, vanishes towards it (at the cusp of a cycloid it
+does not).
+Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.1; Gauss, J. reine angew. Math. 4 (1829), 232.
 """
 
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice, product
 
 import sympy as sp
+from flint import arb, arb_mat, ctx
 
 from ..language.memory import cached_method
 from ..mechanics.coordinate import Coordinate
 from .closed_form import Known, Sought, closed_form
-from .compiled import compiled_together
+from .enclosure import Budget
 from .matrix_form import forces_at_rest, forcing, is_autonomous, mass_matrix
-from .newton import root
+from .program import number
 from .refinement import in_numbers, refined
+from .solving import Domain, Solution, Solutions, Solver
 from .system import System
-from .univariate import real_zeros
 
-STARTS = 32
-MOST = 8  # equilibria of a scene
-NEAR = 1e-6
-FAR = 1e3  # times the size of the starts: there a force only fades away
+MOST = 32  # equilibria that are looked at; more are counted
+RANGE = 10  # times the largest length that the scene names: how far coordinates are searched
+OPERATIONS = 600_000  # in ball arithmetic, of all searches of a scene: about half a second
+BITS = 512
 
 
 @dataclass(frozen=True)
 class Equilibrium:
     """A configuration at rest.
 
-    `values` are closed forms in the parameters (exact), or the numbers at the scene's values of them. Coordinates that
-    are not in it may have any value.
+    `values` are closed forms in the parameters (exact), or the numbers at the scene's values of them. Coordinates in
+    `free` may have any value: those that are not in `values`, whose values may depend on them; and where numbers stand
+    for a whole family of equilibria, those that may be chosen near them.
     """
 
     values: Mapping[sp.Symbol, sp.Expr]
     exact: bool
+    free: tuple[str, ...] = ()
+
+    @property
+    def is_family(self) -> bool:
+        """Whether neighbouring positions are equilibria as well."""
+        return bool(self.free)
+
+
+@dataclass(frozen=True)
+class Search:
+    """What was found, how many there are, and whether that is all.
+
+    `ranges` tells between which values coordinates were searched that are not searched everywhere. `left_out` says why
+    a search is not complete: "budget", or "continuum" where equilibria are not isolated and others may lie apart.
+    """
+
+    found: tuple[Equilibrium, ...]
+    count: int
+    complete: bool
+    ranges: Mapping[str, tuple[float, float]]
+    left_out: str = ""
 
 
 @dataclass(frozen=True)
@@ -52,16 +78,36 @@ class _Part:
     unknowns: tuple[Coordinate, ...]
 
 
-@cached_method
 def equilibria(system: System) -> tuple[Equilibrium, ...] | None:
     """Those that were found; none where forces never vanish. None: there is no such thing, as time is in the laws."""
+    found = search(system)
+    return None if found is None else found.found
+
+
+@cached_method
+def search(system: System) -> Search | None:
+    """The search for all equilibria; None where time is in the laws."""
     if not is_autonomous(system):
         return None
     parts = list(_parts(system))
     if any(not part.unknowns for part in parts):
-        return ()
-    found = [list(_solutions(system, part)) for part in parts]
-    return tuple(_merged(system, each) for each in islice(product(*found), MOST))
+        return Search((), 0, complete=True, ranges={})
+    budget = Budget(OPERATIONS)
+    solved = [_solved(system, part, budget) for part in parts]
+    known = [[_recognized(system, part, each) for each in s.found] for part, s in zip(parts, solved, strict=True)]
+    complete = all(s.complete for s in solved) and all(one is not None for each in known for one in each)
+    found, count = _combined(system, [[one for one in each if one is not None] for each in known])
+    ranged = frozenset[sp.Symbol]().union(*(s.ranged for s in solved))
+    ranges = {q: domain(system).ranges[system.q(q)] for q in system.free if system.q(q) in ranged}
+    reason = "" if complete else "budget" if budget.left <= 0 else "continuum"
+    return Search(found, count, complete, ranges, reason)
+
+
+def _combined(system: System, parts: list[list[Equilibrium]]) -> tuple[tuple[Equilibrium, ...], int]:
+    """All choices of one for each part that are at rest, the first of them merged; and how many there are."""
+    merged = (_merged(system, each) for each in product(*parts))
+    found = tuple(islice((each for each in merged if rests(system, each)), MOST))
+    return found, len(found) if len(found) < MOST else math.prod(map(len, parts))
 
 
 def _merged(system: System, parts: tuple[Equilibrium, ...]) -> Equilibrium:
@@ -69,7 +115,12 @@ def _merged(system: System, parts: tuple[Equilibrium, ...]) -> Equilibrium:
     values = {q: value for part in parts for q, value in part.values.items()}
     ordered = {q: values[q] for q in map(system.q, system.free) if q in values}
     exact = all(part.exact for part in parts)
-    return Equilibrium(ordered if exact else in_numbers(ordered, system.parameter_values), exact)
+    loose = {q for part in parts for q in part.free} | set(free_coordinates(system))
+    free = tuple(q for q in system.free if q in loose)
+    if exact:
+        return Equilibrium(ordered, exact, free)
+    starts = {q: domain(system).starts[q] for q in map(system.q, free) if q not in ordered}
+    return Equilibrium(in_numbers(ordered, {**system.parameter_values, **starts}), exact, free)
 
 
 def free_coordinates(system: System) -> tuple[str, ...]:
@@ -93,93 +144,95 @@ def _parts(system: System) -> Iterator[_Part]:
         yield _Part(tuple(equations), tuple(c for c in system.scene.free if c.name in names))
 
 
-def _solutions(system: System, part: _Part) -> Iterator[Equilibrium]:
-    """The solutions of one part, each as closed form or as refined numbers; those that fail both are dropped."""
-    symbols = [system.q(c.name) for c in part.unknowns]
-    parameters = system.parameter_values
-    angles = frozenset(q for q in symbols if is_angle(system, q))
-    equations = [equation.xreplace(dict(parameters)) for equation in part.equations]
-    known = real_zeros(equations[0], symbols[0], is_angle=bool(angles)) if len(symbols) == len(equations) == 1 else None
-    if known is not None:
-        found, equations = [[value] for value in _by_distance(known.values)[:MOST]], [known.equation]
-    else:
-        found = _roots(part, symbols, equations, angles)
-    for numbers in found:
-        sought = dict(zip(symbols, numbers, strict=True))
-        values: Known | None = closed_form(Sought(system, part.equations, sought, angles, parameters))
-        if values is not None:
-            yield Equilibrium(values, exact=True)
-            continue
-        rounded = refined(equations, sought)
-        if rounded is not None:
-            yield Equilibrium(rounded, exact=False)
-        if known is None and len(found) == MOST:  # so many come from a continuum; one of them stands for all
-            return
+def _solved(system: System, part: _Part, budget: Budget) -> Solutions:
+    """The solutions of one part at the scene's values, those next to the origin first."""
+    equations = [equation.xreplace(dict(system.parameter_values)) for equation in part.equations]
+    unknowns = [system.q(c.name) for c in part.unknowns]
+    found = Solver(domain(system), system.is_zero, budget).solve(equations, unknowns)
+    return replace(found, found=tuple(sorted(found.found, key=lambda each: _place(list(each.values.values())))))
 
 
-def _by_distance(values: Sequence[float]) -> list[float]:
-    return sorted(values, key=lambda x: (round(abs(x), 6), -x))
+def _place(numbers: Sequence[float]) -> tuple[float, list[float]]:
+    return round(math.hypot(*numbers), 6), [-round(x, 6) for x in numbers]
 
 
-def _roots(
-    part: _Part, symbols: list[sp.Symbol], equations: list[sp.Expr], angles: frozenset[sp.Symbol]
-) -> list[list[float]]:
-    """Distinct roots in the order of their distance from the origin."""
-    slots = {q: slot for slot, q in enumerate(symbols)}
-    field, size = compiled_together(equations, slots), len(symbols)
-    flat = compiled_together([equation.diff(q) for equation in equations for q in symbols], slots)
-    starts = list(_starts(part, [q in angles for q in symbols]))
-    values = [field(start) for start in starts]
-    scale = max((math.hypot(*value) for value in values if all(map(math.isfinite, value))), default=1.0)
-    far = FAR * (1 + max(math.hypot(*start) for start in starts))
-
-    def slopes(x: Sequence[float]) -> list[list[float]]:
-        entries = flat(x)
-        return [entries[i : i + size] for i in range(0, len(entries), size)]
-
-    distinct: list[list[float]] = []
-    for start in starts:
-        found = root(field, slopes, start, scale)
-        if found is None or math.hypot(*found) > far:
-            continue
-        turned = [_within_a_turn(x) if q in angles else x for q, x in zip(symbols, found, strict=True)]
-        if not any(_same(turned, other) for other in distinct):
-            distinct.append(turned)
-        if len(distinct) == MOST:
-            break
-    return sorted(distinct, key=lambda x: (round(math.hypot(*x), 6), [-round(v, 6) for v in x]))
+def _recognized(system: System, part: _Part, solution: Solution) -> Equilibrium | None:
+    """The solution as closed form or as refined numbers; None if it is neither."""
+    free = tuple(q.name for q in solution.values if q in solution.free)
+    ordered = {q: solution.values[q] for q in (system.q(c.name) for c in part.unknowns)}
+    sought = {q: x for q, x in ordered.items() if q not in solution.free}
+    held = {q: sp.Rational(repr(x)) for q, x in ordered.items() if q in solution.free}
+    known = {**system.parameter_values, **held}
+    angles = frozenset(q for q in sought if is_angle(system, q))
+    if sought:
+        values: Known | None = closed_form(Sought(system, part.equations, sought, angles, known))
+        if values is not None and _holds_beside(values, held):
+            return Equilibrium(values, exact=True, free=free)
+    rounded = refined([e.xreplace(held) for e in solution.equations], sought) if sought else {}
+    return None if rounded is None else Equilibrium({**held, **rounded}, exact=False, free=free)
 
 
-def _within_a_turn(angle: float) -> float:
-    """The angle in (−π, π]."""
-    turned = math.remainder(angle, 2 * math.pi)
-    return turned + 2 * math.pi if turned < -math.pi + NEAR else turned
+def _holds_beside(known: Known, held: Mapping[sp.Symbol, sp.Expr]) -> bool:
+    """Whether the free coordinates of a family may have any value: a root or an arcsine of them would not be real."""
+    if not held:
+        return True
+    limited = [each for value in known.values() for each in value.atoms(sp.Pow, sp.Function)]
+    return not any(each.has(*held) for each in limited if not (each.is_Pow and each.exp.is_Integer))
 
 
-def _same(one: list[float], other: list[float]) -> bool:
-    return all(abs(a - b) < NEAR * (1 + abs(a)) for a, b in zip(one, other, strict=True))
+@cached_method
+def domain(system: System) -> Domain:
+    """Where coordinates are searched: angles over a turn, others to ten times the lengths that the scene names."""
+    symbols = {system.q(c.name): c for c in system.scene.free}
+    reaches = {q: RANGE * _scale(system, c) for q, c in symbols.items()}
+    ranges = {q: (-reach, reach) for q, reach in reaches.items()}
+    starts = {q: sp.Rational(repr(float(c.value))) for q, c in symbols.items()}
+    return Domain(ranges, frozenset(q for q in symbols if is_angle(system, q)), starts)
 
 
-def _starts(part: _Part, angles: list[bool]) -> Iterator[list[float]]:
-    """The same values for every coordinate, then a fixed choice of mixtures."""
-    choices = [_values(c, angle=angle) for c, angle in zip(part.unknowns, angles, strict=True)]
-    total = math.prod(map(len, choices))
-    chosen = range(total) if total <= STARTS else sorted(random.Random(1).sample(range(total), STARTS))
-    yield from ([values[min(k, len(values) - 1)] for values in choices] for k in range(4) if total > STARTS)
-    for index in chosen:
-        start = []
-        for values in choices:
-            index, k = divmod(index, len(values))  # noqa: PLW2901 - the digits of the index, one for each coordinate
-            start.append(values[k])
-        yield start
+def _scale(system: System, coordinate: Coordinate) -> float:
+    """The largest number of the coordinate's unit: of parameters, its slider and where it starts."""
+    alike = [p.value for p in system.scene.parameters if p.unit == coordinate.unit]
+    own = [coordinate.value, coordinate.min or 0.0, coordinate.max or 0.0]
+    return max(map(abs, (*alike, *own))) or 1.0
 
 
-def _values(coordinate: Coordinate, *, angle: bool) -> list[float]:
-    if angle:
-        return [k * math.pi / 2 + 0.1 for k in (0, 2, 1, -1)]
-    low = coordinate.value - 1 if coordinate.min is None else coordinate.min
-    high = coordinate.value + 1 if coordinate.max is None else coordinate.max
-    return [low + part * (high - low) for part in (0.52, 0.93, 0.08)]
+def rests(system: System, equilibrium: Equilibrium) -> bool:
+    """Whether the system starts from there with no acceleration, also where M is singular."""
+    with ctx.workprec(BITS):
+        point = start_point(system) | {
+            q.name: number(value, start_point(system)) for q, value in equilibrium.values.items()
+        }
+        if _inverted(system, point) is not None:
+            return True
+        beside = [[_acceleration(system, point, k, arb(2) ** -bits) for bits in (60, 100)] for k in range(3)]
+    return all(near is None or far is None or bool(near <= far * arb(2) ** -10) for far, near in beside)
+
+
+def start_point(system: System) -> dict[str, arb]:
+    """The parameters' values, and the coordinates where the scene starts."""
+    known = {**system.parameter_values, **domain(system).starts}
+    return {symbol.name: number(value, {}) for symbol, value in known.items()}
+
+
+def _inverted(system: System, point: Mapping[str, arb]) -> arb_mat | None:
+    size = len(system.free)
+    try:
+        found = arb_mat(size, size, [number(entry, point) for entry in mass_matrix(system)]).inv()
+    except ZeroDivisionError:
+        return None
+    return found if all(entry.is_finite() for entry in found.entries()) else None
+
+
+def _acceleration(system: System, point: Mapping[str, arb], way: int, distance: arb) -> arb | None:
+    """fᵀM⁻¹f at a distance; None where M is singular there, too."""
+    beside = {q: point[q] + distance * (1 + (way + 2) * (i + 1) % 5) * (-1) ** way for i, q in enumerate(system.free)}
+    there = {**point, **beside}
+    inverse = _inverted(system, there)
+    if inverse is None:
+        return None
+    force = arb_mat(len(system.free), 1, [number(f, there) for f in forces_at_rest(system)])
+    return (force.transpose() * inverse * force)[0, 0]
 
 
 def is_angle(system: System, q: sp.Symbol) -> bool:

@@ -6,7 +6,6 @@ Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.2; Meirovitch
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import sympy as sp
@@ -15,8 +14,9 @@ from flint import arb, ctx
 from ..language.memory import cached_method
 from ..vocabulary import Stability
 from .calculus import column
-from .equilibria import Equilibrium, equilibria, free_coordinates
+from .equilibria import Equilibrium, equilibria, start_point
 from .evaluation import components
+from .friction import Band, band
 from .matrix_form import forces_at_rest, forcing, mass_matrix
 from .program import number
 from .refinement import rational
@@ -35,6 +35,7 @@ class Linearization:
     """The matrices about one equilibrium, in the parameters where it is exact, else in numbers.
 
     `spectrum` holds the numbers at the scene's parameter values; there is none where M₀ is singular or a force jumps.
+    In a `band` dry friction holds the system.
     """
 
     equilibrium: Equilibrium
@@ -44,6 +45,7 @@ class Linearization:
     spectrum: Spectrum | None
     verdict: Verdict
     is_smooth: bool
+    band: Band | None = None
 
     @property
     def stability(self) -> Stability:
@@ -99,27 +101,9 @@ def stiffness_at_rest(system: System) -> sp.ImmutableMatrix:
 
 @cached_method
 def linearizations(system: System) -> tuple[Linearization, ...]:
-    """One for each equilibrium, stable ones first; of equilibria that are not isolated only one."""
+    """One for each equilibrium, stable ones first."""
     found = [_about(system, each) for each in equilibria(system) or ()]
-    return tuple(sorted(_isolated(system, found), key=lambda each: ORDER.index(each.stability)))
-
-
-def _isolated(system: System, found: list[Linearization]) -> Iterator[Linearization]:
-    """Of the numbers on a continuum of equilibria, where K₀ is singular, the first stands for all."""
-    continuum = False
-    for each in found:
-        if each.equilibrium.exact or not is_degenerate(system, each):
-            yield each
-        elif not continuum:
-            continuum = True
-            yield each
-
-
-def is_degenerate(system: System, linear: Linearization) -> bool:
-    """Whether K₀ is singular in the coordinates that the equilibrium determines."""
-    zeros = sum(1 for value in linear.spectrum.eigenvalues if value.size < 1e-20) if linear.spectrum else 0
-    expected = len(free_coordinates(system)) * 2
-    return zeros > expected
+    return tuple(sorted(found, key=lambda each: ORDER.index(each.stability)))
 
 
 def _about(system: System, equilibrium: Equilibrium) -> Linearization:
@@ -129,22 +113,23 @@ def _about(system: System, equilibrium: Equilibrium) -> Linearization:
         mass, damping, stiffness = numbers = [list(components(matrix, point)) for matrix in raw]
         smooth = all(part.is_finite() for values in numbers for part in values)
         found = spectrum(mass, damping, stiffness, len(system.free)) if smooth else None
-        judged = verdict(system, equilibrium, point, numbers, found)
+        held = band(system, equilibrium)
+        judged = Verdict("stable", kind="band") if held else verdict(system, equilibrium, point, numbers, found)
         if equilibrium.exact:
             matrices = [system.display(matrix.xreplace(dict(equilibrium.values))) for matrix in raw]
         else:
             matrices = [_rational(values, len(system.free)) for values in numbers]
-    return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged, smooth)
+    return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged, smooth, held)
 
 
 def _rational(values: list[arb], size: int) -> sp.ImmutableMatrix:
-    return sp.ImmutableMatrix(size, size, [rational(value) for value in values])
+    """The numbers, exactly; NaN where a force has no slope."""
+    return sp.ImmutableMatrix(size, size, [rational(value) if value.is_finite() else sp.nan for value in values])
 
 
 def numeric_point(system: System, equilibrium: Equilibrium) -> dict[str, arb]:
     """The equilibrium in numbers; what is free there stands where the scene starts."""
-    point = {symbol.name: number(value, {}) for symbol, value in system.parameter_values.items()}
-    point |= {c.name: arb(c.value) for c in system.scene.free}
+    point = start_point(system)
     return point | {q.name: number(value, point) for q, value in equilibrium.values.items()}
 
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .conditions import conditions
 from .conservation import cyclic, jacobi_energy_rate, reduction
 from .conservation import jacobi_energy as energy_of
+from .equilibria import search
 from .formula import Named, Quantity
 from .hamiltonian import hamiltonian as hamiltonian_of
-from .linearization import linearizations
+from .linearization import Linearization, linearizations
 from .matrix_form import is_autonomous
 from .rules import (
     canonical_equations,
@@ -16,6 +18,9 @@ from .rules import (
     eigenfrequencies,
     equilibrium,
     equilibrium_condition,
+    equilibrium_search,
+    existence_condition,
+    friction_band,
     hamiltonian,
     jacobi_energy,
     linearization,
@@ -24,6 +29,7 @@ from .rules import (
     poisson_bracket,
     relative_equilibrium,
     routh_function,
+    stability_condition,
 )
 from .steady import steady_motions
 from .step import Step
@@ -43,11 +49,28 @@ def model(system: System) -> Iterator[Step]:
 
 
 def _equilibria(system: System) -> Iterator[Step]:
-    for number, linear in enumerate(linearizations(system)[:MOST_SHOWN], 1):
+    known, found = search(system), linearizations(system)
+    for number, linear in enumerate(found[:MOST_SHOWN], 1):
         yield equilibrium.apply(system, linear, number)
+        yield from _conditions(system, linear, number)
         if linear.spectrum is not None:
             yield linearization.apply(system, linear, number)
             yield eigenfrequencies.apply(system, linear, linear.spectrum, number)
+    others = tuple(equilibrium.apply(system, each, k) for k, each in enumerate(found[MOST_SHOWN:], MOST_SHOWN + 1))
+    if known and (others or known.ranges or not known.complete):
+        yield equilibrium_search.apply(system, known, min(len(found), MOST_SHOWN), others)
+
+
+def _conditions(system: System, linear: Linearization, number: int) -> Iterator[Step]:
+    """When it exists, when it is stable, and between which values friction holds it."""
+    if linear.band is not None:
+        yield friction_band.apply(system, linear, linear.band, number)
+    known = conditions(system, linear)
+    if known and known.existence:
+        yield existence_condition.apply(system, known, number)
+    local = known is None and linear.equilibrium.exact and not linear.verdict.kind and linear.stability != "undecided"
+    if local or (known and known.stability):
+        yield stability_condition.apply(system, linear, known, number)
 
 
 def _conserved(system: System) -> Iterator[Step]:

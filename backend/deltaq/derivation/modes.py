@@ -64,7 +64,9 @@ def _squares(system: System, linear: Linearization, spectrum: Spectrum) -> tuple
     ordered = sorted(zip(numbers, found, strict=True), key=lambda pair: pair[0])
     if any(sp.sign(number) != sp.sign(mode.square) for (number, _), mode in zip(ordered, spectrum.modes, strict=True)):
         return None
-    return tuple(square for _, square in ordered)
+    by_chance = any(mode.square == 0 != square for (_, square), mode in zip(ordered, spectrum.modes, strict=True))
+    # What is zero at these values only has a real root on one side of them.
+    return None if by_chance else tuple(square for _, square in ordered)
 
 
 def _roots(system: System, M: sp.ImmutableMatrix, K: sp.ImmutableMatrix) -> list[sp.Expr]:

@@ -40,7 +40,7 @@ def concluded(relation: Relation) -> tuple[Signature, ...]:
 
     `p = ∂L/∂q̇ = m l² φ̇` says what p is, and what ∂L/∂q̇ is.
     """
-    if relation.sign == "≠":
+    if relation.sign in ("≠", "<", "≤"):
         return ()
     sides = (member.left if isinstance(member, f.Equation) else member for member in relation.members[:-1])
     return tuple(name for name in map(signature, sides) if name is not None)

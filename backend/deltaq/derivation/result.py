@@ -12,8 +12,10 @@ from ..language.memory import cached_method
 from ..mechanics.scene import Scene
 from ..vocabulary import CurlOutcome
 from . import provenance
+from .conditions import Conditions, conditions
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
 from .displacement import meaning
+from .equilibria import Search, search
 from .formula import Explicit, Term
 from .generator import Generator, Symmetry, solved
 from .linearization import Linearization, linearizations
@@ -58,6 +60,14 @@ class LoadPotential:
 
 
 @dataclass(frozen=True)
+class Told:
+    """An equilibrium with its small motions, and the conditions in the parameters where they are known."""
+
+    linear: Linearization
+    conditions: Conditions | None
+
+
+@dataclass(frozen=True)
 class Result:
     """Expressions in the scene's symbols; vectors are columns, forces and equations go by coordinate.
 
@@ -81,7 +91,8 @@ class Result:
     mass_matrix: sp.ImmutableMatrix
     forcing: sp.ImmutableMatrix
     conserved: tuple[Conserved, ...]
-    equilibria: tuple[Linearization, ...]
+    equilibria: tuple[Told, ...]
+    search: Search | None
     jacobi_energy: sp.Expr
     is_energy: bool
     routh: Reduction | None
@@ -109,7 +120,8 @@ def result_of(system: System) -> Result:
         mass_matrix=mass_matrix(system),
         forcing=forcing(system),
         conserved=tuple(_conserved(system)),
-        equilibria=linearizations(system),
+        equilibria=tuple(Told(linear, conditions(system, linear)) for linear in linearizations(system)),
+        search=search(system),
         jacobi_energy=jacobi_energy(system),
         is_energy=is_energy(system),
         routh=reduction(system),
@@ -177,7 +189,8 @@ def _potential_of(system: System, load: str) -> LoadPotential:
     differences = {
         (a, b): forces[a].diff(system.q(b)) - forces[b].diff(system.q(a)) for a, b in combinations(system.free, 2)
     }
-    curl = {pair: system.zero if system.is_zero(d) else system.display(d) for pair, d in differences.items()}
+    known = system.has_potential(load)
+    curl = {p: system.zero if known or system.is_zero(d) else system.display(d) for p, d in differences.items()}
     potential = system.load_potential(load) if system.is_conservative(load) else None
     return LoadPotential(load, outcome(system, load), system.has_potential(load), potential, curl)
 

@@ -14,8 +14,8 @@ from .formula import Formula
 class Relation:
     """One line of mathematics: formulas joined by `sign`, each equal to the next.
 
-    The sign is `=`, `≠` where two are shown to differ, `⇔` between equations that say the same of the motion, or `≈`
-    before a number that is exact here and rounded on paper.
+    The sign is `=`, `≠` where two are shown to differ, `⇔` between equations that say the same of the motion, `≈`
+    before a number that is exact here and rounded on paper, or `<` and `≤` between numbers in rising order.
     """
 
     members: tuple[Formula, ...]

@@ -88,8 +88,14 @@ class System(Work):
         rates = {self.rate(q) for q in self.free}
         if any(force.free_symbols & rates for force in forces.values()):
             return False
+        if self._is_given(load):
+            return True
         pairs = combinations(forces.items(), 2)
         return all(self.is_zero(f.diff(p) - g.diff(q)) for (q, f), (p, g) in pairs)
+
+    def _is_given(self, load: str) -> bool:
+        """Whether the scene states the load's potential: mixed derivatives of one function need no comparison."""
+        return all(isinstance(part, PotentialEnergy) for part in self.scene.contributions if part.source == load)
 
     def is_conservative(self, load: str) -> bool:
         """Whether the load's forces have a potential that can be written down."""

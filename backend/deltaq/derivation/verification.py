@@ -14,7 +14,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import islice
+from itertools import islice, pairwise
 
 from flint import arb, ctx
 
@@ -29,6 +29,7 @@ TOLERANCE = arb(2) ** -80
 POINTS = 2
 SAMPLED = Evidence("sampled", POINTS, 24)  # 2⁻⁸⁰ ≈ 10⁻²⁴
 ATTEMPTS = 8
+RISING = ("<", "≤")  # signs between numbers, of the scene's own values
 HALF = arb(2) ** -20  # of the interval of an action: so short that few nodes integrate over it
 
 
@@ -52,10 +53,23 @@ def verified_step(step: Step, points: tuple[Point, ...]) -> Step:
 def holds(relation: Relation, points: tuple[Point, ...]) -> bool:
     """Whether the members agree at enough points where all are defined (or, for the sign ≠, differ at one)."""
     with ctx.workprec(BITS):
+        if relation.sign in RISING:
+            return _rise(relation, points)
         gaps = tuple(islice(filter(arb.is_finite, (_gap(relation.members, point) for point in points)), POINTS))
     if relation.sign == "≠":
         return any(gap > TOLERANCE for gap in gaps)
     return len(gaps) == POINTS and all(gap < TOLERANCE for gap in gaps)
+
+
+def _rise(relation: Relation, points: tuple[Point, ...]) -> bool:
+    """Whether each member is above the one before it, or as large where that is allowed."""
+    for one, other in pairwise(relation.members):
+        steps = (evaluate(other, point)[0] - evaluate(one, point)[0] for point in points)
+        finite = tuple(islice(filter(arb.is_finite, steps), POINTS))
+        least = -TOLERANCE if relation.sign == "≤" else TOLERANCE
+        if len(finite) < POINTS or not all(step > least for step in finite):
+            return False
+    return True
 
 
 def _gap(members: tuple[Formula, ...], point: Point) -> arb:

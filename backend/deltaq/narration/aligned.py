@@ -11,7 +11,7 @@ from ..derivation.step import Relation
 from .marks import bare
 
 TALL = re.compile(r"\\(?:frac|begin)\b")
-SIGNS = {"=": "=", "≠": r"\neq", "≈": r"\approx", "⇔": r"\;\Longleftrightarrow\;"}
+SIGNS = {"=": "=", "≠": r"\neq", "≈": r"\approx", "⇔": r"\;\Longleftrightarrow\;", "<": "<", "≤": r"\leq"}
 
 
 def aligned(relations: tuple[Relation, ...], written: Callable[[Formula], str]) -> str:
@@ -31,6 +31,8 @@ def _rows(relation: Relation, written: Callable[[Formula], str]) -> list[str]:
     first, *others = (next(alike) for _, alike in groupby(texts, bare))
     if relation.sign == "⇔":
         return [f"& {first}", *(rf"{sign} & {other}" for other in others)]
+    if relation.sign in ("<", "≤"):  # a chain is read in one line
+        return [f"& {f' {sign} '.join((first, *others))}"]
     rows = [f"{'' if row else first} &{sign} {other}" for row, other in enumerate(others)]
     return rows or [f"& {first}"]
 

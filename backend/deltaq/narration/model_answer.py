@@ -7,10 +7,12 @@ from collections.abc import Mapping
 import sympy as sp
 from flint import arb
 
+from ..derivation.conditions import Comparison, Conditions
 from ..derivation.conservation import Reduction
+from ..derivation.equilibria import Search
 from ..derivation.linearization import Linearization
 from ..derivation.program import number
-from ..derivation.result import LoadPotential, Result
+from ..derivation.result import LoadPotential, Result, Told
 from ..derivation.spectrum import ComplexMode, Mode
 from ..derivation.steady import SteadyMotion
 from ..language.latex_printer import Typography, latex
@@ -24,19 +26,25 @@ Document = dict[str, object]
 DIGITS = 12
 
 
-def equilibrium(linear: Linearization, scene: Scene, typography: Typography) -> Document:
+def equilibrium(told: Told, scene: Scene, typography: Typography) -> Document:
     """One equilibrium: where, how stable, and with which frequencies (rad/s) it oscillates in which shapes.
 
-    Coordinates that are not among the `values` may have any value. `exact` says that plain and latex are closed forms
+    Coordinates in `free` may have any value. `exact` says that plain and latex are closed forms
     in the parameters; `number` is their value in this scene. No numbers of small motions where one is beyond doubles.
     """
+    linear = told.linear
     free = [coordinate.name for coordinate in scene.free]
     point = {parameter.name: arb(parameter.value) for parameter in scene.parameters}
+    point |= {coordinate.name: arb(coordinate.value) for coordinate in scene.free}
     spectrum = linear.spectrum if linear.spectrum and linear.spectrum.is_representable else None
     return {
         "values": {q.name: _value(q, linear, point, typography) for q in linear.equilibrium.values},
         "exact": linear.equilibrium.exact,
+        "free": list(linear.equilibrium.free),
         "stability": linear.stability,
+        "kind": linear.verdict.kind or None,
+        "conditions": _conditions(told.conditions, typography),
+        "band": _band(linear, point, typography),
         "eigenvalues": [[_float(v.real), _float(v.imaginary)] for v in spectrum.eigenvalues] if spectrum else [],
         "eigenfrequencies": [_float(frequency) for frequency in spectrum.frequencies] if spectrum else [],
         "modes": [_mode(mode, free) for mode in spectrum.modes] if spectrum else [],
@@ -44,9 +52,50 @@ def equilibrium(linear: Linearization, scene: Scene, typography: Typography) -> 
     }
 
 
+def _conditions(found: Conditions | None, typography: Typography) -> Document | None:
+    """The inequalities for its existence and its stability or instability; none where the verdict holds here only."""
+    if found is None:
+        return None
+    return {
+        "existence": [_comparison(each, typography) for each in found.existence],
+        "stability": [_comparison(each, typography) for each in found.stability],
+    }
+
+
+def _comparison(each: Comparison, typography: Typography) -> Document:
+    sides = {"smaller": each.smaller, "larger": each.larger}
+    return {name: {"plain": plain(side), "latex": latex(side, typography)} for name, side in sides.items()}
+
+
+def _band(linear: Linearization, point: Mapping[str, arb], typography: Typography) -> Document | None:
+    """Between which values dry friction holds the coordinate."""
+    if linear.band is None:
+        return None
+    ends = {"low": linear.band.low, "high": linear.band.high}
+    return {name: _written(value, point, typography, exact=linear.band.exact) for name, value in ends.items()}
+
+
+def search(found: Search | None) -> Document | None:
+    """How many equilibria there are, where they were sought, and whether that is all; none where time is in the laws.
+
+    `range` holds the coordinates that were searched between two values, not everywhere.
+    """
+    if found is None:
+        return None
+    return {
+        "complete": found.complete,
+        "count": found.count,
+        "range": {name: list(map(_float, ends)) for name, ends in found.ranges.items()},
+        "left_out": found.left_out or None,
+    }
+
+
 def _value(q: sp.Symbol, linear: Linearization, point: Mapping[str, arb], typography: Typography) -> Document:
-    value = linear.equilibrium.values[q]
-    if linear.equilibrium.exact:
+    return _written(linear.equilibrium.values[q], point, typography, exact=linear.equilibrium.exact)
+
+
+def _written(value: sp.Expr, point: Mapping[str, arb], typography: Typography, *, exact: bool) -> Document:
+    if exact:
         return {"plain": plain(value), "latex": latex(value, typography), "number": _float(number(value, point))}
     return {"plain": repr(_float(value)), "latex": rounded(value), "number": _float(value)}
 

@@ -13,7 +13,7 @@ from ..derivation.result import Conserved, Result
 from ..language.latex_printer import Typography, latex
 from ..language.order import Order
 from ..language.plain_printer import plain
-from .model_answer import equilibrium, load, own_symbols, routh, steady
+from .model_answer import equilibrium, load, own_symbols, routh, search, steady
 from .speech import Speech
 
 Document = dict[str, object]
@@ -44,7 +44,8 @@ def written(result: Result, typography: Typography, speech: Speech) -> Document:
         },
         "forcing": {**write.vector(result.forcing), "terms": write.rows("forcing")},
         "conserved": [write.conserved(each) for each in result.conserved],
-        "equilibria": [equilibrium(linear, result.scene, typography) for linear in result.equilibria],
+        "equilibria": [equilibrium(each, result.scene, typography) for each in result.equilibria],
+        "equilibrium_search": search(result.search),
         "jacobi_energy": {**write.sum("jacobi_energy", result.jacobi_energy), "equals_energy": result.is_energy},
         "loads": [load(each, typography) for each in result.loads],
         "symbols": own_symbols(result),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..formula import Explicit, Named, Quantity, Value
+from ..formula import Explicit, Inserted, Named, Quantity, Value
 from ..linearization import Linearization, deviations
+from ..step import Relation
 from ..system import System
 
 
@@ -57,3 +58,8 @@ def numbers(system: System) -> dict[sp.Symbol, sp.Expr]:
     """Parameters at the scene's values; coordinates that an equilibrium leaves free, where the scene starts."""
     start = {system.q(c.name): sp.Rational(repr(float(c.value))) for c in system.scene.free}
     return {**start, **system.parameter_values}
+
+
+def inequality(system: System, smaller: sp.Expr, larger: sp.Expr) -> Relation:
+    """smaller < larger at the scene's values."""
+    return Relation((Inserted(Explicit(smaller), numbers(system)), Inserted(Explicit(larger), numbers(system))), "<")

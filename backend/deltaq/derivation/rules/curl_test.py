@@ -41,7 +41,7 @@ def outcome(system: System, load: str) -> CurlOutcome:
 def _compare(system: System, load: str, first: str, second: str) -> tuple[Relation, ...]:
     """∂Qᵢ/∂qₖ = a = ∂Qₖ/∂qᵢ in one line, or both values and that they differ."""
     left, right = _cross_derivative(system, load, first, second), _cross_derivative(system, load, second, first)
-    if system.is_zero(left[1].value - right[1].value):
+    if system.has_potential(load) or system.is_zero(left[1].value - right[1].value):
         return (Relation((*left, right[0])),)
     return Relation(left), Relation(right), Relation((left[0], right[0]), "≠")
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..equilibria import free_coordinates
 from ..formula import AtEquilibrium, Explicit, Inserted, Named, Quantity, Rounded
 from ..linearization import Linearization
 from ..matrix_form import forcing
@@ -24,7 +23,7 @@ def apply(system: System, linear: Linearization, number: int) -> Step:
     force = AtEquilibrium(shaped(system, "forcing", "vector", forcing(system)), at_rest(system, linear))
     proof = force if linear.equilibrium.exact else Inserted(force, numbers(system))
     places = tuple(_place(system, linear, q) for q in system.free if system.q(q) in linear.equilibrium.values)
-    free = free_coordinates(system)
+    free = linear.equilibrium.free
     about = {"outcome": _outcome(linear, free), "number": str(number), "coordinate": ", ".join(free)}
     if linear.verdict.derivative:
         about["derivative"] = str(linear.verdict.derivative)
@@ -42,6 +41,8 @@ def _place(system: System, linear: Linearization, coordinate: str) -> Relation:
 
 def _outcome(linear: Linearization, free: tuple[str, ...]) -> str:
     """Which sentence is true: where it cannot be linearized that is said as well."""
+    if linear.verdict.kind:
+        return f"{linear.verdict.kind}-{linear.stability}"
     if linear.spectrum is None:
         reason = "singular" if linear.is_smooth else "jumps"
         return reason if linear.stability == "undecided" else f"{reason}-{linear.stability}"

@@ -1,0 +1,140 @@
+"""When equilibria exist and are stable, as inequalities; bands of friction; verdicts beyond the second derivatives."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping
+from dataclasses import replace
+
+import pytest
+from tests.derivation.model_scenes import model_steps, particle, rotating_hoop
+from tests.derivation.textbook_systems import SYSTEMS
+
+from deltaq.derivation.linearization import linearizations
+from deltaq.derivation.system import System
+from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.parameter import Parameter
+from deltaq.mechanics.scene import Scene
+from deltaq.mechanics.writing import write_scene
+from deltaq.narration.derive import derive_request
+
+BOOKS = {each.name: each.scene for each in SYSTEMS}
+
+
+def told(scene: Scene) -> list[tuple[str, list[str], list[str]]]:
+    """Of each equilibrium: its verdict, when it exists, when that is so."""
+    result = derive_request({"scene": write_scene(scene)})["result"]
+    return [
+        (
+            each["stability"],
+            [written(line) for line in each["conditions"]["existence"]],
+            [written(line) for line in each["conditions"]["stability"]],
+        )
+        for each in result["equilibria"]
+        if each["conditions"] is not None
+    ]
+
+
+@pytest.mark.parametrize(
+    ("scene", "expected"),
+    [
+        pytest.param(
+            rotating_hoop(5.0),
+            [("stable", ["g < r*Omega^2"], ["g < r*Omega^2"])] * 2
+            + [("unstable", [], ["g < r*Omega^2"]), ("unstable", [], [])],
+            id="fast hoop",
+        ),
+        pytest.param(rotating_hoop(4.0), [("stable", [], ["r*Omega^2 < g"]), ("unstable", [], [])], id="slow hoop"),
+        pytest.param(
+            BOOKS["flat truss, pressed"],
+            [("stable", ["a < l"], ["a < l"])] * 2 + [("unstable", [], ["a < l"])],
+            id="truss",
+        ),
+        pytest.param(
+            BOOKS["inverted pendulum, strong torsion spring"], [("stable", [], ["g*l*m < c"])], id="inverted pendulum"
+        ),
+        pytest.param(
+            BOOKS["pendulum under a moment"],
+            [("stable", ["M < g*l*m"], ["M < g*l*m"]), ("unstable", ["M < g*l*m"], ["M < g*l*m"])],
+            id="moment",
+        ),
+        pytest.param(
+            BOOKS["two wells (Duffing)"], [("stable", [], [])] * 2 + [("unstable", [], [])], id="for all parameters"
+        ),
+    ],
+)  # fmt: skip
+def test_conditions_in_the_parameters(scene: Scene, expected: list[tuple[str, list[str], list[str]]]) -> None:
+    found = [(verdict, *[[ordered(line) for line in lines] for lines in two]) for verdict, *two in told(scene)]
+    assert found == [(verdict, *[[ordered(line) for line in lines] for lines in two]) for verdict, *two in expected]
+
+
+def written(line: Mapping[str, Mapping[str, str]]) -> str:
+    return f"{line['smaller']['plain']} < {line['larger']['plain']}"
+
+
+def ordered(line: str) -> str:
+    """An inequality between products, their factors in one order."""
+    return " < ".join("*".join(sorted(side.split("*"))) for side in line.split(" < "))
+
+
+@pytest.mark.parametrize("speed", [1.0, 3.0, 4.4, 4.6, 6.0, 9.0])
+def test_conditions_change_with_the_verdict(speed: float) -> None:
+    """√(g/r) = √20 ≈ 4.47: the sign that is printed is the one that holds, and the chapter verifies it."""
+    steps = model_steps(rotating_hoop(speed))
+    assert [name for name, step in steps.items() if not step.verified] == []
+    assert ("existence-condition:1" in steps) == (speed**2 > 20)
+
+
+def test_friction_holds_a_band() -> None:
+    loads = [{"kind": "force", "at": "bob", "force": ["P-k*x-R*sign(dot(x))", "0"]}]
+    scene = particle(["x"], {"k": 4.0, "R": 2.0, "P": 3.0}, ["x", "0"], *loads)
+    (each,) = derive_request({"scene": write_scene(scene)})["result"]["equilibria"]
+    assert (each["band"]["low"]["number"], each["band"]["high"]["number"]) == (0.25, 1.25)
+    assert (each["stability"], each["kind"]) == ("stable", "band")
+    steps = model_steps(scene)
+    assert steps["friction-band:1"].verified
+
+
+def test_friction_that_balances_a_constant_force_holds_everywhere() -> None:
+    def outcome(push: float) -> str:
+        load = {"kind": "force", "at": "bob", "force": ["P-R*sign(dot(x))", "0"]}
+        steps = model_steps(particle(["x"], {"R": 2.0, "P": push}, ["x", "0"], load))
+        return steps["equilibrium-condition"].about["outcome"]
+
+    assert [outcome(push) for push in (1.5, 2.5)] == ["held", "none"]
+
+
+@pytest.mark.parametrize(
+    ("energy", "verdict", "order"),
+    [
+        pytest.param("(y-x^2/s)^2 + x^6/s^4", "stable", 5, id="bent valley that rises"),
+        pytest.param("(y-x^2/s)^2 - x^6/s^4", "unstable", 5, id="bent valley that falls"),
+        pytest.param("(y-x^2/s)^2 + x^3/s", "unstable", 2, id="cubic valley"),
+        pytest.param("y^2 + 2*y*x^2/s + 2*x^4/s^2", "stable", 3, id="straight on is not least"),
+        pytest.param("y^2 + 2*y*x^2/s + x^4/s^2/2", "unstable", 3, id="straight on rises, beside it falls"),
+        pytest.param("x^4 + y^4", "stable", 3, id="apart"),
+        pytest.param("x^3 - 3*x*y^2", "undecided", 0, id="monkey saddle"),
+    ],
+)
+def test_minima_by_higher_derivatives(energy: str, verdict: str, order: int) -> None:
+    scene = particle(["x", "y"], {"c": 1.0, "s": 1.0}, ["x", "y"], {"kind": "potential", "energy": f"c*({energy})"})
+    origin = next(each for each in linearizations(System(scene)) if set(each.equilibrium.values.values()) == {0})
+    assert (origin.stability, origin.verdict.derivative) == (verdict, order)
+
+
+@pytest.mark.parametrize("name", scene_ids())
+def test_modes_are_found_all_over_the_sliders(name: str) -> None:
+    """As many modes as coordinates wherever nothing depends on rates: no rounding of a slider's value loses one."""
+    scene, draw = load_scene(name), random.Random(name)
+    for _ in range(2):
+        moved = replace(scene, parameters=tuple(replace(p, value=drawn(p, draw)) for p in scene.parameters))
+        for each in linearizations(System(moved)):
+            symmetric = each.stiffness.is_symmetric()
+            if each.spectrum is not None and not each.is_damped and symmetric:
+                assert len(each.spectrum.modes) == len(moved.free), each.equilibrium.values
+
+
+def drawn(parameter: Parameter, draw: random.Random) -> float:
+    low = parameter.min or parameter.value / 2
+    high = parameter.max or parameter.value * 2
+    return round(draw.uniform(low, high), 1) or parameter.value
