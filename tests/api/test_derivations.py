@@ -90,12 +90,22 @@ async def test_a_steady_motion_has_its_start(client: httpx.AsyncClient) -> None:
     assert motion.initial["psi"].rate == motion.rate.number
 
 
+def without_words(answer: Any) -> Any:
+    """An answer but for what is to be read aloud."""
+    match answer:
+        case dict():
+            return {key: without_words(value) for key, value in answer.items() if key != "spoken"}
+        case list():
+            return list(map(without_words, answer))
+    return answer
+
+
 async def test_language_changes_the_texts_and_nothing_else(client: httpx.AsyncClient) -> None:
     german, english = [
         (await client.post(DERIVATIONS, json={"scene": "pendulum"}, headers={"Accept-Language": one})).json()
         for one in ("de", "en")
     ]
-    assert german["result"] == english["result"]
+    assert without_words(german["result"]) == without_words(english["result"])
     assert german["chapters"][0]["title"] != english["chapters"][0]["title"]
     assert german["id"] != english["id"]
 

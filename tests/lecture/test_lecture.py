@@ -351,4 +351,6 @@ def test_generalized_forces_of_the_external_force() -> None:
 
 
 def test_the_identity_functional_has_the_direction_as_its_variation() -> None:
-    assert answer("identity")["result"] == {"first_variation": {"plain": "v", "latex": "v(t_0)", "at": "t0"}}
+    assert answer("identity")["result"] == {
+        "first_variation": {"plain": "v", "latex": "v(t_0)", "spoken": "v of t zero", "at": "t0"}
+    }

@@ -68,6 +68,7 @@ class Tape:
 
     @property
     def cost(self) -> int:
+        """How many operations one evaluation takes."""
         return len(self.operations) + 1
 
     def __call__(self, values: Sequence[Any]) -> list[Any]:
@@ -89,6 +90,7 @@ class Recorder:
     seen: set[sp.Basic] = field(default_factory=set)
 
     def visit(self, expression: sp.Basic) -> None:
+        """Takes in an expression after all its parts, each once."""
         if expression in self.seen or expression in self.inputs:
             return
         self.seen.add(expression)
@@ -200,6 +202,7 @@ class _Search:
         self.flat: list[Box] = []
 
     def run(self) -> Enclosed:
+        """Halves boxes until each has one root for certain or none, or the budget is spent."""
         stack, complete = [self.start], True
         while stack and complete:
             stack += self._pieces(stack.pop())

@@ -91,7 +91,7 @@ class History:
             terms = tuple(
                 replace(term, id=f"{step.id}/{number}.{place}.{index}") for index, term in enumerate(summands(member))
             )
-            if place == 0:
+            if place == 0 or relation.sign in ("≠", "<", "≤"):
                 found.append(Line(self._started(terms)))
                 continue
             before = [*_as_candidates(found[-1].terms), *self._inside(found[-1].terms)]

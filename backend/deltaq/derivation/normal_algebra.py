@@ -13,6 +13,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import reduce
+from itertools import pairwise
 
 import sympy as sp
 from flint import fmpq
@@ -46,15 +47,25 @@ class NormalAlgebra:
     reader: Reader = field(default_factory=Reader)
 
     def holds(self, relation: Relation) -> bool:
-        """Whether all members have one normal form (or, for the sign ≠, two)."""
+        """Whether all members have one normal form; for the sign ≠, two; for < and ≤, numbers in this order."""
         try:
             first, *others = map(self.carried_out, relation.members)
+            if relation.sign in ("<", "≤"):
+                return self._rise((first, *others), strictly=relation.sign == "<")
             gaps = [self._gap(first, other) for other in others]
         except (NotCarriedOutError, TooLargeError, ZeroDivisionError):
             return False
         if relation.sign == "≠":
             return self.reader.is_exact and any(gaps)
         return not any(gaps)
+
+    def _rise(self, members: tuple[Forms, ...], *, strictly: bool) -> bool:
+        """Whether the members are rational numbers, and each is larger than the one before it."""
+        forms = [form for (form,) in members]
+        if any(term != fourier.CONSTANT for form in forms for term in form):
+            raise NotCarriedOutError
+        values = [form.get(fourier.CONSTANT, fmpq(0)) for form in forms]
+        return all(a < b or (a == b and not strictly) for a, b in pairwise(values))
 
     def _gap(self, first: Forms, other: Forms) -> bool:
         """Whether a difference is left when nothing stands below a fraction line."""

@@ -24,6 +24,7 @@ Form = dict[Term, Any]
 
 ONE: Monomial = ()
 STILL: Phase = ()
+CONSTANT: Term = (ONE, STILL, False)
 HALF = fmpq(1, 2)
 
 MAX_TERMS = 1500

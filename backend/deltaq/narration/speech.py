@@ -76,7 +76,14 @@ from .notation import NEIGHBOUR, Notation, counts, moved
 from .prose import CatalogText, pieces
 from .symbols import SymbolTable
 
-SIGNS: Mapping[str, str] = {"=": "equals", "≠": "unequal", "≈": "nearly", "⇔": "equivalent"}
+SIGNS: Mapping[str, str] = {
+    "=": "equals",
+    "≠": "unequal",
+    "≈": "nearly",
+    "⇔": "equivalent",
+    "<": "less",
+    "≤": "at-most",
+}
 Said = tuple[str, int]
 
 
@@ -103,6 +110,7 @@ class FunctionWords(SpokenSymbols):
     h: str = "h"
 
     def symbol(self, name: str) -> str:
+        """A symbol as it is said, by its name."""
         kind, base = split_symbol(name)
         function = base.rstrip(NEIGHBOUR)
         if function not in self.directions:
@@ -121,6 +129,7 @@ class FunctionWords(SpokenSymbols):
         return self.decorated(kind - VARIATION, self.reader.words(named))
 
     def is_atom(self, name: str) -> bool:
+        """Whether a symbol is said as one word."""
         kind, base = split_symbol(name)
         function = base.rstrip(NEIGHBOUR)
         if function not in self.directions or base.endswith(NEIGHBOUR):
@@ -140,6 +149,7 @@ class Speech:
 
     @cached_property
     def printer(self) -> SpokenPrinter:
+        """Who says expressions."""
         return SpokenPrinter(self.words, decimals=self.typography.decimals, order=self.typography.order)
 
     def lines(self, relations: tuple[Relation, ...]) -> list[list[str]]:
@@ -166,9 +176,11 @@ class Speech:
         return "".join(reader.words(piece.text) if piece.is_formula else piece.text for piece in pieces(text))
 
     def formula(self, formula: Formula) -> str:
+        """A formula in words."""
         return self._said(formula)[0]
 
     def value(self, value: Value) -> str:
+        """An expression or a vector in words."""
         return self.printer.text(value)
 
     def equated(self, value: Value) -> str:
@@ -308,6 +320,7 @@ class Speech:
         return frozenset(self._say(key, "").strip() for key in ("variation", "differential"))
 
     def at_time(self, of: Formula, time: sp.Expr) -> Said:
+        """A formula at an instant; a single symbol as a function of time."""
         if isinstance(of, Explicit) and of.value.is_Symbol:
             return self._say("of", self.value(of.value), self.printer.text(time, ATOM)), PREFIX
         return self._say("value-at-time", self.formula(of), self.value(time)), ATOM
@@ -402,12 +415,14 @@ class FunctionSpeech(Speech):
         return super()._said(formula)
 
     def applied(self, quantity: Quantity, arguments: tuple[sp.Expr, ...]) -> Said:
+        """A name with what it depends on."""
         inner = self._with("t" if quantity.kind in OF_TIME else "")
         texts = [inner.printer.text(a, PREFIX if len(arguments) == 1 else 0) for a in arguments]
         bare = quantity.kind not in OF_TIME and all(a.is_Symbol and NEIGHBOUR not in a.name for a in arguments)
         return self._with_arguments(quantity, texts, bare=bare)
 
     def at_time(self, of: Formula, time: sp.Expr) -> Said:
+        """What is written out with the instant put in, else the formula and the instant."""
         inner = self._with(self.printer.text(time, ATOM))
         if isinstance(of, Explicit | Given):
             moment = of.value.xreplace({sp.Symbol("t", real=True): time})

@@ -23,7 +23,7 @@ def apply(system: System, search: Search, shown: int, others: tuple[Step, ...]) 
     """The ranges, and the equilibria that are not told in full, one below the other."""
     about = {"outcome": _outcome(search), "shown": str(shown), "count": str(search.count)}
     about["listed"] = str(len(search.found))
-    return Step(RULE, "", tuple(_ranges(system, search)), (), about, others)
+    return Step(RULE, "", tuple(_ranges(system, search)), (), about, others, premises=("equilibrium-condition",))
 
 
 def _outcome(search: Search) -> str:

@@ -16,4 +16,4 @@ RULE = "existence-condition"
 def apply(system: System, conditions: Conditions, number: int) -> Step:
     """The inequalities, which hold at the scene's values."""
     lines = tuple(inequality(system, each.smaller, each.larger) for each in conditions.existence)
-    return Step(RULE, str(number), lines, (), {"number": str(number)})
+    return Step(RULE, str(number), lines, (), {"number": str(number)}, premises=(f"equilibrium:{number}",))

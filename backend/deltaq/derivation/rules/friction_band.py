@@ -28,7 +28,7 @@ def apply(system: System, linear: Linearization, band: Band, number: int) -> Ste
         end = min((band.low, band.high), key=lambda value: _gap(system, force, value))
         there = (Substituted if band.exact else AtEquilibrium)(Explicit(force), {q: end})
         lines.append(Relation((there if band.exact else Inserted(there, numbers(system)), zero(system))))
-    return Step(RULE, str(number), tuple(lines), (), {"number": str(number)})
+    return Step(RULE, str(number), tuple(lines), (), {"number": str(number)}, premises=(f"equilibrium:{number}",))
 
 
 def _written(system: System, band: Band, value: sp.Expr) -> Formula:

@@ -20,4 +20,6 @@ def apply(system: System, linear: Linearization, conditions: Conditions | None, 
     found = conditions.stability if conditions else ()
     lines = tuple(inequality(system, each.smaller, each.larger) for each in found)
     outcome = linear.stability if conditions else "at-values"
-    return Step(RULE, str(number), lines, (), {"outcome": outcome, "number": str(number)})
+    return Step(
+        RULE, str(number), lines, (), {"outcome": outcome, "number": str(number)}, premises=(f"equilibrium:{number}",)
+    )
