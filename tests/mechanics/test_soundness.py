@@ -44,6 +44,11 @@ def units(term: str, found: str, expected: str) -> dict[str, str]:
     return {"term": term, "found": found, "expected": expected}
 
 
+def potential(energy: str) -> list[dict[str, object]]:
+    return [{"name": "field", "kind": "potential", "energy": energy}]
+
+
+WITHOUT_UNITS = [{"name": "x"}, {"name": "phi"}]
 CASES = [
     pytest.param({}, (), id="nothing wrong"),
     pytest.param(
@@ -70,6 +75,24 @@ CASES = [
         {"bodies": bob("x + l*sin(phi)", "m*cos(phi)")},
         (Problem("inconsistent-units", "/bodies/0/position/1", 0, 10, units("m*cos(phi)", "kg", "m")),),
         id="position in kilograms",
+    ),
+    pytest.param(
+        {"coordinates": WITHOUT_UNITS, "loads": potential("cosh(x) + x^4 - 2*exp(-x)*sin(phi)")},
+        (),
+        id="functions of what has no unit take the dimension of their surroundings",
+    ),
+    pytest.param(
+        {"coordinates": WITHOUT_UNITS, "loads": potential("m*cosh(x)")},
+        (Problem("inconsistent-units", "/loads/0/energy", 0, 9, units("m*cosh(x)", "kg", "kg m^2 s^-2")),),
+        id="a mass times a function of what has no unit",
+    ),
+    pytest.param(
+        {"loads": potential("cosh(x)")},
+        (
+            Problem("inconsistent-units", "/loads/0/energy", 5, 1, units("x", "m", "1")),
+            Problem("inconsistent-units", "/loads/0/energy", 0, 7, units("cosh(x)", "1", "kg m^2 s^-2")),
+        ),
+        id="cosh of a length as energy",
     ),
     pytest.param(
         {"coordinates": [{"name": "x", "unit": "cm"}, {"name": "phi", "unit": "rad"}]},

@@ -27,7 +27,8 @@ from .units import ONE, Dimension
 
 SECOND = Dimension(time=Fraction(1))
 SAME_AS_ARGUMENT = ("abs",)
-NUMBER = "number"  # a bare number takes the dimension of its surroundings where it stands alone
+# A bare number takes the dimension of its surroundings where it stands alone; so does cosh(x) of an x without a unit.
+NUMBER = "number"
 
 Found = Dimension | str | None  # NUMBER, or None where a unit is missing
 
@@ -115,11 +116,9 @@ class DimensionCheck:
         if function == "atan2":
             self._same(arguments)
         elif function != "sign":
-            self._dimensionless(arguments[0])
-        return ONE
-
-    def _dimensionless(self, node: Node) -> None:
-        self.expect(node, ONE)
+            self.expect(arguments[0], ONE)
+        silent = DimensionCheck(self.units, self.text, [])
+        return ONE if isinstance(silent.of(arguments[0]), Dimension) else NUMBER
 
     def _complain(self, node: Node, found: Dimension, wanted: Dimension) -> None:
         offset, length = node.span.offset, node.span.length
