@@ -14,26 +14,37 @@ FAULTY = {"coordinates": [{"name": "s"}, {"name": 3}], "parameters": [{"name": "
 
 
 @pytest.mark.parametrize(
-    ("body", "latex", "plain"),
+    ("body", "latex", "plain", "spoken"),
     [
         pytest.param(
-            {"scene": "pendulum", "expression": "l*sin(phi)"}, "\\ell \\sin\\varphi", "l*sin(phi)", id="plain"
+            {"scene": "pendulum", "expression": "l*sin(phi)"},
+            "\\ell \\sin\\varphi",
+            "l*sin(phi)",
+            "l times sine of phi",
+            id="plain",
         ),
         pytest.param(
             {"scene": "pendulum", "expression": "\\ell\\dot\\varphi", "syntax": "latex"},
             "\\ell \\dot{\\varphi}",
             "l*dot(phi)",
+            "l times phi dot",
             id="LaTeX",
         ),
-        pytest.param({"scene": FAULTY, "expression": "k*s"}, "\\kappa s", "k*s", id="faulty document"),
+        pytest.param({"scene": FAULTY, "expression": "k*s"}, "\\kappa s", "k*s", "kappa times s", id="faulty document"),
         pytest.param(
-            {"scene": "pendulum", "expression": "l*s", "material": ["s"]}, "\\ell s", "l*s", id="material coordinate"
+            {"scene": "pendulum", "expression": "l*s", "material": ["s"]},
+            "\\ell s",
+            "l*s",
+            "l times s",
+            id="material coordinate",
         ),
     ],
 )
-async def test_expression_is_typeset(client: httpx.AsyncClient, body: dict[str, Any], latex: str, plain: str) -> None:
+async def test_expression_is_typeset(
+    client: httpx.AsyncClient, body: dict[str, Any], latex: str, plain: str, spoken: str
+) -> None:
     response = await client.post(EXPRESSIONS, json=body)
-    assert (response.status_code, response.json()) == (200, {"latex": latex, "plain": plain})
+    assert (response.status_code, response.json()) == (200, {"latex": latex, "plain": plain, "spoken": spoken})
 
 
 async def test_mistake_has_its_place(client: httpx.AsyncClient) -> None:
@@ -50,7 +61,7 @@ async def test_batch_answers_each_text(client: httpx.AsyncClient) -> None:
     response = await client.post(f"{EXPRESSIONS}/batch", json={"scene": "pendulum", "expressions": texts, "lang": "en"})
     assert response.status_code == 200
     first, second, third = response.json()["expressions"]
-    assert first == {"latex": "m g", "plain": "m*g", "problems": []}
+    assert first == {"latex": "m g", "plain": "m*g", "spoken": "m times g", "problems": []}
     assert second["latex"] == ""
     assert [(one["code"], one["offset"]) for one in second["problems"]] == [("unexpected-end", 2)]
     assert third["latex"] == "\\cos^{2}\\varphi"
