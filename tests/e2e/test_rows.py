@@ -39,7 +39,9 @@ def test_a_long_formula_stands_in_rows_that_fit(long: Lecture) -> None:
 def test_it_is_heard_as_one_formula(long: Lecture) -> None:
     formula = long.page.locator(FORMULA)
     expect(formula).to_have_role("img")
-    expect(formula).to_have_accessible_name(re.compile("^the scalar product of the partial derivative of r sub third bob .+ equals .+"))
+    expect(formula).to_have_accessible_name(
+        re.compile("^the scalar product of the partial derivative of r sub third bob .+ equals .+")
+    )
     expect(formula.locator("math")).to_have_count(0)
 
 
