@@ -7,18 +7,17 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from tests.description import openapi
 
-from deltaq.api.app import create_app
 from deltaq.api.description import SUBJECTS
 from deltaq.api.samples import SHOWN, literal
-from deltaq.settings import Settings
 
 Json = dict[str, Any]
 
 
 @pytest.fixture(scope="module")
 def document() -> Json:
-    return create_app(Settings(workers=1)).openapi()
+    return openapi()
 
 
 def operations(document: Json) -> Iterator[tuple[str, str, Json]]:

@@ -8,18 +8,17 @@ from typing import Any, get_args
 
 import jsonschema_rs
 import pytest
+from tests.description import openapi
 
 import deltaq
-from deltaq.api.app import create_app
 from deltaq.contract.document import SceneBody, SceneLoad
 from deltaq.mechanics.document import examine
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.writing import write_scene
 from deltaq.packages import classes_of
-from deltaq.settings import Settings
 
 SCENES = Path(deltaq.__file__).parent / "scenes"
-SCHEMAS = create_app(Settings(workers=1)).openapi()["components"]["schemas"]
+SCHEMAS = openapi()["components"]["schemas"]
 
 
 def closed(schema: Any) -> Any:

@@ -7,14 +7,12 @@ from typing import Any
 
 import httpx
 import pytest
-
-from deltaq.api.app import create_app
-from deltaq.settings import Settings
+from tests.description import openapi
 
 pytestmark = [pytest.mark.anyio, pytest.mark.usefixtures("laboratory")]
 
 
-DOCUMENT = create_app(Settings()).openapi()
+DOCUMENT = openapi()
 
 
 def _schema(content: dict[str, Any]) -> dict[str, Any]:

@@ -16,16 +16,15 @@ from typing import Any
 
 import pytest
 from tests.api import typescript
+from tests.description import openapi
 from tests.frontend.node import run
 from tests.serving import PATIENT, Served, served
 
-from deltaq.api.app import create_app
 from deltaq.contract.document import EXAMPLE
 from deltaq.contract.scene import TOML_EXAMPLE
-from deltaq.settings import Settings
 
 PACKAGE = "deltaq_client"
-DOCUMENT = create_app(Settings(workers=1)).openapi()
+DOCUMENT = openapi()
 # What the generator does not know by name stands beside what it knows.
 KNOWN_GAPS = ("Unsupported content type application/toml",)
 

@@ -8,14 +8,12 @@ from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
+from tests.description import openapi
 from tests.serving import PATIENT, served
-
-from deltaq.api.app import create_app
-from deltaq.settings import Settings
 
 CHANGING = {"date", "x-request-id", "server-timing"}
 COUNTING = ("/api/v1/metrics", "/api/v1/health")  # each answer counts the one before
-DOCUMENT = create_app(Settings(workers=1)).openapi()
+DOCUMENT = openapi()
 
 
 def addresses() -> Iterator[str]:
