@@ -20,7 +20,7 @@ MAY_KNOW = {
     "contract": set(),
     "simulation": {"language", "mechanics", "model", "contract"},
     "lab": {"language", "mechanics", "model", "simulation", "contract"},
-    "homework": {"language", "mechanics", "derivation", "narration"},
+    "homework": {"language", "mechanics", "derivation", "narration", "contract"},
     "handout": {"language", "mechanics", "derivation", "narration", "contract"},
     "commands": {"mechanics", "narration", "simulation", "lab", "homework", "handout", "contract", "api"},
     "api": {

@@ -801,6 +801,25 @@ export interface components {
              */
             scene: components["schemas"]["Scene"];
             /**
+             * Guides
+             * @description coordinates to be made functions of time
+             */
+            guides?: components["schemas"]["GuideChange"][];
+            /**
+             * Freeze
+             * @description coordinates to be held constant
+             * @example []
+             */
+            freeze?: string[];
+            /**
+             * Parameters
+             * @description values of parameters
+             * @example {
+             *       "l": 0.8
+             *     }
+             */
+            parameters?: components["schemas"]["AssignedTaskDocumentParameters"];
+            /**
              * Task
              * @description a task of the scene by its id
              * @example equation:phi
@@ -811,23 +830,6 @@ export interface components {
              * @description as usual if empty
              */
             points?: number | null;
-            /**
-             * Guides
-             * @description coordinates to be made functions of time
-             */
-            guides?: components["schemas"]["SceneGuide"][] | null;
-            /**
-             * Freeze
-             * @description coordinates to be held constant
-             */
-            freeze?: string[] | null;
-            /**
-             * Parameters
-             * @description values of parameters
-             */
-            parameters?: {
-                [key: string]: number;
-            } | null;
         };
         /**
          * AssignedTaskEntry
@@ -874,12 +876,12 @@ export interface components {
              * Individual
              * @description whether each student has values of their own
              */
-            individual?: boolean | null;
+            individual?: boolean;
             /**
              * Follow Through
              * @description share of the points for a right consequence
              */
-            follow_through?: number | null;
+            follow_through?: number;
             /**
              * Tasks
              * @description one after the other
@@ -6499,6 +6501,13 @@ export interface components {
          * @default {}
          */
         NumericParameters: {
+            [key: string]: number;
+        };
+        /**
+         * AssignedTaskDocumentParameters
+         * @default {}
+         */
+        AssignedTaskDocumentParameters: {
             [key: string]: number;
         };
         /**

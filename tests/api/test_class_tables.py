@@ -16,6 +16,8 @@ from fastapi import FastAPI
 from deltaq.api.marking import BUSY_PAUSE, Marking
 from deltaq.api.workers.account import QuotaExceeded
 from deltaq.api.workers.job import DeadlineExceeded, JobFailed, MemoryExceeded, Overloaded
+from deltaq.contract.base import SceneWithChanges
+from deltaq.contract.check import RowQuestion
 from deltaq.contract.verdict import TableAnswer
 from deltaq.errors import Problem, UnknownNameError
 from deltaq.homework.gradebook import Plan, Row, Target, refusal
@@ -134,7 +136,7 @@ class Clock:
 
 
 PLAN = Plan(
-    (Target({"scene": "pendulum"}, "pendulum", "kinetic-energy", "T", 2.0),),
+    (Target(SceneWithChanges(scene="pendulum"), "pendulum", "kinetic-energy", "T", 2.0),),
     tuple(Row(n + 2, f"student {n}", "", "", f"answer {n}", person=f"student {n}", target=0) for n in range(4)),
 )
 
@@ -143,9 +145,9 @@ async def marked(fails: dict[int, list[Exception]], longest: float = 100.0, seco
     """Of each row its outcome or what is told of it, where the judge fails at some; and the clock."""
     clock = Clock()
 
-    async def verdict_on(question: dict[str, Any]) -> dict[str, Any]:
+    async def verdict_on(question: RowQuestion) -> dict[str, Any]:
         clock.now += seconds
-        errors = fails.get(int(question["answer"]["value"].split()[1]), [])
+        errors = fails.get(int(question.answer.value.split()[1]), [])
         if errors:
             raise errors.pop(0)
         return refusal("", "correct")

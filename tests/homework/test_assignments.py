@@ -9,9 +9,10 @@ from typing import Any
 
 import pytest
 
+from deltaq.contract.assignment import AssignedTaskDocument, AssignmentDocument
+from deltaq.contract.base import GuideChange
 from deltaq.errors import InputError
-from deltaq.homework.assignment import AssignedTask, Assignment, load_assignment, read_assignment
-from deltaq.mechanics.user_text import UserText
+from deltaq.homework.assignment import load_assignment, read_assignment, resolved
 
 TASK = {"scene": "pendulum", "task": "lagrangian"}
 GUIDED = {
@@ -29,14 +30,21 @@ FULL = {
     "follow_through": 1,
     "tasks": [{**TASK, "points": 2.5}, GUIDED],
 }
-READ = Assignment(
-    {"de": UserText("Blatt"), "en": UserText("Sheet")},
-    (
-        AssignedTask({"scene": "pendulum"}, "lagrangian", 2.5),
-        AssignedTask({name: GUIDED[name] for name in ("scene", "freeze", "guides", "parameters")}, "equation:phi", 0.0),
-    ),
+READ = AssignmentDocument(
+    format=1,
+    title={"de": "Blatt", "en": "Sheet"},
     individual=True,
     follow_through=1.0,
+    tasks=(
+        AssignedTaskDocument(scene="pendulum", task="lagrangian", points=2.5),
+        AssignedTaskDocument(
+            scene="base-pendulum",
+            guides=(GuideChange(coordinate="y", value="0.1*sin(3*t)"),),
+            parameters={"m": 2.0},
+            task="equation:phi",
+            points=0.0,
+        ),
+    ),
 )
 Told = list[tuple[str, str, dict[str, Any]]]
 
@@ -64,11 +72,14 @@ def test_an_assignment_with_everything() -> None:
 
 
 def test_an_assignment_with_nothing_but_a_task() -> None:
-    usual = Assignment(
-        {}, (AssignedTask({"scene": "pendulum"}, "lagrangian", None),), individual=False, follow_through=0.5
-    )
-    assert read_assignment(sheet()) == usual
-    assert read_assignment(sheet(title="")) == usual
+    usual = read_assignment(sheet())
+    assert (usual.title, usual.individual, usual.follow_through) == ({}, False, 0.5)
+    assert usual.tasks == (AssignedTaskDocument(scene="pendulum", task="lagrangian"),)
+    nothing = dict.fromkeys(("title", "individual", "follow_through"))
+    assert read_assignment(sheet(title="Blatt")).title == {"en": "Blatt", "de": "Blatt"}
+    assert read_assignment(sheet(title="")) == read_assignment(sheet(**nothing)) == usual
+    unchanged = dict.fromkeys(("points", "guides", "freeze", "parameters"))
+    assert read_assignment(tasks(TASK | unchanged)) == usual
     assert read_assignment(sheet(follow_through=0)).follow_through == 0.0
 
 
@@ -137,14 +148,14 @@ def test_a_file_that_cannot_be_read_says_where(tmp_path: Path, name: str, conten
         ),
         pytest.param(
             sheet(title={"en": 1, "de": 2}),
-            [("/title/de", "request-not-text", {}), ("/title/en", "request-not-text", {})],
+            [("/title/en", "request-not-text", {}), ("/title/de", "request-not-text", {})],
             id="titles that are no text",
         ),
         pytest.param(sheet(title=3), [("/title", "request-not-text", {})], id="a title that is no text"),
-        pytest.param(sheet(**{"x" * 60: 1}), [field(f"/{'x' * 60}", "unknown-field", "x" * 40)], id="an endless name"),
+        pytest.param(sheet(**{"x" * 60: 1}), [field(f"/{'x' * 60}", "unknown-field", "x" * 60)], id="an endless name"),
         pytest.param(
             tasks(TASK | {"x" * 60: 1}),
-            [field(f"/tasks/0/{'x' * 60}", "unknown-field", "x" * 40)],
+            [field(f"/tasks/0/{'x' * 60}", "unknown-field", "x" * 60)],
             id="an endless name in a task",
         ),
         pytest.param(sheet(title={"en": "x", "a/b": 2}), [("/title/a~1b", "request-not-text", {})], id="an odd name"),
@@ -153,7 +164,7 @@ def test_a_file_that_cannot_be_read_says_where(tmp_path: Path, name: str, conten
             pytest.param(
                 sheet(follow_through=share), [("/follow_through", "assignment-share", {})], id=f"share {share}"
             )
-            for share in (-0.01, 1.01, True, "1", None)
+            for share in (-0.01, 1.01, True, "1")
         ),
         *(
             pytest.param(sheet(tasks=none), [("/tasks", "assignment-no-task", {})], id=f"tasks {none}")
@@ -172,12 +183,26 @@ def test_a_file_that_cannot_be_read_says_where(tmp_path: Path, name: str, conten
             id="tasks that are none",
         ),
         *(
+            pytest.param(tasks(TASK | {name: wrong}), [(f"/tasks/0/{name}{below}", code, {})], id=f"{name} {wrong}")
+            for name, wrong, below, code in (
+                ("task", 5, "", "request-not-text"),
+                ("scene", 5, "", "request-scene-type"),
+                ("guides", 5, "", "request-not-array"),
+                ("guides", [5], "/0", "request-not-object"),
+                ("guides", [{"coordinate": "phi", "value": 5}], "/0/value", "request-not-text"),
+                ("freeze", "phi", "", "request-not-array"),
+                ("parameters", [], "", "request-not-object"),
+                ("parameters", {"l": "x"}, "/l", "request-not-number"),
+                ("parameters", {"l": math.inf}, "/l", "request-not-finite"),
+            )
+        ),
+        *(
             pytest.param(
                 tasks(TASK, TASK | {"points": points}),
                 [("/tasks/1/points", "request-not-number", {})],
                 id=f"points {points}"[:20],
             )
-            for points in (-0.01, 1000.01, True, "1", None, math.nan, 10**400)
+            for points in (-0.01, 1000.01, True, "1", math.nan, 10**400)
         ),
     ],
 )
@@ -214,6 +239,6 @@ def test_what_a_scene_does_not_have_is_told_at_its_task(entry: dict[str, object]
 
 def test_values_belong_to_a_seed() -> None:
     (assigned,) = read_assignment(sheet()).tasks
-    values = [{p.name: p.value for p in assigned.workbook(seed).scene.parameters} for seed in (None, "ada", "bob")]
+    values = [{p.name: p.value for p in resolved(assigned, seed)[0].scene.parameters} for seed in (None, "ada", "bob")]
     assert values[0] == {"m": 1.0, "l": 1.0, "g": 9.81}
     assert values[1] not in (values[0], values[2])

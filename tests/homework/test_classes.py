@@ -110,10 +110,10 @@ def test_a_line_is_asked_about_with_the_last_wrong_answers_before_it_alone(seed:
         lines = before[working] if working else []
         for task in {task for task, _, _ in lines}:
             said = [(outcome, answer) for one, outcome, answer in lines if one == task and outcome in READABLE]
-            standing = [one["answer"]["value"] for one in question["standing"] if one["task"] == task]
+            standing = [one.answer.value for one in question.standing if one.task == task]
             assert standing == [answer for outcome, answer in said[-1:] if outcome != "correct"]
-        assert len(question["standing"]) <= len({task for task, _, _ in lines})
-        lines.append((question["task"], outcomes[row.number], row.answer))
+        assert len(question.standing) <= len({task for task, _, _ in lines})
+        lines.append((question.task, outcomes[row.number], row.answer))
         book.enter(row, refusal("", outcomes[row.number]))
 
 

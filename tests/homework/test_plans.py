@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from deltaq.contract.base import SceneWithChanges
 from deltaq.homework import grading
 from deltaq.homework.assignment import read_assignment
 from deltaq.homework.gradebook import Plan, Row, Target
@@ -26,11 +27,17 @@ ASSIGNMENT = {
     ],
 }
 ENERGY, MOTION = "Kinetic energy", r"Equation of motion of $\varphi$"
+
+
+def target(scene: str, *rest: Any) -> Target:
+    return Target(SceneWithChanges(scene=scene), scene, *rest)
+
+
 TARGETS = (
-    Target({"scene": "pendulum"}, "pendulum", KINETIC, ENERGY, 5.0),
-    Target({"scene": "pendulum"}, "pendulum", KINETIC, ENERGY, 2.0),
-    Target({"scene": "elastic-pendulum"}, "elastic-pendulum", KINETIC, ENERGY, 2.0),
-    Target({"scene": "pendulum"}, "pendulum", EQUATION, MOTION, 3.0),
+    target("pendulum", KINETIC, ENERGY, 5.0),
+    target("pendulum", KINETIC, ENERGY, 2.0),
+    target("elastic-pendulum", KINETIC, ENERGY, 2.0),
+    target("pendulum", EQUATION, MOTION, 3.0),
 )
 NO_SUCH = f"There is no task “{{}}” in this scene. There are: {KINETIC}, {KINETIC}, {KINETIC}, {EQUATION}.".format
 SEVERAL = (
@@ -130,8 +137,8 @@ def test_rows_without_an_assignment_name_their_scenes() -> None:
     )
     found = plan(table, scene="cart-pendulum", language="de")
     assert found.targets == (
-        Target({"scene": "pendulum"}, "pendulum", KINETIC, "Kinetische Energie", 2.0),
-        Target({"scene": "cart-pendulum"}, "cart-pendulum", KINETIC, "Kinetische Energie", 2.0),
+        target("pendulum", KINETIC, "Kinetische Energie", 2.0),
+        target("cart-pendulum", KINETIC, "Kinetische Energie", 2.0),
     )
     assert [(row.number, row.answer, row.target, row.column) for row in found.rows] == [
         (2, "a", 0, ""),

@@ -4,27 +4,34 @@ from __future__ import annotations
 
 import pytest
 
+from deltaq.contract.base import SceneWithChanges
+from deltaq.contract.reading import read
 from deltaq.errors import InputError, Problem
 from deltaq.mechanics.families.chain_pendulum import ChainPendulum
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.requests import changed_scene
+from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.writing import write_scene
+
+
+def changed(document: dict[str, object]) -> Scene:
+    return changed_scene(read(SceneWithChanges, document))
 
 
 def test_by_name_and_by_document() -> None:
     scene = load_scene("pendulum")
-    assert changed_scene({"scene": "pendulum"}) == changed_scene({"scene": write_scene(scene)}) == scene
+    assert changed({"scene": "pendulum"}) == changed({"scene": write_scene(scene)}) == scene
 
 
 @pytest.mark.parametrize("size", [1, 2, 12])
 def test_member_of_a_family(size: int) -> None:
-    scene = changed_scene({"scene": "chain-pendulum", "parameters": {"n": size, "g": 1.6}})
+    scene = changed({"scene": "chain-pendulum", "parameters": {"n": size, "g": 1.6}})
     assert len(scene.free) == len(scene.bodies) == size
     assert {p.name: p.value for p in scene.parameters}["g"] == 1.6
 
 
 def test_default_member() -> None:
-    assert len(changed_scene({"scene": "chain-pendulum"}).free) == ChainPendulum.default
+    assert len(changed({"scene": "chain-pendulum"}).free) == ChainPendulum.default
 
 
 SIZE = {"name": "n", "least": 1, "most": 12}
@@ -46,5 +53,5 @@ REFUSED = [
 @pytest.mark.parametrize(("reference", "parameters", "problem"), REFUSED)
 def test_refused(reference: object, parameters: dict[str, float], problem: Problem) -> None:
     with pytest.raises(InputError) as caught:
-        changed_scene({"scene": reference, "parameters": parameters})
+        changed({"scene": reference, "parameters": parameters})
     assert caught.value.problems[0] == problem

@@ -129,5 +129,5 @@ def test_conserved_quantities() -> None:
 def test_unknown_formulation() -> None:
     with pytest.raises(InputError) as caught:
         derive_request({"scene": "pendulum", "formulation": "newton"})
-    parameters = {"name": "newton", "known": "dalembert-lagrange, hamilton", "suggestion": ""}
-    assert caught.value.problems == (Problem("unknown-formulation", "/formulation", parameters=parameters),)
+    parameters = {"expected": "dalembert-lagrange, hamilton"}
+    assert caught.value.problems == (Problem("request-not-one-of", "/formulation", parameters=parameters),)

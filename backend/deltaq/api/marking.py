@@ -14,6 +14,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from dataclasses import fields
 from typing import Any
 
+from ..contract.check import RowQuestion
 from ..errors import InputError, Problem
 from ..homework.gradebook import Document, Gradebook, Plan, refusal
 from ..homework.results import Graded, results_csv, totals
@@ -38,7 +39,7 @@ class Marking:
     def __init__(
         self,
         plan: Plan,
-        verdict_on: Callable[[Document], Awaitable[Document]],
+        verdict_on: Callable[[RowQuestion], Awaitable[Document]],
         language: Language,
         longest: float,
         clock: Callable[[], float] = time.monotonic,
@@ -92,7 +93,7 @@ class Marking:
     def _totals(self) -> Document:
         return totals(self._in_order(), self._plan.of, self._language)
 
-    async def _try(self, question: Document) -> tuple[Document | None, float]:
+    async def _try(self, question: RowQuestion) -> tuple[Document | None, float]:
         """The verdict; or none, and after how many seconds to try again."""
         left = self._end - self._clock()
         try:

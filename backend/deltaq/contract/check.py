@@ -6,23 +6,47 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from .base import AskedLanguage, Request, Syntax, examples, items
-from .document import GivenAssignment, SceneReference
+from .assignment import FOLLOW_THROUGH, AssignmentDocument
+from .base import AskedLanguage, Request, SceneWithChanges, Syntax, examples, items
+from .document import SceneReference
 from .task import TASK, SceneAskedAbout, TaskId
 
 ANSWER = Field(description="what was written")
 
 
-class AnswerText(Request):
-    """What a student wrote."""
+class WrittenAnswer(Request):
+    """What stands in a table, however long: the reader says what is too long for it."""
 
     syntax: Syntax = "plain"
+    value: str
+
+
+class WrittenLine(Request):
+    """A task that the scene has, and what was answered."""
+
+    task: str
+    answer: WrittenAnswer
+
+
+class RowQuestion(SceneWithChanges):
+    """A row of a table, as a worker is asked about it: `standing` are the wrong lines that it may follow from."""
+
+    seed: str | None = None
+    task: str
+    answer: WrittenAnswer
+    standing: Annotated[tuple[WrittenLine, ...], items()] = ()
+    lang: AskedLanguage = None
+
+
+class AnswerText(WrittenAnswer):
+    """What a student wrote."""
+
     value: Annotated[str, Field(max_length=2000)] = Field(
         description="the answer", examples=["m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"]
     )
 
 
-class AnsweredTask(Request):
+class AnsweredTask(WrittenLine):
     """A line of a working: a task and what was answered."""
 
     task: TaskId = TASK
@@ -54,7 +78,7 @@ class PointScheme(Request):
     """How points are given."""
 
     points: dict[TaskId, Annotated[float, Field(ge=0, le=1000)]] = Field({}, max_length=64, description="by task id")
-    follow_through: float = Field(0.5, ge=0, le=1, description="share of the points for a right consequence")
+    follow_through: float = Field(FOLLOW_THROUGH, ge=0, le=1, description="share of the points for a right consequence")
 
 
 class LinesRequest(SceneAskedAbout):
@@ -129,7 +153,7 @@ class TableRequest(Request):
     encoding: Literal["text", "base64"] = Field(
         "text", description="base64: the bytes of a file as a spreadsheet wrote it, in UTF-8, UTF-16 or Windows-1252"
     )
-    assignment: GivenAssignment | None = Field(None, description="whose tasks are answered, by number or by id")
+    assignment: AssignmentDocument | None = Field(None, description="whose tasks are answered, by number or by id")
     scene: SceneReference | None = Field(None, description="of the rows that name none, where there is no assignment")
     lang: AskedLanguage = None
 

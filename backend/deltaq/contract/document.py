@@ -1,7 +1,7 @@
-"""Documents of format 1 as the description shows them: scenes, and assignments made of their tasks.
+"""Scene documents of format 1 as the description shows them.
 
-What reads them is `mechanics/document.py` and `homework/assignment.py`, which tell all that is wrong with a document at
-once and in the client's language; here stands only which fields there are, so that generated clients have types.
+What reads them is `mechanics/document.py`, which tells all that is wrong with a document at once and in the client's
+language; here stands only which fields there are, so that generated clients have types.
 """
 
 from __future__ import annotations
@@ -231,27 +231,3 @@ SceneReference = Annotated[
 ]
 GivenScene = Annotated[dict[str, Any], ReadElsewhere(SceneDocument, _object)]
 GivenDraft = Annotated[dict[str, Any], ReadElsewhere(SceneDocument | dict[str, Any], _object)]
-
-
-class AssignedTaskDocument(Part):
-    """A task of an assignment, and what is changed in its scene before."""
-
-    scene: SceneReference
-    task: str = Field(description="a task of the scene by its id", examples=["equation:phi"])
-    points: float | None = Field(None, description="as usual if empty")
-    guides: list[SceneGuide] | None = Field(None, description="coordinates to be made functions of time")
-    freeze: list[str] | None = Field(None, description="coordinates to be held constant")
-    parameters: dict[str, float] | None = Field(None, description="values of parameters")
-
-
-class AssignmentDocument(Part):
-    """An assignment, format 1."""
-
-    format: int = Field(ge=1, le=1, description="of the document")
-    title: Text | None = Field(None, description="what the assignment is called")
-    individual: bool | None = Field(None, description="whether each student has values of their own")
-    follow_through: float | None = Field(None, description="share of the points for a right consequence")
-    tasks: list[AssignedTaskDocument] = Field(description="one after the other")
-
-
-GivenAssignment = Annotated[dict[str, Any], ReadElsewhere(AssignmentDocument, _object)]

@@ -4,8 +4,16 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from .base import Answer
+from ..vocabulary import Language
+from .base import Answer, Request
 from .derivation import Chapter
+
+
+class ProofRequest(Request):
+    """Which proof, by the last part of its address."""
+
+    id: str = "dalembert-lagrange"
+    lang: Language | None = None
 
 
 class ProofAnswer(Answer):

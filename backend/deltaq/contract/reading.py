@@ -6,6 +6,7 @@ A call of the API says of a bound which side was passed; what Python, the shell 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, TypeVar
@@ -16,6 +17,7 @@ from ..errors import MOST_PROBLEMS, Parameter, Problem, RequestError, escaped
 from .base import NotAbove, Request
 
 R = TypeVar("R", bound=Request)
+T = TypeVar("T")
 Location = tuple[int | str, ...]
 
 CODES: Mapping[str, str] = MappingProxyType(
@@ -48,12 +50,19 @@ CODES: Mapping[str, str] = MappingProxyType(
         "request-scene-type": "request-scene-type",
         "request-step-and-tolerance": "request-step-and-tolerance",
         "request-outside": "request-outside",
+        "request-not-text": "request-not-text",
+        "request-not-number": "request-not-number",
+        "assignment-format": "assignment-format",
+        "assignment-share": "assignment-share",
+        "assignment-no-task": "assignment-no-task",
     }
 )
 SIDES = ("gt", "ge", "lt", "le")  # of a bound, as Pydantic calls them
 OUTSIDE = frozenset({"greater_than", "greater_than_equal", "less_than", "less_than_equal"})
 OF_FIELDS = frozenset({"missing-field", "unknown-field"})  # problems whose sentence names the field
-FILLING = frozenset({*SIDES, "min_length", "max_length", "expected", "value", "min", "max"})  # what sentences speak of
+FILLING = frozenset(
+    {*SIDES, "min_length", "max_length", "expected", "value", "min", "max", "format"}
+)  # what sentences speak of
 _QUOTED = re.compile(r"'([^']*)'")
 
 
@@ -72,8 +81,7 @@ def read(model: type[R], document: Mapping[str, object]) -> R:
 
 def checked(question: Mapping[str, object], model: type[BaseModel]) -> dict[str, Any]:
     """A request as a call of the API takes it. Raises RequestError for what that would refuse."""
-    found: BaseModel = validated(question, TypeAdapter(model))
-    return found.model_dump()
+    return made_of(question, model).model_dump()
 
 
 def validated(document: object, wanted: TypeAdapter[Any]) -> Any:
@@ -83,6 +91,17 @@ def validated(document: object, wanted: TypeAdapter[Any]) -> Any:
     except ValidationError as error:
         findings = error.errors(include_url=False, include_input=False)[: MOST_PROBLEMS + 1]
         raise RequestError(*problems_of(findings)) from None
+
+
+def made_of(document: object, kind: type[T]) -> T:
+    """A value of a type that is declared, a dataclass too, from plain data. Raises RequestError with what is wrong."""
+    found: T = validated(document, TypeAdapter(kind))
+    return found
+
+
+def plain_data(value: object) -> Any:
+    """A value of such a type as plain data, of which `made_of` makes the same again."""
+    return TypeAdapter(type(value)).dump_python(value, mode="json")
 
 
 def problems_of(findings: Iterable[Mapping[str, Any]]) -> Iterator[Problem]:
@@ -106,7 +125,7 @@ def _told(finding: Mapping[str, Any], model: type[BaseModel], document: Mapping[
         return Problem("request-outside", problem.pointer, parameters=_outside(given, *bounds))
     if problem.code == "request-not-boolean":
         return Problem("request-not-flag", problem.pointer)
-    if problem.code == "request-not-number" and type(given) is int:  # of more than 308 digits
+    if problem.code == "request-not-number" and type(given) is int and abs(given) > sys.float_info.max:
         return Problem("request-not-finite", problem.pointer)
     return problem if finding["loc"] else problem.below(str(finding.get("ctx", {}).get("at", "")))
 

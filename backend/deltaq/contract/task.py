@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from .assignment import AssignmentDocument
 from .base import Answer, AskedLanguage, Request, SceneWithChanges, examples, items
-from .document import GivenAssignment, GivenScene
+from .document import GivenScene
 
 Seed = Annotated[str, Field(max_length=64)]
 SEED = Field(None, description="draws each student's own parameter values", examples=["student 7"])
@@ -99,7 +100,7 @@ class SolutionAnswer(Answer):
 class AssignmentRequest(Request):
     """An assignment, and the student who opens it."""
 
-    assignment: GivenAssignment = Field(
+    assignment: AssignmentDocument = Field(
         description="format 1: title, individual, follow_through, tasks with scene, task and points",
         examples=[{"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 3}]}],
     )

@@ -19,19 +19,23 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
 
+from ..contract.assignment import FOLLOW_THROUGH
+from ..contract.base import SceneWithChanges
+from ..contract.check import RowQuestion, WrittenAnswer, WrittenLine
+from ..contract.reading import made_of, plain_data
 from ..language.parser import Syntax
 from ..narration.prose import words
 from .results import Graded
 from .table import Style
 
-FOLLOW_THROUGH = 0.5  # share of the points for what follows from a wrong line
 MOST_STANDING = 24  # wrong lines that a later one is looked at beside: the latest of them
 MISTAKEN = ("wrong", "follow_through")  # outcomes of lines that others may follow from
 
+CHANGES = set(SceneWithChanges.model_fields)
 T = TypeVar("T")
 Document = dict[str, Any]
 
@@ -56,7 +60,7 @@ def earned_share(outcome: str, remark: str, follow_through: float) -> float:
 class Target:
     """A task that rows answer: what requests say of its scene, its id and title, and what it counts."""
 
-    reference: Mapping[str, object]
+    reference: SceneWithChanges
     scene: str
     task: str
     title: str
@@ -65,7 +69,7 @@ class Target:
     @cached_property
     def working(self) -> str:
         """Tasks of the same scene with the same changes may stand in one working."""
-        return json.dumps(self.reference, sort_keys=True)
+        return content_of(self.reference)
 
 
 @dataclass(frozen=True)
@@ -105,14 +109,13 @@ class Plan:
     @classmethod
     def read(cls, document: Mapping[str, Any]) -> Plan:
         """The plan of a `document`, which has crossed a border as JSON."""
-        targets = tuple(Target(**one) for one in document["targets"])
-        rows = tuple(Row(**one) for one in document["rows"])
-        return cls(targets, rows, document["share"], document["of"], Style(**document["style"]))
+        return made_of(document, cls)
 
     @property
     def document(self) -> Document:
         """All of it as plain data."""
-        return asdict(self)
+        found: Document = plain_data(self)
+        return found
 
     @property
     def order(self) -> list[int]:
@@ -138,20 +141,22 @@ class Gradebook:
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
         self._earned: dict[tuple[str, str, str], float] = {}
-        self._standing: dict[tuple[str, str, str | None], dict[str, Document]] = {}
+        self._standing: dict[tuple[str, str, str | None], dict[str, WrittenLine]] = {}
 
-    def question(self, row: Row) -> Document | None:
-        """What is to be asked about a row (`service.row_request`); None if it is refused."""
+    def question(self, row: Row) -> RowQuestion | None:
+        """What is to be asked about a row (`grading.row_verdict`); None if it is refused."""
         if row.refused or row.target is None:
             return None
         target, working = self._plan.targets[row.target], self._plan.working_of(row)
         standing = self._standing.get(working, {}) if working else {}
-        return {
-            **target.reference,
-            **({"seed": row.seed} if row.seed else {}),
-            **_line(target, row),
-            "standing": list(standing.values())[-MOST_STANDING:],
-        }
+        line = _line(target, row)
+        return RowQuestion(
+            **dict(target.reference),
+            seed=row.seed or None,
+            task=line.task,
+            answer=line.answer,
+            standing=tuple(standing.values())[-MOST_STANDING:],
+        )
 
     def enter(self, row: Row, verdict: Mapping[str, Any]) -> Graded:
         """The row with its verdict: {outcome, remark, misconception, mistake, understood_as, feedback}."""
@@ -208,11 +213,16 @@ def in_order(plan: Plan, graded: Mapping[int, Graded]) -> list[Graded]:
     return [graded[index] for index in range(len(plan.rows))]
 
 
-def _line(target: Target, row: Row) -> Document:
-    return {"task": target.task, "answer": {"syntax": row.syntax, "value": row.answer}}
+def _line(target: Target, row: Row) -> WrittenLine:
+    return WrittenLine(task=target.task, answer=WrittenAnswer(syntax=row.syntax, value=row.answer))
 
 
-def marked(plan: Plan, verdict_on: Callable[[Document], Mapping[str, Any]]) -> Iterator[tuple[int, Graded]]:
+def content_of(asked: SceneWithChanges) -> str:
+    """The scene with its changes, and nothing else that was asked, as a text: the same for the same."""
+    return json.dumps(asked.model_dump(include=CHANGES), sort_keys=True)
+
+
+def marked(plan: Plan, verdict_on: Callable[[RowQuestion], Mapping[str, Any]]) -> Iterator[tuple[int, Graded]]:
     """Every row with its place in the table, in the order in which they are marked."""
     book = Gradebook(plan)
     for index in plan.order:

@@ -12,19 +12,23 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast
 
+from ..contract.assignment import FOLLOW_THROUGH, AssignedTaskDocument, AssignmentDocument
+from ..contract.base import SceneWithChanges
+from ..contract.check import RowQuestion
+from ..contract.reading import read as read_request
 from ..errors import InputError, Problem, RequestError, UnknownNameError
 from ..language.parser import Syntax
-from ..narration.catalog import message
-from .assignment import AssignedTask, Assignment
+from ..narration.catalog import language_of, message
+from .assignment import resolved, scene_of
 from .feedback import verdict_document
-from .gradebook import FOLLOW_THROUGH, Document, Plan, Row, Target, marked, refusal
+from .gradebook import Document, Plan, Row, Target, marked, refusal
 from .reading import read
 from .results import Graded, named
 from .statement import task_document
 from .table import BEYOND, Table, read_table
 from .verdict import Verdict
-from .workbook import Workbook, workbook_of
-from .working import Line, check_following
+from .workbook import Workbook, workbook_asked_about
+from .working import check_following, line_of
 
 NEEDED = ("task", "answer")
 COLUMNS = (*NEEDED, "student", "scene", "syntax", "seed", "line")
@@ -59,10 +63,11 @@ def grade(table: Table, sheet: Sheet, language: str) -> Iterator[tuple[int, Grad
     """
     known: dict[str, Document] = {}
 
-    def verdict_on(question: Document) -> Document:
-        key = json.dumps(question)
+    def verdict_on(question: RowQuestion) -> Document:
+        asked = question.model_dump() | {"lang": language}
+        key = json.dumps(asked)
         if key not in known:
-            known[key] = row_verdict({**question, "lang": language})
+            known[key] = row_verdict(asked)
         return known[key]
 
     return marked(plan_of(table, sheet, language), verdict_on)
@@ -77,7 +82,7 @@ class Sheet:
     names none (an id, or a document).
     """
 
-    assignment: Assignment | None = None
+    assignment: AssignmentDocument | None = None
     scene: object = ""
 
 
@@ -186,9 +191,9 @@ class _Tasks:
             return wrong
 
     def _of_scene(self, task: str, scene: str) -> int:
-        reference = {"scene": scene or self.sheet.scene}
         try:
-            workbook = workbook_of(reference)
+            reference = read_request(SceneWithChanges, {"scene": scene or self.sheet.scene})
+            workbook = workbook_asked_about(reference)
         except InputError as error:
             raise WrongCell("scene", error) from None
         try:
@@ -216,26 +221,26 @@ class _Tasks:
             raise _wrong("task", "answers-which", name=task, known=known)
         return there[0]
 
-    def _assigned(self, assigned: AssignedTask) -> Target:
-        workbook, task = assigned.resolved(None)
+    def _assigned(self, assigned: AssignedTaskDocument) -> Target:
+        workbook, task = resolved(assigned, None)
         title = str(task_document(task, workbook, self.language)["title"])
         of = task.quantity.points if assigned.points is None else assigned.points
-        return Target(assigned.scene, workbook.scene.id, task.id, title, of)
+        return Target(scene_of(assigned), workbook.scene.id, task.id, title, of)
 
 
 # --- one row ---------------------------------------------------------------------------------------------------------
 
 
 def row_verdict(question: Mapping[str, object]) -> Document:
-    """{scene, …, task, answer, standing: the wrong lines before it, lang} → what a `Gradebook` enters.
+    """The fields of a RowQuestion → what a `Gradebook` enters.
 
     What cannot be asked of the scene in these values is told, too: it spoils no other row.
     """
-    language = str(question["lang"])
+    asked = read_request(RowQuestion, question)
+    language, line = language_of(asked.lang), line_of(asked)
     try:
-        workbook = workbook_of(question)
-        line = line_of(question)
-        standing = [line_of(one) for one in cast("Sequence[Mapping[str, object]]", question["standing"])]
+        workbook = workbook_asked_about(asked, asked.seed)
+        standing = [line_of(one) for one in asked.standing]
         wrong = {
             one.task: read(workbook.task(one.task), workbook.solution, one.text, one.syntax).parts for one in standing
         }
@@ -243,12 +248,6 @@ def row_verdict(question: Mapping[str, object]) -> Document:
     except InputError as error:
         return refusal(_told(error, language))
     return _entry(verdict, workbook, language)
-
-
-def line_of(document: Mapping[str, object]) -> Line:
-    """{task, answer: {syntax?, value}} as a line of a working."""
-    answer = cast("Mapping[str, str]", document["answer"])
-    return Line(str(document["task"]), answer["value"], cast("Syntax", answer.get("syntax") or "plain"))
 
 
 def _entry(verdict: Verdict, workbook: Workbook, language: str) -> Document:

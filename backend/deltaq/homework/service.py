@@ -3,31 +3,34 @@
 from __future__ import annotations
 
 from base64 import b64decode
-from collections.abc import Mapping, Sequence
-from typing import cast
+from collections.abc import Mapping
 
+from ..contract.assignment import AssignedTaskDocument
+from ..contract.check import CheckRequest, LinesRequest, ReadingRequest, TableRequest
+from ..contract.reading import read as read_request
+from ..contract.task import AssignmentRequest, SolutionRequest, StackRequest, TasksRequest
 from ..errors import ExpressionError, Problem, RequestError
 from ..language.latex_printer import Typography, latex
 from ..language.plain_printer import plain
 from ..mechanics.requests import inside
-from ..mechanics.user_text import plainly
+from ..mechanics.user_text import plainly, translated
 from ..mechanics.writing import write_scene
-from ..narration.catalog import language_in
-from .assignment import AssignedTask, Assignment, read_assignment
+from ..narration.catalog import language_of
+from .assignment import look_up, resolved
 from .feedback import Document, problem_documents, verdict_document
-from .grading import Sheet, line_of, plan_of, read_answers
+from .grading import Sheet, plan_of, read_answers
 from .motion import moved_scene
 from .reading import read
 from .stack.question import quiz
 from .statement import model_answer, task_document
-from .workbook import Workbook, workbook_of
-from .working import Scheme, check_following, mark, wrong_among
+from .workbook import Workbook, workbook_asked_about, workbook_of
+from .working import Scheme, check_following, line_of, mark, wrong_among
 
 
 def tasks_request(document: Mapping[str, object]) -> Document:
-    """{scene, guides?, freeze?, parameters?, seed?, lang?} → {scene, symbols, tasks}."""
-    workbook = workbook_of(document)
-    language = language_in(document)
+    """The fields of a TasksRequest → {scene, symbols, tasks}."""
+    asked = read_request(TasksRequest, document)
+    workbook, language = workbook_asked_about(asked, asked.seed), language_of(asked.lang)
     return {
         "scene": write_scene(workbook.scene),
         "symbols": _symbols(workbook),
@@ -47,48 +50,48 @@ def _symbols(workbook: Workbook) -> list[Document]:
 
 
 def check_request(document: Mapping[str, object]) -> Document:
-    """{scene, task, answer: {syntax, value}, …} → the verdict. Raises InputError for what is not an answer."""
-    workbook = workbook_of(document)
-    line = line_of(document)
-    previous = [line_of(one) for one in cast("Sequence[Mapping[str, object]]", document.get("previous") or ())]
-    wrong = wrong_among(workbook, previous)
+    """The fields of a CheckRequest → the verdict. Raises InputError for what is not an answer."""
+    asked = read_request(CheckRequest, document)
+    workbook, line = workbook_asked_about(asked, asked.seed), line_of(asked)
+    wrong = wrong_among(workbook, [line_of(one) for one in asked.previous])
     verdict = check_following(workbook, workbook.task(line.task), line, wrong)
-    return verdict_document(verdict, workbook.scene, language_in(document))
+    return verdict_document(verdict, workbook.scene, language_of(asked.lang))
 
 
 def reading_request(document: Mapping[str, object]) -> Document:
-    """{scene, task, answer, …} → what the answer is understood as, LaTeX and plain; no verdict."""
-    workbook = workbook_of(document)
-    line = line_of(document)
+    """The fields of a ReadingRequest → what the answer is understood as, LaTeX and plain; no verdict."""
+    asked = read_request(ReadingRequest, document)
+    workbook, line = workbook_asked_about(asked, asked.seed), line_of(asked)
     try:
         shown = read(workbook.task(line.task), workbook.solution, line.text, line.syntax).shown
     except ExpressionError as error:
-        problems = problem_documents(error.problems, language_in(document))
+        problems = problem_documents(error.problems, language_of(asked.lang))
         return {"latex": "", "plain": "", "problems": problems}
     return {"latex": latex(shown, Typography(workbook.scene.names)), "plain": plain(shown), "problems": []}
 
 
 def solution_request(document: Mapping[str, object]) -> Document:
-    """{scene, task, …} → the right answer, one text for each part, plain and LaTeX."""
-    workbook = workbook_of(document)
-    return model_answer(workbook.task(str(document["task"])), workbook)
+    """The fields of a SolutionRequest → the right answer, one text for each part, plain and LaTeX."""
+    asked = read_request(SolutionRequest, document)
+    workbook = workbook_asked_about(asked, asked.seed)
+    return model_answer(workbook.task(asked.task), workbook)
 
 
 def motion_request(document: Mapping[str, object]) -> Document:
-    """{scene, task, answer, …} → the scene that moves as the answer says. Raises InputError where there is none."""
-    workbook = workbook_of(document)
-    line = line_of(document)
+    """The fields of a ReadingRequest → the scene that moves as the answer says. Raises InputError where none does."""
+    asked = read_request(ReadingRequest, document)
+    workbook, line = workbook_asked_about(asked, asked.seed), line_of(asked)
     return {"scene": moved_scene(workbook, workbook.task(line.task), line.text, line.syntax)}
 
 
 def lines_request(document: Mapping[str, object]) -> Document:
-    """{scene, lines, scheme?, …} → the verdict and the points of every line, and where the first mistake is."""
-    workbook = workbook_of(document)
-    lines = [line_of(one) for one in cast("Sequence[Mapping[str, object]]", document["lines"])]
-    marked = mark(workbook, lines, _scheme(cast("Mapping[str, object]", document.get("scheme") or {})))
+    """The fields of a LinesRequest → the verdict and the points of every line, and where the first mistake is."""
+    asked = read_request(LinesRequest, document)
+    workbook, lines = workbook_asked_about(asked, asked.seed), [line_of(one) for one in asked.lines]
+    marked = mark(workbook, lines, Scheme(asked.scheme.points, asked.scheme.follow_through))
     first = next((n for n, each in enumerate(marked) if each.verdict.outcome in ("wrong", "invalid")), None)
     worth = {line.task: each.of for line, each in zip(lines, marked, strict=True)}
-    language = language_in(document)
+    language = language_of(asked.lang)
     return {
         "lines": [
             {**verdict_document(each.verdict, workbook.scene, language), "points": each.points, "of": each.of}
@@ -100,50 +103,44 @@ def lines_request(document: Mapping[str, object]) -> Document:
     }
 
 
-def _scheme(document: Mapping[str, object]) -> Scheme:
-    points = cast("Mapping[str, float]", document.get("points") or {})
-    return Scheme(points, float(cast("float", document.get("follow_through", Scheme.follow_through))))
-
-
 def assignment_request(document: Mapping[str, object]) -> Document:
-    """{assignment, seed?, lang?} → its tasks in order, each with its scene, symbols and points; the seed is a student.
+    """The fields of an AssignmentRequest → its tasks in order, each with its scene, symbols and points.
 
     Raises InputError that points below /assignment.
     """
-    sheet = _assignment(document)
-    seed = cast("str | None", document.get("seed")) if sheet.individual else None
-    language = language_in(document)
+    asked = read_request(AssignmentRequest, document)
+    sheet, language = asked.assignment, language_of(asked.lang)
+    with inside("/assignment"):
+        look_up(sheet)
+    seed = asked.seed if sheet.individual else None
     return {
-        "title": plainly(sheet.title),
+        "title": plainly(translated(sheet.title)),
         "follow_through": sheet.follow_through,
         "tasks": [_assigned_document(assigned, seed, language) for assigned in sheet.tasks],
     }
 
 
-def _assigned_document(assigned: AssignedTask, seed: str | None, language: str) -> Document:
-    workbook, task = assigned.resolved(seed)
+def _assigned_document(assigned: AssignedTaskDocument, seed: str | None, language: str) -> Document:
+    workbook, task = resolved(assigned, seed)
     told = task_document(task, workbook, language)
     points = task.quantity.points if assigned.points is None else assigned.points
     return {"scene": write_scene(workbook.scene), "symbols": _symbols(workbook), "task": told | {"points": points}}
 
 
-def _assignment(document: Mapping[str, object]) -> Assignment:
-    with inside("/assignment"):
-        return read_assignment(document["assignment"])
-
-
 def table_request(document: Mapping[str, object]) -> Document:
-    """{table: pieces, encoding, assignment?, scene?, lang} → the plan by which its rows are marked.
+    """The fields of a TableRequest → the plan by which its rows are marked.
 
     Raises InputError that points below /table, /assignment or /scene.
     """
-    assignment = None if document.get("assignment") is None else _assignment(document)
-    scene = document.get("scene") or ""
-    if scene:
-        workbook_of({"scene": scene})  # what is wrong with it is told once, not in each row
+    asked = read_request(TableRequest, document)
+    if asked.assignment:
+        with inside("/assignment"):
+            look_up(asked.assignment)
+    if asked.scene:
+        workbook_of({"scene": asked.scene})  # what is wrong with it is told once, not in each row
     with inside("/table"):
-        table = read_answers(_bytes("".join(cast("Sequence[str]", document["table"])), str(document["encoding"])))
-    return plan_of(table, Sheet(assignment, scene), language_in(document)).document
+        table = read_answers(_bytes("".join(asked.table), asked.encoding))
+    return plan_of(table, Sheet(asked.assignment, asked.scene or ""), language_of(asked.lang)).document
 
 
 def _bytes(table: str, encoding: str) -> bytes:
@@ -157,8 +154,8 @@ def _bytes(table: str, encoding: str) -> bytes:
 
 
 def stack_request(document: Mapping[str, object]) -> Document:
-    """{scene, tasks?, …} → {xml}: questions for STACK, of all tasks if none is named."""
-    workbook = workbook_of(document)
-    named = cast("Sequence[str]", document.get("tasks") or ())
-    tasks = [workbook.task(identifier) for identifier in named] or workbook.tasks
-    return {"xml": quiz(workbook, tasks, language_in(document))}
+    """The fields of a StackRequest → {xml}: questions for STACK, of all tasks if none is named."""
+    asked = read_request(StackRequest, document)
+    workbook = workbook_asked_about(asked, asked.seed)
+    tasks = [workbook.task(identifier) for identifier in asked.tasks] or workbook.tasks
+    return {"xml": quiz(workbook, tasks, language_of(asked.lang))}

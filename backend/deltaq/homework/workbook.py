@@ -7,6 +7,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
+from ..contract.base import SceneWithChanges
+from ..contract.reading import read
+from ..contract.task import SceneAskedAbout
 from ..errors import InputError
 from ..language.canonical import display
 from ..language.memory import cached_method
@@ -14,6 +17,7 @@ from ..mechanics.requests import changed_scene
 from ..mechanics.scene import Scene
 from .equality import Fingerprint, Parts
 from .faulty_solution import FaultySolution, misconceptions
+from .gradebook import content_of
 from .sampling import Sampler, close
 from .seeds import seeded
 from .solution import Solution
@@ -106,13 +110,17 @@ def _attempt(task: Task, solution: FaultySolution) -> Parts:
 
 
 def workbook_of(document: Mapping[str, object]) -> Workbook:
-    """The workbook of {scene, guides?, freeze?, parameters?, seed?}; the same content has the same one."""
-    fields = ("scene", "guides", "freeze", "parameters", "seed")
-    return _cached_workbook(json.dumps({field: document.get(field) for field in fields}, sort_keys=True))
+    """The workbook of a document with the fields of SceneAskedAbout. Raises InputError for what cannot be read."""
+    asked = read(SceneAskedAbout, document)
+    return workbook_asked_about(asked, asked.seed)
+
+
+def workbook_asked_about(asked: SceneWithChanges, seed: str | None = None) -> Workbook:
+    """The workbook of a scene with its changes and the values of a seed; the same content has the same one."""
+    return _cached_workbook(content_of(asked), seed)
 
 
 @lru_cache(maxsize=CACHED)
-def _cached_workbook(text: str) -> Workbook:
-    document = json.loads(text)
-    scene, seed = changed_scene(document), document["seed"]
-    return Workbook(scene if seed is None else seeded(scene, str(seed)))
+def _cached_workbook(content: str, seed: str | None) -> Workbook:
+    scene = changed_scene(SceneWithChanges.model_validate(json.loads(content)))
+    return Workbook(scene if seed is None else seeded(scene, seed))

@@ -8,14 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import sympy as sp
 
+from ..contract.assignment import FOLLOW_THROUGH
+from ..contract.check import WrittenAnswer
 from ..language.canonical import display
 from ..language.parser import Syntax
 from .checking import check
 from .equality import Parts
-from .gradebook import FOLLOW_THROUGH, earned_share, standing_after
+from .gradebook import earned_share, standing_after
 from .own import OwnSolution
 from .reading import read
 from .solution import Solution
@@ -34,6 +37,23 @@ class Line:
     task: str
     text: str
     syntax: Syntax = "plain"
+
+
+class Answered(Protocol):
+    """A task and what was answered, as the contract's requests and their lines have it."""
+
+    @property
+    def task(self) -> str:
+        """Its id."""
+
+    @property
+    def answer(self) -> WrittenAnswer:
+        """The text, and how it is written."""
+
+
+def line_of(asked: Answered) -> Line:
+    """What was answered as a line of a working."""
+    return Line(asked.task, asked.answer.value, asked.answer.syntax)
 
 
 @dataclass(frozen=True)

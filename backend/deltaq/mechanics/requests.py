@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Protocol, cast
+from typing import Protocol
 
-from ..errors import InputError, Problem, RequestError
+from ..errors import InputError
 from .changes import change
 from .document import read_scene
 from .initial import with_initial
@@ -14,36 +14,24 @@ from .library import family_of, load_scene
 from .scene import Scene
 
 
-def requested_scene(reference: object, parameters: Mapping[str, float]) -> tuple[Scene, Mapping[str, float]]:
+def requested_scene(
+    reference: str | Mapping[str, object], parameters: Mapping[str, float]
+) -> tuple[Scene, Mapping[str, float]]:
     """The scene without its changes, and the parameter values left once the size of a family is taken out.
 
     Problems of a scene that the request brings along point below /scene.
     """
     if isinstance(reference, str):
         return _named(reference, parameters)
-    if not isinstance(reference, Mapping):
-        raise RequestError(Problem("request-scene-type", "/scene"))
     with inside("/scene"):
         return read_scene(reference), parameters
 
 
-def changed_scene(document: Mapping[str, object]) -> Scene:
-    """The scene that a request {scene, guides?, freeze?, parameters?} means, its changes applied.
-
-    The types of the fields are checked already.
-    """
-    guides = cast("Sequence[Mapping[str, str]]", document.get("guides") or ())
-    freeze = cast("Sequence[str]", document.get("freeze") or ())
-    parameters = cast("Mapping[str, float]", document.get("parameters") or {})
-    scene, values = requested_scene(document["scene"], parameters)
-    return change(scene, guides, freeze, values)
-
-
-class BegunScene(Protocol):
-    """What a request says of its scene where a motion begins: `contract.base.SceneWithInitialValues` is one."""
+class ChangedScene(Protocol):
+    """What a request says of its scene: `contract.base.SceneWithChanges` is one."""
 
     @property
-    def scene(self) -> object:
+    def scene(self) -> str | Mapping[str, object]:
         """The id of a built-in scene, or a scene document."""
 
     @property
@@ -58,9 +46,19 @@ class BegunScene(Protocol):
     def parameters(self) -> Mapping[str, float]:
         """Parameter values by name, the size of a family among them."""
 
+
+class BegunScene(ChangedScene, Protocol):
+    """The same where a motion begins: `contract.base.SceneWithInitialValues` is one."""
+
     @property
     def given_initial(self) -> Mapping[str, Mapping[str, float]]:
         """Initial `value` and `rate` by coordinate."""
+
+
+def changed_scene(asked: ChangedScene) -> Scene:
+    """The scene that a request means, its changes applied. Raises InputError that points into the request."""
+    scene, parameters = requested_scene(asked.scene, asked.parameters)
+    return change(scene, asked.given_guides, asked.freeze, parameters)
 
 
 def begun_scene(asked: BegunScene) -> Scene:

@@ -79,11 +79,6 @@ def message(language: str, problem: Problem) -> str:
     return plain(sentence(language, problem))
 
 
-def language_in(document: Mapping[str, object]) -> str:
-    """The language that a request asks for by `lang`."""
-    return language_of(str(document.get("lang") or ""))
-
-
 def language_of(wanted: str | None) -> str:
     """The language to answer in: the one wanted if there is a catalog for it, else English."""
     short = (wanted or "")[:2].lower()

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..derivation.engine import USUAL, check_formulation, derive
+from ..contract.derivation import DerivationRequest
+from ..contract.reading import read
+from ..derivation.engine import derive
 from ..derivation.result import result_of
 from ..derivation.system import System
 from ..language.latex_printer import Typography
 from ..mechanics.requests import changed_scene, inside
-from .catalog import language_in
+from .catalog import language_of
 from .letters import letters_of
 from .marks import by_coordinate, in_class
 from .narrator import Narrator
@@ -23,19 +25,16 @@ Document = dict[str, object]
 def derive_request(document: Mapping[str, object]) -> Document:
     """Derives what the request names, all but its id. Raises InputError for what cannot be read.
 
-    `document`: {scene: id or document, guides?, freeze?, parameters?, formulation?, canonical?, lang?},
-    already checked for types.
+    `document`: the fields of a DerivationRequest.
     """
-    scene = changed_scene(document)
-    formulation = str(document.get("formulation") or USUAL)
-    check_formulation(formulation)
+    asked = read(DerivationRequest, document)
+    scene = changed_scene(asked)
     with inside("/scene"):
-        system, derivation = derive(scene, formulation, canonical=document.get("canonical") is True)
-    language = language_in(document)
-    narrator = narrator_of(system, language)
+        system, derivation = derive(scene, asked.formulation, canonical=asked.canonical)
+    narrator = narrator_of(system, language_of(asked.lang))
     return {
         "scene": scene.id,
-        "formulation": formulation,
+        "formulation": asked.formulation,
         "chapters": narrator.chapters(derivation),
         "result": written(result_of(system), Typography(scene.names, decimals=scene.writes_decimals), narrator.speech),
     }

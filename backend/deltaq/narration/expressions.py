@@ -6,10 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import cast
 
+from ..contract.expression import ExpressionRequest, ExpressionsRequest, ExpressionText
+from ..contract.reading import read
 from ..errors import InputError, Problem
 from ..language.latex_printer import Typography, latex
 from ..language.names import Names, Symbol
-from ..language.parser import Syntax, parse
+from ..language.parser import parse
 from ..language.plain_printer import plain
 from ..language.spoken_printer import SpokenPrinter
 from ..language.spoken_symbols import SpokenSymbols
@@ -17,27 +19,30 @@ from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..mechanics.document import names_in
 from ..mechanics.library import load_scene
-from .catalog import language_in
+from .catalog import language_of
 from .speech import vocabulary
 
 Document = dict[str, object]
 
 
 def typeset_request(document: Mapping[str, object]) -> Document:
-    """{scene, expression, syntax, material} → {latex, plain}. Raises InputError with the offset in the text."""
-    return _typeset(_names(document["scene"]), document, language_in(document))
+    """The fields of an ExpressionRequest → {latex, plain, spoken}. Raises InputError with the offset in the text."""
+    asked = read(ExpressionRequest, document)
+    return _typeset(_names(asked.scene), asked, language_of(asked.lang))
 
 
 def typeset_all(document: Mapping[str, object]) -> tuple[list[Document], list[tuple[Problem, ...]]]:
-    """{scene, expressions} → for each text {latex, plain}, and what is wrong with it; one never spoils another."""
-    names = _names(document["scene"])
-    texts = cast("Sequence[Mapping[str, object]]", document["expressions"])
-    language = language_in(document)
-    answers, problems = zip(*(_attempt(names, text, language) for text in texts), strict=True) if texts else ((), ())
-    return list(answers), list(problems)
+    """The fields of an ExpressionsRequest → for each text its answer, and what is wrong with it.
+
+    One never spoils another.
+    """
+    asked = read(ExpressionsRequest, document)
+    names, language = _names(asked.scene), language_of(asked.lang)
+    tried = [_attempt(names, text, language) for text in asked.expressions]
+    return [answer for answer, _ in tried], [problems for _, problems in tried]
 
 
-def _attempt(names: Names, text: Mapping[str, object], language: str) -> tuple[Document, tuple[Problem, ...]]:
+def _attempt(names: Names, text: ExpressionText, language: str) -> tuple[Document, tuple[Problem, ...]]:
     try:
         return _typeset(names, text, language), ()
     except InputError as error:
@@ -51,10 +56,10 @@ def _names(scene: object) -> Names:
     return load_scene(scene).names if isinstance(scene, str) else names_in(cast("Mapping[str, object]", scene))
 
 
-def _typeset(names: Names, document: Mapping[str, object], language: str) -> Document:
-    known = _with_material(names, cast("Sequence[str]", document.get("material") or ()))
+def _typeset(names: Names, text: ExpressionText, language: str) -> Document:
+    known = _with_material(names, text.material)
     try:
-        tree = parse(str(document["expression"]), known, cast("Syntax", document["syntax"])).tree
+        tree = parse(text.expression, known, text.syntax).tree
         value = to_sympy(tree, Symbols(known))
     except InputError as error:
         raise type(error)(*(problem.below("/expression") for problem in error.problems)) from None

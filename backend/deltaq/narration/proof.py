@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ..contract.proof import ProofRequest
+from ..contract.reading import read
 from ..derivation.abstract_motion import H
 from ..derivation.proof import PROOF, prove
 from ..errors import Problem, UnknownNameError
-from .catalog import language_in, text
+from .catalog import language_of, text
 from .function_notation import FunctionNotation, FunctionTypography
 from .general_symbols import DIRECTIONS, NAMES, GeneralSymbols
 from .marks import Wrap, in_class
@@ -18,15 +20,15 @@ PROOFS = (PROOF,)
 
 
 def proof_request(document: Mapping[str, object]) -> Document:
-    """{id?, lang?} → chapters and steps. Raises UnknownNameError if there is no such proof."""
-    identifier = str(document.get("id") or PROOF)
-    if identifier not in PROOFS:
-        parameters = {"name": identifier[:40], "known": ", ".join(PROOFS)}
+    """The fields of a ProofRequest → chapters and steps. Raises UnknownNameError if there is no such proof."""
+    asked = read(ProofRequest, document)
+    if asked.id not in PROOFS:
+        parameters = {"name": asked.id[:40], "known": ", ".join(PROOFS)}
         raise UnknownNameError(Problem("unknown-proof", parameters=parameters))
-    language = language_in(document)
+    language = language_of(asked.lang)
     narrator = Narrator(language, _notation(in_class))
     chapters = narrator.chapters(prove())
-    return {"id": identifier, "title": text(language, f"rules.proofs.{identifier}"), "chapters": chapters}
+    return {"id": asked.id, "title": text(language, f"rules.proofs.{asked.id}"), "chapters": chapters}
 
 
 def _notation(wrap: Wrap) -> FunctionNotation:

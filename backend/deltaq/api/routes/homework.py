@@ -10,7 +10,15 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request, Response
 from starlette.responses import StreamingResponse
 
-from ...contract.check import BatchRequest, CheckRequest, LinesRequest, ReadingRequest, SingleCheck, TableRequest
+from ...contract.check import (
+    BatchRequest,
+    CheckRequest,
+    LinesRequest,
+    ReadingRequest,
+    RowQuestion,
+    SingleCheck,
+    TableRequest,
+)
 from ...contract.task import (
     AssignmentAnswer,
     AssignmentRequest,
@@ -154,8 +162,8 @@ async def check_table(request: Request, body: TableRequest) -> Response:
     question = body.model_dump() | {"lang": language}
     plan = Plan.read(loads(await service.run(PLAN, question)))
 
-    async def verdict_on(asked: dict[str, Any]) -> dict[str, Any]:
-        row = asked | {"lang": language}
+    async def verdict_on(asked: RowQuestion) -> dict[str, Any]:
+        row = asked.model_dump() | {"lang": language}
         answering = service.answer(service.key(ROW.target, row), expected(ROW, row, FAST), row)
         verdict: dict[str, Any] = loads(unpack(await service.ending.unless(answering)))
         return verdict

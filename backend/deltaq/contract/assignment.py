@@ -1,0 +1,96 @@
+"""Assignments, format 1, as files and in requests; `homework/assignment.py` looks whether scenes have the tasks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import (
+    BeforeValidator,
+    Field,
+    ValidationError,
+    ValidatorFunctionWrapHandler,
+    WrapValidator,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
+
+from .base import Request, SceneWithChanges
+from .document import Text
+
+FOLLOW_THROUGH = 0.5  # share of the points for what follows from a wrong line
+MOST_TASKS = 64
+NEEDED = ("scene", "task")
+
+
+def _told_as(
+    code: Literal["assignment-format", "assignment-share", "request-not-number"], **told: Any
+) -> WrapValidator:
+    """Whatever is wrong with the value is told by one sentence."""
+
+    def check(value: Any, validate: ValidatorFunctionWrapHandler) -> Any:
+        try:
+            return validate(value)
+        except ValidationError:
+            raise PydanticCustomError(code, code, told) from None
+
+    return WrapValidator(check)
+
+
+def _by_language(title: Any) -> Any:
+    """By language; a title without one is for all."""
+    if isinstance(title, Mapping):
+        return title
+    if title and not isinstance(title, str):
+        raise PydanticCustomError("request-not-text", "a text, or one by language")
+    return dict.fromkeys(("en", "de"), title) if title else {}
+
+
+def _are_some(tasks: Any) -> Any:
+    if isinstance(tasks, list | tuple) and tasks:
+        return tasks
+    raise PydanticCustomError("assignment-no-task", "a list of tasks")
+
+
+class AssignedTaskDocument(SceneWithChanges):
+    """A task of an assignment, and what is changed in its scene before."""
+
+    task: str = Field(description="a task of the scene by its id", examples=["equation:phi"])
+    points: Annotated[float | None, Field(ge=0, le=1000), _told_as("request-not-number")] = Field(
+        None, description="as usual if empty"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_order(cls, document: Any) -> Any:
+        """Unknown fields are told by name; a field that is null was not given."""
+        if not isinstance(document, Mapping):
+            return document
+        return {name: value for name, value in sorted(document.items()) if value is not None or name in NEEDED}
+
+
+class AssignmentDocument(Request):
+    """An assignment, format 1."""
+
+    format: Annotated[int, Field(ge=1, le=1), _told_as("assignment-format", format=1)] = Field(
+        description="of the document"
+    )
+    title: Annotated[dict[str, str], BeforeValidator(_by_language, json_schema_input_type=Text | None)] = Field(
+        {}, description="what the assignment is called"
+    )
+    individual: bool = Field(default=False, description="whether each student has values of their own")
+    follow_through: Annotated[float, Field(ge=0, le=1), _told_as("assignment-share")] = Field(
+        FOLLOW_THROUGH, description="share of the points for a right consequence"
+    )
+    tasks: Annotated[
+        tuple[AssignedTaskDocument, ...], Field(strict=False, max_length=MOST_TASKS), BeforeValidator(_are_some)
+    ] = Field(description="one after the other")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_order(cls, document: Any) -> Any:
+        """What is missing is told as what is wrong there, and unknown fields by name; null is as good as nothing."""
+        if not isinstance(document, Mapping):
+            return document
+        given = {name: value for name, value in sorted(document.items()) if value is not None}
+        return {"format": None, "tasks": None} | given
