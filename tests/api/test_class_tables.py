@@ -18,7 +18,7 @@ from deltaq.api.workers.account import QuotaExceeded
 from deltaq.api.workers.job import DeadlineExceeded, JobFailed, MemoryExceeded, Overloaded
 from deltaq.contract.base import SceneWithChanges
 from deltaq.contract.check import RowQuestion
-from deltaq.contract.verdict import TableAnswer
+from deltaq.contract.verdict import RowVerdict, TableAnswer
 from deltaq.errors import Problem, UnknownNameError
 from deltaq.homework.gradebook import Plan, Row, Target, refusal
 
@@ -145,7 +145,7 @@ async def marked(fails: dict[int, list[Exception]], longest: float = 100.0, seco
     """Of each row its outcome or what is told of it, where the judge fails at some; and the clock."""
     clock = Clock()
 
-    async def verdict_on(question: RowQuestion) -> dict[str, Any]:
+    async def verdict_on(question: RowQuestion) -> RowVerdict:
         clock.now += seconds
         errors = fails.get(int(question.answer.value.split()[1]), [])
         if errors:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import io
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from deltaq.cli import main
+from deltaq.commands import check
+from deltaq.contract.check import TableRequest
+from deltaq.contract.table import COLUMNS
 from deltaq.errors import InputError
 from deltaq.homework.assignment import load_assignment, read_assignment
 from deltaq.homework.command import check_file
@@ -343,3 +347,8 @@ def test_an_endless_cell_is_shown_by_its_beginning(column: str, shown: int) -> N
     (graded,) = graded_rows(f"{HEAD.strip()},{column}\nada,pendulum,equation:phi,0,{'z' * 60}\n")
     assert "z" * shown in graded.feedback
     assert "z" * (shown + 1) not in graded.feedback
+
+
+def test_every_column_is_named_where_tables_are_asked_for() -> None:
+    asked = str(TableRequest.model_fields["table"].description), check.DESCRIPTION
+    assert [name for name in COLUMNS for text in asked if not re.search(rf"\b{name}\b", text)] == []

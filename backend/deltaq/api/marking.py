@@ -11,10 +11,11 @@ import asyncio
 import json
 import time
 from collections.abc import AsyncIterator, Awaitable, Callable
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 from ..contract.check import RowQuestion
+from ..contract.verdict import RowVerdict
 from ..errors import InputError, Problem
 from ..homework.gradebook import Document, Gradebook, Plan, refusal
 from ..homework.results import Graded, results_csv, totals
@@ -33,13 +34,21 @@ HIDDEN = ("person", "target")  # what a row of the answer leaves out
 Told = tuple[str, Document]  # the kind of an event and its data
 
 
+@dataclass(frozen=True)
+class Wait:
+    """A question that is to be asked again after so many seconds."""
+
+    seconds: float
+    question: RowQuestion
+
+
 class Marking:
     """One table on its way: `events` marks it, `result` says what came of it."""
 
     def __init__(
         self,
         plan: Plan,
-        verdict_on: Callable[[RowQuestion], Awaitable[Document]],
+        verdict_on: Callable[[RowQuestion], Awaitable[RowVerdict]],
         language: Language,
         longest: float,
         clock: Callable[[], float] = time.monotonic,
@@ -64,12 +73,12 @@ class Marking:
         for index in self._plan.order:
             row = self._plan.rows[index]
             question = book.question(row)
-            verdict, wait = (refusal(row.refused), 0.0) if question is None else await self._try(question)
-            while verdict is None and question is not None:
-                yield "waiting", {"seconds": round(wait, 1)}
-                await self._sleep(wait)
-                verdict, wait = await self._try(question)
-            self._graded[index] = book.enter(row, verdict or {})
+            found = refusal(row.refused) if question is None else await self._try(question)
+            while isinstance(found, Wait):
+                yield "waiting", {"seconds": round(found.seconds, 1)}
+                await self._sleep(found.seconds)
+                found = await self._try(found.question)
+            self._graded[index] = book.enter(row, found)
             yield "row", row_document(index, self._graded[index])
             if self._clock() >= next_totals:
                 yield "totals", self._totals()
@@ -93,24 +102,22 @@ class Marking:
     def _totals(self) -> Document:
         return totals(self._in_order(), self._plan.of, self._language)
 
-    async def _try(self, question: RowQuestion) -> tuple[Document | None, float]:
-        """The verdict; or none, and after how many seconds to try again."""
+    async def _try(self, question: RowQuestion) -> RowVerdict | Wait:
+        """The verdict; or after how many seconds to try again."""
         left = self._end - self._clock()
         try:
-            return (await self._verdict_on(question) if left > 0.0 else self._undecided(OUT_OF_TIME)), 0.0
+            return await self._verdict_on(question) if left > 0.0 else self._undecided(OUT_OF_TIME)
         except (DeadlineExceeded, MemoryExceeded):
-            return self._undecided(TOO_LARGE), 0.0
+            return self._undecided(TOO_LARGE)
         except InputError as error:
-            return refusal(" ".join(message(self._language, problem) for problem in error.problems)), 0.0
+            return refusal(" ".join(message(self._language, problem) for problem in error.problems))
         except QuotaExceeded as error:
-            return self._later(error.seconds, left)
+            wait = Wait(error.seconds, question)
         except Overloaded:
-            return self._later(BUSY_PAUSE, left)
+            wait = Wait(BUSY_PAUSE, question)
+        return wait if wait.seconds < left else self._undecided(OUT_OF_TIME)
 
-    def _later(self, seconds: float, left: float) -> tuple[Document | None, float]:
-        return (None, seconds) if seconds < left else (self._undecided(OUT_OF_TIME), 0.0)
-
-    def _undecided(self, why: Problem) -> Document:
+    def _undecided(self, why: Problem) -> RowVerdict:
         """The verdict on an answer that has not been looked at to the end."""
         outcome = text(self._language, "homework.outcomes.undecided")
         return refusal(f"{outcome} {message(self._language, why)}", "undecided")

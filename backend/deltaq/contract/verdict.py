@@ -83,6 +83,17 @@ class LinesAnswer(Answer):
     of: float
 
 
+class RowVerdict(Answer):
+    """What a worker says of a row, from which its points are computed."""
+
+    outcome: Outcome
+    remark: str = ""
+    misconception: str = Field("", description="its id, `slip:` and its kind, or empty")
+    mistake: str = Field("", description="what went wrong, in words; empty where nothing did")
+    understood_as: str = ""
+    feedback: str
+
+
 class GradedRow(Answer):
     """A row of a table, marked."""
 

@@ -27,8 +27,10 @@ from ..contract.assignment import FOLLOW_THROUGH
 from ..contract.base import SceneWithChanges
 from ..contract.check import RowQuestion, WrittenAnswer, WrittenLine
 from ..contract.reading import made_of, plain_data
+from ..contract.verdict import RowVerdict
 from ..language.parser import Syntax
 from ..narration.prose import words
+from ..vocabulary import Outcome
 from .results import Graded
 from .table import Style
 
@@ -158,14 +160,13 @@ class Gradebook:
             standing=tuple(standing.values())[-MOST_STANDING:],
         )
 
-    def enter(self, row: Row, verdict: Mapping[str, Any]) -> Graded:
-        """The row with its verdict: {outcome, remark, misconception, mistake, understood_as, feedback}."""
+    def enter(self, row: Row, verdict: RowVerdict) -> Graded:
+        """The row with its verdict and its points."""
         target = None if row.target is None else self._plan.targets[row.target]
         of = target.of if target else 0.0
-        worth = of * earned_share(verdict["outcome"], verdict["remark"], self._plan.share)
+        worth = of * earned_share(verdict.outcome, verdict.remark, self._plan.share)
         points = self._gained(row, target, worth) if target else 0.0
-        self._note(row, target, verdict["outcome"])
-        told = {name: verdict[name] for name in ("outcome", "misconception", "mistake", "understood_as", "feedback")}
+        self._note(row, target, verdict.outcome)
         return Graded(
             student=row.student,
             scene=target.scene if target else row.scene,
@@ -178,7 +179,11 @@ class Gradebook:
             column=row.column,
             person=row.person,
             target=row.target,
-            **told,
+            outcome=verdict.outcome,
+            misconception=verdict.misconception,
+            mistake=verdict.mistake,
+            understood_as=verdict.understood_as,
+            feedback=verdict.feedback,
         )
 
     def refuse(self, row: Row) -> Graded:
@@ -201,11 +206,9 @@ class Gradebook:
             self._standing[working] = standing_after(standing, target.task, outcome, lambda: _line(target, row))
 
 
-def refusal(told: str, outcome: str = "invalid") -> Document:
-    """The verdict on a row that cannot be marked: a sentence and no outcome."""
-    return {
-        "outcome": outcome, "remark": "", "misconception": "", "mistake": "", "understood_as": "", "feedback": told
-    }  # fmt: skip
+def refusal(told: str, outcome: Outcome = "invalid") -> RowVerdict:
+    """The verdict on a row that cannot be marked: a sentence, and no more."""
+    return RowVerdict(outcome=outcome, feedback=told)
 
 
 def in_order(plan: Plan, graded: Mapping[int, Graded]) -> list[Graded]:
@@ -222,7 +225,7 @@ def content_of(asked: SceneWithChanges) -> str:
     return json.dumps(asked.model_dump(include=CHANGES), sort_keys=True)
 
 
-def marked(plan: Plan, verdict_on: Callable[[RowQuestion], Mapping[str, Any]]) -> Iterator[tuple[int, Graded]]:
+def marked(plan: Plan, verdict_on: Callable[[RowQuestion], RowVerdict]) -> Iterator[tuple[int, Graded]]:
     """Every row with its place in the table, in the order in which they are marked."""
     book = Gradebook(plan)
     for index in plan.order:

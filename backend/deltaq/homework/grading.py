@@ -16,6 +16,8 @@ from ..contract.assignment import FOLLOW_THROUGH, AssignedTaskDocument, Assignme
 from ..contract.base import SceneWithChanges
 from ..contract.check import RowQuestion
 from ..contract.reading import read as read_request
+from ..contract.table import COLUMNS, NEEDED, TableRow
+from ..contract.verdict import RowVerdict
 from ..errors import InputError, Problem, RequestError, UnknownNameError
 from ..language.parser import Syntax
 from ..narration.catalog import language_of, message
@@ -30,15 +32,13 @@ from .verdict import Verdict
 from .workbook import Workbook, workbook_asked_about
 from .working import check_following, line_of
 
-NEEDED = ("task", "answer")
-COLUMNS = (*NEEDED, "student", "scene", "syntax", "seed", "line")
 SYNTAXES: Mapping[str, Syntax] = {"": "plain", "plain": "plain", "latex": "latex"}
 NUMBER = re.compile(r"-?[0-9]{1,9}([.,][0-9]{1,9})?")
 MOST_ROWS = 5000
 
 
 def read_answers(data: bytes) -> Table:
-    """The table of a file: `task`, `answer`; where wanted `student`, `scene`, `syntax`, `seed`, `line`.
+    """The table of a file with the columns of a TableRow, the first two at least.
 
     Raises RequestError with the column or the row that is wrong.
     """
@@ -61,13 +61,13 @@ def grade(table: Table, sheet: Sheet, language: str) -> Iterator[tuple[int, Grad
 
     What many students wrote is judged once.
     """
-    known: dict[str, Document] = {}
+    known: dict[str, RowVerdict] = {}
 
-    def verdict_on(question: RowQuestion) -> Document:
+    def verdict_on(question: RowQuestion) -> RowVerdict:
         asked = question.model_dump() | {"lang": language}
         key = json.dumps(asked)
         if key not in known:
-            known[key] = row_verdict(asked)
+            known[key] = RowVerdict.model_validate(row_verdict(asked))
         return known[key]
 
     return marked(plan_of(table, sheet, language), verdict_on)
@@ -107,13 +107,14 @@ def plan_of(table: Table, sheet: Sheet, language: str) -> Plan:
 
 def _row(number: int, cells: Mapping[str, str], tasks: _Tasks, header: Sequence[str]) -> Row:
     """The row as a question, as far as it goes until something is wrong."""
-    student, scene, task = (cells.get(name, "") for name in ("student", "scene", "task"))
-    row = Row(number, student, scene, task, cells["answer"], person=_person(student, header))
+    given = TableRow(**{name: cells[name] for name in COLUMNS if name in cells})
+    row = Row(number, given.student, given.scene, given.task, given.answer, person=_person(given.student, header))
     try:
-        row = replace(row, target=tasks.number(task.strip(), scene.strip()), seed=_seed(cells, tasks.sheet))
+        target = tasks.number(given.task.strip(), given.scene.strip())
+        row = replace(row, target=target, seed=_seed(given, tasks.sheet))
         if BEYOND in cells:
             raise _wrong("answer", "answers-cells", beyond=cells[BEYOND][:40])
-        return replace(row, syntax=_syntax(cells), line=_line_number(cells))
+        return replace(row, syntax=_syntax(given), line=_line_number(given))
     except WrongCell as wrong:
         return replace(row, refused=_told(wrong.error, tasks.language), column=wrong.column)
 
@@ -124,22 +125,22 @@ def _person(student: str, header: Sequence[str]) -> str | None:
     return name or ("" if "student" not in header and "line" in header else None)
 
 
-def _seed(cells: Mapping[str, str], sheet: Sheet) -> str | None:
+def _seed(row: TableRow, sheet: Sheet) -> str | None:
     """Whose values: those of the column `seed`, or of the name where everybody has their own."""
-    own = cells.get("student", "").strip() if sheet.assignment and sheet.assignment.individual else ""
-    return cells.get("seed", "").strip() or own or None
+    own = row.student.strip() if sheet.assignment and sheet.assignment.individual else ""
+    return row.seed.strip() or own or None
 
 
-def _syntax(cells: Mapping[str, str]) -> Syntax:
-    wanted = cells.get("syntax", "").strip().lower()
+def _syntax(row: TableRow) -> Syntax:
+    wanted = row.syntax.strip().lower()
     if wanted not in SYNTAXES:
         raise _wrong("syntax", "answers-syntax", name=wanted[:20])
     return SYNTAXES[wanted]
 
 
-def _line_number(cells: Mapping[str, str]) -> float | None:
+def _line_number(row: TableRow) -> float | None:
     """The place in the working; None for an empty cell, or where there is no such column."""
-    written = cells.get("line", "").strip()
+    written = row.line.strip()
     if written and not NUMBER.fullmatch(written):
         raise _wrong("line", "answers-line", name=written[:20])
     return float(written.replace(",", ".")) if written else None
@@ -232,7 +233,7 @@ class _Tasks:
 
 
 def row_verdict(question: Mapping[str, object]) -> Document:
-    """The fields of a RowQuestion → what a `Gradebook` enters.
+    """The fields of a RowQuestion → those of a RowVerdict.
 
     What cannot be asked of the scene in these values is told, too: it spoils no other row.
     """
@@ -246,22 +247,22 @@ def row_verdict(question: Mapping[str, object]) -> Document:
         }
         verdict = check_following(workbook, workbook.task(line.task), line, wrong)
     except InputError as error:
-        return refusal(_told(error, language))
-    return _entry(verdict, workbook, language)
+        return refusal(_told(error, language)).model_dump()
+    return _row_verdict(verdict, workbook, language).model_dump()
 
 
-def _entry(verdict: Verdict, workbook: Workbook, language: str) -> Document:
+def _row_verdict(verdict: Verdict, workbook: Workbook, language: str) -> RowVerdict:
     told = verdict_document(verdict, workbook.scene, language)
     titles = [one["title"] for one in cast("Sequence[Mapping[str, str]]", told["misconceptions"])]
     mistake = _mistake(verdict)
-    return {
-        "outcome": verdict.outcome,
-        "remark": verdict.remark,
-        "misconception": mistake,
-        "mistake": titles[0] if titles else named(mistake, language) if mistake else "",
-        "understood_as": verdict.understood_as,
-        "feedback": told["feedback"],
-    }
+    return RowVerdict(
+        outcome=verdict.outcome,
+        remark=verdict.remark,
+        misconception=mistake,
+        mistake=titles[0] if titles else named(mistake, language) if mistake else "",
+        understood_as=verdict.understood_as,
+        feedback=told["feedback"],
+    )
 
 
 def _mistake(verdict: Verdict) -> str:

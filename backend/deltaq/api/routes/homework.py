@@ -28,7 +28,15 @@ from ...contract.task import (
     TaskList,
     TasksRequest,
 )
-from ...contract.verdict import BatchAnswer, LinesAnswer, MotionAnswer, ReadingAnswer, TableAnswer, VerdictAnswer
+from ...contract.verdict import (
+    BatchAnswer,
+    LinesAnswer,
+    MotionAnswer,
+    ReadingAnswer,
+    RowVerdict,
+    TableAnswer,
+    VerdictAnswer,
+)
 from ...homework.gradebook import Plan
 from ..batches import LONGEST as BATCH_LONGEST
 from ..batches import checked
@@ -162,11 +170,10 @@ async def check_table(request: Request, body: TableRequest) -> Response:
     question = body.model_dump() | {"lang": language}
     plan = Plan.read(loads(await service.run(PLAN, question)))
 
-    async def verdict_on(asked: RowQuestion) -> dict[str, Any]:
+    async def verdict_on(asked: RowQuestion) -> RowVerdict:
         row = asked.model_dump() | {"lang": language}
         answering = service.answer(service.key(ROW.target, row), expected(ROW, row, FAST), row)
-        verdict: dict[str, Any] = loads(unpack(await service.ending.unless(answering)))
-        return verdict
+        return RowVerdict.model_validate_json(unpack(await service.ending.unless(answering)))
 
     accepted = request.headers.get("accept", "")
     if EVENTS in accepted:
