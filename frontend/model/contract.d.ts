@@ -933,6 +933,69 @@ export interface components {
             lang?: ("de" | "en") | null;
         };
         /**
+         * Axis
+         * @description An axis with its quantity and unit.
+         */
+        Axis: {
+            title: components["schemas"]["AxisTitle"];
+            /**
+             * Type
+             * @description else linear
+             */
+            type?: "log" | null;
+            /**
+             * Range
+             * @description of a logarithmic axis in decades
+             */
+            range?: [
+                number,
+                number
+            ] | null;
+            /** Rangemode */
+            rangemode?: string | null;
+            /** Autorange */
+            autorange?: string | null;
+            /** Dtick */
+            dtick?: number | string | null;
+            /** Constrain */
+            constrain?: string | null;
+            /** Scaleanchor */
+            scaleanchor?: string | null;
+            /** Gridcolor */
+            gridcolor: string;
+            /** Linecolor */
+            linecolor: string;
+            /** Mirror */
+            mirror: boolean;
+            /** Showline */
+            showline: boolean;
+            /** Ticks */
+            ticks: string;
+            /** Zeroline */
+            zeroline: boolean;
+            /** Zerolinecolor */
+            zerolinecolor?: string | null;
+            /** Exponentformat */
+            exponentformat: string;
+            /** Automargin */
+            automargin: boolean;
+        };
+        /**
+         * AxisTitle
+         * @description A text beside an axis or a scale of colours.
+         */
+        AxisTitle: {
+            /** Text */
+            text: string;
+            /**
+             * Standoff
+             * @description from the axis, in pixels
+             */
+            standoff?: number | null;
+            /** Side */
+            side?: string | null;
+        };
+        /**
          * Band
          * @description Between which values dry friction holds the coordinate at rest.
          */
@@ -1014,6 +1077,47 @@ export interface components {
             outcome: "correct" | "wrong" | "undecided" | "invalid" | "follow_through";
             /** Points */
             points: number;
+        };
+        /**
+         * BoundaryTerm
+         * @description What integration by parts leaves at the ends: a factor times δx or δẋ.
+         */
+        BoundaryTerm: {
+            /**
+             * Plain
+             * @example m*l^2*dot(phi)^2/2
+             */
+            plain: string;
+            /** Latex */
+            latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
+            /**
+             * Function
+             * @example x
+             */
+            function: string;
+            /**
+             * Order
+             * @description 0: of δx, 1: of δẋ
+             */
+            order: number;
+            /**
+             * Vanishes
+             * @description whether the ends prescribe what is varied
+             */
+            vanishes: boolean;
+            /**
+             * At
+             * @description the free ends, where it does not vanish
+             */
+            at: string[];
+            /** @description the natural condition there: the factor is zero */
+            condition: components["schemas"]["Formula"] | null;
         };
         /**
          * CacheHealth
@@ -1212,13 +1316,8 @@ export interface components {
             /** Caption */
             caption: string;
             /** Data */
-            data: {
-                [key: string]: unknown;
-            }[];
-            /** Layout */
-            layout: {
-                [key: string]: unknown;
-            };
+            data: components["schemas"]["Trace"][];
+            layout: components["schemas"]["Layout"];
         };
         /**
          * CheapestRun
@@ -1345,6 +1444,17 @@ export interface components {
              * @description language of the texts; else Accept-Language decides
              */
             lang?: ("de" | "en") | null;
+        };
+        /**
+         * ColorBar
+         * @description The scale beside a map.
+         */
+        ColorBar: {
+            title: components["schemas"]["AxisTitle"];
+            /** Thickness */
+            thickness: number;
+            /** Outlinewidth */
+            outlinewidth: number;
         };
         Column: number[] | string;
         /**
@@ -2265,6 +2375,27 @@ export interface components {
             number: number;
         };
         /**
+         * ErrorBars
+         * @description From each point on, up and down.
+         */
+        ErrorBars: {
+            /**
+             * Type
+             * @constant
+             */
+            type: "data";
+            /** Symmetric */
+            symmetric: boolean;
+            /** Array */
+            array: number[];
+            /** Arrayminus */
+            arrayminus: number[];
+            /** Thickness */
+            thickness: number;
+            /** Width */
+            width: number;
+        };
+        /**
          * ErrorEstimate
          * @description The estimated largest absolute error of any coordinate at each sample, and the time after which none is right.
          */
@@ -2288,6 +2419,30 @@ export interface components {
              * @description whether the error stays below it; null where nothing was estimated
              */
             reached: boolean | null;
+        };
+        /**
+         * EulerLagrangeEquation
+         * @description The equation `… = 0` that belongs to a function, without denominators and common factors.
+         */
+        EulerLagrangeEquation: {
+            /**
+             * Plain
+             * @example m*l^2*dot(phi)^2/2
+             */
+            plain: string;
+            /** Latex */
+            latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
+            /**
+             * Function
+             * @example x
+             */
+            function: string;
         };
         /**
          * EventAnswer
@@ -2805,6 +2960,75 @@ export interface components {
             tolerance?: number | null;
         };
         /**
+         * FirstIntegral
+         * @description What is constant along the solutions.
+         */
+        FirstIntegral: {
+            /**
+             * Plain
+             * @example m*l^2*dot(phi)^2/2
+             */
+            plain: string;
+            /** Latex */
+            latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "momentum" | "energy";
+            /**
+             * Function
+             * @description whose momentum; null of the energy
+             */
+            function: string | null;
+        };
+        /**
+         * FirstVariation
+         * @description δ of the expression or functional; of an integral `plain` is the integrand.
+         */
+        FirstVariation: {
+            /**
+             * Plain
+             * @description in delta(x) and dot(delta(x)), or in the names of the directions; of a vector its components
+             * @example l*cos(phi)*delta(phi)
+             */
+            plain: string | string[];
+            /** Latex */
+            latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
+            /**
+             * At
+             * @description the instant, of a functional that takes a value
+             */
+            at?: string | null;
+            /**
+             * From
+             * @description lower bound of an integral
+             */
+            from?: string | null;
+            /**
+             * To
+             * @description upper bound of an integral
+             */
+            to?: string | null;
+            /**
+             * Ends
+             * @description what is prescribed at the ends of an integral
+             */
+            ends?: ("fixed" | "hinged" | "free" | "fixed-hinged" | "fixed-free" | "hinged-fixed" | "hinged-free" | "free-fixed" | "free-hinged") | null;
+        };
+        /**
          * FlipMap
          * @description When something turns over, by the angles that the motion begins from at rest.
          */
@@ -2828,6 +3052,18 @@ export interface components {
             coordinate: string;
             /** Values */
             values: number[];
+        };
+        /**
+         * Font
+         * @description Letters, in pixels.
+         */
+        Font: {
+            /** Family */
+            family?: string | null;
+            /** Size */
+            size: number;
+            /** Color */
+            color?: string | null;
         };
         /**
          * Forcing
@@ -3136,6 +3372,57 @@ export interface components {
             refused: components["schemas"]["Refusal"][];
         };
         /**
+         * Layout
+         * @description All but the curves.
+         */
+        Layout: {
+            font: components["schemas"]["Font"];
+            /** Paper Bgcolor */
+            paper_bgcolor: string;
+            /** Plot Bgcolor */
+            plot_bgcolor: string;
+            margin: components["schemas"]["Margin"];
+            /** Hovermode */
+            hovermode: string;
+            legend: components["schemas"]["Legend"];
+            /** Showlegend */
+            showlegend?: boolean | null;
+            xaxis: components["schemas"]["Axis"];
+            yaxis: components["schemas"]["Axis"];
+        };
+        /**
+         * Legend
+         * @description Where the names of the curves stand.
+         */
+        Legend: {
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
+            /** Xanchor */
+            xanchor: string;
+            /** Yanchor */
+            yanchor: string;
+            font: components["schemas"]["Font"];
+            /** Tracegroupgap */
+            tracegroupgap: number;
+        };
+        /**
+         * LineStyle
+         * @description How a line, or the border of a symbol, is drawn.
+         */
+        LineStyle: {
+            /** Color */
+            color?: string | null;
+            /**
+             * Dash
+             * @example dash
+             */
+            dash?: string | null;
+            /** Width */
+            width?: number | null;
+        };
+        /**
          * LinesAnswer
          * @description A working, marked: a task earns its points once.
          */
@@ -3342,6 +3629,20 @@ export interface components {
             values: number[];
         };
         /**
+         * Margin
+         * @description Around the axes, in pixels.
+         */
+        Margin: {
+            /** L */
+            l: number;
+            /** R */
+            r: number;
+            /** T */
+            t: number;
+            /** B */
+            b: number;
+        };
+        /**
          * MarkedLine
          * @description The verdict on a line, and the points it earns.
          */
@@ -3386,6 +3687,23 @@ export interface components {
             points: number;
             /** Of */
             of: number;
+        };
+        /**
+         * MarkerStyle
+         * @description How symbols are drawn; a list has one entry for each of them.
+         */
+        MarkerStyle: {
+            /** Color */
+            color?: string | null;
+            /**
+             * Symbol
+             * @example circle
+             */
+            symbol?: string | string[] | null;
+            /** Size */
+            size?: number | null;
+            /** @description the border */
+            line?: components["schemas"]["LineStyle"] | null;
         };
         /**
          * MassMatrix
@@ -4718,6 +5036,13 @@ export interface components {
             value: number | null;
         };
         /**
+         * Sentences
+         * @description Sentences by their keys, in sections.
+         */
+        Sentences: {
+            [key: string]: string | components["schemas"]["Sentences"];
+        };
+        /**
          * Simplification
          * @description One thing that is left out.
          */
@@ -5818,6 +6143,98 @@ export interface components {
             from: components["schemas"]["Origin"][];
         };
         /**
+         * Trace
+         * @description A curve, symbols, or a map over x and y.
+         */
+        Trace: {
+            /**
+             * Type
+             * @enum {string}
+             */
+            type: "scatter" | "heatmap";
+            /**
+             * Mode
+             * @example lines+markers
+             */
+            mode?: string | null;
+            /**
+             * Name
+             * @description in the legend
+             */
+            name?: string | null;
+            /** X */
+            x: (number | null)[];
+            /**
+             * Y
+             * @description null parts a curve
+             */
+            y: (number | null)[];
+            /**
+             * Z
+             * @description of a map, by rows of equal y
+             */
+            z?: (number | null)[][] | null;
+            /** Zmin */
+            zmin?: number | null;
+            /** Zmax */
+            zmax?: number | null;
+            /** Colorscale */
+            colorscale?: [
+                number,
+                string
+            ][] | null;
+            colorbar?: components["schemas"]["ColorBar"] | null;
+            /** Text */
+            text?: string[] | null;
+            /** Textposition */
+            textposition?: string | null;
+            /** Hoverinfo */
+            hoverinfo?: string | null;
+            /** Hovertemplate */
+            hovertemplate?: string | null;
+            line?: components["schemas"]["LineStyle"] | null;
+            marker?: components["schemas"]["MarkerStyle"] | null;
+            error_x?: components["schemas"]["ErrorBars"] | null;
+            /** Fill */
+            fill?: string | null;
+            /** Fillcolor */
+            fillcolor?: string | null;
+            /** Opacity */
+            opacity?: number | null;
+            /**
+             * Visible
+             * @description legendonly: after a click on its name in the legend
+             */
+            visible?: boolean | string | null;
+            /** Showlegend */
+            showlegend?: boolean | null;
+            /** Legendgroup */
+            legendgroup?: string | null;
+            meta?: components["schemas"]["TraceMeaning"] | null;
+        };
+        /**
+         * TraceMeaning
+         * @description What a trace shows that its look does not tell.
+         */
+        TraceMeaning: {
+            /**
+             * Role
+             * @description eigenvalues, map, flips, or without-result
+             * @example eigenvalues
+             */
+            role: string;
+            /**
+             * X
+             * @description of a map: whose values stand on its axis
+             */
+            x?: string | null;
+            /**
+             * Y
+             * @description likewise
+             */
+            y?: string | null;
+        };
+        /**
          * TwinRuns
          * @description The distance of two motions that begin close to each other.
          */
@@ -5848,10 +6265,7 @@ export interface components {
          * VariationAnswer
          * @description The first variation by two routes, and its results as plain expressions and as LaTeX.
          *
-         *     `result.first_variation.plain` is in delta(x) and dot(delta(x)), or in the names of the directions; for an integral
-         *     it is the integrand, and `euler_lagrange` (without denominators and common factors), `boundary_terms` (each with
-         *     the `order` of its δx or δẋ, and the natural condition at free ends) and `first_integrals` are there too. Rates
-         *     above the second are written dddot(x) and ddddot(x), which an expression may not hold.
+         *     Rates above the second are written dddot(x) and ddddot(x), which an expression may not hold.
          */
         VariationAnswer: {
             /**
@@ -5862,10 +6276,7 @@ export interface components {
             id: string;
             /** Chapters */
             chapters: components["schemas"]["Chapter"][];
-            /** Result */
-            result: {
-                [key: string]: unknown;
-            };
+            result: components["schemas"]["VariationResult"];
             quotient?: components["schemas"]["Quotient"] | null;
         };
         /**
@@ -5986,6 +6397,19 @@ export interface components {
              * @description language of the texts; else Accept-Language decides
              */
             lang?: ("de" | "en") | null;
+        };
+        /**
+         * VariationResult
+         * @description What comes of it; all but the first variation is there for an integral alone.
+         */
+        VariationResult: {
+            first_variation: components["schemas"]["FirstVariation"];
+            /** Euler Lagrange */
+            euler_lagrange?: components["schemas"]["EulerLagrangeEquation"][] | null;
+            /** Boundary Terms */
+            boundary_terms?: components["schemas"]["BoundaryTerm"][] | null;
+            /** First Integrals */
+            first_integrals?: components["schemas"]["FirstIntegral"][] | null;
         };
         VectorColumn: number[][] | string;
         /**
@@ -6567,9 +6991,7 @@ export interface operations {
                 };
                 content: {
                     "application/json": {
-                        [key: string]: {
-                            [key: string]: unknown;
-                        };
+                        [key: string]: components["schemas"]["Sentences"];
                     };
                 };
             };

@@ -78,11 +78,7 @@
  * @typedef {Contract["ProblemEntry"]} Problem
  * @typedef {Omit<Contract["ProblemDocument"], "type">} Failure
  * @typedef {Got<"/catalogs/{lang}">} Catalog
- * @typedef {{plain: string | string[], latex: string, spoken?: string}} Written
- * @typedef {Written & {function: string, order: number, plain: string, vanishes: boolean, at: string[], condition: Written | null}} BoundaryTerm
- * @typedef {Written & {kind: "momentum" | "energy", function: string | null}} FirstIntegral
- * @typedef {Omit<Contract["VariationAnswer"], "result"> & {result: {first_variation: Written, euler_lagrange?: Written[],
- *   boundary_terms?: BoundaryTerm[], first_integrals?: FirstIntegral[]}}} Variation
+ * @typedef {Contract["VariationAnswer"]} Variation
  * @typedef {"derivation" | "plots" | "values"} Panel
  * @typedef {"" | "form" | "json" | "toml"} Editing  which side of the editor is open
  * @typedef {"" | "overview" | "help" | "black" | "jump" | "share"} Overlay  what lies above the page

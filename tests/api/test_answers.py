@@ -55,6 +55,20 @@ def silent(answer: object, schema: Json, models: dict[str, Json], where: str = "
             "checks/lines", {"scene": "pendulum", "lines": [{"task": TASK["task"], "answer": WRONG}]}, id="lines"
         ),
         pytest.param("variations", {"expression": "x^2", "functions": ["x"]}, id="variation"),
+        pytest.param(
+            "variations",
+            {"expression": "x", "functions": ["x"], "parameters": ["a"], "functional": {"kind": "value", "at": "a"}},
+            id="variation of a value",
+        ),
+        pytest.param(
+            "variations",
+            {
+                "expression": "ddot(x)^2 + dot(y)^2",
+                "functions": ["x", "y"],
+                "functional": {"kind": "integral", "from": "0", "to": "1", "ends": "free"},
+            },
+            id="variation of an integral",
+        ),
         pytest.param("expressions", {"scene": "pendulum", "expression": "m*g"}, id="expression"),
         pytest.param("scenes/validate", {"format": 1}, id="problems"),
     ],

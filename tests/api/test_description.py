@@ -106,3 +106,56 @@ def models_in(schema: object, models: Json) -> set[str]:
         found.add(name)
         waiting |= set(re.findall(r"#/components/schemas/(\w+)", str(models[name]))) - found
     return found
+
+
+# Where anything may stand, and why.
+ANYTHING = {
+    "Draft/anyOf/2": "a scene that is being written may lack whatever a scene needs",
+    "validate_scene/body/anyOf/1": "the same",
+}
+SAYING = {"type", "$ref", "anyOf", "oneOf", "allOf", "enum", "const"}
+
+
+def anything(schema: Json, where: str) -> Iterator[str]:
+    """The places of a schema where anything may stand: objects without members that are named, and what has no type."""
+    others = schema.get("additionalProperties")
+    if not SAYING & schema.keys() or (schema.get("type") == "object" and "properties" not in schema and not others):
+        yield where
+    if others is True and "properties" not in schema:
+        yield where
+    if schema.get("type") == "array" and not {"items", "prefixItems"} & schema.keys():
+        yield where
+    inside = {f"properties/{name}": one for name, one in schema.get("properties", {}).items()}
+    inside |= {f"{kind}/{n}": one for kind in ("anyOf", "oneOf", "allOf") for n, one in enumerate(schema.get(kind, ()))}
+    inside |= {f"prefixItems/{n}": one for n, one in enumerate(schema.get("prefixItems", ()))}
+    inside |= {kind: schema[kind] for kind in ("items", "additionalProperties") if isinstance(schema.get(kind), dict)}
+    for place, one in inside.items():
+        yield from anything(one, f"{where}/{place}")
+
+
+def test_nothing_is_an_open_object_but_what_is_named_here(document: Json) -> None:
+    found = [place for name, one in document["components"]["schemas"].items() for place in anything(one, name)]
+    for _, _, operation in operations(document):
+        contents = {"answer": operation["responses"]["200"].get("content", {})}
+        contents["body"] = operation.get("requestBody", {}).get("content", {})
+        for side, content in contents.items():
+            for one in content.values():
+                found += anything(one["schema"], f"{operation['operationId']}/{side}")
+    assert set(found) == set(ANYTHING)
+
+
+@pytest.mark.parametrize(
+    "schema",
+    [
+        {},
+        {"title": "X"},
+        {"type": "object"},
+        {"type": "object", "additionalProperties": True},
+        {"type": "object", "additionalProperties": {}},
+        {"type": "array"},
+        {"type": "array", "items": {"anyOf": [{"type": "object"}, {"type": "null"}]}},
+        {"properties": {"a": {"prefixItems": [{}], "type": "array"}}, "type": "object"},
+    ],
+)
+def test_an_open_object_is_noticed(schema: Json) -> None:
+    assert list(anything(schema, "x"))

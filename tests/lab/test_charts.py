@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import os
+from collections.abc import Iterator
 from datetime import UTC, datetime
 from typing import Any
 
 import plotly.graph_objects as go
 import pytest
+from pydantic import BaseModel
 
 from deltaq.contract.experiment import ExperimentRequest
+from deltaq.contract.figure import Chart
 from deltaq.lab.charts.chart import look
 from deltaq.lab.charts.words import called, spoken, words
 from deltaq.lab.experiment import drawn
@@ -52,6 +56,26 @@ def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str)
     assert all(chart["subject"].startswith(reports[-1].result["title"][lang]) for chart in charts)  # type: ignore[index]
     assert table(charts).count("\n") > 10
     assert page(charts, lang).count("<figure>") == len(charts)
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_charts_have_no_member_of_which_their_description_is_silent(name: str) -> None:
+    experiment = get_experiment(name)
+    *_, last = experiment.run(QUESTIONS[name])
+    charts = json.loads(json.dumps(drawn(experiment, last.result, text, "en")))
+    assert charts
+    assert [place for chart in charts for place in silent(Chart.model_validate(chart), "chart")] == []
+
+
+def silent(found: object, place: str) -> Iterator[str]:
+    """Where in an answer there is a member that is not declared."""
+    if isinstance(found, BaseModel):
+        yield from (f"{place}.{name}" for name in found.model_extra or {})
+        for name in type(found).model_fields:
+            yield from silent(getattr(found, name), f"{place}.{name}")
+    elif isinstance(found, tuple):
+        for one in found:
+            yield from silent(one, place)
 
 
 def mentions(found: object, key: str) -> bool:

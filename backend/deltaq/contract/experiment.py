@@ -5,27 +5,17 @@ What one of them asks and finds of its own stands in a file of `experiments/`; t
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
 from ..packages import classes_of
 from ..vocabulary import TriedStatus
 from .base import Answer, AskedLanguage, Names, SceneWithInitialValues, examples
+from .figure import Chart
 
 LONGEST = 1000.0  # seconds of motion
 SHORTEST = 1e-6  # seconds; below it differences of times are lost in rounding
-
-
-class Chart(Answer):
-    """A figure for Plotly, with what it shows and how that was measured."""
-
-    id: str
-    title: str
-    subject: str = Field(description="scene and values")
-    caption: str
-    data: tuple[dict[str, Any], ...]
-    layout: dict[str, Any]
 
 
 class Measured(Answer):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import ConfigDict, Field
 
 from ..vocabulary import Ends
 from .base import Answer, AskedLanguage, ExpressionText, Name, Names, Request, Syntax, Values, examples, items
 from .derivation import Chapter
+from .result import Formula
 
 Latex = Annotated[str, Field(max_length=64, pattern=r"^(\\[A-Za-z]+|[A-Za-z])(_(\w|\{\w{1,16}\}))?$")]
 
@@ -135,16 +136,60 @@ class Quotient(Answer):
     curves: Curves
 
 
+class FirstVariation(Answer):
+    """δ of the expression or functional; of an integral `plain` is the integrand."""
+
+    plain: str | tuple[str, ...] = Field(
+        description="in delta(x) and dot(delta(x)), or in the names of the directions; of a vector its components",
+        examples=["l*cos(phi)*delta(phi)"],
+    )
+    latex: str
+    spoken: str = Field("", description="the same in words, to be read aloud")
+    at: str | None = Field(None, description="the instant, of a functional that takes a value")
+    start: str | None = Field(None, alias="from", description="lower bound of an integral")
+    to: str | None = Field(None, description="upper bound of an integral")
+    ends: Ends | None = Field(None, description="what is prescribed at the ends of an integral")
+
+
+class EulerLagrangeEquation(Formula):
+    """The equation `… = 0` that belongs to a function, without denominators and common factors."""
+
+    function: str = Field(examples=["x"])
+
+
+class BoundaryTerm(Formula):
+    """What integration by parts leaves at the ends: a factor times δx or δẋ."""
+
+    function: str = Field(examples=["x"])
+    order: int = Field(description="0: of δx, 1: of δẋ")
+    vanishes: bool = Field(description="whether the ends prescribe what is varied")
+    at: tuple[str, ...] = Field(description="the free ends, where it does not vanish")
+    condition: Formula | None = Field(description="the natural condition there: the factor is zero")
+
+
+class FirstIntegral(Formula):
+    """What is constant along the solutions."""
+
+    kind: Literal["momentum", "energy"]
+    function: str | None = Field(description="whose momentum; null of the energy")
+
+
+class VariationResult(Answer):
+    """What comes of it; all but the first variation is there for an integral alone."""
+
+    first_variation: FirstVariation
+    euler_lagrange: tuple[EulerLagrangeEquation, ...] | None = None
+    boundary_terms: tuple[BoundaryTerm, ...] | None = None
+    first_integrals: tuple[FirstIntegral, ...] | None = None
+
+
 class VariationAnswer(Answer):
     """The first variation by two routes, and its results as plain expressions and as LaTeX.
 
-    `result.first_variation.plain` is in delta(x) and dot(delta(x)), or in the names of the directions; for an integral
-    it is the integrand, and `euler_lagrange` (without denominators and common factors), `boundary_terms` (each with
-    the `order` of its δx or δẋ, and the natural condition at free ends) and `first_integrals` are there too. Rates
-    above the second are written dddot(x) and ddddot(x), which an expression may not hold.
+    Rates above the second are written dddot(x) and ddddot(x), which an expression may not hold.
     """
 
     id: str = Field(description="content hash", examples=["9f3c…"])
     chapters: tuple[Chapter, ...]
-    result: dict[str, Any]
+    result: VariationResult
     quotient: Quotient | None = None

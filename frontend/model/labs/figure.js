@@ -64,7 +64,7 @@ function broken(trace, most) {
 /** @param {Chart} chart @param {boolean} narrow @param {number} em */
 function heightOf(chart, narrow, em) {
   const named = chart.data.filter((trace) => trace.name && trace.showlegend !== false);
-  const lines = named.reduce((sum, { name = "" }) => sum + name.split("<br>").length, 0);
+  const lines = named.reduce((sum, { name }) => sum + (name ?? "").split("<br>").length, 0);
   const legend = narrow && chart.layout.showlegend !== false ? lines * 1.35 * em : 0;
   return 26 * em + legend;
 }
@@ -89,7 +89,7 @@ function axesOf(layout, palette) {
 /** @param {Trace} trace @param {Palette} palette @returns {Trace} */
 function inked(trace, palette) {
   const { marker } = trace;
-  const shown = (/** @type {unknown} */ color) => (color === INK ? palette.ink : color);
+  const shown = (/** @type {string | null | undefined} */ color) => (color === INK ? palette.ink : color);
   if (!marker || ![marker.color, marker.line?.color].includes(INK)) return trace;
   return {
     ...trace,
@@ -118,10 +118,9 @@ function thickened(trace, by) {
 
 /** The crosses hλ for a step h. @param {Chart} chart @param {number} h @returns {Chart} */
 export function withStep(chart, h) {
+  const scale = (/** @type {Trace["x"]} */ values) => values.map((v) => v && v * h);
   const moved = (/** @type {Trace} */ trace) =>
-    trace.meta?.role === "eigenvalues"
-      ? { ...trace, x: trace.x.map((v) => v * h), y: trace.y.map((v) => v * h) }
-      : trace;
+    trace.meta?.role === "eigenvalues" ? { ...trace, x: scale(trace.x), y: scale(trace.y) } : trace;
   return { ...chart, data: chart.data.map(moved) };
 }
 

@@ -110,8 +110,9 @@ export function inLab(question, lab) {
   return { ...shown, ...Object.fromEntries(said.map(({ name }) => [name, question[name]])) };
 }
 
-/** The motion at a point of a map: two parameters, or two angles at rest. @param {Question} question @param {import("./chart.js").Meta} map @param {number} x @param {number} y @returns {Pick<Question, "parameters" | "initial">} */
-export function pointOf({ parameters, initial }, { role, x: across = "", y: up = "" }, x, y) {
+/** The motion at a point of a map: two parameters, or two angles at rest. @param {Question} question @param {import("./chart.js").Contract["TraceMeaning"]} map @param {number} x @param {number} y @returns {Pick<Question, "parameters" | "initial">} */
+export function pointOf({ parameters, initial }, { role, ...axes }, x, y) {
+  const [across, up] = [axes.x ?? "", axes.y ?? ""];
   if (role === "map") return { parameters: { ...parameters, [across]: x, [up]: y }, initial };
   const still = Object.fromEntries(Object.entries(initial).map(([name, start]) => [name, { ...start, rate: 0 }]));
   return { parameters, initial: { ...still, [across]: { value: x, rate: 0 }, [up]: { value: y, rate: 0 } } };

@@ -38,7 +38,7 @@ export function summary({ asking, t }) {
     </section>`;
 }
 
-/** @param {import("../../model/types.js").BoundaryTerm} term @param {import("../../model/catalog.js").Translate} t */
+/** @param {import("../../model/types.js").Contract["BoundaryTerm"]} term @param {import("../../model/catalog.js").Translate} t */
 function boundaryTerm(term, t) {
   return term.condition
     ? html`${inline(term.latex)} <span class="so">${t("variations.natural", { at: term.at.join(", ") })}</span> ${inline(term.condition.latex)}`

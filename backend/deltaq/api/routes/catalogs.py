@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request, Response
 
+from ...contract.catalog import Sentences
 from ...errors import Problem, UnknownNameError
 from ...narration.catalog import catalog
 from ..body import HeadedRoute
@@ -16,7 +17,7 @@ from .common import failures
 router = APIRouter(prefix="/catalogs", tags=["catalogs"], route_class=HeadedRoute)
 
 
-@router.get("/{lang}", response_model=dict[str, dict[str, Any]], responses=failures(404, 422))
+@router.get("/{lang}", response_model=dict[str, Sentences], responses=failures(404, 422))
 def get_catalog(
     request: Request,
     lang: Annotated[str, Path(description=f"language: {' or '.join(LANGUAGES)}", examples=["en"])],

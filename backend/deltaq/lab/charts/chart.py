@@ -6,11 +6,8 @@ people with any colour vision can tell apart; symbols and dashes say the same on
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
-
-import numpy as np
 
 from ...simulation.library import method_ids
 from ..peers import PEERS
@@ -106,12 +103,6 @@ def crosses(x: Sequence[Any], y: Sequence[Any], texts: Sequence[str], method: st
         "showlegend": False,
         "name": say("labs.hover.without-result", name=name_of(method, say)),
     } | more
-
-
-def numbers(values: Iterable[float]) -> dict[str, str]:
-    """Many numbers as Plotly reads them without parsing: base64 of single precision, which charts do not outdo."""
-    array = np.asarray(list(values), dtype="<f4")
-    return {"dtype": "f4", "bdata": base64.b64encode(array.tobytes()).decode()}
 
 
 def joined(methods: Iterable[str], say: Say) -> str:
