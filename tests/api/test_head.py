@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import http.client
+import json
 from collections.abc import Iterator
 from typing import Any
 from urllib.parse import urlsplit
@@ -47,6 +48,15 @@ def test_head_is_get_without_a_body(service: str, address: str) -> None:
     if address in COUNTING:
         fields["content-length"] = told[1]["content-length"]
     assert told == (status, fields, b"")
+
+
+@pytest.mark.parametrize("path", [*DOCUMENT["paths"], "/"])
+def test_what_is_not_allowed_is_told_all_that_is(service: str, path: str) -> None:
+    known = {method.upper() for method in DOCUMENT["paths"].get(path, {"get": {}})}
+    allowed = sorted(known | ({"HEAD"} if "GET" in known else set()))
+    status, fields, body = asked(service, "PUT", path)
+    assert (status, fields["allow"].split(", ")) == (405, allowed)
+    assert fields["allow"] in json.loads(body)["detail"]
 
 
 def test_where_nothing_can_be_got_there_is_no_head(service: str) -> None:

@@ -123,7 +123,11 @@ class HeadedRoute(APIRoute):
         return super().matches({**scope, "method": "GET"} if self._is_head(scope) else scope)
 
     async def handle(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answers HEAD as GET; what sends the answer leaves its body out."""
+        """Answers HEAD as GET; what sends the answer leaves its body out. HTTPException that names what is allowed."""
+        known = self.methods or set()
+        allowed = known | ({"HEAD"} if "GET" in known else set())
+        if scope["method"] not in allowed:
+            raise HTTPException(405, headers={"Allow": ", ".join(sorted(allowed))})
         await (self.app if self._is_head(scope) else super().handle)(scope, receive, send)
 
     def _is_head(self, scope: Scope) -> bool:
