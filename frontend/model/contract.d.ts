@@ -3975,6 +3975,41 @@ export interface components {
             title: string;
         };
         /**
+         * NamedRoot
+         * @description A letter that a step has for a root that recurs in it: `with s = √(x² + y²)`.
+         */
+        NamedRoot: {
+            /**
+             * Symbol
+             * @description its plain name
+             * @example s
+             */
+            symbol: string;
+            /**
+             * Symbol Latex
+             * @example s
+             */
+            symbol_latex: string;
+            /**
+             * Symbol Spoken
+             * @example s
+             */
+            symbol_spoken: string;
+            /**
+             * Plain
+             * @description the root
+             * @example sqrt(x^2 + y^2)
+             */
+            plain: string;
+            /**
+             * Latex
+             * @example \sqrt{x^{2} + y^{2}}
+             */
+            latex: string;
+            /** Spoken */
+            spoken: string;
+        };
+        /**
          * NoFlipMap
          * @description Why there is no map.
          */
@@ -5782,6 +5817,12 @@ export interface components {
              * @description the summands of all lines, with where they come from
              */
             terms: components["schemas"]["TermOfLine"][];
+            /**
+             * Where
+             * @description letters that `latex`, `marked`, `spoken` and the terms have for roots; results have none
+             * @default []
+             */
+            where: components["schemas"]["NamedRoot"][];
             /**
              * Cancelled
              * @description ids of terms that cancelled in this step

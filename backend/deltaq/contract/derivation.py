@@ -58,6 +58,17 @@ class TermOfLine(Answer):
     )
 
 
+class NamedRoot(Answer):
+    """A letter that a step has for a root that recurs in it: `with s = √(x² + y²)`."""
+
+    symbol: str = Field(description="its plain name", examples=["s"])
+    symbol_latex: str = Field(examples=["s"])
+    symbol_spoken: str = Field(examples=["s"])
+    plain: str = Field(description="the root", examples=["sqrt(x^2 + y^2)"])
+    latex: str = Field(examples=["\\sqrt{x^{2} + y^{2}}"])
+    spoken: str
+
+
 class Evidence(Answer):
     """How it is known that a step holds."""
 
@@ -85,6 +96,9 @@ class Step(Answer):
     premises: tuple[str, ...] = Field(description="ids of the steps that this one rests on")
     sources: tuple[str, ...] = Field(description="bodies and loads that the terms come from")
     terms: tuple[TermOfLine, ...] = Field(description="the summands of all lines, with where they come from")
+    where: tuple[NamedRoot, ...] = Field(
+        (), description="letters that `latex`, `marked`, `spoken` and the terms have for roots; results have none"
+    )
     cancelled: tuple[str, ...] = Field(description="ids of terms that cancelled in this step")
     substeps: tuple[Step, ...]
 

@@ -22,6 +22,7 @@ from .numerals import (
     ends,
     exact,
     fraction_parts,
+    named_root,
     signed_sum,
 )
 from .order import split_symbol
@@ -64,6 +65,9 @@ class _Latex:
 
     @cached_method
     def _with_binding(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
+        named = named_root(expr, self._typography.roots)
+        if named:
+            return self._letter(*named)
         if expr.is_Symbol:
             return self._typography.symbol(expr.name), ATOM if split_symbol(expr.name)[0] < 4 else PRODUCT
         if expr.is_Rational or expr.is_Float:
@@ -77,6 +81,12 @@ class _Latex:
         if expr is sympy.E or isinstance(expr, sympy.exp):
             return self._exponential(expr), POWER
         return (self._power(expr), POWER) if expr.is_Pow else (self.call(expr), PRODUCT)
+
+    def _letter(self, letter: str, exponent: int) -> tuple[str, int]:
+        """A root by its name, or a power of it."""
+        if exponent == 1:
+            return self._typography.symbol(letter), ATOM
+        return self._typography.power(letter, str(exponent)), POWER
 
     def _number(self, number: sympy.Expr) -> tuple[str, int]:
         value = exact(number)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from typing import Any
 
 import sympy
 
@@ -78,6 +79,15 @@ def signed_sum(terms: Iterable[str]) -> str:
 def base_exponent(factor: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
     """Base and exponent; an exponential function counts as a base of its own."""
     return (factor, sympy.S.One) if isinstance(factor, sympy.exp) else factor.as_base_exp()
+
+
+def named_root(expr: sympy.Expr, roots: Mapping[Any, str]) -> tuple[str, int] | None:
+    """The letter and its exponent, if the expression is a positive power of a root that has a letter; else None."""
+    if not roots:
+        return None
+    base, exponent = (expr.base, 2 * expr.exp) if expr.is_Pow else (expr, sympy.Integer(2))
+    letter = roots.get(base)
+    return (letter, int(exponent)) if letter and exponent.is_Integer and exponent > 0 else None
 
 
 def fraction_parts(

@@ -6,14 +6,14 @@ asks stands between "open bracket" and "close bracket"; fractions and roots of m
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
 import sympy
 
 from .memory import cached_method
-from .numerals import Decides, base_exponent, decimal, decimals_of, ends, exact, fraction_parts
+from .numerals import Decides, base_exponent, decimal, decimals_of, ends, exact, fraction_parts, named_root
 from .order import Order
 from .spoken_symbols import LARGEST, SpokenSymbols, Vocabulary
 
@@ -25,12 +25,20 @@ _SHORT = 4  # words of a term that needs no pause before it
 
 
 class SpokenPrinter:
-    """Says expressions. `decimals` as in a Typography: 0.7 or 7/10, None for each as it is."""
+    """Says expressions; `decimals` and `roots` as in a Typography."""
 
-    def __init__(self, symbols: SpokenSymbols, *, decimals: bool | None = None, order: Order | None = None) -> None:
+    def __init__(
+        self,
+        symbols: SpokenSymbols,
+        *,
+        decimals: bool | None = None,
+        order: Order | None = None,
+        roots: Mapping[Any, str] | None = None,
+    ) -> None:
         self.symbols = symbols
         self.words: Vocabulary = symbols.vocabulary
         self._decimals = decimals
+        self._roots = roots or {}
         self._order = order or Order(symbols.names)
         self._printers: dict[Decides, _Speech] = {}
 
@@ -52,7 +60,7 @@ class SpokenPrinter:
 
     def _for(self, expr: sympy.Expr) -> _Speech:
         decides = decimals_of(expr, wanted=self._decimals)
-        return self._printers.setdefault(decides, _Speech(self.symbols, self._order, decides))
+        return self._printers.setdefault(decides, _Speech(self.symbols, self._order, decides, self._roots))
 
     def _matrix(self, value: sympy.MatrixBase) -> str:
         rows = [[self.text(entry) for entry in row] for row in value.tolist()]
@@ -70,11 +78,12 @@ def said_matrix(words: Vocabulary, rows: list[list[str]]) -> str:
 
 
 class _Speech:
-    def __init__(self, symbols: SpokenSymbols, order: Order, as_decimal: Decides) -> None:
+    def __init__(self, symbols: SpokenSymbols, order: Order, as_decimal: Decides, roots: Mapping[Any, str]) -> None:
         self._symbols = symbols
         self._words = symbols.vocabulary
         self._order = order
         self._as_decimal = as_decimal
+        self._roots = roots
 
     def text(self, expr: sympy.Expr, binding: int) -> str:
         text, own = self._with_binding(expr)
@@ -90,6 +99,9 @@ class _Speech:
 
     @cached_method
     def _with_binding(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
+        named = named_root(expr, self._roots)
+        if named:
+            return self._letter(*named)
         if expr.is_Symbol:
             return self._symbols.symbol(expr.name), ATOM if self._symbols.is_atom(expr.name) else PREFIX
         if expr.is_Rational or expr.is_Float:
@@ -105,7 +117,20 @@ class _Speech:
         return self._power(expr) if expr.is_Pow else (self._call(expr), PREFIX)
 
     def summands(self, expr: sympy.Expr) -> list[str]:
-        return [self.text(term, QUOTIENT) for term in self._order.terms(expr)] if expr.is_Add else [self.text(expr, 0)]
+        return (
+            [self.text(term, QUOTIENT) for term in self._order.terms(expr)]
+            if self._is_sum(expr)
+            else [self.text(expr, 0)]
+        )
+
+    def _is_sum(self, expr: sympy.Expr) -> bool:
+        """Whether it is said as a sum, and not as the square of a root that has a name."""
+        return bool(expr.is_Add) and named_root(expr, self._roots) is None
+
+    def _letter(self, letter: str, exponent: int) -> tuple[str, int]:
+        """A root by its name, or a power of it."""
+        said = self._symbols.symbol(letter)
+        return (said, ATOM) if exponent == 1 else (self._raised(said, sympy.Integer(exponent)), POWER)
 
     def _number(self, number: sympy.Expr) -> tuple[str, int]:
         value = exact(number)
@@ -143,19 +168,28 @@ class _Speech:
             return self._factors(upper), PRODUCT
         numbers = [f for f in upper if f.is_Rational]
         rest = [f for f in upper if not f.is_Rational]
-        if all(f.is_Rational for f in lower) and (len(rest) > 1 or numbers or not _is_simple(rest)):
+        if all(f.is_Rational for f in lower) and (len(rest) > 1 or numbers or not self._is_simple(rest)):
             size = Fraction(int(sympy.Mul(*numbers)), int(sympy.Mul(*lower)))
             return self._words.say("times", self._fraction_of_numbers(size), self._factors(rest)), PRODUCT
         return self._quotient(upper, lower)
 
     def _quotient(self, upper: list[sympy.Expr], lower: list[sympy.Expr]) -> tuple[str, int]:
         both = self._side(upper), self._side(lower)
-        simple = _is_simple(upper) and _is_simple(lower)
+        simple = self._is_simple(upper) and self._is_simple(lower)
         return self._words.say("over" if simple else "fraction", *both), QUOTIENT if simple else ATOM
+
+    def _is_simple(self, factors: list[sympy.Expr]) -> bool:
+        """Nothing, one symbol, or one whole number: what needs no word for its end."""
+        if not factors:
+            return True
+        first, *others = factors
+        named = named_root(first, self._roots)
+        is_short = first.is_Symbol or first.is_Integer or first is sympy.pi or (named is not None and named[1] == 1)
+        return not others and bool(is_short)
 
     def _side(self, factors: list[sympy.Expr]) -> str:
         """What stands above or below the line; a sum needs no brackets there, but no short fraction may stand in it."""
-        if len(factors) != 1 or not factors[0].is_Add:
+        if len(factors) != 1 or not self._is_sum(factors[0]):
             return self._factors(factors)
         return joined_terms(self._words, [self.text(term, PRODUCT) for term in self._order.terms(factors[0])])
 
@@ -178,7 +212,7 @@ class _Speech:
         return self._raised(self.text(base, ATOM), exponent), POWER
 
     def _root(self, base: sympy.Expr) -> tuple[str, int]:
-        short = _is_simple([base])
+        short = self._is_simple([base])
         return self._words.say("root" if short else "long-root", self.text(base, 0)), PREFIX if short else ATOM
 
     def _raised(self, base: str, exponent: sympy.Expr) -> str:
@@ -216,13 +250,6 @@ def signed(words: Vocabulary, terms: Iterable[str]) -> list[str]:
 def paused(pieces: list[str]) -> str:
     """Pieces in a row, with pauses unless all are short."""
     return (", " if any(len(piece.split()) > _SHORT for piece in pieces) else " ").join(pieces)
-
-
-def _is_simple(factors: list[sympy.Expr]) -> bool:
-    """Nothing, one symbol, or one whole number: what needs no word for its end."""
-    if not factors:
-        return True
-    return len(factors) == 1 and bool(factors[0].is_Symbol or factors[0].is_Integer or factors[0] is sympy.pi)
 
 
 def _takes_power(base: sympy.Expr, exponent: sympy.Expr) -> bool:

@@ -21,7 +21,7 @@ SAME = {"ell": "l", "imath": "i", "jmath": "j"}
 RATES: Mapping[int, str] = {1: "dot", 2: "ddot", 3: "dddot", 8: "ddddot"}
 DIFFERENTIAL, VARIATION = 4, 5
 LARGEST = 12  # greater numbers are said by their digits
-LETTERS_OF_QUANTITIES = frozenset("rvthfd")
+LETTERS_OF_QUANTITIES = frozenset("rvthfds")
 
 
 @dataclass(frozen=True)

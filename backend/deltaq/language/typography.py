@@ -26,12 +26,14 @@ class Typography:
     """How symbols are typeset and in which order. `mark(symbol name, LaTeX)` may wrap each, in a colour say.
 
     `summands` wrap the terms of a sum that stands inside a formula. `decimals`: 0.7 or 7/10, None: each for itself.
+    `roots` name the square roots of sums: {x² + y²: "s"} writes s, s³ and s² for √(x² + y²) and its powers.
     """
 
     names: Names
     mark: Mark = unmarked
     summands: Mapping[Any, Mapping[Any, Callable[[str], str]]] = field(default_factory=dict, compare=False)
     decimals: bool | None = None
+    roots: Mapping[Any, str] = field(default_factory=dict, compare=False)
     order: Order = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:

@@ -14,9 +14,12 @@ TALL = re.compile(r"\\(?:frac|begin)\b")
 SIGNS = {"=": "=", "≠": r"\neq", "≈": r"\approx", "⇔": r"\;\Longleftrightarrow\;", "<": "<", "≤": r"\leq"}
 
 
-def aligned(relations: tuple[Relation, ...], written: Callable[[Formula], str]) -> str:
-    """All lines of a step as one block; empty if it has none."""
+def aligned(
+    relations: tuple[Relation, ...], written: Callable[[Formula], str], explained: tuple[tuple[str, str], ...] = ()
+) -> str:
+    """All lines of a step as one block, and what its letters stand for; empty if it has none."""
     rows = [row for relation in relations for row in _rows(relation, written)]
+    rows += [f"{letter} &= {value}" for letter, value in explained] if rows else []
     if not rows:
         return ""
     *upper, last = rows

@@ -6,15 +6,19 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 
+import sympy as sp
+
 from ..derivation.formula import Formula, Term
 from ..derivation.history import with_names
 from ..derivation.step import Chapter, Derivation, Line, Relation, Step, Summand
+from ..language.plain_printer import plain
 from .aligned import aligned
 from .catalog import filled, template, text
 from .letters import Letters, in_sentence
 from .marks import without_classes
 from .notation import Notation
 from .prose import CatalogText, formula, joined, words
+from .roots import Roots, explained, named_roots, with_roots
 from .speech import Speech, speech_of
 
 Document = dict[str, object]
@@ -25,12 +29,13 @@ SYMMETRY = ("symmetry", "integral")  # what a generator does, and what its integ
 class Narrator:
     """Tells a derivation. `notation` writes LaTeX with the classes of the page; the LaTeX for everyone is without.
 
-    `letters` are those that its sentences have instead of the lecture's.
+    `letters` are those that its sentences have instead of the lecture's, `roots` those that stand for roots.
     """
 
     language: str
     notation: Notation
     letters: Letters = field(default_factory=dict)
+    roots: Roots = Roots()
 
     @cached_property
     def speech(self) -> Speech:
@@ -39,7 +44,8 @@ class Narrator:
 
     def chapters(self, derivation: Derivation) -> list[Document]:
         """The derivation in reading order; chapters without steps are left out."""
-        return [self.chapter(chapter) for chapter in derivation.chapters if chapter.steps]
+        teller = replace(self, roots=named_roots(derivation, self.notation))
+        return [teller.chapter(chapter) for chapter in derivation.chapters if chapter.steps]
 
     def chapter(self, chapter: Chapter) -> Document:
         """A JSON object with `id`, `title` and `steps`."""
@@ -52,35 +58,63 @@ class Narrator:
         `marked` is LaTeX with the classes of the page, `latex` is without. `verified`, `sources` are those of the step.
         """
         names = self._names(step.about)
-        outcome = step.about.get("outcome")
         key = f"rules.steps.{step.rule}"
-        relations = _with_names(step)
-        marked = aligned(relations, self.notation.formula)
-        spoken, places = self.speech.spoken(relations)
         title = text(self.language, f"{key}.title", **names)
-        sentence = self._sentence(f"{key}.{outcome or 'text'}", names)
+        sentence = self._sentence(f"{key}.{step.about.get('outcome') or 'text'}", names)
         return {
             "id": step.id,
             "rule": step.rule,
             "title": title,
             "text": sentence,
             "announced": self.speech.sentences(title, sentence),
-            "latex": without_classes(marked),
-            "marked": marked,
-            "spoken": spoken,
-            "spoken_terms": places,
+            **self._mathematics(step),
             "verified": step.verified,
             "evidence": asdict(step.evidence),
             "premises": list(step.premises),
             "sources": list(step.sources),
-            "terms": [self._term(term) for term in _terms(step)],
             "cancelled": list(
                 dict.fromkeys(one for members in step.lines for line in members for one in line.cancelled)
             ),
             "substeps": [self.step(substep) for substep in step.substeps],
         }
 
-    def _term(self, term: Summand) -> Document:
+    def _mathematics(self, step: Step) -> Document:
+        """The lines of a step, its terms, and the roots that have letters in it."""
+        letters, relations = self.roots.of(step), _with_names(step)
+        teller = replace(self, notation=with_roots(self.notation, letters)) if letters else self
+        where = [self._explained(*one) for one in explained(letters)]
+        marked = aligned(relations, teller.notation.formula, self._rows(where))
+        spoken, places = teller.speech.spoken(relations, [(one["symbol_spoken"], one["spoken"]) for one in where])
+        return {
+            "latex": without_classes(marked),
+            "marked": marked,
+            "spoken": spoken,
+            "spoken_terms": places,
+            "terms": [teller.term(term) for term in _terms(step)],
+            "where": where,
+        }
+
+    def _explained(self, symbol: sp.Symbol, root: sp.Expr) -> dict[str, str]:
+        """What a letter stands for."""
+        return {
+            "symbol": symbol.name,
+            "symbol_latex": self.notation.value(symbol),
+            "symbol_spoken": self.speech.value(symbol),
+            "plain": plain(root),
+            "latex": without_classes(self.notation.value(root)),
+            "spoken": self.speech.value(root),
+        }
+
+    def _rows(self, where: list[dict[str, str]]) -> tuple[tuple[str, str], ...]:
+        """The lines that say it: with s = √(x² + y²), and …"""
+        joints = ("with", *("and" for _ in where[1:]))
+        words = (text(self.language, f"rules.words.{joint}") for joint in joints)
+        return tuple(
+            (rf"\text{{{word} }}{one['symbol_latex']}", one["latex"]) for word, one in zip(words, where, strict=False)
+        )
+
+    def term(self, term: Summand) -> Document:
+        """A term of a line, with its sign, and where it comes from."""
         return {
             "id": term.id,
             "latex": without_classes(self.notation.term(Term(term.shown, (), term.sign))),

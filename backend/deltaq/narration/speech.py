@@ -6,7 +6,7 @@ the integral), and what reaches over more than one symbol says where it ends.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import groupby
@@ -150,16 +150,21 @@ class Speech:
     @cached_property
     def printer(self) -> SpokenPrinter:
         """Who says expressions."""
-        return SpokenPrinter(self.words, decimals=self.typography.decimals, order=self.typography.order)
+        typography = self.typography
+        return SpokenPrinter(self.words, decimals=typography.decimals, order=typography.order, roots=typography.roots)
 
     def lines(self, relations: tuple[Relation, ...]) -> list[list[str]]:
         """For each relation its terms, each with the sign before it."""
         return [self._line(relation) for relation in relations]
 
-    def spoken(self, relations: tuple[Relation, ...]) -> tuple[str, list[int]]:
-        """What a step says, and where each of its terms begins in it."""
+    def spoken(self, relations: tuple[Relation, ...], where: Sequence[tuple[str, str]] = ()) -> tuple[str, list[int]]:
+        """What a step says, and what letters in it stand for; and where each of its terms begins in it."""
         text, places = "", []
-        for line in self.lines(relations):
+        explained = (
+            [self._say("with" if number == 0 else "and-where", letter), self._say("equals", value)]
+            for number, (letter, value) in enumerate(where)
+        )
+        for line in (*self.lines(relations), *explained):
             text += ". " if text else ""
             for piece in line:
                 text += _pause(text, piece)
@@ -444,7 +449,7 @@ def _pause(text: str, piece: str) -> str:
     """What stands between the terms of a line: a short pause before all but the shortest."""
     if not text or text.endswith(". "):
         return ""
-    last = text.rpartition(", ")[2]
+    last = text.rpartition(". ")[2].rpartition(", ")[2]
     return " " if len(last.split()) <= 2 or len(piece.split()) <= 2 else ", "
 
 

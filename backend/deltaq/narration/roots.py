@@ -1,0 +1,111 @@
+"""Roots that recur have a letter: s for √((x₂ − x₁)² + (y₂ − y₁)²), with a line that says so.
+
+The values of a step stay as they are; only how they are written and said changes. A root has the same letter in all
+steps of a derivation. Whether a step uses it is decided by length: the operations saved against the line that says it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+import sympy as sp
+
+from ..derivation.formula import Explicit, Formula, Given, Substituted, Value
+from ..derivation.premises import parts
+from ..derivation.step import Derivation, Step
+from ..language.names import Names
+from ..language.operations import operations
+from ..language.spelling import latex_of
+from .aligned import aligned
+from .notation import Notation
+
+HALF = sp.Rational(1, 2)
+LETTERS = ("s", "rho", "sigma", "eta")
+MARKER = "namedroot"  # stands for a root while it is counted
+DEFINITION = 2  # what the line that says it costs besides the root: "with", and the sign
+LONG = 6  # operations of roots that are written by their letters wherever they stand, once they have some
+
+
+@dataclass(frozen=True)
+class Roots:
+    """The letters of roots by what stands under the root, and which of them each step uses, by its id."""
+
+    letters: Mapping[sp.Expr, str] = field(default_factory=dict)
+    used: Mapping[str, tuple[sp.Expr, ...]] = field(default_factory=dict)
+
+    def of(self, step: Step) -> dict[sp.Expr, str]:
+        """The letters that the lines of a step have, in the order in which they are explained."""
+        return {base: self.letters[base] for base in self.used.get(step.id, ())}
+
+
+def with_roots(notation: Notation, letters: Mapping[sp.Expr, str]) -> Notation:
+    """The notation that writes these letters."""
+    return replace(notation, typography=replace(notation.typography, roots=letters)) if letters else notation
+
+
+def named_roots(derivation: Derivation, notation: Notation) -> Roots:
+    """Letters for the roots that recur in a step."""
+    steps = {step.id: found for step in derivation.steps() if (found := _times_written(step, notation))}
+    recurring = dict.fromkeys(base for found in steps.values() for base in found if _recurs(found, base))
+    names = _letters(len(recurring), notation.typography.names, notation)
+    letters = dict(zip(recurring, names, strict=False))
+    return Roots(letters, {name: tuple(_used(found, letters)) for name, found in steps.items()})
+
+
+def _used(times: Mapping[sp.Expr, int], letters: Mapping[sp.Expr, str]) -> Iterator[sp.Expr]:
+    """The roots that a step writes by their letters: what is shorter with them, or has long roots."""
+    named = [base for base in letters if base in times]
+    is_long = sum(_length(base) * times[base] for base in named) >= LONG
+    return (base for base in named if is_long or _recurs(times, base))
+
+
+def _recurs(times: Mapping[sp.Expr, int], base: sp.Expr) -> bool:
+    """Whether a step is shorter with a letter and the line that says what it is."""
+    return (times[base] - 1) * _length(base) > DEFINITION
+
+
+def _times_written(step: Step, notation: Notation) -> dict[sp.Expr, int]:
+    """How often a step writes each root of a sum, in the order in which they are written."""
+    marker, found = latex_of(MARKER), {}
+    for base in _bases(step):
+        text = aligned(step.relations, with_roots(notation, {base: MARKER}).formula)
+        if marker in text:
+            found[base] = text.index(marker), text.count(marker)
+    return {base: times for base, (_, times) in sorted(found.items(), key=lambda pair: pair[1])}
+
+
+def _bases(step: Step) -> Iterable[sp.Expr]:
+    """What stands under the square roots of the step, if it is a sum."""
+    values = (value for relation in step.relations for value in _values(relation.members))
+    powers = (power for value in values for power in sorted(value.atoms(sp.Pow), key=sp.default_sort_key))
+    return dict.fromkeys(p.base for p in powers if p.base.is_Add and (p.exp - HALF).is_Integer)
+
+
+def _length(base: sp.Expr) -> int:
+    return operations(sp.sqrt(base))
+
+
+def _values(formulas: Iterable[Formula]) -> Iterator[Value]:
+    """The expressions that are written out in formulas."""
+    for formula in formulas:
+        if isinstance(formula, Given | Explicit):
+            yield formula.value
+        elif isinstance(formula, Substituted):
+            yield from formula.values.values()
+        yield from _values(parts(formula))
+
+
+def _letters(count: int, names: Names, notation: Notation) -> tuple[str, ...]:
+    """A free letter, with numbers if several roots have one; none if all are taken."""
+    taken = {symbol.typeset for symbol in names.symbols} | {notation.value(notation.h)}
+    for letter in LETTERS:
+        own = (letter,) if count == 1 else tuple(f"{letter}_{number}" for number in range(1, count + 1))
+        if not taken & {latex_of(name) for name in (letter, *own)}:
+            return own
+    return ()
+
+
+def explained(letters: Mapping[sp.Expr, str]) -> Iterator[tuple[sp.Symbol, sp.Expr]]:
+    """Each letter as a symbol, and the root that it stands for."""
+    return ((sp.Symbol(letter, real=True), sp.sqrt(base)) for base, letter in letters.items())
