@@ -4100,6 +4100,12 @@ export interface components {
             /** Latex */
             latex: string;
             /**
+             * Spoken
+             * @description the same in words
+             * @default
+             */
+            spoken: string;
+            /**
              * Kind
              * @constant
              */
@@ -6147,6 +6153,12 @@ export interface components {
             /** Latex */
             latex: string;
             /**
+             * Spoken
+             * @description the same in words, with its sign
+             * @default
+             */
+            spoken: string;
+            /**
              * Sources
              * @description bodies and loads
              * @example [
@@ -6154,6 +6166,12 @@ export interface components {
              *     ]
              */
             sources: string[];
+            /**
+             * From
+             * @description the terms it comes from, of the step that says what the sum is
+             * @default []
+             */
+            from: components["schemas"]["Origin"][];
         };
         /**
          * TermOfLine
@@ -6172,6 +6190,12 @@ export interface components {
              * @example -m g \ell \sin\varphi
              */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words
+             * @default
+             */
+            spoken: string;
             /**
              * Sources
              * @description bodies and loads that it comes from

@@ -14,6 +14,8 @@ from deltaq.derivation.engine import derive, formulation_names
 from deltaq.derivation.formula import Explicit, Named, Partial, Plus, Quantity, Rate, Term, minus
 from deltaq.derivation.normal_algebra import NormalAlgebra
 from deltaq.derivation.proof import prove
+from deltaq.derivation.result import result_of
+from deltaq.derivation.result_history import result_origins
 from deltaq.derivation.step import Derivation, Relation, Step, Summand
 from deltaq.derivation.system import System
 from deltaq.mechanics.library import load_scene, scene_ids
@@ -165,3 +167,40 @@ def test_operations_are_carried_out() -> None:
     algebra = NormalAlgebra(("x",))
     assert algebra.holds(Relation((left, Explicit(value))))
     assert not algebra.holds(Relation((left, Explicit(value + m * rate**2 * sp.sin(x)))))
+
+
+def test_nearly_all_terms_of_results_have_a_history_in_the_steps() -> None:
+    """The terms they come from are there, and have the bodies and loads of the term among theirs."""
+    with_history = all_terms = 0
+    for scene in scene_ids():
+        system, derivation = told(scene, "dalembert-lagrange")
+        known = {term.id: term for step in derivation.steps() for term in terms(step)}
+        sums = result_of(system).terms
+        found = result_origins(derivation, system, sums)
+        for key, by_name in sums.items():
+            for name, several in by_name.items():
+                for term, origins in zip(several, found[key][name], strict=True):
+                    all_terms += 1
+                    with_history += bool(origins)
+                    before = {source for origin in origins for source in known[origin.term].sources}
+                    assert not before or before & set(term.sources), (scene, key, name)
+    assert with_history >= 0.95 * all_terms > 1000
+
+
+def test_what_became_of_terms_in_results() -> None:
+    system, derivation = told("double-pendulum", "dalembert-lagrange")
+    sums = result_of(system).terms
+    found = result_origins(derivation, system, sums)
+
+    def origins(key: str, name: str) -> list[tuple[str, list[tuple[str, str]]]]:
+        pairs = zip(sums[key][name], found[key][name], strict=True)
+        return [(str(term.written_out), [(o.term, o.change) for o in several]) for term, several in pairs]
+
+    first = "equation:phi1/0.1"
+    assert origins("mass_matrix", "phi1 phi1") == [
+        ("l1**2*m1", [(f"{first}.0", "differentiated")]),
+        ("l1**2*m2", [(f"{first}.0", "differentiated")]),
+    ]
+    assert origins("forcing", "phi1")[0][1] == [(f"{first}.2", "sign-turned")]
+    assert origins("equations", "phi1")[2][1] == [(f"{first}.1", "kept")]
+    assert origins("conservative", "phi2") == [("g*l2*m2*sin(phi2)", [("decomposition/0.1.1", "differentiated")])]

@@ -91,7 +91,9 @@ def test_plain_texts_are_read_back_by_the_parser(scene: str, formulation: str) -
 
 def test_momenta_of_the_routh_function_are_declared() -> None:
     result = derive_request({"scene": "spherical-pendulum"})["result"]
-    assert result["symbols"] == [{"name": "p_psi", "latex": r"p_{\psi}", "kind": "momentum", "coordinate": "psi"}]
+    assert result["symbols"] == [
+        {"name": "p_psi", "latex": r"p_{\psi}", "spoken": "p sub psi", "kind": "momentum", "coordinate": "psi"}
+    ]
     assert "p_psi" in result["routh"]["plain"]
 
 

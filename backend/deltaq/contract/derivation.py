@@ -7,10 +7,9 @@ from typing import Literal
 from pydantic import Field
 
 from .base import Answer, AskedLanguage, SceneWithChanges, examples
-from .result import DerivationResult
+from .result import DerivationResult, Origin
 
 Formulation = Literal["dalembert-lagrange", "hamilton"]
-Change = Literal["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged"]
 ROAD = "which road leads to the equations"
 
 
@@ -33,16 +32,6 @@ class DerivationRequest(SceneWithChanges):
     )
 
 
-class Origin(Answer):
-    """A term of an earlier line that a term comes from."""
-
-    term: str = Field(description="its id", examples=["momentum-rate:phi/0.1.0"])
-    change: Change = Field(
-        description="what became of it: it is still there, stands on the other side with the other sign, was"
-        " differentiated, integrated, multiplied out into several terms, or merged with others into one"
-    )
-
-
 class TermOfLine(Answer):
     """A summand of a line: with `marked`, its class there is `t-` and the numbers behind the `/` of its id."""
 
@@ -51,6 +40,7 @@ class TermOfLine(Answer):
         examples=["equation:phi/0.1.0"],
     )
     latex: str = Field(description="with its sign", examples=["-m g \\ell \\sin\\varphi"])
+    spoken: str = Field("", description="the same in words")
     sources: tuple[str, ...] = Field(description="bodies and loads that it comes from")
     origins: tuple[Origin, ...] = Field(
         alias="from",

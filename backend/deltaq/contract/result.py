@@ -9,13 +9,29 @@ from pydantic import Field
 from ..vocabulary import CurlOutcome, SearchEnd, Stability, StabilityKind
 from .base import Answer
 
+Change = Literal["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged"]
+
+
+class Origin(Answer):
+    """A term of an earlier line that a term comes from."""
+
+    term: str = Field(description="its id", examples=["momentum-rate:phi/0.1.0"])
+    change: Change = Field(
+        description="what became of it: it is still there, stands on the other side with the other sign, was"
+        " differentiated, integrated, multiplied out into several terms, or merged with others into one"
+    )
+
 
 class Term(Answer):
     """A term of a sum, and where it comes from."""
 
     plain: str = Field(examples=["m*l^2*ddot(phi)"])
     latex: str
+    spoken: str = Field("", description="the same in words, with its sign")
     sources: tuple[str, ...] = Field(description="bodies and loads", examples=[["body:bob"]])
+    origins: tuple[Origin, ...] = Field(
+        (), alias="from", description="the terms it comes from, of the step that says what the sum is"
+    )
 
 
 class Formula(Answer):
@@ -139,6 +155,7 @@ class OwnSymbol(Answer):
 
     name: str = Field(examples=["p_psi"])
     latex: str
+    spoken: str = Field("", description="the same in words")
     kind: Literal["momentum"]
     coordinate: str
 

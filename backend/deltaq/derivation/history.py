@@ -7,7 +7,7 @@ with it. Nothing but carrying each term out by itself is needed for that, whatev
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import pairwise, repeat
@@ -123,6 +123,11 @@ class History:
             told.append(replace(term, origins=origins))
         lost = dict.fromkeys(one.id for one in before if carried[one] and one.id not in used)
         return Line(tuple(told), tuple(lost) if all(term.origins for term in told) else ())
+
+    def came_from(self, values: Iterable[f.Formula], before: tuple[Candidate, ...]) -> tuple[tuple[Origin, ...], ...]:
+        """Of each term of a sum, which of the candidates it comes from."""
+        carried, own = {one: self.algebra.products(one.carried_out) for one in before}, {one.id for one in before}
+        return tuple(tuple(self._matching(Summand("", value, value), carried, own)) for value in values)
 
     def _matching(self, term: Summand, carried: Mapping[Candidate, Products | None], own: set[str]) -> Iterator[Origin]:
         """The candidates that have a product in common with the term, each with what became of it.

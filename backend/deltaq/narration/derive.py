@@ -8,15 +8,19 @@ from ..contract.derivation import DerivationRequest
 from ..contract.reading import read
 from ..derivation.engine import derive
 from ..derivation.result import result_of
+from ..derivation.result_history import result_origins
+from ..derivation.step import Derivation
 from ..derivation.system import System
 from ..language.latex_printer import Typography
 from ..mechanics.requests import changed_scene, inside
 from .catalog import language_of
+from .expression_writer import ExpressionWriter
 from .letters import letters_of
 from .marks import by_coordinate, in_class
 from .narrator import Narrator
 from .notation import Notation
 from .result_answer import written
+from .speech import Speech
 from .symbols import QuantitySymbols
 
 Document = dict[str, object]
@@ -36,8 +40,14 @@ def derive_request(document: Mapping[str, object]) -> Document:
         "scene": scene.id,
         "formulation": asked.formulation,
         "chapters": narrator.chapters(derivation),
-        "result": written(result_of(system), Typography(scene.names, decimals=scene.writes_decimals), narrator.speech),
+        "result": _result(system, derivation, narrator.speech),
     }
+
+
+def _result(system: System, derivation: Derivation, speech: Speech) -> Document:
+    result, scene = result_of(system), system.scene
+    writer = ExpressionWriter(Typography(scene.names, decimals=scene.writes_decimals), speech)
+    return written(result, result_origins(derivation, system, result.terms), writer)
 
 
 def notation_of(system: System, language: str) -> Notation:

@@ -1,4 +1,4 @@
-"""Equilibria, small motions and Routh's function as data: expressions as plain text and LaTeX, numbers rounded."""
+"""Equilibria, small motions and Routh's function as data: expressions as data, numbers rounded."""
 
 from __future__ import annotations
 
@@ -15,18 +15,15 @@ from ..derivation.program import number
 from ..derivation.result import LoadPotential, Result, Told
 from ..derivation.spectrum import ComplexMode, Mode
 from ..derivation.steady import SteadyMotion
-from ..language.latex_printer import Typography, latex
-from ..language.plain_printer import plain
-from ..language.spelling import latex_of
 from ..mechanics.scene import Scene
-from .matrix_writing import rounded
+from .expression_writer import ExpressionWriter
 
 Document = dict[str, object]
 
 DIGITS = 12
 
 
-def equilibrium(told: Told, scene: Scene, typography: Typography) -> Document:
+def equilibrium(told: Told, scene: Scene, write: ExpressionWriter) -> Document:
     """One equilibrium: where, how stable, and with which frequencies (rad/s) it oscillates in which shapes.
 
     Coordinates in `free` may have any value. `exact` says that plain and latex are closed forms
@@ -38,13 +35,13 @@ def equilibrium(told: Told, scene: Scene, typography: Typography) -> Document:
     point |= {coordinate.name: arb(coordinate.value) for coordinate in scene.free}
     spectrum = linear.spectrum if linear.spectrum and linear.spectrum.is_representable else None
     return {
-        "values": {q.name: _value(q, linear, point, typography) for q in linear.equilibrium.values},
+        "values": {q.name: _value(q, linear, point, write) for q in linear.equilibrium.values},
         "exact": linear.equilibrium.exact,
         "free": list(linear.equilibrium.free),
         "stability": linear.stability,
         "kind": linear.verdict.kind or None,
-        "conditions": _conditions(told.conditions, typography),
-        "band": _band(linear, point, typography),
+        "conditions": _conditions(told.conditions, write),
+        "band": _band(linear, point, write),
         "eigenvalues": [[_float(v.real), _float(v.imaginary)] for v in spectrum.eigenvalues] if spectrum else [],
         "eigenfrequencies": [_float(frequency) for frequency in spectrum.frequencies] if spectrum else [],
         "modes": [_mode(mode, free) for mode in spectrum.modes] if spectrum else [],
@@ -52,27 +49,27 @@ def equilibrium(told: Told, scene: Scene, typography: Typography) -> Document:
     }
 
 
-def _conditions(found: Conditions | None, typography: Typography) -> Document | None:
+def _conditions(found: Conditions | None, write: ExpressionWriter) -> Document | None:
     """The inequalities for its existence and its stability or instability; none where the verdict holds here only."""
     if found is None:
         return None
     return {
-        "existence": [_comparison(each, typography) for each in found.existence],
-        "stability": [_comparison(each, typography) for each in found.stability],
+        "existence": [_comparison(each, write) for each in found.existence],
+        "stability": [_comparison(each, write) for each in found.stability],
     }
 
 
-def _comparison(each: Comparison, typography: Typography) -> Document:
+def _comparison(each: Comparison, write: ExpressionWriter) -> Document:
     sides = {"smaller": each.smaller, "larger": each.larger}
-    return {name: {"plain": plain(side), "latex": latex(side, typography)} for name, side in sides.items()}
+    return {name: write.written(side) for name, side in sides.items()}
 
 
-def _band(linear: Linearization, point: Mapping[str, arb], typography: Typography) -> Document | None:
+def _band(linear: Linearization, point: Mapping[str, arb], write: ExpressionWriter) -> Document | None:
     """Between which values dry friction holds the coordinate."""
     if linear.band is None:
         return None
     ends = {"low": linear.band.low, "high": linear.band.high}
-    return {name: _written(value, point, typography, exact=linear.band.exact) for name, value in ends.items()}
+    return {name: _written(value, point, write, exact=linear.band.exact) for name, value in ends.items()}
 
 
 def search(found: Search | None) -> Document | None:
@@ -90,14 +87,14 @@ def search(found: Search | None) -> Document | None:
     }
 
 
-def _value(q: sp.Symbol, linear: Linearization, point: Mapping[str, arb], typography: Typography) -> Document:
-    return _written(linear.equilibrium.values[q], point, typography, exact=linear.equilibrium.exact)
+def _value(q: sp.Symbol, linear: Linearization, point: Mapping[str, arb], write: ExpressionWriter) -> Document:
+    return _written(linear.equilibrium.values[q], point, write, exact=linear.equilibrium.exact)
 
 
-def _written(value: sp.Expr, point: Mapping[str, arb], typography: Typography, *, exact: bool) -> Document:
+def _written(value: sp.Expr, point: Mapping[str, arb], write: ExpressionWriter, *, exact: bool) -> Document:
     if exact:
-        return {"plain": plain(value), "latex": latex(value, typography), "number": _float(number(value, point))}
-    return {"plain": repr(_float(value)), "latex": rounded(value), "number": _float(value)}
+        return {**write.written(value), "number": _float(number(value, point))}
+    return write.number(value, _float(value))
 
 
 def _mode(mode: Mode, free: list[str]) -> Document:
@@ -121,41 +118,35 @@ def _float(value: sp.Expr | arb | float) -> float:
     return found if abs(found) > 10.0**-DIGITS else 0.0
 
 
-def own_symbols(result: Result) -> list[Document]:
+def own_symbols(result: Result, write: ExpressionWriter) -> list[Document]:
     """Names in plain texts of the result that the scene does not have: the constant momenta of Routh's function."""
     momenta = result.routh.momenta if result.routh else {}
-    return [
-        {"name": p.name, "latex": latex_of(p.name), "kind": "momentum", "coordinate": q} for q, p in momenta.items()
-    ]
+    return [{**write.name(p.name), "kind": "momentum", "coordinate": q} for q, p in momenta.items()]
 
 
-def load(found: LoadPotential, typography: Typography) -> Document:
+def load(found: LoadPotential, write: ExpressionWriter) -> Document:
     """Whether a load has a potential, and the curl test: ∂Qᵢ/∂qₖ − ∂Qₖ/∂qᵢ for every pair of coordinates."""
     energy = found.potential
     return {
         "load": found.load,
         "outcome": found.outcome,
         "has_potential": found.has_potential,
-        "potential": None if energy is None else {"plain": plain(energy), "latex": latex(energy, typography)},
-        "curl": [
-            {"coordinates": list(pair), "plain": plain(value), "latex": latex(value, typography)}
-            for pair, value in found.curl.items()
-        ],
+        "potential": None if energy is None else write.written(energy),
+        "curl": [{"coordinates": list(pair), **write.written(value)} for pair, value in found.curl.items()],
     }
 
 
-def routh(reduction: Reduction | None, typography: Typography) -> Document | None:
+def routh(reduction: Reduction | None, write: ExpressionWriter) -> Document | None:
     """Routh's function; its `momenta` are the constant momenta of the cyclic coordinates, by their symbols."""
     if reduction is None:
         return None
-    value = reduction.function
     momenta = {coordinate: symbol.name for coordinate, symbol in reduction.momenta.items()}
-    return {"plain": plain(value), "latex": latex(value, typography), "momenta": momenta}
+    return {**write.written(reduction.function), "momenta": momenta}
 
 
-def steady(motion: SteadyMotion, number: int, typography: Typography) -> Document:
+def steady(motion: SteadyMotion, number: int, write: ExpressionWriter) -> Document:
     """A relative equilibrium; `initial` starts it, with the scene's own values of the parameters."""
-    rate = {"plain": plain(motion.rate), "latex": latex(motion.rate, typography), "number": _float(motion.number)}
+    rate = {**write.written(motion.rate), "number": _float(motion.number)}
     return {
         "step": f"relative-equilibrium:{number}",
         "resting": motion.coordinate,

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..derivation.formula import Formula, Term
+from ..derivation.formula import Formula, Plus, Term
 from ..derivation.history import with_names
 from ..derivation.step import Chapter, Derivation, Line, Relation, Step, Summand
 from ..language.plain_printer import plain
@@ -115,9 +115,11 @@ class Narrator:
 
     def term(self, term: Summand) -> Document:
         """A term of a line, with its sign, and where it comes from."""
+        shown = Term(term.shown, (), term.sign)
         return {
             "id": term.id,
-            "latex": without_classes(self.notation.term(Term(term.shown, (), term.sign))),
+            "latex": without_classes(self.notation.term(shown)),
+            "spoken": self.speech.formula(Plus((shown,))),
             "sources": list(term.sources),
             "from": [asdict(origin) for origin in term.origins],
         }

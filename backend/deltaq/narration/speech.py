@@ -293,7 +293,7 @@ class Speech:
             case Inserted(of):
                 return self._said(of)
             case Rounded(value, unit):
-                return self._rounded(value, unit)
+                return self._measured(value, unit), PRODUCT if not isinstance(value, sp.MatrixBase) else ATOM
         raise TypeError(f"no words for {type(formula).__name__}")
 
     def bare(self, of: Formula) -> str:
@@ -394,12 +394,20 @@ class Speech:
             text = self._say("integral", *ends, text, self.value(bounds.symbol))
         return text
 
-    def _rounded(self, value: Value, unit: str) -> Said:
+    def rounded(self, value: Value) -> str:
+        """A number with the digits that are written."""
+        return self._measured(value, "")
+
+    def name(self, name: str) -> str:
+        """A name that is no symbol of the scene."""
+        return self.words.symbol(name)
+
+    def _measured(self, value: Value, unit: str) -> str:
         if isinstance(value, sp.MatrixBase):
             rows = [[self._digits(entry) for entry in row] for row in value.tolist()]
-            return said_matrix(self.words.vocabulary, rows), ATOM
+            return said_matrix(self.words.vocabulary, rows)
         units = self.words.vocabulary.words
-        return f"{self._digits(value)} {units.get(f'units.{unit}', unit)}".strip(), PRODUCT
+        return f"{self._digits(value)} {units.get(f'units.{unit}', unit)}".strip()
 
     def _digits(self, value: sp.Expr) -> str:
         mantissa, exponent = number_parts(value)
