@@ -6330,7 +6330,7 @@ export interface components {
          * VariationAnswer
          * @description The first variation by two routes, and its results as plain expressions and as LaTeX.
          *
-         *     Rates above the second are written dddot(x) and ddddot(x), which an expression may not hold.
+         *     Rates above the second are written dddot(x) and ddddot(x).
          */
         VariationAnswer: {
             /**

@@ -178,6 +178,7 @@ CASES = [
         )
         for load, field in (
             ({"kind": "force", "at": "bob", "force": ["m*l*ddot(phi)", "0"]}, "force/0"),
+            ({"kind": "force", "at": "bob", "force": ["m*l*dddot(phi)*t", "0"]}, "force/0"),
             ({"kind": "moment", "angle": "phi", "moment": "m*l^2*ddot(phi)"}, "moment"),
             ({"kind": "dissipation", "function": "m*l^2*ddot(phi)*dot(phi)"}, "function"),
             (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Iterator
 
 import pytest
 from tests.lecture.answers import walk
@@ -12,6 +13,9 @@ from tests.lecture.answers import walk
 from deltaq.errors import InputError, Problem
 from deltaq.language.names import Names, Symbol
 from deltaq.language.parser import parse
+from deltaq.language.plain_printer import plain
+from deltaq.language.symbols import Symbols
+from deltaq.language.sympy_algebra import to_sympy
 from deltaq.narration.vary import vary_request
 
 SAFE = re.compile(r"[A-Za-z0-9:_-]+")
@@ -252,7 +256,7 @@ def test_quotient_of_a_functional(functional: dict, derivative: float) -> None:
         ),
         pytest.param(
             {"expression": "x + dot(ddot(x))", "functions": ["x"], "functional": {**INTEGRAL, "to": "1"}},
-            Problem("derivative-order", "/expression", 4, 12, {"order": 3}),
+            Problem("integrand-order", "/expression", 4, 12, {"name": "x"}),
             id="integrand with a third rate",
         ),
         pytest.param(
@@ -304,3 +308,27 @@ def test_quotient_of_a_functional(functional: dict, derivative: float) -> None:
 )
 def test_wrong_input(document: dict, problem: Problem) -> None:
     assert problems(**document) == (problem,)
+
+
+def plain_texts(part: object) -> Iterator[str]:
+    if isinstance(part, dict):
+        yield from (text for key, text in part.items() if key == "plain")
+        for value in part.values():
+            yield from plain_texts(value)
+    elif isinstance(part, list):
+        for value in part:
+            yield from plain_texts(value)
+
+
+@pytest.mark.parametrize(
+    "integrand", ["E*ddot(w)^2/2 - q*w", "w*dot(w)*ddot(w)^2", "sqrt(1 + ddot(w)^2)", "ddot(w)^3*t"]
+)
+def test_answers_with_high_rates_are_read_back(integrand: str) -> None:
+    names = Names((Symbol("w", "coordinate"), Symbol("E", "parameter"), Symbol("q", "parameter")))
+    functional = {"kind": "integral", "from": "0", "to": "1", "ends": "free"}
+    asked = {"expression": integrand, "functions": ["w"], "parameters": ["E", "q"], "functional": functional}
+    texts = list(plain_texts(vary(**asked)["result"]))
+    assert any("dddot(w)" in text for text in texts)
+    for text in texts:
+        left = text.removesuffix(" = 0")
+        assert plain(to_sympy(parse(left, names).tree, Symbols(names))) == left

@@ -186,7 +186,7 @@ class VariationResult(Answer):
 class VariationAnswer(Answer):
     """The first variation by two routes, and its results as plain expressions and as LaTeX.
 
-    Rates above the second are written dddot(x) and ddddot(x), which an expression may not hold.
+    Rates above the second are written dddot(x) and ddddot(x).
     """
 
     id: str = Field(description="content hash", examples=["9f3c…"])

@@ -14,7 +14,7 @@ from ..language.names import Names, Symbol
 from ..language.parser import Syntax, parse
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
-from ..language.tree import Node
+from ..language.tree import Node, Rate, walk
 from .equality import Parts
 from .solution import Solution
 from .task import Task
@@ -25,6 +25,7 @@ ADDED = re.compile(r"\+\s*(C|(\\text\s*\{)?\s*const\.?\s*\}?)\s*$")
 DECORATION = re.compile(r"\\(vec|mathbf|boldsymbol|bm|mathrm|text|underline|left|right|,|;|!|quad)|[\s{}\\]")
 SEPARATOR = re.compile(r";|\n")
 MAX_EQUATIONS = 12
+HIGHEST_RATE = 2
 GREEK = {"δ": "delta"}
 
 
@@ -111,9 +112,17 @@ def _parsed(text: str, piece: tuple[int, int], names: Names, syntax: Syntax) -> 
     source = _without_ending(text[start:end])
     try:
         tree = parse(source, names, syntax).tree
+        _check_orders(tree)
         return source, tree, to_sympy(tree, Symbols(names))
     except ExpressionError as error:
         raise ExpressionError(*(_moved(problem, start) for problem in error.problems)) from None
+
+
+def _check_orders(tree: Node) -> None:
+    """No equation of motion has a higher derivative than the second."""
+    high = next((node for node in walk(tree) if isinstance(node, Rate) and node.order > HIGHEST_RATE), None)
+    if high is not None:
+        raise ExpressionError(Problem("answer-order", "", high.span.offset, high.span.length))
 
 
 def _without_ending(text: str) -> str:

@@ -24,6 +24,7 @@ from .tree import (
 )
 
 MAX_ORDER = 2
+MAX_RATE = 4  # of a coordinate: equations of functionals with second rates have fourth ones
 
 
 class Differentiation:
@@ -52,12 +53,12 @@ class Differentiation:
     def time_derivative(self, operand: Node, span: Span) -> Node:
         """d/dt: a coordinate becomes its rate; anything else is kept for the chain rule, which an algebra carries out.
 
-        Orders above two do not occur in the equations of motion and are refused.
+        Orders above two are refused, of coordinates those above four.
         """
         match operand:
             case Name(name) if self.kind(name) == "coordinate":
                 return self._cursor.made(Rate(name, 1, span))
-            case Rate(name, order) if order < MAX_ORDER:
+            case Rate(name, order) if order < MAX_RATE:
                 return self._cursor.made(Rate(name, order + 1, span))
             case Variation(name, order) if order < MAX_ORDER:
                 return self._cursor.made(Variation(name, order + 1, span))

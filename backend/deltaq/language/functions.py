@@ -55,7 +55,7 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType({f.name: f for f in _TABLE}
 SPELLINGS: Mapping[str, Function] = MappingProxyType({s: f for f in _TABLE for s in (f.name, *f.spellings)})
 
 # Words with a meaning of their own in the plain language; no symbol of a scene may take them.
-OPERATORS = frozenset({"dot", "ddot", "delta", "d", "diff"})
+OPERATORS = frozenset({"dot", "ddot", "dddot", "ddddot", "delta", "d", "diff"})
 REFUSED_FUNCTIONS = frozenset(
     {"factorial", "gamma", "eval", "exec", "lambda", "import", "Integral", "integrate", "sum", "product", "limit"}
     | {"solve", "subs", "det", "min", "max", "floor", "ceil", "round", "mod", "erf", "Piecewise", "binomial"}

@@ -327,12 +327,10 @@ def _index(lexer: LatexLexer) -> str:
 
 
 def read_accent(lexer: LatexLexer, name: str, start: int) -> None:
-    """\\dot and \\ddot over a symbol, whose index stands outside or inside, or over an expression."""
+    """\\dot to \\ddddot over a symbol, whose index stands outside or inside, or over an expression."""
     inside = lexer.source.argument(lexer.since(start), "\\" + name)
     span = lexer.since(start)
-    if name == "dddot":
-        fail("derivative-order", span, order=3)
-    accent = Token("dot", "1" if name == "dot" else "2", span)
+    accent = Token("dot", str(name.count("d")), span)
     content = lexer.source.text[slice(*inside)]
     simple = SINGLE.match(content)
     if simple and (simple[2] or simple[3] or simple[1] in GREEK_NAMES):
@@ -491,7 +489,7 @@ _HANDLERS: Mapping[str, Callable[[LatexLexer, str, int], None]] = MappingProxyTy
     {
         **dict.fromkeys(("frac", "tfrac", "dfrac", "cfrac"), read_fraction),
         "sqrt": read_root,
-        **dict.fromkeys(("dot", "ddot", "dddot"), read_accent),
+        **dict.fromkeys(("dot", "ddot", "dddot", "ddddot"), read_accent),
         "begin": read_environment,
         "exponentialE": read_exponential,
         "boxed": read_boxed,

@@ -76,7 +76,19 @@ class Source:
             return self.group()
         if ahead == "\\":
             command = self.command()
-            if command in ("mathrm", "text", "mathit", "operatorname", "dot", "ddot", "sqrt", "mathsf", "mathbf"):
+            if command in (
+                "mathrm",
+                "text",
+                "mathit",
+                "operatorname",
+                "dot",
+                "ddot",
+                "dddot",
+                "ddddot",
+                "sqrt",
+                "mathsf",
+                "mathbf",
+            ):
                 self.argument(owner, command)
             elif command in ("right", "end", "\\"):
                 fail("missing-argument", owner, name=name)

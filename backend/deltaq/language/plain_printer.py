@@ -1,6 +1,6 @@
 """SymPy → plain text that the parser reads back to the same expression.
 
-Only explicit `*`, `/`, `^`, parentheses, function calls, dot(x), ddot(x), delta(x), d(x) and decimal numbers are
+Only explicit `*`, `/`, `^`, parentheses, function calls, dot(x) to ddddot(x), delta(x), d(x) and decimal numbers are
 used, so that any program can read it.
 """
 

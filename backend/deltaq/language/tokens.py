@@ -13,7 +13,7 @@ Kind = Literal[
     "number",  # value: Fraction
     "name",  # text: the symbol's name
     "function",  # text: name in the allow-list
-    "dot",  # text: number of time derivatives, "1" or "2"; applies to the atom that follows
+    "dot",  # text: number of time derivatives, "1" to "4"; applies to the atom that follows
     "variation",  # δ, applies to the atom that follows
     "differential",  # d, applies to the atom that follows
     "partial",  # ∂ of the plain syntax: ∂/∂x (…)

@@ -55,10 +55,8 @@ def unknown(word: str, span: Span, names: Names) -> NoReturn:
 
 def _operator(word: str, span: Span) -> Token:
     match word:
-        case "dot":
-            return Token("dot", "1", span)
-        case "ddot":
-            return Token("dot", "2", span)
+        case "dot" | "ddot" | "dddot" | "ddddot":
+            return Token("dot", str(word.count("d")), span)
         case "delta":
             return Token("variation", word, span)
         case "d":

@@ -7,6 +7,7 @@ import random
 from collections.abc import Iterable, Iterator, Mapping
 
 from ..errors import Problem
+from ..language.differentiation import MAX_RATE
 from ..language.expression import Expression
 from ..language.floats import evaluate
 from ..language.spelling import spell_rate
@@ -35,7 +36,7 @@ def _points(scene: Scene) -> Iterator[Mapping[str, float]]:
         for c in scene.coordinates:
             point[c.name] = c.value + source.uniform(-reach, reach)
             point[spell_rate(c.name, 1)] = c.rate + source.uniform(-reach, reach)
-            point[spell_rate(c.name, 2)] = source.uniform(-reach, reach)
+            point |= {spell_rate(c.name, order): source.uniform(-reach, reach) for order in range(2, MAX_RATE + 1)}
         for m in scene.material:
             lower, upper = evaluate(m.lower.tree, point), evaluate(m.upper.tree, point)
             point[m.name] = lower + source.uniform(0.05, 0.95) * (upper - lower)

@@ -105,13 +105,14 @@ def _component_problems(components: tuple[Node, ...], domain: Instant | Interval
         yield Problem("not-scalar", "/expression")
     elif any(part.has_derivatives for part in parts):
         yield Problem("derivative-in-scene", "/expression")
-    elif isinstance(domain, Interval):
-        yield from _order_problems(components[0])
+    else:
+        for component in components:
+            yield from _order_problems(component)
 
 
-def _order_problems(integrand: Node) -> Iterator[Problem]:
-    """Integration by parts is carried out twice at most: the integrand holds functions and two of their rates."""
-    high = next((node for node in walk(integrand) if isinstance(node, Rate) and node.order > HIGHEST), None)
+def _order_problems(varied: Node) -> Iterator[Problem]:
+    """Integration by parts is carried out twice at most: what is varied holds functions and two of their rates."""
+    high = next((node for node in walk(varied) if isinstance(node, Rate) and node.order > HIGHEST), None)
     if high is not None:
         yield Problem(
             "integrand-order", "/expression", high.span.offset, high.span.length, parameters={"name": high.name}
