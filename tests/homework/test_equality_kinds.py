@@ -6,6 +6,9 @@ An answer is checked twice, by numbers and exactly, so that a fault in one of th
 from __future__ import annotations
 
 import functools
+import math
+import tomllib
+from importlib.resources import files
 
 import pytest
 
@@ -137,7 +140,7 @@ FACTORS = [
     ("spring-pendulum", f"{R}/(1 - cos(phi))", False),
     ("spring-pendulum", f"{R}/phi^2", False),
     ("spring-pendulum", f"sqrt(phi)*{R}", False),
-    ("spring-pendulum", f"(1 + cos(phi))*{R}", True),  # an angle of π is out of the range
+    ("spring-pendulum", f"(1 + cos(phi))*{R}", False),  # the slider ends short of π, the motion does not
     ("spring-pendulum", f"(1 - cos(phi))*{R}", False),
     ("spring-pendulum", f"k*m/(m + k)*{R}", True),
 ]
@@ -156,6 +159,8 @@ BETWEEN = [
     (0.1, None, "(q + 2/10)", False),
     (None, None, "(q^2 + q + 1)", True),
 ]
+# Once around, nearly so, and half a turn, as a polar angle between its poles has it.
+AROUND = [(-3.1, 3.1, False), (-math.pi, math.pi, False), (0.0, 6.2, False), (0.1, 3.0, True), (-1.5, 1.5, True)]
 MOMENT = "(m*l^2*ddot(phi) + m*g*l*sin(phi) - M)"  # a moment may have either sign
 
 
@@ -225,6 +230,16 @@ def test_where_the_right_answer_has_no_numbers_the_exact_test_decides(answer: st
     task = book.task("potential-energy")
     assert book.fingerprint(task) is None
     assert compare(book, task, read(task, book.solution, answer, "plain").parts).equal is equal
+
+
+@pytest.mark.parametrize(("least", "most", "harmless"), AROUND)
+def test_an_angle_that_goes_around_passes_every_value(least: float, most: float, harmless: bool) -> None:
+    document = tomllib.loads(files("deltaq.scenes").joinpath("pendulum.toml").read_text(encoding="utf-8"))
+    document["coordinates"][0] |= {"min": least, "max": most}
+    book = workbook_of({"scene": document})
+    task = book.task("equation:phi")
+    given = read(task, book.solution, f"(1 + cos(phi))*{PENDULUM} = 0", "plain").parts
+    assert task.quantity.equality.same(given, book.right(task), book.solution) == (YES if harmless else VANISHES)
 
 
 @pytest.mark.parametrize(("least", "most", "factor", "harmless"), BETWEEN)

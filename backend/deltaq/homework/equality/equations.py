@@ -18,6 +18,7 @@ from ..sampling import Sampler, defined, echelon
 from ..solution import Solution
 from . import Fingerprint, Match, Parts, weakest
 
+NEARLY_A_TURN = 0.9 * 2 * math.pi
 SPECIAL = (0.0, math.pi / 2, math.pi, -math.pi / 2, -0.7, 0.9)
 MOST_STATES = 400
 NOTHING = 1e-12
@@ -113,6 +114,8 @@ def _special(symbol: sp.Symbol, solution: Solution) -> Sequence[float]:
     found = next((c for c in solution.scene.coordinates if c.name == symbol.name), None)
     if found is None or found.min is None or found.max is None:
         return SPECIAL
+    if found.unit == "rad" and found.max - found.min > NEARLY_A_TURN:
+        return SPECIAL  # a slider that ends short of ±π bounds where a motion starts, not where it goes
     inside = [value for value in SPECIAL if found.min <= value <= found.max]
     width = found.max - found.min
     return [*inside, found.min + 0.3 * width, found.min + 0.8 * width]
