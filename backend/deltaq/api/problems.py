@@ -172,6 +172,8 @@ def _findings(error: RequestValidationError) -> Iterator[Problem]:
 
 def _http_report(error: HTTPException) -> Report:
     headers = dict(error.headers or {})
+    if "Allow" in headers:  # Starlette writes a set, which each process orders in its own way
+        headers["Allow"] = ", ".join(sorted(headers["Allow"].split(", ")))
     kind = _HTTP_TYPES.get(error.status_code) or replace(HTTP_ERROR, status=error.status_code)
     parameters = {"allowed": headers.get("Allow", ""), **getattr(error, "parameters", {})}
     return Report(kind, parameters=parameters, headers=headers)
