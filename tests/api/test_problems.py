@@ -207,7 +207,7 @@ async def test_a_derivation_that_is_not_kept_says_how_to_get_it(client: httpx.As
 @pytest.mark.parametrize(
     ("method", "path", "allowed"),
     [
-        pytest.param("DELETE", "/api/v1/scenes", "GET", id="not GET"),
+        pytest.param("DELETE", "/api/v1/scenes", "GET, HEAD", id="not GET"),
         pytest.param("GET", DERIVATIONS, "POST", id="not POST"),
         pytest.param("OPTIONS", "/api/v1/scenes/validate", "POST", id="a name where others have an identifier"),
         pytest.param("POST", "/app.js", "GET, HEAD", id="a file"),
@@ -215,7 +215,7 @@ async def test_a_derivation_that_is_not_kept_says_how_to_get_it(client: httpx.As
 )
 async def test_wrong_method(client: httpx.AsyncClient, method: str, path: str, allowed: str) -> None:
     response = await client.request(method, path)
-    assert ", ".join(sorted(response.headers["allow"].split(", "))) == allowed
+    assert response.headers["allow"] == allowed
     assert response.json() == document(
         "method-not-allowed",
         405,
