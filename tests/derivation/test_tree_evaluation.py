@@ -7,7 +7,7 @@ from flint import arb, ctx
 from tests.language.scene_names import NAMES
 from tests.language.test_floats import POINT, ROWS
 
-from deltaq.derivation.tree_evaluation import tree_value
+from deltaq.derivation.tree_evaluation import power, tree_value
 from deltaq.derivation.verification import BITS
 from deltaq.language.parser import parse
 
@@ -32,6 +32,16 @@ def test_derivative_by_the_time(text: str, expected: str) -> None:
     with ctx.workprec(BITS):
         found, known = (tree_value(parse(one, NAMES).tree, BALLS) for one in (text, expected))
         assert abs(float(found - known)) < 1e-60
+
+
+@pytest.mark.parametrize("middle", [0, 1, -1])
+@pytest.mark.parametrize("exponent", range(5))
+def test_a_power_holds_all_powers_of_a_ball(middle: int, exponent: int) -> None:
+    """Also around zero, as the rate of a length that does not change is: there a logarithm is not finite."""
+    base = arb(middle, 0.25)
+    found = power(base, arb(exponent))
+    assert all(found.contains(arb(middle + part) ** exponent) for part in (-0.25, -0.125, 0, 0.125, 0.25))
+    assert found.is_finite()
 
 
 @pytest.mark.parametrize(

@@ -25,6 +25,7 @@ from deltaq.derivation.formula import (
 from deltaq.derivation.step import Chapter, Derivation, Relation, Step
 from deltaq.derivation.system import System
 from deltaq.derivation.verification import holds, random_points, verified, verified_step
+from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene, scene_ids
 
 SYSTEM = System(load_scene("elastic-pendulum"))
@@ -217,3 +218,23 @@ def test_every_step_of_every_scene_is_verified(identifier: str) -> None:
     steps = list(derivation.steps())
     assert [step.id for step in steps if not step.verified] == []
     assert len({step.id for step in steps}) == len(steps) >= 15
+
+
+def test_an_equilibrium_where_the_ends_of_a_damper_meet_is_verified() -> None:
+    scene = read_scene(
+        {
+            "id": "damped",
+            "dimension": 2,
+            "coordinates": [{"name": "x", "value": 0.3}],
+            "parameters": [{"name": name, "value": 1.5} for name in ("m", "a", "c", "k")],
+            "points": [{"name": "anchor", "position": ["0", "0"]}],
+            "bodies": [{"name": "bob", "kind": "particle", "mass": "m", "position": ["x", "a*sin(x/a)"]}],
+            "loads": [
+                {"kind": "damper", "name": "damper", "from": "anchor", "to": "bob", "coefficient": "c"},
+                {"kind": "potential", "name": "spring", "energy": "k*x^2"},
+            ],
+        }
+    )
+    _, derivation = derive(scene)
+    assert [step.id for step in derivation.steps() if not step.verified] == []
+    assert any(step.rule == "equilibrium" for step in derivation.steps())

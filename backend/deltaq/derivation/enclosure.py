@@ -19,6 +19,7 @@ import sympy as sp
 from flint import arb, arb_mat, ctx
 
 from .program import BY_CLASS, CONSTANTS
+from .tree_evaluation import power
 
 BITS = 53
 TINY = 1e-7  # of the first box: what is undecided there is left to others
@@ -159,7 +160,7 @@ def _power(base: arb, exponent: arb) -> arb:
         return _cut(base, 0.0, math.inf) ** exponent
     if whole > 0 and whole % 2 == 0:
         return abs(base) ** whole
-    return base**whole
+    return power(base, exponent)
 
 
 CLIPPED: Mapping[str, Callable[..., arb]] = {

@@ -48,7 +48,11 @@ def rational(value: Fraction) -> arb:
 def power(base: arb, exponent: arb) -> arb:
     """bᵉ, also of negative bases where the exponent is whole."""
     whole = exponent.unique_fmpz()
-    return base**exponent if whole is None else base**whole
+    if whole is None:
+        return base**exponent
+    if whole > 0 and base.mid().is_zero():  # Arb takes its logarithm, which is not finite: (±r)ⁿ is in ±rⁿ
+        return arb(0, base.rad() ** whole)
+    return base**whole
 
 
 def tree_value(tree: Node, point: Point) -> arb:

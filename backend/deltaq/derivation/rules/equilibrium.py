@@ -10,7 +10,7 @@ import sympy as sp
 
 from ..formula import AtEquilibrium, Explicit, Inserted, Named, Quantity, Rounded
 from ..linearization import Linearization
-from ..matrix_form import forcing
+from ..matrix_form import forces_at_rest
 from ..step import Relation, Step
 from ..system import System
 from ._shape import at_rest, numbers, shaped, zero
@@ -20,7 +20,8 @@ RULE = "equilibrium"
 
 def apply(system: System, linear: Linearization, number: int) -> Step:
     """Where it is, the proof that nothing acts there, and how it behaves."""
-    force = AtEquilibrium(shaped(system, "forcing", "vector", forcing(system)), at_rest(system, linear))
+    # The rates first: a damper whose ends meet has no direction there, but its force is zero while nothing moves.
+    force = AtEquilibrium(shaped(system, "forcing", "vector", forces_at_rest(system)), at_rest(system, linear))
     proof = force if linear.equilibrium.exact else Inserted(force, numbers(system))
     places = tuple(_place(system, linear, q) for q in system.free if system.q(q) in linear.equilibrium.values)
     free = linear.equilibrium.free
