@@ -3,6 +3,7 @@
 import { render } from "lit-html";
 import { translator } from "./model/catalog.js";
 import { createBench } from "./model/labs/bench.js";
+import { experimentsOf } from "./model/labs/experiments.js";
 import { withMarks } from "./model/labs/figure.js";
 import {
   answered,
@@ -46,6 +47,12 @@ const { get, set } = store;
 let own = /** @type {import("./model/own.js").SceneDocument | null} */ (null);
 
 const move = mover(store);
+const known = experimentsOf(
+  await api.experiments().then(
+    ({ experiments }) => experiments,
+    () => [],
+  ),
+);
 const lang = () => get().place.lang;
 
 /** A scene for a request: its id, or the viewer's own as a document. @param {string} id */
@@ -57,13 +64,14 @@ const bench = createBench(
     document: documentOf,
     run: (name, body, hear, signal, anew, wait) => experiment(send, name, body, hear, signal, anew, wait),
     scene: async (id) => (id === OWN && own ? completed(own) : api.scene(id, lang())),
+    known,
   },
-  usual(readQuestion(location.search)),
+  usual(readQuestion(location.search, known)),
 );
 
 /** @param {import("./model/labs/question.js").Question} question */
 function usual(question) {
-  return question.scene ? question : { ...question, ...exampleOf(question.lab) };
+  return question.scene ? question : { ...question, ...exampleOf(question.lab, known) };
 }
 
 const motion = createMotion(root, () => still.matches);
@@ -120,14 +128,14 @@ function chartsNow() {
 function link(patch) {
   const { question } = bench.get();
   const place = writePlace({ ...get().place });
-  return `${location.pathname}${place}${place ? "&" : "?"}${writeQuestion({ ...question, ...patch })}${question.scene === OWN ? location.hash : ""}`;
+  return `${location.pathname}${place}${place ? "&" : "?"}${writeQuestion({ ...question, ...patch }, known)}${question.scene === OWN ? location.hash : ""}`;
 }
 
 /** @param {string} accept */
 async function fetchFile(accept) {
   const { question } = bench.get();
   const name = question.lab;
-  const request = requestOf(answered(question, bench.get().scene), documentOf(question.scene), lang());
+  const request = requestOf(answered(question, bench.get().scene, known), documentOf(question.scene), lang(), known);
   await file(send, name, request, accept).then(
     (blob) => offer(`${name}-${question.scene}.${accept === "text/csv" ? "csv" : "html"}`, blob, accept),
     bench.fail,
@@ -172,6 +180,7 @@ function update() {
       bench: bench.get(),
       benches: starting,
       labs: labs(),
+      known,
       scenes,
       charts: now,
       dial,
@@ -207,7 +216,7 @@ const starting = {
   ...bench,
   start() {
     clear();
-    bench.edit(answered(bench.get().question, bench.get().scene));
+    bench.edit(answered(bench.get().question, bench.get().scene, known));
     return bench.start();
   },
   /** @param {string} lab */

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.frontend.node import run as run_node
 
 FILE = re.compile(r"^`(backend/[\w./-]+)`\n\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 SCENE = re.compile(r"^```toml\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -97,13 +98,14 @@ def coupled(root: Path) -> dict[str, Any]:
 
 def test_the_api_knows_what_was_added(copy: Path, root: Path) -> None:
     answer = {"value": "-m*l^2*dot(phi)^2/2 - m*g*l*cos(phi)"}
-    scenes, methods, derivation, experiment, refused, menu, verdict = asked(
+    scenes, methods, derivation, experiment, refused, experiments, menu, verdict = asked(
         copy,
         ("GET", "/scenes", None),
         ("GET", "/methods?lang=de", None),
         ("POST", "/derivations", {"scene": coupled(root), "lang": "en"}),
         ("POST", "/experiments/eigenvalues", {"scene": "pendulum", "initial": {"phi": {"value": 0.0}}, "lang": "de"}),
         ("POST", "/experiments/eigenvalues", {"scene": "pendulum", "digits": 99, "lang": "en"}),
+        ("GET", "/experiments", None),
         ("GET", "/catalogs/de?sections=labs", None),
         ("POST", "/checks", {"scene": "pendulum", "task": "lagrangian", "answer": answer, "lang": "en"}),
     )
@@ -119,8 +121,30 @@ def test_the_api_knows_what_was_added(copy: Path, root: Path) -> None:
         ("/digits", "The value must be at most 15.")
     ]
     assert "eigenvalues" in menu["labs"]["experiments"]
+    assert on_the_page(root, experiments["experiments"], menu["labs"]) == [
+        {"kind": "number", "label": "Dauer der Bewegung / s", "range": {"shown": 10, "min": 1e-6, "max": 1000}},
+        {"kind": "number", "label": "Gültige Ziffern", "range": {"shown": 12, "min": 2, "max": 15}},
+    ]
     assert verdict["misconception"] == "energies-swapped"
     assert verdict["feedback"] == "Not right yet. Which of the two energies is positive in L?"
+
+
+ASKED = """
+import { translator } from "./model/catalog.js";
+import { experimentsOf } from "./model/labs/experiments.js";
+const [menu, words] = JSON.parse(process.argv[1]);
+const { options } = experimentsOf(menu).experiment("eigenvalues");
+const t = translator(words);
+console.log(JSON.stringify(options.map(({ kind, label, range }) => ({ kind, label: t(label), range }))));
+"""
+
+
+def on_the_page(root: Path, menu: Any, words: Any) -> Any:
+    """What the page asks of the experiment, as it is in the repository: nothing is added to it."""
+    told = json.dumps([menu, words])
+    done = run_node("node", "--input-type=module", "--eval", ASKED, told, cwd=root / "frontend")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
 
 
 @pytest.mark.slow

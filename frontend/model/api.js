@@ -112,6 +112,8 @@ export function createApi(send, wait = pause, base = "/api/v1") {
     description: () => call("/openapi.json"),
     /** @returns {Promise<Got<"/methods">>} */
     methods: () => call("/methods"),
+    /** @returns {Promise<Got<"/experiments">>} */
+    experiments: () => call("/experiments"),
     /** @type {(lang: Lang, ...sections: string[]) => Promise<import("./types.js").Catalog>} `sections` besides those of every page */
     catalog: insistent((lang, ...sections) => call(`/catalogs/${lang}?sections=${["page", ...sections]}`), wait),
     /** @param {Sent<"/derivations">} body @param {AbortSignal} [signal] */

@@ -64,6 +64,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The experiments there are, and what may be asked of each besides its scene, with defaults and bounds
+         * @description The experiments there are, and what may be asked of each besides its scene, with defaults and bounds.
+         */
+        get: operations["list_experiments"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments/chaos": {
         parameters: {
             query?: never;
@@ -2490,6 +2510,29 @@ export interface components {
             digits: number;
         };
         /**
+         * ExperimentEntry
+         * @description An experiment by its id, the last part of its address.
+         */
+        ExperimentEntry: {
+            /**
+             * Id
+             * @example work-precision
+             */
+            id: string;
+            /** Description */
+            description: string;
+            /** Options */
+            options: components["schemas"]["OptionEntry"][];
+        };
+        /**
+         * ExperimentList
+         * @description All experiments.
+         */
+        ExperimentList: {
+            /** Experiments */
+            experiments: components["schemas"]["ExperimentEntry"][];
+        };
+        /**
          * ExponentialReading
          * @description Growth read as e^(rate t).
          */
@@ -4058,6 +4101,45 @@ export interface components {
              *     }
              */
             parameters?: components["schemas"]["NumericParameters"];
+        };
+        /**
+         * OptionEntry
+         * @description A field of the request that holds a number, a yes or no, or one of a few words.
+         */
+        OptionEntry: {
+            /**
+             * Name
+             * @example t_end
+             */
+            name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "number" | "tick" | "choice";
+            /** Description */
+            description: string;
+            /**
+             * Default
+             * @description null where it may be left out and has no single value
+             */
+            default: number | boolean | string | null;
+            /**
+             * Min
+             * @description of a number
+             */
+            min?: number | null;
+            /**
+             * Max
+             * @description of a number
+             */
+            max?: number | null;
+            /**
+             * Choices
+             * @description the words, of a choice
+             * @default []
+             */
+            choices: string[];
         };
         /**
          * OrderOfConvergence
@@ -7105,6 +7187,26 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DerivationAnswer"];
+                };
+            };
+        };
+    };
+    list_experiments: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExperimentList"];
                 };
             };
         };

@@ -7,7 +7,7 @@ import { GUIDE } from "../../frontend/model/guide.js";
 import { COURSE } from "../../frontend/model/start/course.js";
 import { FORMS, SHOWN } from "../../frontend/model/share.js";
 import { PAGES } from "../../frontend/model/url.js";
-import { OPTIONS } from "../../frontend/model/labs/experiments.js";
+import { KNOWN } from "../../frontend/model/labs/experiments.js";
 import { SIDES } from "../../frontend/model/homework/place.js";
 import { EXAMPLES, GROUPS } from "../../frontend/model/variations/examples.js";
 import { HOLDS, KINDS } from "../../frontend/model/variations/question.js";
@@ -92,7 +92,7 @@ const LABS = Object.keys(read("en", "labs").experiments);
 /** What the labs ask for by lab and option; charts are made by the server, with its texts. */
 const LAB = [
   ...LABS.flatMap((lab) => [`labs.experiments.${lab}.title`, `labs.experiments.${lab}.summary`]),
-  ...OPTIONS.flatMap(({ kind, label, choices = [] }) => [label, ...choices.filter((one) => typeof one === "string").map((one) => `${label}-${one}`), ...(kind === "parameter" ? [`${label}-usual`] : [])]).map((key) => `labs.${key}`),
+  ...KNOWN.options("chaos").flatMap(({ kind, label, choices = [] }) => [label, ...choices.filter((one) => typeof one === "string").map((one) => `${label}-${one}`), ...(kind === "parameter" ? [`${label}-usual`] : [])]).map((key) => `labs.${key}`),
 ];
 const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`).concat("ladder.", "labs.without-result");
 

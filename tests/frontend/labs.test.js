@@ -5,7 +5,7 @@ import { ApiError } from "../../frontend/model/api.js";
 import { mapOf, middleOf, moved, seenAt } from "../../frontend/model/labs/cursor.js";
 import { cheapestFor, themed, withStep, withTolerance } from "../../frontend/model/labs/figure.js";
 import { createBench } from "../../frontend/model/labs/bench.js";
-import { experimentOf, OPTIONS } from "../../frontend/model/labs/experiments.js";
+import { experimentsOf, KNOWN } from "../../frontend/model/labs/experiments.js";
 import { titleOf } from "../../frontend/model/labs/ladder.js";
 import { answered, exampleOf, inLab, NOTHING, onScene, pointOf, readQuestion, requestOf, writeQuestion } from "../../frontend/model/labs/question.js";
 import { inUnicode } from "../../frontend/model/labs/symbols.js";
@@ -257,14 +257,58 @@ test("in another language what was measured is told again, never measured anew, 
 
 test("every experiment with a file is known by its name, and every answer has a place of its own in the address", () => {
   const named = readdirSync(new URL("../../frontend/model/labs/experiments/", import.meta.url)).map((file) => file.replace(".js", ""));
-  assert.deepEqual(named.filter((lab) => experimentOf(lab) === experimentOf("alchemy")), []);
-  const keys = [...OPTIONS.map(({ key }) => key), "lab", "scene", "lang", "theme"];
+  assert.deepEqual(named.filter((lab) => KNOWN.experiment(lab).example === KNOWN.experiment("alchemy").example), []);
+  const keys = [...KNOWN.options("chaos").map(({ key }) => key), "lab", "scene", "lang", "theme"];
   assert.deepEqual(keys.length, new Set(keys).size);
 });
 
 test("an experiment without options of its own needs no file", () => {
   assert.deepEqual(requestOf({ ...NOTHING, lab: "alchemy", scene: "pendulum", duration: 3, flips: false }, "pendulum", "en"), { scene: "pendulum", parameters: {}, initial: {}, lang: "en", t_end: 3 });
   assert.equal(exampleOf("alchemy").scene, "double-pendulum");
+});
+
+/** @type {any} */
+const MENU = [
+  { id: "chaos", options: [{ name: "t_end", kind: "number", default: 30, min: 1e-6, max: 200, choices: [] }] },
+  { id: "energy-drift", options: [{ name: "steps", kind: "number", default: 1e5, min: 1e3, max: 1e5, choices: [] }] },
+  { id: "fidelity", options: [{ name: "tolerance", kind: "number", default: null, min: 1e-9, max: 10, choices: [] }] },
+  { id: "stability", options: [{ name: "at", kind: "choice", default: "state", choices: ["state"] }] },
+  {
+    id: "alchemy",
+    options: [
+      { name: "t_end", kind: "number", default: 5, min: 0, max: 50, choices: [] },
+      { name: "digits", kind: "number", default: 12, min: 2, max: 15, choices: [], description: "significant digits" },
+      { name: "apart", kind: "number", default: null, min: 0, max: 1, choices: [] },
+      { name: "sorted", kind: "tick", default: true, choices: [] },
+      { name: "at", kind: "choice", default: "noon", choices: ["noon", "night"] },
+    ],
+  },
+];
+const SERVED = experimentsOf(MENU);
+/** @param {string} lab @param {string} wanted */
+const option = (lab, wanted) => SERVED.experiment(lab).options.find(({ name }) => name === wanted);
+
+test("bounds and defaults are those that the service tells", () => {
+  assert.deepEqual(option("chaos", "duration")?.range, { shown: 30, min: 1e-6, max: 200 });
+  assert.deepEqual(option("fidelity", "allowed")?.range, { shown: 1, min: 1e-7, max: 1000 });
+  assert.deepEqual(option("energy-drift", "steps")?.choices, [1e3, 1e4, 1e5]);
+  assert.deepEqual(option("stability", "at")?.choices, ["state"]);
+  assert.equal(option("stability", "duration")?.range, undefined);
+});
+
+test("an experiment of which only the service knows is asked whatever may be asked of it", () => {
+  const { options } = SERVED.experiment("alchemy");
+  assert.deepEqual(options.map(({ name, kind }) => [name, kind]), [["duration", "number"], ["digits", "number"], ["apart", "number"], ["sorted", "tick"], ["at", "choice"]]);
+  assert.deepEqual(option("alchemy", "digits")?.range, { shown: 12, min: 2, max: 15 });
+  assert.equal(option("alchemy", "digits")?.label, "experiments.alchemy.options.digits");
+  const usual = readQuestion("?lab=alchemy&scene=pendulum", SERVED);
+  assert.deepEqual(requestOf(usual, "pendulum", "en", SERVED), { scene: "pendulum", parameters: {}, initial: {}, lang: "en" });
+  assert.deepEqual(inLab({ ...NOTHING, scene: "pendulum" }, "alchemy", SERVED).digits, 12);
+  const given = { ...usual, duration: 3, digits: 6, apart: 0.5, sorted: false, at: "night" };
+  assert.deepEqual(readQuestion(`?${writeQuestion(given, SERVED)}`, SERVED), given);
+  const { t_end, digits, apart, sorted, at } = /** @type {any} */ (requestOf(given, "pendulum", "en", SERVED));
+  assert.deepEqual({ t_end, digits, apart, sorted, at }, { t_end: 3, digits: 6, apart: 0.5, sorted: false, at: "night" });
+  assert.deepEqual(readQuestion("?lab=alchemy&digits=x&at=never&sorted=2", SERVED), { ...usual, scene: "" });
 });
 
 test("what was said of one scene is not said of another", () => {

@@ -40,6 +40,7 @@ SHOWN = {
     "answered_motion": 'answer["scene"]["loads"]',
     "open_assignment": '[task["task"]["statement"] for task in answer["tasks"]]',
     "get_catalog": 'answer["methods"]',
+    "list_experiments": '{one["id"]: [option["name"] for option in one["options"]] for one in answer["experiments"]}',
     "work_precision": '[(chart["title"], chart["caption"]) for chart in answer["charts"]]',
     "convergence": 'answer["orders"]',
 }

@@ -3,6 +3,7 @@
 import { ApiError } from "../api.js";
 import { newest } from "../latest.js";
 import { createStore } from "../store.js";
+import { KNOWN } from "./experiments.js";
 import { inLab, onScene, requestOf } from "./question.js";
 
 /** @typedef {import("./question.js").Question} Question */
@@ -28,10 +29,11 @@ const EMPTY = { running: false, waiting: null, progress: 0, charts: [], result: 
 
 /**
  * @param {{run: (name: string, body: object, hear: (part: Part) => void, signal: AbortSignal, anew: boolean, wait: (waiting: Waiting) => void) => Promise<Result>,
- *   scene: (id: string) => Promise<import("../types.js").Scene>, document: (id: string) => string | object, lang: () => import("../types.js").Lang}} around
+ *   scene: (id: string) => Promise<import("../types.js").Scene>, document: (id: string) => string | object, lang: () => import("../types.js").Lang,
+ *   known?: import("./experiments.js").Experiments}} around
  * @param {Question} question
  */
-export function createBench({ run, scene, document, lang }, question) {
+export function createBench({ run, scene, document, lang, known = KNOWN }, question) {
   const store = createStore(/** @type {Bench} */ ({ question, scene: null, ...EMPTY }));
   const { get, set } = store;
   const renew = newest();
@@ -52,7 +54,7 @@ export function createBench({ run, scene, document, lang }, question) {
     const signal = renew();
     const { question, result: before } = get();
     set({ ...cleared, running: true });
-    const body = requestOf(question, document(question.scene), lang());
+    const body = requestOf(question, document(question.scene), lang(), known);
     const asked = JSON.stringify([question.lab, body]);
     const hear = (/** @type {Part} */ { done, total, charts }) =>
       signal.aborted || set({ waiting: null, progress: done / total, charts });
@@ -103,7 +105,7 @@ export function createBench({ run, scene, document, lang }, question) {
     open(lab) {
       stop();
       const before = get().question;
-      const question = inLab(before, lab);
+      const question = inLab(before, lab, known);
       set({ ...EMPTY, question });
       if (question.scene !== before.scene || !get().scene) void load();
     },

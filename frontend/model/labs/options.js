@@ -5,17 +5,21 @@
 /** @typedef {number | string | boolean | Side | null} Answer */
 /**
  * How something is asked: by its `kind`. `name` is that of the answer in the question, `key` in the address, `label` the
- * key of a text. `usual` is the answer until somebody gives another one; `read` makes an answer of an address, the usual
- * one if it makes no sense; `asked` is its part of the request. In the `range` of a number, `shown` stands for an answer
- * of zero. What is `ofScene` means nothing for another scene, and `usualIn` is usual in one, where nothing is for all.
+ * key of a text, `description` what is said where there is none. `usual` is the answer until somebody gives another one;
+ * `read` makes an answer of an address, the usual one if it makes no sense; `asked` is its part of the request. A number
+ * is that of the `field` of the request times `scale`: bounds are the field's, and where the usual answer is none of its
+ * own, so is what is shown for it. What is `ofScene` means nothing for another scene, and `usualIn` is usual in one, where
+ * nothing is for all.
  * @template {Answer} [A=Answer]
  * @typedef {{kind: "number" | "tick" | "choice" | "parameter" | "side", name: string, key: string, label: string, usual: A,
  *   read(text: string): A, write(answer: A): string, asked(answer: A): object, choices?: readonly (string | number)[],
- *   range?: {shown: number, min: number, max: number}, ofScene?: boolean, usualIn?(scene: Scene): A}} Option
+ *   field?: string, scale?: number, range?: {shown: number | "", min?: number, max?: number}, description?: string, ofScene?: boolean, usualIn?(scene: Scene): A}} Option
  */
 /** @typedef {{example: {scene: string} & Partial<import("./question.js").Question>, options: Option[], driven?: boolean}} Experiment  `example` is the question that shows it best; `driven`: not every scene will do */
 
-/** @param {Pick<Option<number>, "name" | "usual" | "range" | "asked"> & Partial<Option<number>>} given @returns {Option<number>} */
+/** What the service says of a field. @typedef {import("../types.js").Contract["OptionEntry"]} Field */
+
+/** @param {Pick<Option<number>, "name" | "usual" | "field" | "asked"> & Partial<Option<number>>} given @returns {Option<number>} */
 export const number = ({ name, usual, ...given }) => ({
   kind: "number",
   name,
@@ -27,13 +31,13 @@ export const number = ({ name, usual, ...given }) => ({
   write: (answer) => (answer === usual ? "" : String(answer)),
 });
 
-/** How long the motion lasts; zero for as long as is usual. @param {number} [shown] @returns {Option<number>} */
-export const duration = (shown = 10) =>
+/** How long the motion lasts; zero for as long as is usual. @returns {Option<number>} */
+export const duration = () =>
   number({
     name: "duration",
     key: "t",
     usual: 0,
-    range: { shown, min: 0.1, max: 1000 },
+    field: "t_end",
     asked: (seconds) => (seconds ? { t_end: seconds } : {}),
   });
 
@@ -53,6 +57,7 @@ export const tick = (name, usual, asked) => ({
 export const choice = (name, choices, usual) => ({
   kind: "choice",
   name,
+  field: name,
   key: name,
   label: name,
   usual,
@@ -61,6 +66,39 @@ export const choice = (name, choices, usual) => ({
   write: (answer) => (answer === usual ? "" : String(answer)),
   asked: (answer) => (answer === usual ? {} : { [name]: answer }),
 });
+
+/** What a field shows of a number that is usual; nothing where there is none. @param {Answer} usual @returns {number | ""} */
+const shownFor = (usual) => Number(usual) || "";
+
+/** The option within the bounds of its field. @param {Option} option @param {readonly Field[]} fields @returns {Option} */
+export function bounded(option, fields) {
+  const field = fields.find(({ name }) => name === option.field);
+  if (!field) return option;
+  const { scale = 1, usual, choices } = option;
+  const [min, max] = [field.min, field.max].map((bound) =>
+    bound == null ? undefined : Number((bound * scale).toPrecision(12)),
+  );
+  const within = (/** @type {string | number} */ one) =>
+    typeof one === "number" ? one >= (min ?? one) && one <= (max ?? one) : field.choices.includes(one);
+  if (choices) return { ...option, choices: choices.filter(within) };
+  return { ...option, range: { shown: shownFor(usual || Number(field.default) * scale), min, max } };
+}
+
+/** A field of an experiment of which the page knows only what the service says. @param {string} lab @param {Field} field @returns {Option} */
+export function optionOf(lab, field) {
+  const { name, kind, description, choices } = field;
+  const usual = field.default ?? "";
+  const asked = (/** @type {Answer | undefined} */ answer) =>
+    answer === undefined || answer === usual ? {} : { [name]: answer };
+  const told = { label: `experiments.${lab}.options.${name}`, description, usual, asked };
+  if (name === "t_end") return bounded(duration(), [field]);
+  if (kind === "tick") return { ...tick(name, usual === true, () => ({})), ...told };
+  if (kind === "choice") return { ...choice(name, choices, String(usual)), ...told };
+  const read = (/** @type {string} */ text) => (text !== "" && Number.isFinite(Number(text)) ? Number(text) : usual);
+  const write = (/** @type {Answer} */ answer) => (answer === usual ? "" : String(answer));
+  const range = { shown: shownFor(usual), min: field.min ?? undefined, max: field.max ?? undefined };
+  return { kind, name, key: name, field: name, range, read, write, ...told };
+}
 
 /** A parameter of the scene, or none. @param {string} name @returns {Option<string>} */
 export const parameter = (name) => ({

@@ -1,6 +1,8 @@
 /** What a lab is asked: which experiment, on which scene, with which values; as an address, and as a request. */
 
-import { experimentOf, OPTIONS } from "./experiments.js";
+import { KNOWN } from "./experiments.js";
+
+/** @typedef {import("./experiments.js").Experiments} Experiments */
 
 /** @typedef {import("../types.js").Scene} Scene */
 /** @typedef {import("./options.js").Answer} Answer */
@@ -12,29 +14,28 @@ import { experimentOf, OPTIONS } from "./experiments.js";
 /** What is answered to an option. @param {Question} question @param {string} option */
 const answerTo = (question, option) => /** @type {Answer} */ (question[option]);
 
+const FIRST = "work-precision";
+
+/** The usual answer to everything that may be asked. @param {string} lab @param {Experiments} known */
+const usualOf = (lab, known) => Object.fromEntries(known.options(lab).map(({ name, usual }) => [name, usual]));
+
 /** @type {Question} */
-export const NOTHING = {
-  lab: "work-precision",
-  scene: "",
-  ...Object.fromEntries(OPTIONS.map(({ name, usual }) => [name, usual])),
-  parameters: {},
-  initial: {},
-};
+export const NOTHING = { lab: FIRST, scene: "", ...usualOf(FIRST, KNOWN), parameters: {}, initial: {} };
 
-/** The scene that shows a lab best, and what else to ask there. @param {string} lab */
-export const exampleOf = (lab) => experimentOf(lab).example;
+/** The scene that shows a lab best, and what else to ask there. @param {string} lab @param {Experiments} [known] */
+export const exampleOf = (lab, known = KNOWN) => known.experiment(lab).example;
 
-/** @param {string} query */
-export function readQuestion(query) {
+/** @param {string} query @param {Experiments} [known] */
+export function readQuestion(query, known = KNOWN) {
   const given = new URLSearchParams(query);
-  const answers = OPTIONS.map(({ name, key, usual, read }) => [
-    name,
-    given.has(key) ? read(given.get(key) ?? "") : usual,
-  ]);
+  const lab = given.get("lab") || FIRST;
+  const answers = known
+    .options(lab)
+    .map(({ name, key, usual, read }) => [name, given.has(key) ? read(given.get(key) ?? "") : usual]);
   /** @type {Question} */
   const question = {
     ...NOTHING,
-    lab: given.get("lab") || NOTHING.lab,
+    lab,
     scene: given.get("scene") ?? "",
     ...Object.fromEntries(answers),
     parameters: {},
@@ -53,10 +54,10 @@ function put(question, key, value) {
   if (kind === "v.") question.initial[name] = { ...question.initial[name], rate: value };
 }
 
-/** The query of a question, without what is as usual. @param {Question} question */
-export function writeQuestion(question) {
+/** The query of a question, without what is as usual. @param {Question} question @param {Experiments} [known] */
+export function writeQuestion(question, known = KNOWN) {
   const { parameters, initial, lab, scene } = question;
-  const answers = OPTIONS.map(({ name, key, write }) => [key, write(answerTo(question, name))]);
+  const answers = known.options(lab).map(({ name, key, write }) => [key, write(answerTo(question, name))]);
   const values = Object.entries(parameters).map(([name, value]) => [`p.${name}`, value]);
   const starts = Object.entries(initial).flatMap(([name, { value, rate }]) => [
     [`q.${name}`, value],
@@ -69,43 +70,46 @@ export function writeQuestion(question) {
   return query.toString().replaceAll("%3A", ":");
 }
 
-/** @param {Question} question @param {string | object} scene @param {string} lang */
-export function requestOf(question, scene, lang) {
+/** @param {Question} question @param {string | object} scene @param {string} lang @param {Experiments} [known] */
+export function requestOf(question, scene, lang, known = KNOWN) {
   const { lab, parameters, initial } = question;
   return Object.assign(
     { scene, parameters, initial, lang },
-    ...experimentOf(lab).options.map(({ name, asked }) => asked(answerTo(question, name))),
+    ...known.experiment(lab).options.map(({ name, asked }) => asked(answerTo(question, name))),
   );
 }
 
-/** The question with the answers that are usual in its scene, where nobody has given any. @param {Question} question @param {Scene | null} scene @returns {Question} */
-export function answered(question, scene) {
-  const usual = experimentOf(question.lab).options.flatMap(({ name, usualIn }) =>
-    scene && usualIn ? [[name, question[name] ?? usualIn(scene)]] : [],
-  );
+/** The question with the answers that are usual in its scene, where nobody has given any. @param {Question} question @param {Scene | null} scene @param {Experiments} [known] @returns {Question} */
+export function answered(question, scene, known = KNOWN) {
+  const usual = known
+    .experiment(question.lab)
+    .options.flatMap(({ name, usualIn }) => (scene && usualIn ? [[name, question[name] ?? usualIn(scene)]] : []));
   return { ...question, ...Object.fromEntries(usual) };
 }
 
 /** The same on another scene: what was said of the one before goes. @param {Question} question @param {string} scene @returns {Question} */
 export function onScene(question, scene) {
-  const ofScene = OPTIONS.filter((option) => option.ofScene).map(({ name, usual }) => [name, usual]);
+  const ofScene = KNOWN.options(question.lab)
+    .filter((option) => option.ofScene)
+    .map(({ name, usual }) => [name, usual]);
   return { ...question, scene, parameters: {}, initial: {}, ...Object.fromEntries(ofScene) };
 }
 
 /** Whether nobody has chosen anything: scene and values are still those that show the lab best. @param {Question} question */
 function isExample({ lab, scene, parameters, initial }) {
-  const { example } = experimentOf(lab);
+  const { example } = KNOWN.experiment(lab);
   return (
     scene === example.scene &&
     JSON.stringify([parameters, initial]) === JSON.stringify([example.parameters ?? {}, example.initial ?? {}])
   );
 }
 
-/** Another lab, on the same scene if somebody chose it; else, or where not every scene will do, on the one that shows it best. @param {Question} question @param {string} lab @returns {Question} */
-export function inLab(question, lab) {
-  const { example, options, driven } = experimentOf(lab);
-  if (question.scene && !driven && !isExample(question)) return { ...question, lab };
-  const shown = { ...question, parameters: {}, initial: {}, ...example, lab };
+/** Another lab, on the same scene if somebody chose it; else, or where not every scene will do, on the one that shows it best. @param {Question} question @param {string} lab @param {Experiments} [known] @returns {Question} */
+export function inLab(question, lab, known = KNOWN) {
+  const { example, options, driven } = known.experiment(lab);
+  const whole = { ...usualOf(lab, known), ...question, lab };
+  if (question.scene && !driven && !isExample(question)) return whole;
+  const shown = { ...whole, parameters: {}, initial: {}, ...example, lab };
   const said = options.filter(({ name, ofScene }) => ofScene && question[name] && shown.scene === question.scene);
   return { ...shown, ...Object.fromEntries(said.map(({ name }) => [name, question[name]])) };
 }

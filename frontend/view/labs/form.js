@@ -3,7 +3,6 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inLanguage } from "../../model/catalog.js";
-import { experimentOf } from "../../model/labs/experiments.js";
 import { rangeOf } from "../../model/labs/options.js";
 import { answered } from "../../model/labs/question.js";
 import { inUnicode } from "../../model/labs/symbols.js";
@@ -22,7 +21,7 @@ const textOf = (event) => /** @type {HTMLInputElement} */ (event.target).value;
 
 /** @param {View} view */
 export function form(view) {
-  const { bench, benches, t } = view;
+  const { bench, benches, known, t } = view;
   const submit = (/** @type {Event} */ event) => {
     event.preventDefault();
     if (bench.running) benches.stop();
@@ -31,7 +30,7 @@ export function form(view) {
   return html`
     <form class="question" @submit=${submit}>
       ${sceneOf(view)}
-      ${experimentOf(bench.question.lab).options.map((option) => CONTROLS[option.kind](view, option))}
+      ${known.experiment(bench.question.lab).options.map((option) => CONTROLS[option.kind](view, option))}
       <button class="main" type="submit" ?disabled=${!bench.scene && !bench.running}>${t(bench.running ? "labs.stop" : bench.result ? "labs.again" : "labs.start")}</button>
       ${bench.scene ? values(view, bench.scene) : nothing}
     </form>`;
@@ -48,9 +47,15 @@ function sceneOf({ bench, benches, scenes, t, state }) {
       </select></label>`;
 }
 
-/** @param {View} view @param {string} label @param {unknown} control */
-const field = ({ t }, label, control) =>
-  html`<label class="field"><span>${t(`labs.${label}`)}</span>${control}</label>`;
+/** The text of an option; the service's own sentence where the page has none. @param {View} view @param {Option} option */
+function labelOf({ t }, { label, description }) {
+  const text = t(`labs.${label}`);
+  return text === `labs.${label}` ? (description ?? text) : text;
+}
+
+/** @param {View} view @param {Option} option @param {unknown} control */
+const field = (view, option, control) =>
+  html`<label class="field"><span>${labelOf(view, option)}</span>${control}</label>`;
 
 /** @param {number | ""} value @param {(value: number) => void} put @param {{min?: number, max?: number, step?: string, placeholder?: string}} [bounds] */
 function number(value, put, { min, max, step = "any", placeholder = "" } = {}) {
@@ -60,29 +65,37 @@ function number(value, put, { min, max, step = "any", placeholder = "" } = {}) {
 }
 
 /** @param {View} view @param {Option} option */
-function quantity(view, { name, label, range }) {
+function quantity(view, option) {
   const { bench, benches } = view;
+  const { name, range, usual } = option;
+  const answer = bench.question[name];
+  const shown = answer === usual ? (range?.shown ?? "") : Number(answer);
   return field(
     view,
-    label,
-    number(Number(bench.question[name]) || (range?.shown ?? ""), (given) => benches.edit({ [name]: given }), range),
+    option,
+    number(shown, (given) => benches.edit({ [name]: given }), range),
   );
 }
 
 /** @param {View} view @param {Option} option */
-function tick({ bench, benches, t }, { name, label }) {
-  return html`<label class="tick"><input type="checkbox" .checked=${live(bench.question[name])} @change=${() => benches.edit({ [name]: !bench.question[name] })}>${t(`labs.${label}`)}</label>`;
+function tick(view, option) {
+  const { bench, benches } = view;
+  const { name } = option;
+  return html`<label class="tick"><input type="checkbox" .checked=${live(bench.question[name])} @change=${() => benches.edit({ [name]: !bench.question[name] })}>${labelOf(view, option)}</label>`;
 }
 
 /** @param {View} view @param {Option} option */
-function choice(view, { name, label, choices = [] }) {
+function choice(view, option) {
+  const { name, label, choices = [] } = option;
   const { bench, benches, state, t } = view;
   const chosen = bench.question[name];
-  const said = (/** @type {string | number} */ one) =>
-    typeof one === "number" ? one.toLocaleString(state.place.lang) : t(`labs.${label}-${one}`);
+  const said = (/** @type {string | number} */ one) => {
+    const key = `labs.${label}-${one}`;
+    return typeof one === "number" ? one.toLocaleString(state.place.lang) : t(key) === key ? one : t(key);
+  };
   return field(
     view,
-    label,
+    option,
     html`<select .value=${live(String(chosen))} @change=${(/** @type {Event} */ e) => benches.edit({ [name]: choices.find((one) => String(one) === textOf(e)) })}>
     ${choices.map((one) => html`<option value=${one} ?selected=${one === chosen}>${said(one)}</option>`)}</select>`,
   );
@@ -97,12 +110,13 @@ const entries = (parameters, chosen) =>
   );
 
 /** @param {View} view @param {Option} option */
-function parameter(view, { name, label }) {
+function parameter(view, option) {
+  const { name, label } = option;
   const { bench, benches, t } = view;
   const chosen = String(bench.question[name]);
   return field(
     view,
-    label,
+    option,
     html`<select .value=${live(chosen)} @change=${(/** @type {Event} */ e) => benches.edit({ [name]: textOf(e) })}>
     <option value="">${t(`labs.${label}-usual`)}</option>${entries(parametersOf(view), chosen)}</select>`,
   );
@@ -113,7 +127,7 @@ function side(view, { name, label }) {
   const { bench, benches, t } = view;
   const parameters = parametersOf(view);
   const now = /** @type {import("../../model/labs/options.js").Side | null} */ (
-    answered(bench.question, bench.scene)[name]
+    answered(bench.question, bench.scene, view.known)[name]
   );
   if (!now) return nothing;
   const put = (/** @type {object} */ patch) => benches.edit({ [name]: { ...now, ...patch } });

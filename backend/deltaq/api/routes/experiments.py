@@ -14,6 +14,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Awaitable, Callable
 from dataclasses import replace
+from functools import cache
 from inspect import getdoc
 from json import loads
 from typing import Any
@@ -22,17 +23,18 @@ from fastapi import APIRouter, Request, Response
 from starlette.responses import StreamingResponse
 
 from ...contract.experiment import ExperimentRequest, request_of
+from ...contract.menu import ExperimentEntry, ExperimentList, options_of
 from ...lab.library import experiment_ids
 from ..body import StrictRoute
 from ..ending import Ending
 from ..flights import OnUpdate, ignore
 from ..languages import language_of
 from ..problems import report_of
-from ..responses import packed
+from ..responses import packed, tagged
 from ..service import Service, service_of, unpack
 from ..streams import MEDIA_TYPE, events
 from ..workers.job import Job
-from .common import COMPUTING, question_of
+from .common import COMPUTING, failures, question_of
 
 EXPERIMENT = Job("deltaq.api.jobs:experiment", deadline=180.0, threads=8, pace="slow")
 CHARTS = Job("deltaq.api.jobs:draw_charts", deadline=30.0)
@@ -53,9 +55,24 @@ ANSWERS: dict[int | str, dict[str, Any]] = {
 }
 
 
+def list_experiments(request: Request) -> Response:
+    """The experiments there are, and what may be asked of each besides its scene, with defaults and bounds."""
+    return tagged(request, _menu())
+
+
+@cache
+def _menu() -> dict[str, Any]:
+    entries = [
+        ExperimentEntry(id=one, description=getdoc(request_of(one)) or "", options=tuple(options_of(request_of(one))))
+        for one in experiment_ids()
+    ]
+    return ExperimentList(experiments=tuple(entries)).model_dump()
+
+
 def _router() -> APIRouter:
     """A call for each experiment there is."""
     router = APIRouter(prefix="/experiments", tags=["experiments"], route_class=StrictRoute)
+    router.add_api_route("", list_experiments, response_model=ExperimentList, responses=failures(422))
     for identifier in experiment_ids():
         asked = request_of(identifier)
         router.add_api_route(
