@@ -227,6 +227,11 @@ ROWS = [
         "l*sqrt(2 - 2*cos(phi - psi))",
         id="distance of two points on a circle",
     ),
+    pytest.param(
+        "(dot(x) + (1/sin(a) - 1)*y*sin(a))^2",
+        "(dot(x) + y - y*sin(a))^2",
+        id="powers of a reciprocal that cancel one after the other",
+    ),
 ]
 
 

@@ -139,7 +139,7 @@ class Alphabet:
             levels.setdefault(exponents[index], {})[_with(exponents, index, 0)] = c
         divisor = self.context.from_dict(base)
         for level in sorted(levels, reverse=True):
-            coefficient = levels[level]
+            coefficient = levels.get(level, {})  # none where it went up with one from below
             while level >= step and len(coefficient) >= len(base):
                 quotient, rest = divmod(self.context.from_dict(coefficient), divisor)
                 if len(rest):
