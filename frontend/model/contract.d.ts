@@ -1846,7 +1846,7 @@ export interface components {
             scene: string;
             /**
              * Formulation
-             * @description which road leads to the equations
+             * @description the principle from which the equations are derived
              * @enum {string}
              */
             formulation: "dalembert-lagrange" | "hamilton";
@@ -1901,7 +1901,7 @@ export interface components {
             parameters?: components["schemas"]["DerivationRequestParameters"];
             /**
              * Formulation
-             * @description which road leads to the equations
+             * @description the principle from which the equations are derived
              */
             formulation?: components["schemas"]["DerivationRequestFormulation"];
             /**
@@ -2594,7 +2594,7 @@ export interface components {
             t_end?: number;
             /**
              * Formulation
-             * @description which road leads to the equations
+             * @description the principle from which the equations are derived
              */
             formulation?: components["schemas"]["ExportRequestFormulation"];
             /**

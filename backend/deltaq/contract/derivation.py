@@ -10,13 +10,13 @@ from .base import Answer, AskedLanguage, SceneWithChanges, examples
 from .result import DerivationResult, Origin
 
 Formulation = Literal["dalembert-lagrange", "hamilton"]
-ROAD = "which road leads to the equations"
+PRINCIPLE = "the principle from which the equations are derived"
 
 
 class DerivationRequest(SceneWithChanges):
     """Which scene to derive, what to change before, and in which language."""
 
-    formulation: Formulation = Field("dalembert-lagrange", description=ROAD)
+    formulation: Formulation = Field("dalembert-lagrange", description=PRINCIPLE)
     canonical: bool = Field(
         default=False, description="whether a last chapter has Hamilton's function and canonical equations"
     )
@@ -106,6 +106,6 @@ class DerivationAnswer(Answer):
 
     id: str = Field(description="content hash; GET /derivations/{id} answers the same", examples=["9f3c…"])
     scene: str = Field(description="id of the scene", examples=["pendulum"])
-    formulation: Formulation = Field(description=ROAD)
+    formulation: Formulation = Field(description=PRINCIPLE)
     chapters: tuple[Chapter, ...]
     result: DerivationResult

@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from .base import AskedLanguage, SceneWithInitialValues, examples
-from .derivation import ROAD, Formulation
+from .derivation import PRINCIPLE, Formulation
 from .simulation import LARGEST_SPAN
 
 Form = Literal["latex", "markdown", "python"]
@@ -17,7 +17,7 @@ class ExportRequest(SceneWithInitialValues):
     """Which scene to export, what to change before, and in which language."""
 
     t_end: float = Field(10.0, gt=0, le=LARGEST_SPAN, description="seconds that the program simulates")
-    formulation: Formulation = Field("dalembert-lagrange", description=ROAD)
+    formulation: Formulation = Field("dalembert-lagrange", description=PRINCIPLE)
     substeps: bool = Field(default=True, description="whether a document tells the substeps, too")
     lang: AskedLanguage = None
 

@@ -30,9 +30,9 @@ def derive(scene: Scene, formulation: str = USUAL, *, canonical: bool = False) -
     `canonical` adds the chapter of Hamilton's canonical equations.
     """
     check_formulation(formulation)
-    road = next(module for module in modules_of(FORMULATIONS) if formulation == module.FORMULATION)
+    wanted = next(module for module in modules_of(FORMULATIONS) if formulation == module.FORMULATION)
     system = System(scene)
-    told = road.derive(system)
+    told = wanted.derive(system)
     if canonical:
         told = replace(told, chapters=(*told.chapters, Chapter("canonical", tuple(model_chapter.canonical(system)))))
     return system, _grounds(system).of(verified(told, system))
@@ -51,8 +51,8 @@ def _grounds(system: System) -> Grounds:
 
 def check_formulation(formulation: str) -> None:
     """Raises UnknownNameError if there is no such formulation."""
-    roads = formulation_names()
-    if formulation not in roads:
-        near = get_close_matches(formulation, roads, n=1)
-        parameters = {"name": formulation[:40], "known": ", ".join(roads), "suggestion": near[0] if near else ""}
+    known = formulation_names()
+    if formulation not in known:
+        near = get_close_matches(formulation, known, n=1)
+        parameters = {"name": formulation[:40], "known": ", ".join(known), "suggestion": near[0] if near else ""}
         raise UnknownNameError(Problem("unknown-formulation", "/formulation", parameters=parameters))

@@ -127,7 +127,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Chapter:
-    """A part of the road, in the lecture's order."""
+    """A part of the derivation, in the lecture's order."""
 
     id: str
     steps: tuple[Step, ...]
@@ -135,7 +135,7 @@ class Chapter:
 
 @dataclass(frozen=True)
 class Derivation:
-    """The whole road, and what it leads to."""
+    """All chapters, from positions to equations of motion."""
 
     formulation: str
     chapters: tuple[Chapter, ...]

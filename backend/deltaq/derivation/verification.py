@@ -1,4 +1,4 @@
-"""Checking a step by a road that its rule did not take.
+"""Checking a step by a route that its rule did not take.
 
 A rule differentiates with SymPy. Here no formula is differentiated symbolically: each is evaluated in ball arithmetic
 (Arb, 512 bits) at random points, derivatives as central differences with the step 2⁻¹²⁸, the first variation by its

@@ -1,1 +1,1 @@
-"""Formulations: the roads that lead to the equations of motion. One road, one file."""
+"""Formulations: the principles from which the equations of motion are derived. One principle, one file."""

@@ -1,4 +1,4 @@
-"""The lecture's road: from d'Alembert's principle to Lagrange's equations of the second kind.
+"""The lecture's formulation: from d'Alembert's principle to Lagrange's equations of the second kind.
 
 δW = ∫ r̈ · δr dm for every virtual displacement, which becomes d/dt ∂E/∂q̇ᵢ − ∂E/∂qᵢ = Qᵢ.
 Source: Lagrange, Mécanique analytique (1788); the lecture.
@@ -19,7 +19,7 @@ FORMULATION = "dalembert-lagrange"
 
 def derive(system: System) -> Derivation:
     """The chapters in the lecture's order."""
-    road = {
+    by_name = {
         "configuration": chapters.configuration,
         "variation": chapters.variation,
         "virtual-work": chapters.virtual_work,
@@ -29,7 +29,7 @@ def derive(system: System) -> Derivation:
         "lagrange": _lagrange,
         "model": model,
     }
-    return Derivation(FORMULATION, tuple(Chapter(name, tuple(steps(system))) for name, steps in road.items()))
+    return Derivation(FORMULATION, tuple(Chapter(name, tuple(steps(system))) for name, steps in by_name.items()))
 
 
 def _dalembert_to_lagrange(system: System) -> Iterator[Step]:

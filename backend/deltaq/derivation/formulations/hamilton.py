@@ -31,7 +31,7 @@ FORMULATION = "hamilton"
 
 def derive(system: System) -> Derivation:
     """The energies first; virtual work only decides which forces have a potential."""
-    road = {
+    by_name = {
         "configuration": chapters.configuration,
         "kinetic-energy": chapters.kinetic_energy,
         "variation": chapters.variation,
@@ -41,7 +41,7 @@ def derive(system: System) -> Derivation:
         "lagrange": chapters.equations,
         "model": model,
     }
-    return Derivation(FORMULATION, tuple(Chapter(name, tuple(steps(system))) for name, steps in road.items()))
+    return Derivation(FORMULATION, tuple(Chapter(name, tuple(steps(system))) for name, steps in by_name.items()))
 
 
 def _hamilton(system: System) -> Iterator[Step]:
