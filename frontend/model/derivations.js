@@ -1,4 +1,4 @@
-/** The derivation on the page: that of its scene, in its language, by its road. */
+/** The derivation on the page: that of its scene, in its language, by its formulation. */
 
 import { OWN } from "./own.js";
 import { sceneOf } from "./request.js";

@@ -89,7 +89,7 @@ export function createSession(store, api, clock) {
       await derive();
       simulations.ask();
     },
-    /** @param {import("./types.js").Formulation} formulation the road to the equations */
+    /** @param {import("./types.js").Formulation} formulation the principle behind the equations */
     async formulate(formulation) {
       move({ formulation });
       await derive();

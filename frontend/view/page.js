@@ -70,7 +70,7 @@ function reading(view) {
   const { t } = view;
   return html`
     <section class="derivation" id="derivation" aria-label=${t("derivation")}>
-      <div class="contents">${road(view)}${chapters(view)}</div>
+      <div class="contents">${formulation(view)}${chapters(view)}</div>
       <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
         ${trouble(view) ?? steps(view)} ${canonical(view)}
       </div>
@@ -85,11 +85,11 @@ const canonical = ({ state, session, t }) =>
     : nothing;
 
 /** Which formulation leads to the equations. @param {View} view */
-function road({ state, session, t }) {
+function formulation({ state, session, t }) {
   const chosen = (/** @type {Event} */ { target }) =>
     session.formulate(oneOf(FORMULATIONS, /** @type {HTMLSelectElement} */ (target).value, state.place.formulation));
   return html`
-    <label class="choice road" title=${t("formulation.choose")}>
+    <label class="choice formulation" title=${t("formulation.choose")}>
       <span class="unseen">${t("formulation.choose")}</span>
       <select @change=${chosen}>
         ${FORMULATIONS.map((id) => html`<option value=${id} ?selected=${id === state.place.formulation}>${t(`formulation.${id}`)}</option>`)}

@@ -8,6 +8,7 @@ import pytest
 
 from deltaq.api.costs import degrees_of_freedom, expected
 from deltaq.api.workers.job import Job
+from deltaq.contract.base import SceneWithChanges
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.writing import write_scene
 
@@ -15,7 +16,7 @@ from deltaq.mechanics.writing import write_scene
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_degrees_of_freedom_are_the_scenes_own(identifier: str) -> None:
     scene = load_scene(identifier)
-    named, brought = {"scene": identifier}, {"scene": write_scene(scene)}
+    named, brought = SceneWithChanges(scene=identifier), SceneWithChanges(scene=write_scene(scene))
     assert degrees_of_freedom(named) == len(scene.free)
     assert degrees_of_freedom(brought) == len(scene.coordinates)  # which of them are free is not read here
 
@@ -31,10 +32,10 @@ def test_degrees_of_freedom_are_the_scenes_own(identifier: str) -> None:
     ],
 )
 def test_degrees_of_freedom(question: dict[str, Any], count: int) -> None:
-    assert degrees_of_freedom(question) == count
+    assert degrees_of_freedom(SceneWithChanges.model_validate(question)) == count
 
 
 @pytest.mark.parametrize(("links", "pace"), [(3, "fast"), (4, "slow")])
 def test_few_are_fast(links: int, pace: str) -> None:
-    question = {"scene": "chain-pendulum", "parameters": {"n": links}}
-    assert expected(Job("x", 1.0), question, 3).pace == pace
+    asked = SceneWithChanges(scene="chain-pendulum", parameters={"n": links})
+    assert expected(Job("x", 1.0), asked, 3).pace == pace

@@ -305,18 +305,18 @@ def test_two_formulations_with_addresses(lecture: Lecture) -> None:
     """Hamilton's principle is one choice away, can be linked to, and ends in the same equations."""
     lecture.open("?scene=elastic-pendulum&lang=en&step=equation:phi")
     expect(lecture.page.locator(".step[aria-current]")).to_have_attribute("data-step", "equation:phi")
-    # What it says: which terms are marked depends on the step before, and that on the road.
+    # What it says: which terms are marked depends on the step before, and that on the formulation.
     equation = lecture.page.locator("[data-step='equation:phi'] .formula").first
     by_work = equation.get_attribute("aria-label")
     assert by_work
-    lecture.page.locator(".road select").select_option("hamilton")
+    lecture.page.locator(".formulation select").select_option("hamilton")
     chapters = lecture.page.locator(".chapters")
     expect(chapters).to_contain_text("Hamilton’s principle")
     expect(lecture.page).to_have_url(re.compile("formulation=hamilton"))
     until_equal(lecture.page, lambda: equation.get_attribute("aria-label"), by_work)
     lecture.page.reload()
     expect(chapters).to_contain_text("Hamilton’s principle")
-    expect(lecture.page.locator(".road select")).to_have_value("hamilton")
+    expect(lecture.page.locator(".formulation select")).to_have_value("hamilton")
 
 
 def test_terms_light_up_what_they_come_from(lecture: Lecture) -> None:

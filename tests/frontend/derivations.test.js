@@ -4,7 +4,7 @@ import { derivation, failure, own, page } from "./server.js";
 
 const ids = (/** @type {any} */ state) => state.lines.map((/** @type {any} */ line) => line.step.id);
 
-test("a derivation is asked for by scene, language, road and the number of members", async () => {
+test("a derivation is asked for by scene, language, formulation and the number of members", async () => {
   for (const [place, expected] of /** @type {[any, any][]} */ ([
     [{ scene: "swing", lang: "de" }, { scene: "swing", lang: "de", formulation: "dalembert-lagrange" }],
     [{ scene: "swing", formulation: "hamilton" }, { scene: "swing", lang: "en", formulation: "hamilton" }],
@@ -31,7 +31,7 @@ for (const [name, overtake] of /** @type {[string, (page: ReturnType<typeof impo
   ["scene", ({ session }) => session.choose("other")],
   ["scene of one's own", ({ store }) => store.set({ own: { ...own } })],
   ["language", ({ session }) => session.move({ lang: "de" })],
-  ["road", ({ session }) => session.formulate("hamilton")],
+  ["formulation", ({ session }) => session.formulate("hamilton")],
   ["number of members", ({ session }) => session.choose("swing", "", 5)],
 ])) {
   test(`a derivation for another ${name} than the one on the page is not shown, however late it comes`, async () => {

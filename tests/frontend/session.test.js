@@ -128,7 +128,7 @@ test("in another language come the words first, then the derivation and what is 
   assert.equal(last("simulate").given[0].lang, "de");
 });
 
-test("another road is in the address, and has its derivation but no other motion", async () => {
+test("another formulation is in the address, and has its derivation but no other motion", async () => {
   const { session, last, asked, get, pass } = page();
   void session.formulate("hamilton");
   await pass(200);

@@ -1,6 +1,6 @@
 """Many answers checked one by one: none holds a worker for longer than one may, and between two of them others get it.
 
-Each verdict is kept by itself. So whoever asks again where the service was busy, or time was over, gets further.
+Each verdict is cached by itself. So whoever asks again where the service was busy, or time was over, gets further.
 """
 
 from __future__ import annotations

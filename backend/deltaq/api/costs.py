@@ -9,24 +9,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
+from ..contract.base import SceneWithChanges
 from ..errors import InputError
 from ..mechanics.library import family_of, load_scene
 from .workers.job import Job
 
 
-def expected(job: Job, question: Mapping[str, Any], most: int) -> Job:
+def expected(job: Job, asked: SceneWithChanges, most: int) -> Job:
     """The job, fast if the scene in question has so many degrees of freedom at most, else slow."""
-    few = degrees_of_freedom(question) <= most
+    few = degrees_of_freedom(asked) <= most
     return replace(job, pace="fast" if few else "slow")
 
 
-def degrees_of_freedom(question: Mapping[str, Any]) -> int:
+def degrees_of_freedom(asked: SceneWithChanges) -> int:
     """Of the scene before its changes; 0 where there is none, which is found soon enough."""
-    scene = question["scene"]
+    scene = asked.scene
     if isinstance(scene, str):
-        return _of_built_in(scene, question.get("parameters") or {})
+        return _of_built_in(scene, asked.parameters)
     coordinates = scene.get("coordinates", ())
     return len(coordinates) if isinstance(coordinates, Sequence) else 0
 

@@ -1,8 +1,8 @@
 """A table of answers marked row by row: none holds a worker for longer than one may, and between two others get theirs.
 
-One row is under way at a time, so a table waits its turn in the queue as a single check does. Each verdict is kept by
-itself, without the name of who gave the answer: what many students wrote is judged once, and whoever asks again where
-the service was busy, or time was over, gets further.
+One row is under way at a time, so a table waits its turn in the queue as a single check does. Each verdict is cached
+by itself, without the name of who gave the answer: what many students wrote is judged once, and whoever asks again
+where the service was busy, or time was over, gets further.
 """
 
 from __future__ import annotations

@@ -68,8 +68,8 @@ class Service:
     async def measurement(self, key: str, job: Job, document: Any, on_update: OnUpdate, *, anew: bool) -> bytes:
         """The gzipped JSON of an experiment; `on_update` receives its place in the queue and its parts before.
 
-        `anew` measures what is kept already. Who has been let in waits for minutes, and is not refused for what the
-        experiments have cost that he asked for at the same time.
+        `anew` measures what is in the cache already. Who has been let in waits for minutes, and is not refused for what
+        the experiments have cost that he asked for at the same time.
         """
 
         async def compute(publish: OnUpdate) -> bytes:
@@ -156,7 +156,7 @@ def pack(answer: bytes) -> bytes:
 
 
 def unpack(answer: bytes) -> bytes:
-    """The JSON of a kept answer."""
+    """The JSON of a cached answer."""
     return gzip.decompress(answer)
 
 

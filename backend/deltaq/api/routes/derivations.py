@@ -32,7 +32,7 @@ async def derive(request: Request, body: DerivationRequest) -> Response:
     service = service_of(request)
     question = question_of(request, body)
     identifier = derivation_id(question)
-    job = expected(DERIVE.within(service.settings.derivation_deadline), question, FAST)
+    job = expected(DERIVE.within(service.settings.derivation_deadline), body, FAST)
     answer = await service.answer(_key(identifier), job, {"id": identifier, "request": question})
     return packed(request, identifier, answer, f"{PREFIX}/derivations/{identifier}")
 

@@ -30,7 +30,7 @@ async def export_derivation(
     """The derivation as a LaTeX or Markdown file, or a Python program that computes the motion with SciPy."""
     service = service_of(request)
     question = {"form": form, **question_of(request, body)}
-    job = expected(EXPORT.within(service.settings.derivation_deadline), question, FAST)
+    job = expected(EXPORT.within(service.settings.derivation_deadline), body, FAST)
     answer = await service.answer(service.key(EXPORT.target, question), job, question)
     file = loads(unpack(answer))
     headers = {"Content-Disposition": f'attachment; filename="{file["name"]}"', "Vary": "Accept-Language"}

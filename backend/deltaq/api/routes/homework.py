@@ -10,6 +10,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request, Response
 from starlette.responses import StreamingResponse
 
+from ...contract.base import SceneWithChanges
 from ...contract.check import (
     BatchRequest,
     CheckRequest,
@@ -92,7 +93,7 @@ async def list_tasks_of_scene(
 @router.post("/tasks", response_model=TaskList, responses=COMPUTING)
 async def list_tasks(request: Request, body: TasksRequest) -> Response:
     """The tasks of a scene that the request brings or changes."""
-    return await _answered(request, TASKS, question_of(request, body))
+    return await _answered(request, TASKS, body)
 
 
 @router.post("/tasks/stack", response_class=Response, responses=XML | COMPUTING)
@@ -106,37 +107,37 @@ async def export_stack(request: Request, body: StackRequest) -> Response:
 @router.post("/assignments", response_model=AssignmentAnswer, responses=COMPUTING)
 async def open_assignment(request: Request, body: AssignmentRequest) -> Response:
     """The tasks of an assignment; with `individual` the seed draws the student's own values."""
-    return await _answered(request, ASSIGNMENT, body.model_dump() | {"lang": language_of(request)})
+    return await _cached(request, ASSIGNMENT, body.model_dump() | {"lang": language_of(request)})
 
 
 @router.post("/checks", response_model=VerdictAnswer, responses=COMPUTING)
 async def check(request: Request, body: CheckRequest) -> Response:
     """Check one answer: any equivalent form is right, and a mistake is looked for where it is not."""
-    return await _answered(request, CHECK, question_of(request, body))
+    return await _answered(request, CHECK, body)
 
 
 @router.post("/checks/reading", response_model=ReadingAnswer, responses=COMPUTING)
 async def read_answer(request: Request, body: ReadingRequest) -> Response:
     """What an answer is understood as, while it is written; without a verdict."""
-    return await _answered(request, READING, question_of(request, body))
+    return await _answered(request, READING, body)
 
 
 @router.post("/checks/motion", response_model=MotionAnswer, responses=COMPUTING)
 async def answered_motion(request: Request, body: ReadingRequest) -> Response:
     """The scene that moves as an answer says: simulated beside the right one, it shows what a mistake does."""
-    return await _answered(request, MOTION, question_of(request, body))
+    return await _answered(request, MOTION, body)
 
 
 @router.post("/tasks/solution", response_model=SolutionAnswer, responses=COMPUTING)
 async def solve_task(request: Request, body: SolutionRequest) -> Response:
     """The right answer to a task."""
-    return await _answered(request, SOLUTION, question_of(request, body))
+    return await _answered(request, SOLUTION, body)
 
 
 @router.post("/checks/lines", response_model=LinesAnswer, responses=COMPUTING)
 async def check_lines(request: Request, body: LinesRequest) -> Response:
     """Check a whole working line by line: the first mistake, and what follows correctly from it."""
-    return await _answered(request, LINES, question_of(request, body))
+    return await _answered(request, LINES, body)
 
 
 @router.post("/checks/batch", response_model=BatchAnswer, responses=COMPUTING)
@@ -146,7 +147,7 @@ async def check_batch(request: Request, body: BatchRequest) -> Response:
 
     async def verdict(asked: SingleCheck) -> bytes:
         question = question_of(request, asked)
-        job = expected(CHECK_IN_BATCH, question, FAST)
+        job = expected(CHECK_IN_BATCH, asked, FAST)
         return unpack(await service.answer(service.key(job.target, question), job, question))
 
     answer = await asyncio.to_thread(pack, await checked(body.checks, verdict, language))
@@ -172,7 +173,7 @@ async def check_table(request: Request, body: TableRequest) -> Response:
 
     async def verdict_on(asked: RowQuestion) -> RowVerdict:
         row = asked.model_dump() | {"lang": language}
-        answering = service.answer(service.key(ROW.target, row), expected(ROW, row, FAST), row)
+        answering = service.answer(service.key(ROW.target, row), expected(ROW, asked, FAST), row)
         return RowVerdict.model_validate_json(unpack(await service.ending.unless(answering)))
 
     accepted = request.headers.get("accept", "")
@@ -195,8 +196,12 @@ def _packed_table(marking: Marking) -> bytes:
     return pack(dumps({"rows": marking.rows(), **marking.result()}, ensure_ascii=False).encode(errors="replace"))
 
 
-async def _answered(request: Request, job: Job, question: dict[str, Any]) -> Response:
+async def _answered(request: Request, job: Job, body: SceneWithChanges) -> Response:
+    expectation = expected(job, body, FAST) if job.pace == "fast" else job
+    return await _cached(request, expectation, question_of(request, body))
+
+
+async def _cached(request: Request, job: Job, question: dict[str, Any]) -> Response:
     service = service_of(request)
     key = service.key(job.target, question)
-    expectation = expected(job, question, FAST) if job.pace == "fast" else job
-    return packed(request, key, await service.answer(key, expectation, question))
+    return packed(request, key, await service.answer(key, job, question))

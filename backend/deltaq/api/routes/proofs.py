@@ -1,4 +1,4 @@
-"""General proofs: computed once, then kept."""
+"""General proofs: computed once, then cached."""
 
 from __future__ import annotations
 

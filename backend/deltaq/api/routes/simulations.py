@@ -24,5 +24,5 @@ async def simulate(request: Request, body: SimulationRequest) -> Response:
     question = question_of(request, body)
     key = service.key(SIMULATE.target, question)
     await service.kernels.wait(body.method)
-    job = expected(SIMULATE.within(service.settings.simulation_deadline), question, FAST)
+    job = expected(SIMULATE.within(service.settings.simulation_deadline), body, FAST)
     return packed(request, key, await service.answer(key, job, {"request": question}))
