@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 from pydantic import TypeAdapter
 
+import deltaq
 from deltaq.contract.base import Request
 from deltaq.contract.check import LinesRequest
 from deltaq.contract.experiments.stability_map import StabilityMapRequest
@@ -125,6 +128,18 @@ def test_every_example_is_a_request_and_a_field_that_is_null_was_not_given(kind:
     for document in examples(kind):
         empty = dict.fromkeys(kind.model_fields.keys() - document.keys())
         assert read(kind, {**empty, **document}) == read(kind, document)
+
+
+TAKEN_APART = re.compile(r"\b(document|question|request|asked)(\.get\(|\[\")")
+ANSWERING = ("narration", "simulation", "lab", "homework", "handout")
+OWN = {"homework/motion.py"}  # a scene that it has written itself
+
+
+def test_whoever_answers_reads_a_request_by_its_declaration_alone() -> None:
+    package = Path(deltaq.__file__).parent
+    files = [file for name in ANSWERING for file in (package / name).rglob("*.py")]
+    found = {str(file.relative_to(package)) for file in files if TAKEN_APART.search(file.read_text(encoding="utf-8"))}
+    assert found == OWN
 
 
 @pytest.mark.parametrize("kind", list(requests()), ids=lambda kind: kind.__name__)

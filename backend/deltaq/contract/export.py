@@ -22,3 +22,11 @@ class ExportRequest(SceneWithInitialValues):
     lang: AskedLanguage = None
 
     model_config = examples({"scene": "elastic-pendulum"})
+
+
+class FileRequest(ExportRequest):
+    """The same with the kind of file, which stands in the address of the call."""
+
+    form: Form
+
+    model_config = examples()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-from ..contract.export import ExportRequest
+from ..contract.export import ExportRequest, FileRequest
 from ..contract.reading import read
 from ..mechanics.requests import begun_scene
 from ..mechanics.scene import Scene
@@ -22,12 +22,11 @@ SUFFIXES: Mapping[str, str] = MappingProxyType({"latex": "tex", "markdown": "md"
 def export_request(document: Mapping[str, object]) -> Document:
     """{text, name}: the file, and what it may be called. Raises InputError for what cannot be read.
 
-    `document`: the fields of an ExportRequest, and `form`.
+    `document`: the fields of a FileRequest.
     """
-    form = str(document["form"])
-    asked = read(ExportRequest, {name: value for name, value in document.items() if name != "form"})
+    asked = read(FileRequest, document)
     scene = begun_scene(asked)
-    return {"text": _WRITERS[form](scene, asked), "name": f"{scene.id}.{SUFFIXES[form]}"}
+    return {"text": _WRITERS[asked.form](scene, asked), "name": f"{scene.id}.{SUFFIXES[asked.form]}"}
 
 
 def _told(write: Callable[..., str]) -> Callable[[Scene, ExportRequest], str]:
