@@ -25,6 +25,7 @@ import sympy as sp
 from ..language import canonical
 from ..language.order import split_symbol
 from ..language.symbols import Symbols
+from .factoring import factor_list
 
 Reason = Literal["denominators", "constants", "points"]
 POWERS = (1, -1, 2, -2)
@@ -181,7 +182,7 @@ class _Fraction:
     @cached_property
     def _factors(self) -> tuple[sp.Expr, tuple[tuple[sp.Expr, int], ...]]:
         """The numerator as a number times powers of what cannot be factored further."""
-        number, factors = sp.factor_list(self._parts[0])
+        number, factors = factor_list(self._parts[0])
         return number, tuple(factors)
 
     @cached_property
@@ -234,7 +235,7 @@ class _Fraction:
         """What is not zero where the expression has a value: the factors of denominators and of roots in them."""
         below = self._parts[1]
         below = sp.Mul(below, *(self._base(root) for root in self.roots if below.has(root)))
-        return frozenset(g for g, _ in sp.factor_list(sp.numer(sp.together(below)))[1])
+        return frozenset(g for g, _ in factor_list(sp.numer(sp.together(below)))[1])
 
     def _base(self, root: sp.Symbol) -> sp.Expr:
         base, _ = self.roots[root]
@@ -250,7 +251,7 @@ class _Fraction:
         if len(moving) != 1 or kinds[0][0]:
             return False
         rest = self._at_rest(kinds[0][1])
-        below = (sp.factor_list(sp.expand(g.xreplace(rest)))[1] for g in self._excluded if g.has(*rest))
+        below = (factor_list(sp.expand(g.xreplace(rest)))[1] for g in self._excluded if g.has(*rest))
         return any(part in (factor, -factor) for parts in below for part, _ in parts)
 
     def _at_rest(self, function: str) -> Mapping[sp.Symbol, sp.Expr]:

@@ -16,6 +16,7 @@ import sympy as sp
 from .conservation import is_passive
 from .dissipation import dissipative_loads, remaining_loads
 from .equilibria import Equilibrium, free_coordinates
+from .factoring import factor_list
 from .linearization import Linearization
 from .system import System
 
@@ -97,7 +98,7 @@ def _signed(system: System, value: sp.Expr) -> list[Comparison] | None:
     """
     upper, lower = sp.fraction(sp.together(system.display(value)))
     try:
-        powers = [*sp.factor_list(upper)[1], *sp.factor_list(lower)[1]]
+        powers = [*factor_list(upper)[1], *factor_list(lower)[1]]
     except sp.PolynomialError:
         return None
     open_ones = [base for base, times in powers if times % 2 and not (base.is_positive or base.is_negative)]

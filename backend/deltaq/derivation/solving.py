@@ -18,6 +18,7 @@ from flint import arb
 
 from .compiled import compiled_together
 from .enclosure import Box, Budget, Enclosed, enclosed
+from .factoring import factor_list
 from .newton import root, step_of
 from .program import number
 from .univariate import real_zeros
@@ -348,7 +349,7 @@ def _irreducible(part: sp.Expr, unknowns: tuple[sp.Symbol, ...]) -> tuple[sp.Exp
         return (part,)
     try:
         upper, _ = sp.fraction(sp.together(sp.expand_trig(part)))
-        _, powers = sp.factor_list(upper)
+        _, powers = factor_list(upper)
     except (sp.PolynomialError, NotImplementedError, RecursionError):
         return (part,)
     held = [base for base, _ in powers if base.has(*unknowns)]

@@ -32,6 +32,7 @@ from .antiderivative import antiderivative, is_finite
 from .compiled import Function, compiled
 from .conservation import cyclic, jacobi_energy, jacobi_energy_rate
 from .elimination import Row, kernel
+from .factoring import factor_list
 from .generator import Generator, Kind, Monomial, Numeric, Symmetry, clock, forces, monomials, numeric, solved
 from .system import System
 
@@ -427,7 +428,7 @@ def _times(a: float, b: float) -> float:
 def _without_units(condition: sp.Expr, system: System) -> sp.Expr:
     """The condition without number and factors that the scene says are not zero: k₁ − k₂ of 2 m (k₁ − k₂)."""
     positive = {system.q(p.name) for p in system.scene.parameters if p.positive}
-    _, factors = sp.factor_list(sp.fraction(sp.together(condition))[0])
+    _, factors = factor_list(sp.fraction(sp.together(condition))[0])
     own = dict(system.parameter_values)
     kept = [base for base, _ in factors if base not in positive and base.xreplace(own) == 0]
     return sp.Mul(*kept) if kept else condition
