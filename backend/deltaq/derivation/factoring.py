@@ -8,7 +8,7 @@ from __future__ import annotations
 import sympy as sp
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-Powers = list[tuple[sp.Expr, int]]
+Powers = list[tuple[sp.Expr, sp.Expr]]
 
 
 def factor_list(expression: sp.Expr) -> tuple[sp.Expr, Powers]:
@@ -17,14 +17,18 @@ def factor_list(expression: sp.Expr) -> tuple[sp.Expr, Powers]:
     Raises sp.PolynomialError for what is no polynomial.
     """
     number: sp.Expr = sp.Integer(1)
-    found: dict[sp.Expr, int] = {}
+    found: dict[sp.Expr, sp.Expr] = {}
     for part in sp.Mul.make_args(expression):
         base, power = part.as_base_exp()
-        is_sum = base.is_Add and power.is_Integer and power > 0
-        content, factors = _of_sum(base) if is_sum else sp.factor_list(part)
-        number *= content ** (power if is_sum else 1)
+        if part.is_Number:
+            number *= part
+            continue
+        if power.could_extract_minus_sign():
+            raise sp.PolynomialError(f"a quotient: {sp.sstr(expression, order='lex')}")
+        content, factors = _of_sum(base) if base.is_Add else (sp.Integer(1), [(base, sp.Integer(1))])
+        number *= content**power
         for factor, times in factors:
-            found[factor] = found.get(factor, 0) + times * (int(power) if is_sum else 1)
+            found[factor] = found.get(factor, 0) + times * power
     return number, list(found.items())
 
 
@@ -42,7 +46,7 @@ def _of_sum(expression: sp.Expr) -> tuple[sp.Expr, Powers]:
         terms = {tuple(map(int, powers)): _rational(c) for powers, c in factor.to_dict().items()}
         content, primitive = sp.Poly(terms, *poly.gens, domain="QQ").primitive()
         rest *= sp.sympify(content) ** power
-        found.append((primitive, int(power)))
+        found.append((primitive, sp.Integer(int(power))))
     found.sort(key=lambda one: (one[0].degree(), one[1], sorted(one[0].as_dict().items())))
     return rest, [(factor.as_expr(), power) for factor, power in found]
 
