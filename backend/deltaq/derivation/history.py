@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import pairwise, repeat
+from itertools import combinations, pairwise, repeat
 from typing import Any, Protocol, TypeAlias
 
 import sympy as sp
@@ -46,6 +46,7 @@ class Candidate:
     written: f.Formula
     side: int = 1
     change: Change | None = None  # by the operation that is done to it
+    sources: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -92,16 +93,19 @@ class History:
                 replace(term, id=f"{step.id}/{number}.{place}.{index}") for index, term in enumerate(summands(member))
             )
             if place == 0 or relation.sign in ("≠", "<", "≤"):
-                found.append(Line(self._started(terms)))
+                found.append(Line(self._started(terms, step.sources)))
                 continue
             before = [*_as_candidates(found[-1].terms), *self._inside(found[-1].terms)]
             here = list(self._inside(terms))
-            found.append(self._told(terms, before, here, {term.id for term in found[-1].terms}))
+            told = self._told(terms, before, here, {term.id for term in found[-1].terms})
+            of_all = {one.id: one.sources for one in (*before, *here)}
+            found.append(replace(told, terms=tuple(_with_sources(term, of_all, step.sources) for term in told.terms)))
         return tuple(found)
 
-    def _started(self, terms: tuple[Summand, ...]) -> tuple[Summand, ...]:
+    def _started(self, terms: tuple[Summand, ...], whole: tuple[str, ...]) -> tuple[Summand, ...]:
         """The terms of the first member: what they name comes from the steps that said what it is."""
-        return tuple(replace(term, origins=self._named_in(term)) for term in terms)
+        of_all = {one.id: one.sources for one in self._inside(terms)}
+        return tuple(_with_sources(replace(term, origins=self._named_in(term)), of_all, whole) for term in terms)
 
     def _named_in(self, term: Summand) -> tuple[Origin, ...]:
         """Every known term in it that is not zero there."""
@@ -124,10 +128,10 @@ class History:
         lost = dict.fromkeys(one.id for one in before if carried[one] and one.id not in used)
         return Line(tuple(told), tuple(lost) if all(term.origins for term in told) else ())
 
-    def came_from(self, values: Iterable[f.Formula], before: tuple[Candidate, ...]) -> tuple[tuple[Origin, ...], ...]:
+    def came_from(self, terms: Iterable[Summand], before: tuple[Candidate, ...]) -> tuple[tuple[Origin, ...], ...]:
         """Of each term of a sum, which of the candidates it comes from."""
         carried, own = {one: self.algebra.products(one.carried_out) for one in before}, {one.id for one in before}
-        return tuple(tuple(self._matching(Summand("", value, value), carried, own)) for value in values)
+        return tuple(tuple(self._matching(term, carried, own)) for term in terms)
 
     def _matching(self, term: Summand, carried: Mapping[Candidate, Products | None], own: set[str]) -> Iterator[Origin]:
         """The candidates that have a product in common with the term, each with what became of it.
@@ -136,6 +140,9 @@ class History:
         """
         products = self.algebra.products(term.alone)
         sharing = [one for one, found in carried.items() if products and found and found.keys() & products.keys()]
+        sharing = _of_like_sources(term, sharing)
+        if products:
+            sharing = [*_left_over(products, {one: carried[one] or {} for one in sharing})]
         if not sharing:
             whole = [one for one in carried if one.id in own and carried[one] != {} and products != {}]
             yield from (Origin(one.id, one.change or ("merged" if len(whole) > 1 else "expanded")) for one in whole)
@@ -160,7 +167,7 @@ class History:
         for term in terms:
             for name, rebuild, change in self._occurrences(term.alone):
                 for one in self.known[name]:
-                    yield Candidate(one.id, rebuild(one.alone), one.alone, one.side, change)
+                    yield Candidate(one.id, rebuild(one.alone), one.alone, one.side, change, one.sources)
 
     def _occurrences(self, formula: f.Formula) -> Iterator[tuple[Signature, Rebuild, Change | None]]:
         """All that is known by a name, how to put something in its place, and what is done to it there."""
@@ -176,7 +183,53 @@ class History:
 
 def _as_candidates(terms: tuple[Summand, ...]) -> Iterator[Candidate]:
     for term in terms:
-        yield Candidate(term.id, term.alone, term.alone, term.side, _operation(term.shown))
+        yield Candidate(term.id, term.alone, term.alone, term.side, _operation(term.shown), term.sources)
+
+
+def _of_like_sources(term: Summand, candidates: list[Candidate]) -> list[Candidate]:
+    """Those that bodies and loads of the term are in; all, if there are none of that kind."""
+    alike = [one for one in candidates if all(_overlap(kind, one.sources, term.sources) for kind in ("body", "load"))]
+    return alike or candidates
+
+
+def _overlap(kind: str, *sources: tuple[str, ...]) -> bool:
+    """Whether two have bodies, or loads, in common; also where one of them has none."""
+    one, other = ({source for source in names if source.startswith(kind)} for names in sources)
+    return not one or not other or bool(one & other)
+
+
+def _left_over(term: Products, candidates: Mapping[Candidate, Products]) -> Iterator[Candidate]:
+    """Those of which something is left in the term: what two of them have with opposite signs is in neither."""
+    shares = {one: {key: found[key] for key in term if key in found} for one, found in candidates.items()}
+    gone = set[Candidate]()
+    for one, other in combinations(candidates, 2):
+        if gone.isdisjoint((one, other)) and _is_opposite(shares[one], shares[other]):
+            gone |= {one, other}
+    left = [one for one in candidates if one not in gone]
+    yield from left or candidates
+
+
+def _is_opposite(one: Products, other: Products) -> bool:
+    return one.keys() == other.keys() and all(number == -other[key] for key, number in one.items())
+
+
+def _with_sources(term: Summand, of_all: Mapping[str, tuple[str, ...]], whole: tuple[str, ...]) -> Summand:
+    """With the bodies and loads of the terms that it comes from, unless it has its own.
+
+    What a step says of one load is the load's. Where the line before is a single term, as a name is, earlier steps tell
+    more of it.
+    """
+    if term.sources or (len(whole) == 1 and whole[0].startswith("load:")):
+        return replace(term, sources=term.sources or whole)
+    step = term.id.rpartition("/")[0]
+    before = [of_all.get(o.term, ()) for o in term.origins if o.term.rpartition("/")[0] == step]
+    earlier = {source for o in term.origins if o.term.rpartition("/")[0] != step for source in of_all.get(o.term, ())}
+    found = {source for sources in before for source in sources}
+    if len(before) <= 1:
+        found = found & earlier or earlier or found
+    ranked = dict.fromkeys((*whole, *sorted(found)))
+    found = found or set(whole if len(whole) == 1 and before else ())
+    return replace(term, sources=tuple(source for source in ranked if source in found))
 
 
 def _done_by(formula: f.Formula) -> Change | None:

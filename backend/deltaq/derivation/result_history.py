@@ -62,7 +62,8 @@ class _Told:
 
     def origins(self, key: str, name: str, terms: tuple[Term, ...]) -> Origins:
         """The origins of the terms of one sum."""
-        written = (f.Explicit(term.sign * term.written_out) for term in terms)
+        values = (f.Explicit(term.sign * term.written_out) for term in terms)
+        written = (Summand("", v, v, sources=term.sources) for v, term in zip(values, terms, strict=True))
         if key == "mass_matrix":
             coordinate, other = name.split()
             acceleration = self.system.acceleration(other)
@@ -101,15 +102,15 @@ class _Told:
         self, terms: tuple[Summand, ...], slope: Callable[[f.Formula], f.Formula]
     ) -> Iterator[Candidate]:
         for term in terms:
-            yield Candidate(term.id, slope(term.alone), term.alone, term.side, "differentiated")
+            yield Candidate(term.id, slope(term.alone), term.alone, term.side, "differentiated", term.sources)
 
     def _turned(self, terms: tuple[Summand, ...]) -> Iterator[Candidate]:
         """On the other side, without accelerations."""
         at_rest = {self.system.acceleration(q): sp.Integer(0) for q in self.system.free}
         for term in terms:
             rest = f.Substituted(f.Plus((f.minus(term.alone),)), at_rest)
-            yield Candidate(term.id, rest, term.alone, term.side)
+            yield Candidate(term.id, rest, term.alone, term.side, None, term.sources)
 
 
 def _candidates(terms: tuple[Summand, ...]) -> Iterator[Candidate]:
-    return (Candidate(term.id, term.alone, term.alone, term.side) for term in terms)
+    return (Candidate(term.id, term.alone, term.alone, term.side, None, term.sources) for term in terms)
