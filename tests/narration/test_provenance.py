@@ -83,3 +83,82 @@ def test_terms_of_steps_name_loads_and_bodies() -> None:
     assert r"\htmlClass{load-weight load-drive " in marked["generalized-forces"]
     assert r"\htmlClass{load-drive " in marked["decomposition"]
     assert r"\htmlClass{body-bob energy-kinetic " in marked["lagrangian"]
+
+
+def springs() -> dict[str, object]:
+    """Two masses between like springs, dampers and a force: many of their shares are alike."""
+    return {
+        "id": "springs",
+        "coordinates": [{"name": "x", "value": 0.1}, {"name": "y", "value": 0.3}],
+        "parameters": [{"name": name} for name in ("m", "k", "c", "F0", "l")],
+        "bodies": [
+            {"name": "first", "kind": "particle", "mass": "m", "position": ["x", "0"]},
+            {"name": "second", "kind": "particle", "mass": "m", "position": ["y", "0"]},
+        ],
+        "loads": [
+            {"kind": "potential", "name": "left", "energy": "k*x^2/2"},
+            {"kind": "potential", "name": "right", "energy": "k*(x - l)^2/2"},
+            {"kind": "potential", "name": "middle", "energy": "k*(y - x)^2/2"},
+            {"kind": "force", "name": "damper", "at": "first", "force": ["-c*dot(x)", "0"]},
+            {"kind": "force", "name": "drive", "at": "first", "force": ["-c*(dot(x) - dot(y)) + F0", "0"]},
+        ],
+    }
+
+
+def steps_of(document: object) -> dict[str, dict]:
+    found: dict[str, dict] = {}
+
+    def walk(several: list[dict]) -> None:
+        for step in several:
+            found[step["id"]] = step
+            walk(step["substeps"])
+
+    for chapter in derive_request({"scene": document})["chapters"]:
+        walk(chapter["steps"])
+    return found
+
+
+def test_terms_of_loads_that_are_alike_are_told_apart() -> None:
+    """What several loads add to a term names them all, what one of them adds names it alone."""
+    steps = steps_of(springs())
+    told = {
+        term["latex"]: {name.removeprefix("load:") for name in term["sources"]}
+        for term in steps["generalized-forces"]["terms"]
+    }
+    assert told["F_{0}"] == told[r"c \dot{y}"] == {"drive"}
+    assert told[r"- 2 c \dot{x}"] == {"damper", "drive"}
+    assert told["k (y - 3 x + l)"] == {"left", "right", "middle"}
+    origins = {term["latex"]: [one["term"] for one in term["from"]] for term in steps["generalized-force:x"]["terms"]}
+    assert origins["- k x"] == ["generalized-force:x/0.1.0", "work-of-potential:left/0.1.0"]
+    assert origins[r"- c \dot{x}"][0] == "generalized-force:x/0.1.3"
+    works = {term["latex"]: [one["term"] for one in term["from"]] for term in steps["virtual-work"]["terms"]}
+    assert works[r"\delta W_{\text{left}}"] == ["virtual-work/0.0.0", "work-of-potential:left/1.2.0"]
+
+
+def test_a_sum_in_a_bracket_keeps_the_sources_of_its_terms() -> None:
+    marked = steps_of(springs())["generalized-forces"]["marked"]
+    for load, term in (
+        ("load-middle", r"\htmlClass{q-1}{y}"),
+        ("load-left load-right load-middle", r"3 \htmlClass{q-0}{x}"),
+        ("load-right", "l"),
+    ):
+        assert rf"\htmlClass{{{load}}}{{{term}}}" in marked
+
+
+def test_shares_that_cancel_are_no_origins() -> None:
+    """c·ẋ of one load stands against that of another; what is left comes from the third."""
+    document = springs()
+    document["loads"] = [
+        {"kind": "force", "name": name, "at": "first", "force": [force, "0"]}
+        for name, force in (("push", "F0 + c*dot(x)"), ("pull", "-c*dot(x)"), ("drag", "-2*c*dot(x)"))
+    ]
+    terms = {
+        term["latex"]: term
+        for term in steps_of(document)["generalized-force:x"]["terms"]
+        if "/0.2." in term["id"] or "/0.3." in term["id"]
+    }
+    assert [one["term"] for one in terms[r"- 2 c \dot{x}"]["from"] if one["term"].startswith("generalized-force:x")]
+    last = [term for term in terms.values() if "/0.3." in term["id"]]
+    drag = next(term for term in last if "c" in term["latex"])
+    assert drag["sources"] == ["load:drag"]
+    assert [one["term"] for one in drag["from"]] == ["generalized-force:x/0.2.2"]

@@ -16,6 +16,7 @@ from typing import Any, Protocol, TypeAlias
 import sympy as sp
 
 from . import formula as f
+from .formula import Owners
 from .premises import Names, Signature, concluded, signature
 from .step import Change, Line, Origin, Relation, Step, Summand
 
@@ -56,6 +57,7 @@ class History:
     algebra: Algebra
     names: Names = field(default_factory=Names)
     known: dict[Signature, tuple[Summand, ...]] = field(default_factory=dict)
+    inside: dict[str, Owners] = field(default_factory=dict)  # by the ids of terms
 
     def lines(self, step: Step) -> tuple[tuple[Line, ...], ...]:
         """All members of all relations of the step, which have given a value to something from here on."""
@@ -99,7 +101,8 @@ class History:
             here = list(self._inside(terms))
             told = self._told(terms, before, here, {term.id for term in found[-1].terms})
             of_all = {one.id: one.sources for one in (*before, *here)}
-            found.append(replace(told, terms=tuple(_with_sources(term, of_all, step.sources) for term in told.terms)))
+            sourced = (_with_sources(term, of_all, step.sources) for term in told.terms)
+            found.append(replace(told, terms=tuple(self._with_inside(term, (*before, *here)) for term in sourced)))
         return tuple(found)
 
     def _started(self, terms: tuple[Summand, ...], whole: tuple[str, ...]) -> tuple[Summand, ...]:
@@ -153,6 +156,37 @@ class History:
             told.setdefault(one.id, one.change or self._change(one, term, several=len(alike) > 1))
         yield from (Origin(name, change) for name, change in told.items())
 
+    def _with_inside(self, term: Summand, candidates: tuple[Candidate, ...]) -> Summand:
+        """With the bodies and loads of what stands in its brackets, where it has several."""
+        if (
+            len(term.sources) < 2
+            or not isinstance(term.shown, f.Explicit)
+            or isinstance(term.shown.value, sp.MatrixBase)
+        ):
+            return term
+        own = {origin.term for origin in term.origins}
+        shares = [(one, self.algebra.products(one.carried_out) or {}) for one in candidates if one.id in own]
+        brackets = tuple(_brackets(term.shown.value))
+        found = (self._bracket(term, *pair, shares) for pair in brackets)
+        told = tuple(pair for pair in found if len({sources for _, sources in pair[1]}) > 1)
+        before = (pair for name in own for pair in self.inside.get(name, ()))
+        inside = told or tuple(pair for pair in before if pair[0] in {bracket for bracket, _ in brackets})
+        self.inside[term.id] = inside
+        return replace(term, inside=inside)
+
+    def _bracket(
+        self, term: Summand, bracket: sp.Expr, rest: sp.Expr, shares: list[tuple[Candidate, Products]]
+    ) -> tuple[sp.Expr, tuple[tuple[sp.Expr, tuple[str, ...]], ...]]:
+        """Each summand of a bracket with the sources of the candidates that have its products; else those of all."""
+        found = []
+        for part in bracket.args:
+            products = self.algebra.products(f.Explicit(part * rest)) or {}
+            holding = [one.sources for one, share in shares if share.keys() & products.keys()]
+            several = [sources for sources in holding if set(sources) < set(term.sources)]
+            names = {source for sources in several for source in sources}
+            found.append((part, tuple(source for source in term.sources if source in names) or term.sources))
+        return bracket, tuple(found)
+
     def _change(self, one: Candidate, term: Summand, *, several: bool) -> Change:
         """What became of a term that was not derived or integrated: whether it is written as it was before."""
         before, after = self.algebra.products(one.written) or {}, self.algebra.products(term.alone) or {}
@@ -184,6 +218,16 @@ class History:
 def _as_candidates(terms: tuple[Summand, ...]) -> Iterator[Candidate]:
     for term in terms:
         yield Candidate(term.id, term.alone, term.alone, term.side, _operation(term.shown), term.sources)
+
+
+def _brackets(value: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """The sums among the factors of a product, each with what it is multiplied by."""
+    factors = sp.Mul.make_args(value)
+    for place, factor in enumerate(factors):
+        base, exponent = factor.as_base_exp()
+        if base.is_Add and exponent.is_Integer and exponent > 0:
+            others = (*factors[:place], *factors[place + 1 :])
+            yield base, sp.Mul(*others, base ** (exponent - 1))
 
 
 def _of_like_sources(term: Summand, candidates: list[Candidate]) -> list[Candidate]:
@@ -267,6 +311,19 @@ def summands(formula: f.Formula) -> Iterator[Summand]:  # noqa: C901 - one case 
             yield from (replace(one, alone=f.AtTime(one.alone, time)) for one in summands(of))
         case _:
             yield Summand("", formula, formula)
+
+
+def with_inside(formula: f.Formula, terms: tuple[Summand, ...]) -> f.Formula:
+    """The line, in whose brackets each summand is told apart where `inside` of its terms does."""
+    inside = tuple(pair for term in terms for pair in term.inside)
+    match formula:
+        case f.Explicit(value, owners) if inside:
+            return f.Explicit(value, (*owners, *inside))
+        case f.Plus(parts) if inside:
+            return f.Plus(tuple(replace(part, formula=with_inside(part.formula, terms)) for part in parts))
+        case f.Equation(left, right) if inside:
+            return f.Equation(with_inside(left, terms), with_inside(right, terms))
+    return formula
 
 
 def with_names(formula: f.Formula, names: Iterator[str]) -> f.Formula:  # noqa: PLR0911 - one case for each kind

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Literal
 
-from .formula import Formula
+from .formula import Formula, Owners
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Summand:
     """A term of a line.
 
     `shown` is what is written, without `sign`; `alone` is the line with no other term in it. `side` is −1 on the right
-    of an equation.
+    of an equation. `inside` tells where the summands of its brackets come from, if not all from the same.
     """
 
     id: str
@@ -59,6 +59,7 @@ class Summand:
     side: int = 1
     sources: tuple[str, ...] = ()
     origins: tuple[Origin, ...] = ()
+    inside: Owners = ()
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,14 @@ from functools import cached_property
 import sympy as sp
 
 from ..derivation.formula import Formula, Plus, Term
-from ..derivation.history import with_names
+from ..derivation.history import with_inside, with_names
 from ..derivation.step import Chapter, Derivation, Line, Relation, Step, Summand
 from ..language.plain_printer import plain
 from .aligned import aligned
 from .catalog import filled, template, text
 from .letters import Letters, in_sentence
 from .marks import without_classes
-from .notation import Notation
+from .notation import Notation, in_classes
 from .prose import CatalogText, formula, joined, words
 from .roots import Roots, explained, named_roots, with_roots
 from .speech import Speech, speech_of
@@ -156,6 +156,14 @@ def _with_names(step: Step) -> tuple[Relation, ...]:
     )
 
 
+def _classes(term: Summand) -> str:
+    """Its name, and unless a rule has told it, whose it is."""
+    name = f"t-{term.id.rpartition('/')[2].replace('.', '-')}"
+    told = isinstance(term.alone, Plus) and any(part.sources for part in term.alone.terms)
+    return name if told else f"{in_classes(term.sources)} {name}".strip()
+
+
 def _named(member: Formula, line: Line) -> Formula:
-    names = (f"t-{term.id.rpartition('/')[2].replace('.', '-')}" for term in line.terms)
-    return with_names(member, names) if len(line.terms) > 1 else member
+    names = (_classes(term) for term in line.terms)
+    told = with_inside(member, line.terms)
+    return with_names(told, names) if len(line.terms) > 1 else told

@@ -98,7 +98,7 @@ class Notation:
     def _owned(self, value: Value, owners: Owners) -> str:
         """A value in whose brackets each summand is marked with where it comes from."""
         marks = {
-            bracket: {term: partial(self.symbols.wrap, _classes(sources)) for term, sources in terms}
+            bracket: {term: partial(self.symbols.wrap, in_classes(sources)) for term, sources in terms}
             for bracket, terms in owners
         }
         return latex(value, replace(self.typography, summands=marks))
@@ -189,7 +189,7 @@ class Notation:
         return text.removeprefix("-"), leads_with_minus is not (term.sign < 0)
 
     def _marked(self, term: Term, text: str) -> str:
-        return self.symbols.wrap(f"{_classes(term.sources)} {term.role}".strip(), text)
+        return self.symbols.wrap(f"{in_classes(term.sources)} {term.role}".strip(), text)
 
     def _substituted(self, of: Formula, values: Mapping[sp.Symbol, sp.Expr]) -> str:
         present = of.value.free_symbols if isinstance(of, Given | Explicit | Named) else set(values)
@@ -197,7 +197,7 @@ class Notation:
         return rf"\left.{self.formula(of)}\right|_{{{rules}}}" if rules else self.formula(of)
 
 
-def _classes(sources: tuple[str, ...]) -> str:
+def in_classes(sources: tuple[str, ...]) -> str:
     """Bodies and loads as classes of the page."""
     return " ".join(source.replace(":", "-") for source in sources)
 
