@@ -32,8 +32,8 @@ def heard(page: Page) -> list[Any]:
 @pytest.mark.parametrize(
     ("place", "words"),
     [
-        ("scene?scene=pendulum&lang=en&step=equation:phi", "m times l squared times phi double dot"),
-        ("scene?scene=pendulum&lang=de&step=equation:phi", "m mal l Quadrat mal phi Punkt Punkt"),
+        ("scene?scene=pendulum&lang=en&step=equation:phi", "m l squared phi double dot"),
+        ("scene?scene=pendulum&lang=de&step=equation:phi", "m l Quadrat phi Punkt Punkt"),
         ("proof?lang=en&view=lecture&step=general-lagrange-function", "L equals E"),
     ],
 )

@@ -17,6 +17,7 @@ FUNCTIONS: Mapping[str, Callable[[complex], complex]] = {
     "sinh": cmath.sinh, "cosh": cmath.cosh, "tanh": cmath.tanh, "log": cmath.log, "abs": lambda z: complex(abs(z)),
     "sign": lambda z: z / abs(z), "asinh": cmath.asinh,
 }  # fmt: skip
+ARTICLES = frozenset({"der", "die", "das", "dem", "den"})
 PHRASE = 6  # words: more are a whole formula that the catalog has as one
 DIGITS = re.compile(r"\d+([.,]\d+)?\Z")
 
@@ -39,7 +40,7 @@ ENGLISH = {
     "end root": "end of root", "squared": "squared", "cubed": "cubed", "power": "to the power of", "of": "of",
     "and": "and", "rate": "d by d t of", "rate2": "the second derivative with respect to t of",
     "partial": "the partial derivative of", "by": "with respect to", "at zero": "the derivative at",
-    "zero of": "equal to zero of", "limit": "the limit for", "to zero of": "to zero of",
+    "zero of": "equal to zero of", "limit": "the limit as", "to zero of": "goes to zero of",
     "dot": "the scalar product of", "with": "with", "value": "the value of", "for": "for", "is": "equal to",
     "at time": "at time", "end value": "end of value", "in equilibrium": "in the equilibrium",
     "boundary": "the boundary term", "from": "taken from", "to": "to", "end boundary": "end of boundary term",
@@ -52,7 +53,7 @@ GERMAN = {
     **ENGLISH, "times": "mal", "over": "durch", "fraction": "Bruch", "end fraction": "Ende des Bruchs",
     "open": "Klammer auf", "close": "Klammer zu", "root": "Wurzel aus", "end root": "Ende der Wurzel",
     "squared": "Quadrat", "cubed": "hoch dreimal", "power": "hoch", "of": "von", "and": "und",
-    "rate": "Ableitung nach der Zeit von", "rate2": "zweite Ableitung nach der Zeit von",
+    "rate": "d nach d t von", "rate2": "zweite Ableitung nach der Zeit von",
     "partial": "partielle Ableitung von", "by": "nach", "at zero": "Ableitung bei", "zero of": "gleich null von",
     "limit": "Grenzwert für", "to zero of": "gegen null von", "dot": "Skalarprodukt von", "with": "mit",
     "value": "Wert von", "for": "für", "is": "gleich", "at time": "zur Zeit", "end value": "Ende des Werts",
@@ -98,8 +99,10 @@ UNITS = {
 
 
 def words_of(text: str) -> tuple[str, ...]:
-    """What is heard: no pauses, no capital letters."""
-    return tuple(re.sub(r"[,:](?= |$)", "", text).lower().split())
+    """What is heard: no pauses, no capital letters; articles and endings of nouns tell nothing in formulas."""
+    bare = re.sub(r"[,:](?= |$)", "", text).lower().replace("vom ", "von ")
+    bare = re.sub(r"\b(partielle|zweite)n\b", r"\1", bare).replace("gradienten", "gradient")
+    return tuple(word for word in bare.split() if word not in ARTICLES)
 
 
 class UnreadableError(Exception):
@@ -165,13 +168,19 @@ class Reader:
     def _term(self, *, divides: bool = True) -> complex:
         """A product; over divides what stands before it by one symbol, and ends the term."""
         value = self._signed()
-        while self._takes("times"):
+        while self._takes("times") or self._begins_letter():
             if self._takes("ten"):
                 return value * 10 ** self._signed()
             value *= self._signed()
         if divides and self._takes("over"):
             value /= self._prefixed()
         return value
+
+    def _begins_letter(self) -> bool:
+        """Whether a symbol follows without a word between: letters side by side are a product."""
+        if self._sees(self.keys["d"]) or self._sees(self.keys["delta"]):
+            return False
+        return any(self._sees(words) for words in self.lexicon if len(words) <= PHRASE)
 
     def _signed(self) -> complex:
         return -self._signed() if self._takes("minus") else self._power()

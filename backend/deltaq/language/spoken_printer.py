@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import sympy
@@ -21,6 +23,7 @@ from .spoken_symbols import LARGEST, SpokenSymbols, Vocabulary
 SUM, QUOTIENT, PRODUCT, POWER, PREFIX, ATOM = 1, 2, 3, 4, 5, 6
 _NAMES = {"Abs": "abs"}
 _MOST_PARTS = 12
+_WORDS = frozenset({"d", "delta", "e", "a"})  # letters that are words, or begin some
 _SHORT = 4  # words of a term that needs no pause before it
 
 
@@ -78,12 +81,21 @@ def said_matrix(words: Vocabulary, rows: list[list[str]]) -> str:
 
 
 class _Speech:
-    def __init__(self, symbols: SpokenSymbols, order: Order, as_decimal: Decides, roots: Mapping[Any, str]) -> None:
+    def __init__(
+        self,
+        symbols: SpokenSymbols,
+        order: Order,
+        as_decimal: Decides,
+        roots: Mapping[Any, str],
+        *,
+        in_root: bool = False,
+    ) -> None:
         self._symbols = symbols
         self._words = symbols.vocabulary
         self._order = order
         self._as_decimal = as_decimal
         self._roots = roots
+        self._in_root = in_root
 
     def text(self, expr: sympy.Expr, binding: int) -> str:
         text, own = self._with_binding(expr)
@@ -170,7 +182,10 @@ class _Speech:
         rest = [f for f in upper if not f.is_Rational]
         if all(f.is_Rational for f in lower) and (len(rest) > 1 or numbers or not self._is_simple(rest)):
             size = Fraction(int(sympy.Mul(*numbers)), int(sympy.Mul(*lower)))
-            return self._words.say("times", self._fraction_of_numbers(size), self._factors(rest)), PRODUCT
+            first = self._order.factors(rest)[0]
+            is_short = size.denominator <= _MOST_PARTS and size.numerator <= LARGEST
+            joint = self._together if is_short and self._follows(first) else self._times
+            return joint(self._fraction_of_numbers(size), self._factors(rest)), PRODUCT
         return self._quotient(upper, lower)
 
     def _quotient(self, upper: list[sympy.Expr], lower: list[sympy.Expr]) -> tuple[str, int]:
@@ -196,10 +211,34 @@ class _Speech:
     def _factors(self, factors: list[sympy.Expr]) -> str:
         if not factors:
             return self._words.whole(1)
-        text, *others = (self.text(factor, PRODUCT) for factor in self._order.factors(factors))
-        for other in others:
-            text = self._words.say("times", text, other)
+        ordered = self._order.factors(factors)
+        text = self.text(ordered[0], PRODUCT)
+        for before, factor in pairwise(ordered):
+            joint = self._together if self._leads(before) and self._follows(factor) else self._times
+            text = joint(text, self.text(factor, PRODUCT))
         return text
+
+    def _times(self, left: str, right: str) -> str:
+        return self._words.say("times", left, right)
+
+    def _together(self, left: str, right: str) -> str:
+        """Letters side by side, as they are read: m l squared."""
+        return f"{left} {right}"
+
+    def _leads(self, factor: sympy.Expr) -> bool:
+        """Whether another letter may follow: a whole number, or a letter without a word as its index."""
+        indices = {self._words.say(key, "").strip() for key in ("subscript", "superscript")}
+        if factor.is_Integer:
+            return bool(0 < factor <= LARGEST)
+        return self._follows(factor) and indices.isdisjoint(self.text(factor, 0).split())
+
+    def _follows(self, factor: sympy.Expr) -> bool:
+        """Whether this is a letter or its square that no word begins for which it could be taken."""
+        base, exponent = base_exponent(factor)
+        if not base.is_Symbol or exponent not in (1, 2) or not self._symbols.is_atom(base.name):
+            return False
+        bracket = self._words.say("bracket", "").split()[0]  # x + h v is a symbol, too
+        return self.text(base, 0).split()[0] not in {*_WORDS, bracket}
 
     def _power(self, expr: sympy.Expr) -> tuple[str, int]:
         base, exponent = base_exponent(expr)
@@ -212,8 +251,16 @@ class _Speech:
         return self._raised(self.text(base, ATOM), exponent), POWER
 
     def _root(self, base: sympy.Expr) -> tuple[str, int]:
-        short = self._is_simple([base])
-        return self._words.say("root" if short else "long-root", self.text(base, 0)), PREFIX if short else ATOM
+        """A root says where it ends unless it is of a symbol; within another one it always does."""
+        if self._is_simple([base]) and not self._in_root:
+            return self._words.say("root", self.text(base, 0)), PREFIX
+        return self._words.say("long-root", self._under_root.text(base, 0)), ATOM
+
+    @cached_property
+    def _under_root(self) -> _Speech:
+        return (
+            self if self._in_root else _Speech(self._symbols, self._order, self._as_decimal, self._roots, in_root=True)
+        )
 
     def _raised(self, base: str, exponent: sympy.Expr) -> str:
         key = f"power-{exponent}" if exponent in (2, 3) else "power"

@@ -6,8 +6,9 @@ A symbol is known by its LaTeX, which the scene gives or its name makes; only sy
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from .memory import cached_method
 from .names import Names
@@ -32,12 +33,40 @@ class Vocabulary:
     point: str = "."
 
     def say(self, key: str, *parts: str) -> str:
-        """The words under a key with the parts in their places."""
-        return self.words[key].format(*parts)
+        """The words under a key with the parts in their places, each noun in the case that is asked for."""
+        text = self.words[key].format(*parts)
+        return self._declension.joint.sub(self._declension.declined, text) if parts and self._declension else text
+
+    @cached_property
+    def _declension(self) -> Declension | None:
+        nouns = [self.words[key].split("|") for key in self.words if key.startswith("nouns.")]
+        cases = [frozenset(self.words.get(f"cases.{case}", "").split()) for case in ("dative", "accusative")]
+        return Declension(nouns, *cases) if any(cases) else None
 
     def whole(self, number: int) -> str:
         """A whole number that is not negative."""
         return self.words[f"numbers.{number}"] if number <= LARGEST else str(number)
+
+
+@dataclass(frozen=True)
+class Declension:
+    """Nouns in nominative, dative and accusative, and the words that ask for the latter: von der Ableitung."""
+
+    nouns: Sequence[Sequence[str]]
+    dative: frozenset[str]
+    accusative: frozenset[str]
+
+    @cached_property
+    def joint(self) -> re.Pattern[str]:
+        """A word that asks for a case, and a noun without it."""
+        words, nouns = sorted(self.dative | self.accusative), [forms[0] for forms in self.nouns]
+        return re.compile(rf"(?<!\w)({'|'.join(words)}) ({'|'.join(sorted(nouns, key=len, reverse=True))})(?!\w)")
+
+    def declined(self, found: re.Match[str]) -> str:
+        """Both with the noun in its case; von dem is vom."""
+        _, dative, accusative = next(forms for forms in self.nouns if forms[0] == found[2])
+        text = f"{found[1]} {dative if found[1] in self.dative else accusative}"
+        return text.replace("von dem ", "vom ", 1)
 
 
 @dataclass(frozen=True)
