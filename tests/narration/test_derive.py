@@ -133,3 +133,18 @@ def test_unknown_formulation() -> None:
         derive_request({"scene": "pendulum", "formulation": "newton"})
     parameters = {"expected": "dalembert-lagrange, hamilton"}
     assert caught.value.problems == (Problem("request-not-one-of", "/formulation", parameters=parameters),)
+
+
+@pytest.mark.parametrize(
+    ("scene", "step", "own"),
+    [
+        ("atwood", "noether:1", "not the quantity itself (generalized momentum) that is constant"),
+        ("double-atwood", "noether:2", "without the impulse of these forces"),
+        ("double-atwood", "noether:3", "So an integral is conserved: integral of uniform motion"),
+        ("foucault", "noether:1", "So an integral is conserved: angular momentum about the origin"),
+    ],
+)
+def test_under_constant_forces_it_is_not_the_momentum_that_is_conserved(scene: str, step: str, own: str) -> None:
+    chapters = derive_request({"scene": scene, "lang": "en"})["chapters"]
+    texts = {one["id"]: one["text"] for chapter in chapters for one in chapter["steps"]}
+    assert own in texts[step]

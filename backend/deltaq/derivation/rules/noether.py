@@ -55,12 +55,27 @@ def apply(system: System, symmetry: Symmetry, number: int) -> Step:
 def _about(system: System, symmetry: Symmetry, number: int) -> dict[str, str]:
     what = meaning(system, symmetry.generator)
     moved = ", ".join(symmetry.generator.shifts)
-    outcome = "time" if symmetry.generator.time != 0 else "gauge" if symmetry.gauge != 0 else "invariant"
+    outcome = _outcome(system, symmetry)
     if symmetry.conditions:
         outcome += "-special"
     word = f"{what.word}-of" if what.bodies else what.word
     about = {"outcome": outcome, "symmetry": word, "integral": word, "number": str(number), "coordinate": moved}
     return {**about, "place": ", ".join(what.bodies)} if what.bodies else about
+
+
+def _outcome(system: System, symmetry: Symmetry) -> str:
+    """What the change does to L; `impulse` where it is always the same and the forces along it depend on time alone.
+
+    Then it is not the momentum that is conserved, but what is left of it without their impulse.
+    """
+    if symmetry.generator.time != 0:
+        return "time"
+    if symmetry.gauge == 0:
+        return "invariant"
+    time = sp.Symbol("t", real=True)
+    moving = {symbol for q in system.coordinates for symbol in (system.q(q), system.rate(q))}
+    grows = any(change.has(time) for change in symmetry.generator.shifts.values())
+    return "gauge" if grows or symmetry.gauge.free_symbols & moving else "impulse"
 
 
 def _under(line: Relation, special: Mapping[sp.Symbol, sp.Expr]) -> Relation:
