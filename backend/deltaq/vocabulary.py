@@ -35,6 +35,10 @@ Stability = Literal["stable", "undecided", "unstable"]
 StabilityKind = Literal["family", "gyroscopic", "degenerate", "band"]
 # Why a search for equilibria is not complete: its operations were spent, or equilibria are not isolated.
 SearchEnd = Literal["budget", "continuum"]
+# Parts of the last chapter that a derivation is complete without, and why one is missing: it has not been asked for,
+# its operations were spent, its time was over, or it failed.
+OptionalPart = Literal["model", "equilibria", "small-motions", "integrals", "relative-equilibria", "canonical"]
+Missing = Literal["later", "budget", "time", "failed"]
 # Whether a load has a potential, by the curl of its generalized forces.
 CurlOutcome = Literal[
     "conservative",

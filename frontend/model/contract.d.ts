@@ -1850,9 +1850,18 @@ export interface components {
              * @enum {string}
              */
             formulation: "dalembert-lagrange" | "hamilton";
-            /** Chapters */
+            /**
+             * Chapters
+             * @description those that were asked for
+             */
             chapters: components["schemas"]["Chapter"][];
             result: components["schemas"]["DerivationResult"];
+            /**
+             * Left Out
+             * @description what is missing in the last chapter, and in the results that come from it
+             * @default []
+             */
+            left_out: components["schemas"]["LeftOut"][];
         };
         /**
          * DerivationRequest
@@ -1909,6 +1918,11 @@ export interface components {
              * @description whether a last chapter has Hamilton's function and canonical equations
              */
             canonical?: boolean;
+            /**
+             * Chapters
+             * @description `equations`: those up to the equations of motion; `model`: the last, as soon as it is there; `ready`: all, if they take no more than a moment, else the equations while the rest is computed, to be asked for as `model`
+             */
+            chapters?: components["schemas"]["DerivationRequestChapters"];
             /**
              * Lang
              * @description language of the texts; else Accept-Language decides
@@ -3432,6 +3446,29 @@ export interface components {
             showlegend?: boolean | null;
             xaxis: components["schemas"]["Axis"];
             yaxis: components["schemas"]["Axis"];
+        };
+        /**
+         * LeftOut
+         * @description A part of the last chapter that is missing.
+         */
+        LeftOut: {
+            /**
+             * Part
+             * @description `model` is all of it
+             * @enum {string}
+             */
+            part: "model" | "equilibria" | "small-motions" | "integrals" | "relative-equilibria" | "canonical";
+            /**
+             * Reason
+             * @description `later`: ask for it; `budget`: its operations are spent; `time`: so is its time; `failed`: our bug
+             * @enum {string}
+             */
+            reason: "later" | "budget" | "time" | "failed";
+            /**
+             * Text
+             * @description that it is missing, and what to do about it
+             */
+            text: string;
         };
         /**
          * Legend
@@ -6857,6 +6894,12 @@ export interface components {
          * @enum {string}
          */
         DerivationRequestFormulation: "dalembert-lagrange" | "hamilton";
+        /**
+         * DerivationRequestChapters
+         * @default all
+         * @enum {string}
+         */
+        DerivationRequestChapters: "all" | "equations" | "model" | "ready";
         /**
          * ChaosRequestParameters
          * @default {}

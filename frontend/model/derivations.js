@@ -1,12 +1,30 @@
 /** The derivation on the page: that of its scene, in its language, by its formulation. */
 
+import { ApiError } from "./api.js";
 import { OWN } from "./own.js";
 import { sceneOf } from "./request.js";
 import { linesOf, moved } from "./reveal.js";
 import { mover } from "./store.js";
 
+/** @typedef {import("./types.js").Derivation} Derivation */
+
+/** Why the last chapter is not there; null where it is. @param {Derivation | null} derivation */
+export const missingIn = (derivation) => derivation?.left_out?.find(({ part }) => part === "model") ?? null;
+
+/** @param {Derivation | null} derivation */
+export const isUnderWay = (derivation) => missingIn(derivation)?.reason === "later";
+
+/** Chapters that were there at once, and those that came later. @param {Derivation} first @param {Derivation} rest @returns {Derivation} */
+const joined = (first, rest) => ({ ...rest, chapters: [...first.chapters, ...rest.chapters] });
+
+/** The equations stay when nothing comes behind them. @param {Derivation} first @param {unknown} error @returns {Derivation} */
+function cut(first, error) {
+  if (!(error instanceof ApiError)) throw error;
+  return { ...first, left_out: [{ part: "model", reason: "failed", text: error.message }] };
+}
+
 /**
- * What asks for the derivation; an answer that was overtaken is left.
+ * What asks for the derivation; an answer that was overtaken is left. What is there first is shown at once.
  * @param {import("./state.js").Store} store
  * @param {import("./api.js").Api} api
  * @param {import("./state.js").Attempt} attempt
@@ -14,6 +32,15 @@ import { mover } from "./store.js";
 export function createDerivations(store, api, attempt) {
   const { get, set } = store;
   const move = mover(store);
+
+  /** @param {Derivation} derivation */
+  function show(derivation) {
+    const lines = linesOf(derivation.chapters);
+    set({ derivation, lines });
+    // A step that is still to come stays the one that is wanted.
+    if (!isUnderWay(derivation)) move({ step: moved(lines, get().place.step, 0) });
+  }
+
   return async function derive() {
     const scene = sceneOf(get());
     const { lang, formulation, n, more } = get().place;
@@ -22,18 +49,22 @@ export function createDerivations(store, api, attempt) {
       const asked = [place.lang, place.formulation, place.n, place.more];
       return sceneOf(get()) === scene && asked.every((value, i) => value === [lang, formulation, n, more][i]);
     };
+    const question = {
+      scene: scene ?? OWN,
+      lang,
+      formulation,
+      ...(more ? { canonical: true } : {}),
+      ...(n ? { parameters: { n } } : {}),
+    };
     await attempt("derivation", async () => {
-      const derivation = await api.derive({
-        scene: scene ?? OWN,
-        lang,
-        formulation,
-        ...(more ? { canonical: true } : {}),
-        ...(n ? { parameters: { n } } : {}),
-      });
-      if (!isWanted()) return;
-      const lines = linesOf(derivation.chapters);
-      set({ derivation, lines });
-      move({ step: moved(lines, get().place.step, 0) });
+      const first = await api.derive({ ...question, chapters: "ready" });
+      if (isWanted()) show(first);
+      if (!isWanted() || !isUnderWay(first)) return;
+      const whole = await api.derive({ ...question, chapters: "model" }).then(
+        (rest) => joined(first, rest),
+        (error) => cut(first, error),
+      );
+      if (isWanted()) show(whole);
     });
   };
 }

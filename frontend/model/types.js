@@ -59,7 +59,7 @@
  * @typedef {Contract["FamilyEntry"]} Family
  * @typedef {Contract["Step"]} Step
  * @typedef {Contract["Chapter"]} Chapter
- * @typedef {Pick<Contract["DerivationAnswer"], "id" | "chapters"> & {result?: Contract["DerivationResult"]}} Derivation  of a scene, with its results, or a general proof
+ * @typedef {Pick<Contract["DerivationAnswer"], "id" | "chapters"> & Partial<Pick<Contract["DerivationAnswer"], "result" | "left_out">>} Derivation  of a scene, with its results, or a general proof
  * @typedef {Contract["MethodEntry"]} Method
  * @typedef {NonNullable<Contract["SimulationRequest"]["include"]>} Parts  of a motion
  * @typedef {InNumbers<Omit<Contract["Energy"], "drift">>} Energy

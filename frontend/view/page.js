@@ -9,7 +9,9 @@ import { caveats, report } from "./report.js";
 import { values } from "./values.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
+import { missingIn } from "../model/derivations.js";
 import { OWN } from "../model/own.js";
+import { indexOf } from "../model/reveal.js";
 import { FORMULATIONS, oneOf } from "../model/url.js";
 
 /**
@@ -72,15 +74,25 @@ function reading(view) {
     <section class="derivation" id="derivation" aria-label=${t("derivation")}>
       <div class="contents">${formulation(view)}${chapters(view)}</div>
       <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
-        ${trouble(view) ?? steps(view)} ${canonical(view)}
+        ${trouble(view) ?? steps(view)} ${missing(view)} ${canonical(view)}
       </div>
       ${pager(view)}
     </section>`;
 }
 
+/** Whether all steps that there are have been shown. @param {View["state"]} state */
+const isAtEnd = ({ derivation, lines, place }) =>
+  derivation && lines.length && lines.at(-1) === lines[indexOf(lines, place.step)];
+
+/** Behind the last step: that the last chapter follows, or why there is none. @param {View} view */
+function missing({ state }) {
+  const left = isAtEnd(state) && missingIn(state.derivation);
+  return left ? html`<p class="notice missing" role="status" data-reason=${left.reason}>${left.text}</p>` : nothing;
+}
+
 /** Behind the last step: opens the chapter of Hamilton's canonical equations. @param {View} view */
 const canonical = ({ state, session, t }) =>
-  state.derivation && !state.place.more && state.lines.at(-1)?.step.id === state.place.step
+  isAtEnd(state) && !state.place.more && !missingIn(state.derivation)
     ? html`<button class="quiet small further" @click=${() => session.tellMore("canonical")}>${t("canonical.open")}</button>`
     : nothing;
 

@@ -1,33 +1,66 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
+import { missingIn } from "../../frontend/model/derivations.js";
 import { derivation, failure, own, page } from "./server.js";
 
-const ids = (/** @type {any} */ state) => state.lines.map((/** @type {any} */ line) => line.step.id);
+const ids = (/** @type {any} */ state) =>
+  state.lines.map((/** @type {any} */ line) => line.step.id);
 
 test("a derivation is asked for by scene, language, formulation and the number of members", async () => {
   for (const [place, expected] of /** @type {[any, any][]} */ ([
-    [{ scene: "swing", lang: "de" }, { scene: "swing", lang: "de", formulation: "dalembert-lagrange" }],
-    [{ scene: "swing", formulation: "hamilton" }, { scene: "swing", lang: "en", formulation: "hamilton" }],
-    [{ scene: "chain", n: 4 }, { scene: "chain", lang: "en", formulation: "dalembert-lagrange", parameters: { n: 4 } }],
-    [{ scene: "own" }, { scene: own, lang: "en", formulation: "dalembert-lagrange" }],
+    [
+      { scene: "swing", lang: "de" },
+      { scene: "swing", lang: "de", formulation: "dalembert-lagrange" },
+    ],
+    [
+      { scene: "swing", formulation: "hamilton" },
+      { scene: "swing", lang: "en", formulation: "hamilton" },
+    ],
+    [
+      { scene: "chain", n: 4 },
+      {
+        scene: "chain",
+        lang: "en",
+        formulation: "dalembert-lagrange",
+        parameters: { n: 4 },
+      },
+    ],
+    [
+      { scene: "own" },
+      { scene: own, lang: "en", formulation: "dalembert-lagrange" },
+    ],
   ])) {
     const { session, last } = page({ place, own });
     void session.formulate(place.formulation ?? "dalembert-lagrange");
-    assert.deepEqual(last("derive").given, [expected]);
+    assert.deepEqual(last("derive").given, [
+      { ...expected, chapters: "ready" },
+    ]);
   }
 });
 
 test("its steps are on the page, at the one that the address names, else at the first", async () => {
-  for (const [step, shown] of [["b", "b"], ["elsewhere", "a"], ["", "a"]]) {
-    const { session, last, get } = page({ place: /** @type {any} */ ({ step }) });
+  for (const [step, shown] of [
+    ["b", "b"],
+    ["elsewhere", "a"],
+    ["", "a"],
+  ]) {
+    const { session, last, get } = page({
+      place: /** @type {any} */ ({ step }),
+    });
     void session.formulate("hamilton");
     const answer = derivation("a", "b");
     await last("derive").answer(answer);
-    assert.deepEqual([get().derivation, ids(get()), get().place.step], [answer, ["a", "b"], shown]);
+    assert.deepEqual(
+      [get().derivation, ids(get()), get().place.step],
+      [answer, ["a", "b"], shown],
+    );
   }
 });
 
-for (const [name, overtake] of /** @type {[string, (page: ReturnType<typeof import("./server.js").page>) => void][]} */ ([
+for (const [
+  name,
+  overtake,
+] of /** @type {[string, (page: ReturnType<typeof import("./server.js").page>) => void][]} */ ([
   ["scene", ({ session }) => session.choose("other")],
   ["scene of one's own", ({ store }) => store.set({ own: { ...own } })],
   ["language", ({ session }) => session.move({ lang: "de" })],
@@ -35,12 +68,17 @@ for (const [name, overtake] of /** @type {[string, (page: ReturnType<typeof impo
   ["number of members", ({ session }) => session.choose("swing", "", 5)],
 ])) {
   test(`a derivation for another ${name} than the one on the page is not shown, however late it comes`, async () => {
-    const about = name.endsWith("own") ? page({ place: /** @type {any} */ ({ scene: "own" }), own }) : page();
+    const about = name.endsWith("own")
+      ? page({ place: /** @type {any} */ ({ scene: "own" }), own })
+      : page();
     void about.session.formulate("dalembert-lagrange");
     const early = about.last("derive");
     overtake(about);
     await early.answer(derivation("overtaken"));
-    assert.deepEqual([about.get().derivation, about.get().lines, about.get().place.step], [null, [], ""]);
+    assert.deepEqual(
+      [about.get().derivation, about.get().lines, about.get().place.step],
+      [null, [], ""],
+    );
     if (about.last("derive") === early) return;
     await about.last("derive").answer(derivation("wanted"));
     assert.deepEqual(ids(about.get()), ["wanted"]);
@@ -61,8 +99,78 @@ test("a failure is told of the derivation, and forgotten with the next answer", 
   const { session, last, get } = page();
   void session.formulate("hamilton");
   await last("derive").refuse();
-  assert.deepEqual(get().failures, { page: null, scene: null, derivation: failure, simulation: null, export: null });
+  assert.deepEqual(get().failures, {
+    page: null,
+    scene: null,
+    derivation: failure,
+    simulation: null,
+    export: null,
+  });
   void session.formulate("hamilton");
   await last("derive").answer(derivation("a"));
   assert.equal(get().failures.derivation, null);
+});
+
+/** The equations, behind which the last chapter is still to come. @param {string[]} steps */
+const early = (...steps) => ({
+  ...derivation(...steps),
+  left_out: [{ part: "model", reason: "later", text: "follows" }],
+});
+const late = (/** @type {string[]} */ ...steps) => ({
+  ...derivation(...steps),
+  left_out: [],
+});
+
+test("the equations are shown before the last chapter, which is put behind them", async () => {
+  const { session, all, last, get } = page();
+  void session.formulate("hamilton");
+  await last("derive").answer(early("a", "b"));
+  assert.deepEqual(
+    [ids(get()), missingIn(get().derivation)?.text],
+    [["a", "b"], "follows"],
+  );
+  assert.deepEqual(
+    all("derive").map(({ given }) => given[0].chapters),
+    ["ready", "model"],
+  );
+  await last("derive").answer(late("c"));
+  assert.deepEqual(
+    [ids(get()), missingIn(get().derivation)],
+    [["a", "b", "c"], null],
+  );
+});
+
+test("a step of the chapter that is to come stays the one that is wanted", async () => {
+  const { session, last, get } = page({
+    place: /** @type {any} */ ({ step: "c" }),
+  });
+  void session.formulate("hamilton");
+  await last("derive").answer(early("a", "b"));
+  assert.equal(get().place.step, "c");
+  await last("derive").answer(late("c"));
+  assert.equal(get().place.step, "c");
+});
+
+test("equations stay where the last chapter fails, which is told behind them", async () => {
+  const { session, last, get } = page();
+  void session.formulate("hamilton");
+  await last("derive").answer(early("a"));
+  await last("derive").refuse();
+  assert.deepEqual([ids(get()), get().failures.derivation], [["a"], null]);
+  assert.deepEqual(missingIn(get().derivation), {
+    part: "model",
+    reason: "failed",
+    text: failure.title,
+  });
+});
+
+test("a last chapter that was overtaken is not put behind another scene's equations", async () => {
+  const { session, last, get } = page();
+  void session.formulate("hamilton");
+  await last("derive").answer(early("a"));
+  const rest = last("derive");
+  void session.formulate("dalembert-lagrange");
+  await last("derive").answer(late("other"));
+  await rest.answer(late("c"));
+  assert.deepEqual(ids(get()), ["other"]);
 });

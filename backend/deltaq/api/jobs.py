@@ -6,7 +6,7 @@ Numba begin.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator
 from importlib import import_module
 from json import loads
 from time import monotonic
@@ -25,13 +25,23 @@ if TYPE_CHECKING:
     from ..lab.experiment import Experiment
 
 Document = dict[str, Any]
+Parts = Generator[Document, None, Document]  # yields parts, returns the answer
 PART_PAUSE = 0.4  # seconds between two parts of a stream
 
 
-def derive(document: Document) -> Document:
-    """A derivation with its content hash."""
-    answer: Document = import_module("deltaq.narration.derive").derive_request(document["request"])
-    return {"id": document["id"], **answer}
+def derive(document: Document) -> Parts:
+    """A derivation with its content hash; before it what leads to the equations of motion."""
+    parts = import_module("deltaq.narration.derive").derive_parts(document["request"])
+    return (yield from _with_id(parts, document["id"]))
+
+
+def _with_id(parts: Parts, identifier: str) -> Parts:
+    while True:
+        try:
+            part = next(parts)
+        except StopIteration as end:
+            return {"id": identifier, **end.value}
+        yield {"id": identifier, **part}
 
 
 def vary(document: Document) -> Document:
@@ -72,7 +82,7 @@ def warm(document: Document) -> Document:
     return document
 
 
-def experiment(document: Document) -> Iterator[Document]:
+def experiment(document: Document) -> Parts:
     """Parts with the charts so far, not more often than they can be looked at; then the result, which has no words."""
     given = {key: value for key, value in document.items() if key != "experiment"}
     found, shown, result = get_experiment(document["experiment"]), 0.0, {}
@@ -81,7 +91,7 @@ def experiment(document: Document) -> Iterator[Document]:
         if monotonic() - shown > PART_PAUSE:
             yield {"done": report.done, "total": report.total, "charts": _charts(found, result, document["lang"])}
             shown = monotonic()
-    yield {"experiment": found.id, **result}
+    return {"experiment": found.id, **result}
 
 
 def draw_charts(document: Document) -> Document:

@@ -65,6 +65,18 @@ class Service:
         async with self.pool.asked(key, ACCOUNT.get()):
             return await _shared(partial(self.cache.get, key, compute))
 
+    async def parts(self, key: str, job: Job, document: Any, on_update: OnUpdate) -> bytes:
+        """Like `answer`, of a job whose parts `on_update` receives before."""
+
+        async def compute(publish: OnUpdate) -> bytes:
+            whole = await self.pool.run(
+                job, document, lambda part: publish(Update("part", part)), ACCOUNT.get(), key=key
+            )
+            return await asyncio.to_thread(pack, whole)
+
+        async with self.pool.asked(key, ACCOUNT.get()):
+            return await _shared(partial(self.cache.get, key, compute, on_update))
+
     async def measurement(self, key: str, job: Job, document: Any, on_update: OnUpdate, *, anew: bool) -> bytes:
         """The gzipped JSON of an experiment; `on_update` receives its place in the queue and its parts before.
 

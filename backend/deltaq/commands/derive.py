@@ -41,13 +41,14 @@ def run(options: argparse.Namespace) -> None:
 
 def _derived(question: dict[str, Any]) -> dict[str, Any]:
     """What POST /derivations answers to the same question, with the same id."""
-    from ..api.jobs import derive
-    from ..api.routes.derivations import derivation_id
+    from ..api.routes.derivations import named
     from ..contract.derivation import DerivationRequest
     from ..contract.reading import checked
+    from ..narration.derive import derive_request
 
     request = checked(question, DerivationRequest)
-    return derive({"id": derivation_id(request), "request": request})
+    identifier, _ = named(request)
+    return {"id": identifier, **derive_request(request)}
 
 
 def _exported(question: dict[str, Any], form: str) -> str:

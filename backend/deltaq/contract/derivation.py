@@ -6,10 +6,12 @@ from typing import Literal
 
 from pydantic import Field
 
+from ..vocabulary import Missing, OptionalPart
 from .base import Answer, AskedLanguage, SceneWithChanges, examples
 from .result import DerivationResult, Origin
 
 Formulation = Literal["dalembert-lagrange", "hamilton"]
+ChaptersAsked = Literal["all", "equations", "model", "ready"]
 PRINCIPLE = "the principle from which the equations are derived"
 
 
@@ -19,6 +21,12 @@ class DerivationRequest(SceneWithChanges):
     formulation: Formulation = Field("dalembert-lagrange", description=PRINCIPLE)
     canonical: bool = Field(
         default=False, description="whether a last chapter has Hamilton's function and canonical equations"
+    )
+    chapters: ChaptersAsked = Field(
+        "all",
+        description="`equations`: those up to the equations of motion; `model`: the last, as soon as it is there;"
+        " `ready`: all, if they take no more than a moment, else the equations while the rest is computed, to be asked"
+        " for as `model`",
     )
     lang: AskedLanguage = None
 
@@ -101,11 +109,24 @@ class Chapter(Answer):
     steps: tuple[Step, ...]
 
 
+class LeftOut(Answer):
+    """A part of the last chapter that is missing."""
+
+    part: OptionalPart = Field(description="`model` is all of it")
+    reason: Missing = Field(
+        description="`later`: ask for it; `budget`: its operations are spent; `time`: so is its time; `failed`: our bug"
+    )
+    text: str = Field(description="that it is missing, and what to do about it")
+
+
 class DerivationAnswer(Answer):
     """The derivation, and its results as plain expressions and as LaTeX."""
 
     id: str = Field(description="content hash; GET /derivations/{id} answers the same", examples=["9f3c…"])
     scene: str = Field(description="id of the scene", examples=["pendulum"])
     formulation: Formulation = Field(description=PRINCIPLE)
-    chapters: tuple[Chapter, ...]
+    chapters: tuple[Chapter, ...] = Field(description="those that were asked for")
     result: DerivationResult
+    left_out: tuple[LeftOut, ...] = Field(
+        (), description="what is missing in the last chapter, and in the results that come from it"
+    )

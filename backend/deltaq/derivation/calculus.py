@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeVar
 
 import sympy as sp
 
 from ..language import canonical
+from ..language.display import size
 from ..language.form_calculus import PlainForm, plain_form
 from ..language.fourier import TooLargeError
 from ..language.memory import cached_method
@@ -18,15 +19,22 @@ from ..language.sympy_algebra import rates_of, time_derivative, to_sympy
 from ..language.textbook import given_sums
 from ..language.tree import Node
 from ..mechanics.contributions import DissipationFunction, PotentialEnergy
+from .effort import Effort
 from .formula import Given, Value
 from .scene_symbols import SceneSymbols
 
+LONG = 50  # parts of an expression from which on its length counts twice
 V = TypeVar("V", sp.Expr, sp.ImmutableMatrix)
 
 
 @dataclass(frozen=True, eq=False)
 class Calculus(SceneSymbols):
-    """Derivatives with respect to time follow by the chain rule, as do variations; guides are put in."""
+    """Derivatives with respect to time follow by the chain rule, as do variations; guides are put in.
+
+    What is brought into a form is counted by `effort`.
+    """
+
+    effort: Effort = field(init=False, default_factory=Effort)
 
     def expression(self, node: Node) -> sp.Expr:
         """The SymPy expression of a scalar tree."""
@@ -73,6 +81,7 @@ class Calculus(SceneSymbols):
 
     def slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
         """∂value/∂by"""
+        self._count(value)
         form = self._form(value)
         return value.diff(by) if form is None else form.derivative(by).expression
 
@@ -86,6 +95,7 @@ class Calculus(SceneSymbols):
 
     @cached_method
     def _shown(self, value: sp.Expr) -> sp.Expr:
+        self._count(value)
         shown: sp.Expr = canonical.display(value, self.symbols, self.given_sums)
         return shown
 
@@ -131,7 +141,13 @@ class Calculus(SceneSymbols):
 
     def is_zero(self, value: sp.Expr) -> bool:
         """Whether the value vanishes identically; what cannot be decided is taken as not zero."""
+        self._count(value)
         return canonical.is_zero(value, self.symbols) is True
+
+    def _count(self, value: sp.Expr) -> None:
+        """Longer expressions take more for each of their parts."""
+        length = size(value)
+        self.effort.spend(length + length * length // LONG)
 
     def dot(self, left: sp.ImmutableMatrix, right: sp.ImmutableMatrix) -> sp.Expr:
         """a · b"""

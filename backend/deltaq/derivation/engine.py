@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping
 from difflib import get_close_matches
+from types import MappingProxyType
 
 from ..errors import Problem, UnknownNameError
 from ..mechanics.scene import Scene
@@ -11,11 +12,13 @@ from ..packages import modules_of
 from . import model_chapter
 from .grounds import Grounds
 from .normal_algebra import NormalAlgebra
-from .step import Chapter, Derivation
+from .step import Chapter, Derivation, Step
 from .system import System
-from .verification import SAMPLED, verified
+from .verification import SAMPLED, random_points, verified_step
 
+Steps = Mapping[str, Callable[[System], Iterator[Step]]]  # the chapters in their order
 FORMULATIONS = "deltaq.derivation.formulations"
+ON_REQUEST: Steps = MappingProxyType({"canonical": model_chapter.canonical})  # only on request
 USUAL = "dalembert-lagrange"  # if none is asked for
 
 
@@ -29,13 +32,31 @@ def derive(scene: Scene, formulation: str = USUAL, *, canonical: bool = False) -
 
     `canonical` adds the chapter of Hamilton's canonical equations.
     """
-    check_formulation(formulation)
-    wanted = next(module for module in modules_of(FORMULATIONS) if formulation == module.FORMULATION)
     system = System(scene)
-    told = wanted.derive(system)
-    if canonical:
-        told = replace(told, chapters=(*told.chapters, Chapter("canonical", tuple(model_chapter.canonical(system)))))
-    return system, _grounds(system).of(verified(told, system))
+    return system, Derivation(formulation, tuple(chapters(system, formulation, canonical=canonical)))
+
+
+def chapters(system: System, formulation: str = USUAL, *, canonical: bool = False) -> Iterator[Chapter]:
+    """The chapters one after the other, each when it is asked for: first those up to the equations of motion.
+
+    Raises UnknownNameError if there is no such formulation.
+    """
+    by_name = _chapters(formulation)
+    points, grounds = tuple(random_points(system)), _grounds(system)
+    for name, steps in {**by_name, **(ON_REQUEST if canonical else {})}.items():
+        told = tuple(verified_step(step, points) for step in steps(system))
+        yield grounds.of_chapter(Chapter(name, told))
+
+
+def chapters_of_equations(formulation: str) -> int:
+    """How many chapters lead to the equations of motion: all but the last. Raises UnknownNameError."""
+    return len(_chapters(formulation)) - 1
+
+
+def _chapters(formulation: str) -> Steps:
+    check_formulation(formulation)
+    found: Steps = next(module for module in modules_of(FORMULATIONS) if formulation == module.FORMULATION).CHAPTERS
+    return found
 
 
 def _grounds(system: System) -> Grounds:

@@ -31,10 +31,11 @@ class Grounds:
 
     def of(self, derivation: Derivation) -> Derivation:
         """The derivation, each step with its grounds."""
-        chapters = (
-            Chapter(chapter.id, tuple(self._of_step(step) for step in chapter.steps)) for chapter in derivation.chapters
-        )
-        return replace(derivation, chapters=tuple(chapters))
+        return replace(derivation, chapters=tuple(map(self.of_chapter, derivation.chapters)))
+
+    def of_chapter(self, chapter: Chapter) -> Chapter:
+        """The chapter after those before it, each step with its grounds."""
+        return Chapter(chapter.id, tuple(map(self._of_step, chapter.steps)))
 
     def _of_step(self, step: Step) -> Step:
         """Its substeps come first: it is their sum."""

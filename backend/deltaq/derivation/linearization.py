@@ -102,8 +102,13 @@ def stiffness_at_rest(system: System) -> sp.ImmutableMatrix:
 @cached_method
 def linearizations(system: System) -> tuple[Linearization, ...]:
     """One for each equilibrium, stable ones first."""
-    found = [_about(system, each) for each in equilibria(system) or ()]
+    tried = [_afforded(system, each) for each in equilibria(system) or ()]
+    found = [each for each in tried if each is not None]
     return tuple(sorted(found, key=lambda each: ORDER.index(each.stability)))
+
+
+def _afforded(system: System, equilibrium: Equilibrium) -> Linearization | None:
+    return system.effort.afford("small-motions", lambda: _about(system, equilibrium), None)
 
 
 def _about(system: System, equilibrium: Equilibrium) -> Linearization:

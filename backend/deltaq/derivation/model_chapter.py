@@ -1,17 +1,20 @@
-"""The last chapter of every formulation: what the equations of motion tell before they are integrated."""
+"""The last chapter of every formulation: what the equations of motion tell before they are integrated.
+
+Each part has its share of operations (`effort`); where that is used up, a step says what is left out.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from .conditions import conditions
-from .conservation import cyclic, jacobi_energy_rate, reduction
+from .conservation import cyclic, jacobi_energy_rate
 from .conservation import jacobi_energy as energy_of
-from .equilibria import search
 from .formula import Named, Quantity
 from .hamiltonian import hamiltonian as hamiltonian_of
-from .linearization import Linearization, linearizations
+from .linearization import Linearization
 from .matrix_form import is_autonomous
+from .optional import motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
 from .rules import (
     canonical_equations,
     cyclic_coordinate,
@@ -23,6 +26,7 @@ from .rules import (
     friction_band,
     hamiltonian,
     jacobi_energy,
+    left_out,
     linearization,
     matrix_form,
     noether,
@@ -31,9 +35,7 @@ from .rules import (
     routh_function,
     stability_condition,
 )
-from .steady import steady_motions
 from .step import Step
-from .symmetry import symmetries
 from .system import System
 
 MOST_SHOWN = 4
@@ -46,10 +48,11 @@ def model(system: System) -> Iterator[Step]:
         yield equilibrium_condition.apply(system)
         yield from _equilibria(system)
     yield from _conserved(system)
+    yield from (left_out.apply(part) for part in system.effort.left_out)
 
 
 def _equilibria(system: System) -> Iterator[Step]:
-    known, found = search(system), linearizations(system)
+    known, found = search_of(system), motions_of(system)
     for number, linear in enumerate(found[:MOST_SHOWN], 1):
         yield equilibrium.apply(system, linear, number)
         yield from _conditions(system, linear, number)
@@ -77,18 +80,21 @@ def _conserved(system: System) -> Iterator[Step]:
     for coordinate in cyclic(system):
         yield cyclic_coordinate.apply(system, coordinate)
     yield jacobi_energy.apply(system)
-    for number, symmetry in enumerate(symmetries(system), 1):
+    for number, symmetry in enumerate(symmetries_of(system), 1):
         yield noether.apply(system, symmetry, number)
-    reduced = reduction(system)
+    reduced = reduction_of(system)
     if reduced is not None:
         yield routh_function.apply(system, reduced)
-    for number, motion in enumerate(steady_motions(system), 1):
+    for number, motion in enumerate(steady_motions_of(system), 1):
         yield relative_equilibrium.apply(system, motion, number)
 
 
 def canonical(system: System) -> Iterator[Step]:
     """Hamilton's function, the canonical equations, and the brackets of the integrals of motion with it."""
-    found = hamiltonian_of(system)
+    found = system.effort.afford("canonical", lambda: hamiltonian_of(system), None)
+    if "canonical" in system.effort.left_out:
+        yield left_out.apply("canonical")
+        return
     yield hamiltonian.apply(system, found)
     if found is None:
         return
@@ -104,6 +110,6 @@ def _integrals(system: System) -> Iterator[Named]:
         yield Named(Quantity("momentum", q), system.momentum(q))
     if system.is_zero(jacobi_energy_rate(system)):
         yield Named(Quantity("jacobi-energy"), energy_of(system))
-    for number, symmetry in enumerate(symmetries(system), 1):
+    for number, symmetry in enumerate(symmetries_of(system), 1):
         if not symmetry.conditions:
             yield Named(Quantity("integral-of-motion", str(number)), symmetry.value)

@@ -13,16 +13,16 @@ from ..mechanics.scene import Scene
 from ..vocabulary import CurlOutcome
 from . import provenance
 from .conditions import Conditions, conditions
-from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
+from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate
 from .displacement import meaning
-from .equilibria import Search, search
+from .equilibria import Search
 from .formula import Explicit, Term
 from .generator import Generator, Symmetry, solved
-from .linearization import Linearization, linearizations
+from .linearization import Linearization
 from .matrix_form import forcing, left_side, mass_matrix
+from .optional import motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
 from .rules.curl_test import outcome
-from .steady import SteadyMotion, steady_motions
-from .symmetry import symmetries
+from .steady import SteadyMotion
 from .system import System
 from .terms import terms_of
 
@@ -90,19 +90,38 @@ class Result:
     equations: Mapping[str, sp.Expr]
     mass_matrix: sp.ImmutableMatrix
     forcing: sp.ImmutableMatrix
-    conserved: tuple[Conserved, ...]
-    equilibria: tuple[Told, ...]
-    search: Search | None
     jacobi_energy: sp.Expr
     is_energy: bool
-    routh: Reduction | None
-    steady: tuple[SteadyMotion, ...]
     terms: Terms
     loads: tuple[LoadPotential, ...]
+    conserved: tuple[Conserved, ...] = ()
+    equilibria: tuple[Told, ...] = ()
+    search: Search | None = None
+    routh: Reduction | None = None
+    steady: tuple[SteadyMotion, ...] = ()
 
 
 def result_of(system: System) -> Result:
     """What a derivation leads to, computed once for the system; SceneError where an integral has no closed form."""
+    return completed(system, equations_of(system))
+
+
+def completed(system: System, result: Result) -> Result:
+    """The result with what the last chapter finds."""
+    integrals = {f"noether:{n}": _integral_terms(system, each) for n, each in enumerate(symmetries_of(system), 1)}
+    return replace(
+        result,
+        conserved=tuple(_conserved(system)),
+        equilibria=tuple(Told(linear, conditions(system, linear)) for linear in motions_of(system)),
+        search=search_of(system),
+        routh=reduction_of(system),
+        steady=steady_motions_of(system),
+        terms={**result.terms, "integrals": integrals},
+    )
+
+
+def equations_of(system: System) -> Result:
+    """What the chapters up to the equations of motion lead to."""
     bodies = [body.name for body in system.scene.bodies]
     return Result(
         scene=system.scene,
@@ -119,13 +138,8 @@ def result_of(system: System) -> Result:
         equations={q: left_side(system, q) for q in system.free},
         mass_matrix=mass_matrix(system),
         forcing=forcing(system),
-        conserved=tuple(_conserved(system)),
-        equilibria=tuple(Told(linear, conditions(system, linear)) for linear in linearizations(system)),
-        search=search(system),
         jacobi_energy=jacobi_energy(system),
         is_energy=is_energy(system),
-        routh=reduction(system),
-        steady=steady_motions(system),
         terms=_terms(system),
         loads=tuple(_potential_of(system, load) for load in system.load_names),
     )
@@ -149,7 +163,6 @@ def _terms(system: System) -> Terms:
         **{key: {"": terms_of(system, shares(system))} for key, shares in whole.items()},
         **{key: {q: terms_of(system, of(system, q)) for q in system.free} for key, of in by_coordinate.items()},
         "equations": {q: _equation_terms(system, q) for q in system.free},
-        "integrals": {f"noether:{n}": _integral_terms(system, each) for n, each in enumerate(symmetries(system), 1)},
         "forcing": {q: _forcing_terms(system, q) for q in system.free},
         "mass_matrix": {f"{q} {other}": _mass_terms(system, q, other) for q in system.free for other in system.free},
     }
@@ -201,7 +214,7 @@ def _conserved(system: System) -> list[Conserved]:
     if system.is_zero(jacobi_energy_rate(system)):
         generator = Generator({}, sp.Integer(1))
         found.append(Conserved("energy", "", jacobi_energy(system), generator, "time", "jacobi-energy"))
-    for number, each in enumerate(symmetries(system), 1):
+    for number, each in enumerate(symmetries_of(system), 1):
         word = meaning(system, each.generator).word
         found.append(Conserved("symmetry", "", each.value, each.generator, word, f"noether:{number}", each.conditions))
     return found

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Generator, Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import islice
 
 from ..contract.derivation import DerivationRequest
 from ..contract.reading import read
-from ..derivation.engine import derive
-from ..derivation.result import result_of
+from ..derivation.engine import chapters, chapters_of_equations
+from ..derivation.result import Result, equations_of, result_of
 from ..derivation.result_history import result_origins
-from ..derivation.step import Derivation
+from ..derivation.step import Chapter, Derivation
 from ..derivation.system import System
 from ..language.latex_printer import Typography
 from ..mechanics.requests import changed_scene, inside
@@ -19,8 +21,9 @@ from .letters import letters_of
 from .marks import by_coordinate, in_class
 from .narrator import Narrator
 from .notation import Notation
+from .outcome import missing
 from .result_answer import written
-from .speech import Speech
+from .roots import Roots
 from .symbols import QuantitySymbols
 
 Document = dict[str, object]
@@ -31,23 +34,73 @@ def derive_request(document: Mapping[str, object]) -> Document:
 
     `document`: the fields of a DerivationRequest.
     """
-    asked = read(DerivationRequest, document)
-    scene = changed_scene(asked)
+    told = _read(document)
     with inside("/scene"):
-        system, derivation = derive(scene, asked.formulation, canonical=asked.canonical)
-    narrator = narrator_of(system, language_of(asked.lang))
-    return {
-        "scene": scene.id,
-        "formulation": asked.formulation,
-        "chapters": narrator.chapters(derivation),
-        "result": _result(system, derivation, narrator.speech),
-    }
+        told.tell_equations()
+        return told.whole()
 
 
-def _result(system: System, derivation: Derivation, speech: Speech) -> Document:
-    result, scene = result_of(system), system.scene
-    writer = ExpressionWriter(Typography(scene.names, decimals=scene.writes_decimals), speech)
-    return written(result, result_origins(derivation, system, result.terms), writer)
+def derive_parts(document: Mapping[str, object]) -> Generator[Document, None, Document]:
+    """Yields the equations of motion with the chapters that lead to them; returns what `derive_request` does."""
+    told = _read(document)
+    with inside("/scene"):
+        told.tell_equations()
+        yield told.equations()
+        return told.whole()
+
+
+def _read(document: Mapping[str, object]) -> _Told:
+    asked = read(DerivationRequest, document)
+    system = System(changed_scene(asked))
+    steps = chapters(system, asked.formulation, canonical=asked.canonical)
+    return _Told(system, asked.formulation, language_of(asked.lang), steps)
+
+
+@dataclass
+class _Told:
+    """A derivation that is told in two parts: first what leads to the equations, then the last chapter."""
+
+    system: System
+    formulation: str
+    language: str
+    steps: Iterator[Chapter]
+    derived: tuple[Chapter, ...] = ()
+    chapters: list[Document] = field(default_factory=list)
+    roots: Roots = field(default_factory=Roots)
+
+    def __post_init__(self) -> None:
+        self.narrator = narrator_of(self.system, self.language)
+
+    def tell_equations(self) -> None:
+        """Tells the chapters that lead to the equations of motion."""
+        self._tell(tuple(islice(self.steps, chapters_of_equations(self.formulation))))
+
+    def equations(self) -> Document:
+        """These chapters and their results; those of the last one are empty."""
+        return self._document(equations_of(self.system), [missing("model", "later", self.language)])
+
+    def whole(self) -> Document:
+        """The last chapter behind what has been told, and all results."""
+        self._tell(tuple(self.steps))
+        found = result_of(self.system)
+        return self._document(found, [missing(part, "budget", self.language) for part in self.system.effort.left_out])
+
+    def _tell(self, chapters: tuple[Chapter, ...]) -> None:
+        told, self.roots = self.narrator.told(chapters, self.roots)
+        self.derived += chapters
+        self.chapters += told
+
+    def _document(self, found: Result, left_out: list[Document]) -> Document:
+        scene = self.system.scene
+        typography = Typography(scene.names, decimals=scene.writes_decimals)
+        origins = result_origins(Derivation(self.formulation, self.derived), self.system, found.terms)
+        return {
+            "scene": scene.id,
+            "formulation": self.formulation,
+            "chapters": list(self.chapters),
+            "result": written(found, origins, ExpressionWriter(typography, self.narrator.speech)),
+            "left_out": left_out,
+        }
 
 
 def notation_of(system: System, language: str) -> Notation:

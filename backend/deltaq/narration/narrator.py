@@ -44,8 +44,13 @@ class Narrator:
 
     def chapters(self, derivation: Derivation) -> list[Document]:
         """The derivation in reading order; chapters without steps are left out."""
-        teller = replace(self, roots=named_roots(derivation, self.notation))
-        return [teller.chapter(chapter) for chapter in derivation.chapters if chapter.steps]
+        return self.told(derivation.chapters)[0]
+
+    def told(self, chapters: tuple[Chapter, ...], before: Roots | None = None) -> tuple[list[Document], Roots]:
+        """Chapters as they come, those without steps left out; and the letters of roots, `before` included."""
+        roots = named_roots(chapters, self.notation, before.letters if before else {})
+        teller = replace(self, roots=roots)
+        return [teller.chapter(chapter) for chapter in chapters if chapter.steps], roots
 
     def chapter(self, chapter: Chapter) -> Document:
         """A JSON object with `id`, `title` and `steps`."""

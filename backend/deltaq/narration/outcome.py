@@ -1,9 +1,10 @@
-"""How a simulation ended, in sentences."""
+"""How a computation ended, in sentences."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from ..vocabulary import Missing, OptionalPart
 from .catalog import text
 from .prose import plain
 
@@ -20,3 +21,9 @@ def explained(answer: Document, language: str) -> Document:
     choice = answer["choice"]
     why = choice and plain(text(language, f"statuses.{choice['code']}.reason", **choice["parameters"]))
     return {**told, "choice": why, "event": event}
+
+
+def missing(part: OptionalPart, reason: Missing, language: str) -> Document:
+    """A part of a derivation that is not there, why, and what to do about it."""
+    key = f"rules.left-out.{reason}" if part == "model" else f"rules.steps.left-out.{part}"
+    return {"part": part, "reason": reason, "text": plain(text(language, key))}

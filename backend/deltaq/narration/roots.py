@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import sympy as sp
 
 from ..derivation.formula import Explicit, Formula, Given, Substituted, Value
 from ..derivation.premises import parts
-from ..derivation.step import Derivation, Step
+from ..derivation.step import Chapter, Step
 from ..language.names import Names
 from ..language.operations import operations
 from ..language.spelling import latex_of
@@ -44,12 +45,16 @@ def with_roots(notation: Notation, letters: Mapping[sp.Expr, str]) -> Notation:
     return replace(notation, typography=replace(notation.typography, roots=letters)) if letters else notation
 
 
-def named_roots(derivation: Derivation, notation: Notation) -> Roots:
-    """Letters for the roots that recur in a step."""
-    steps = {step.id: found for step in derivation.steps() if (found := _times_written(step, notation))}
+def named_roots(
+    chapters: tuple[Chapter, ...], notation: Notation, known: Mapping[sp.Expr, str] = MappingProxyType({})
+) -> Roots:
+    """Letters for the roots that recur in a step; those that are known from chapters before keep theirs."""
+    walked = (one for chapter in chapters for step in chapter.steps for one in step.walk())
+    steps = {step.id: found for step in walked if (found := _times_written(step, notation))}
     recurring = dict.fromkeys(base for found in steps.values() for base in found if _recurs(found, base))
-    names = _letters(len(recurring), notation.typography.names, notation)
-    letters = dict(zip(recurring, names, strict=False))
+    new = [base for base in recurring if base not in known]
+    names = _letters(len(new), notation.typography.names, notation, frozenset(known.values()))
+    letters = {**known, **dict(zip(new, names, strict=False))}
     return Roots(letters, {name: tuple(_used(found, letters)) for name, found in steps.items()})
 
 
@@ -96,10 +101,11 @@ def _values(formulas: Iterable[Formula]) -> Iterator[Value]:
         yield from _values(parts(formula))
 
 
-def _letters(count: int, names: Names, notation: Notation) -> tuple[str, ...]:
+def _letters(count: int, names: Names, notation: Notation, known: frozenset[str]) -> tuple[str, ...]:
     """A free letter, with numbers if several roots have one; none if all are taken."""
     taken = {symbol.typeset for symbol in names.symbols} | {notation.value(notation.h)}
-    for letter in LETTERS:
+    heads = {name.partition("_")[0] for name in known}
+    for letter in (letter for letter in LETTERS if letter not in heads):
         own = (letter,) if count == 1 else tuple(f"{letter}_{number}" for number in range(1, count + 1))
         if not taken & {latex_of(name) for name in (letter, *own)}:
             return own

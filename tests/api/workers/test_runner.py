@@ -52,7 +52,7 @@ def test_failure(job: str, kind: str, summary: str, problems: int) -> None:
 
 def test_failure_after_the_first_parts() -> None:
     *parts, last = replies("count", {"parts": 4, "fails_at": 2})
-    assert parts == [b'*{"number":0}']
+    assert parts == [b'*{"number":0}', b'*{"number":1}']
     assert json.loads(last[1:])["summary"] == "ValueError: no further"
 
 

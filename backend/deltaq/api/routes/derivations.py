@@ -6,6 +6,7 @@ The longest of the built-in ones, twelve links, takes 7 s of a processor; nearly
 from __future__ import annotations
 
 import re
+from functools import partial
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Request, Response
@@ -13,6 +14,7 @@ from fastapi import APIRouter, Path, Request, Response
 from ...contract.derivation import DerivationAnswer, DerivationRequest
 from ...errors import Problem, UnknownNameError
 from ..body import StrictRoute
+from ..chapters import Chapters
 from ..costs import expected
 from ..responses import packed
 from ..samples import BY_ID
@@ -30,11 +32,14 @@ FAST = 6  # degrees of freedom
 async def derive(request: Request, body: DerivationRequest) -> Response:
     """Derive the equations of motion of a scene, step by step."""
     service = service_of(request)
-    question = question_of(request, body)
-    identifier = derivation_id(question)
+    identifier, question = named(question_of(request, body))
     job = expected(DERIVE.within(service.settings.derivation_deadline), body, FAST)
-    answer = await service.answer(_key(identifier), job, {"id": identifier, "request": question})
-    return packed(request, identifier, answer, f"{PREFIX}/derivations/{identifier}")
+    document = {"id": identifier, "request": question}
+    compute = partial(service.parts, _key(identifier), job, document)
+    found = await Chapters(identifier, question["lang"], service.cache, compute).answer(body.chapters)
+    if found.name == "all":
+        return packed(request, identifier, found.answer, f"{PREFIX}/derivations/{identifier}")
+    return packed(request, f"{identifier}-{found.name}", found.answer)
 
 
 @router.get("/{identifier}", response_model=DerivationAnswer, responses=failures(404), openapi_extra=BY_ID)
@@ -48,8 +53,14 @@ async def get_derivation(
     return packed(request, identifier, answer, f"{PREFIX}/derivations/{identifier}")
 
 
+def named(question: dict[str, Any]) -> tuple[str, dict[str, Any]]:
+    """The id of the derivation that a request asks for, and the request without which chapters are asked for."""
+    whole = {key: value for key, value in question.items() if key != "chapters"}
+    return derivation_id(whole), whole
+
+
 def derivation_id(question: dict[str, Any]) -> str:
-    """The id of the derivation that a request asks for, in whatever way it is asked: the hash of request and code."""
+    """The id of a derivation, in whatever way it is asked for: the hash of request and code."""
     return Service.key(DERIVE.target, question)
 
 

@@ -19,7 +19,7 @@ class Job:
     Its process is killed `deadline` seconds after the job began, or when it has used `processor` seconds of processor
     time. The second bound is for short jobs: on a busy machine a process may wait longer than they take, which is not
     their fault. A `pure` job has no effect but its answer, so it may be run again when its worker was killed from
-    outside. A function that returns an iterator gives parts, the last of which is the answer. `threads` is how many of
+    outside. A generator yields parts and returns the answer. `threads` is how many of
     them the job may keep busy.
 
     A job that usually takes more than a MOMENT is `slow`; one worker is never given such a job. A `fast` job that has

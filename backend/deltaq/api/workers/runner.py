@@ -6,7 +6,7 @@ import gc
 import json
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from importlib import import_module
 from multiprocessing.connection import Connection
 from typing import Any
@@ -51,7 +51,7 @@ def replies_to(request: bytes) -> Iterator[bytes]:
         target, seconds, document = json.loads(request)
         bound_processor_time(seconds)
         found = function_of(target)(document)
-        yield from _streamed(found) if isinstance(found, Iterator) else (encode_answer(found),)
+        yield encode_answer((yield from _parts(found)) if isinstance(found, Generator) else found)
     except InputError as error:
         problems = tuple(problem_data(problem) for problem in error.problems[: MOST_PROBLEMS + 1])
         yield encode_error(Failure(type(error).__name__, problems=problems))
@@ -59,13 +59,14 @@ def replies_to(request: bytes) -> Iterator[bytes]:
         yield encode_error(failure_of(error))
 
 
-def _streamed(parts: Iterator[Any]) -> Iterator[bytes]:
-    """Each part when it is there; the last is the answer."""
-    before = next(parts)
-    for part in parts:
-        yield encode_answer(before, PART)
-        before = part
-    yield encode_answer(before)
+def _parts(found: Generator[Any, None, Any]) -> Generator[bytes, None, Any]:
+    """Each part as soon as it is there; returns the answer."""
+    while True:
+        try:
+            part = next(found)
+        except StopIteration as end:
+            return end.value
+        yield encode_answer(part, PART)
 
 
 def failure_of(error: BaseException) -> Failure:

@@ -6,30 +6,16 @@ Source: Lagrange, Mécanique analytique (1788); the lecture.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
 
 from .. import chapters
 from ..model_chapter import model
 from ..rules import cancellation_of_dots, exchange_of_derivatives, inertia_work, lagrange_function, product_rule
-from ..step import Chapter, Derivation, Step
+from ..step import Step
 from ..system import System
 
 FORMULATION = "dalembert-lagrange"
-
-
-def derive(system: System) -> Derivation:
-    """The chapters in the lecture's order."""
-    by_name = {
-        "configuration": chapters.configuration,
-        "variation": chapters.variation,
-        "virtual-work": chapters.virtual_work,
-        "kinetic-energy": chapters.kinetic_energy,
-        "dalembert-to-lagrange": _dalembert_to_lagrange,
-        "decomposition": chapters.forces,
-        "lagrange": _lagrange,
-        "model": model,
-    }
-    return Derivation(FORMULATION, tuple(Chapter(name, tuple(steps(system))) for name, steps in by_name.items()))
 
 
 def _dalembert_to_lagrange(system: System) -> Iterator[Step]:
@@ -44,3 +30,18 @@ def _dalembert_to_lagrange(system: System) -> Iterator[Step]:
 def _lagrange(system: System) -> Iterator[Step]:
     yield lagrange_function.apply(system)
     yield from chapters.equations(system)
+
+
+# The chapters in the lecture's order.
+CHAPTERS: Mapping[str, Callable[[System], Iterator[Step]]] = MappingProxyType(
+    {
+        "configuration": chapters.configuration,
+        "variation": chapters.variation,
+        "virtual-work": chapters.virtual_work,
+        "kinetic-energy": chapters.kinetic_energy,
+        "dalembert-to-lagrange": _dalembert_to_lagrange,
+        "decomposition": chapters.forces,
+        "lagrange": _lagrange,
+        "model": model,
+    }
+)

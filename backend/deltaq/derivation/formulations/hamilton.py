@@ -7,7 +7,8 @@ Source: Hamilton (1834, 1835); Goldstein, Poole, Safko, Classical Mechanics, 3rd
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
 
 from .. import chapters
 from ..action import action
@@ -23,25 +24,10 @@ from ..rules import (
     lagrange_function,
     variation_by_chain_rule,
 )
-from ..step import Chapter, Derivation, Step
+from ..step import Step
 from ..system import System
 
 FORMULATION = "hamilton"
-
-
-def derive(system: System) -> Derivation:
-    """The energies first; virtual work only decides which forces have a potential."""
-    by_name = {
-        "configuration": chapters.configuration,
-        "kinetic-energy": chapters.kinetic_energy,
-        "variation": chapters.variation,
-        "virtual-work": chapters.virtual_work,
-        "decomposition": chapters.forces,
-        "hamilton": _hamilton,
-        "lagrange": chapters.equations,
-        "model": model,
-    }
-    return Derivation(FORMULATION, tuple(Chapter(name, tuple(steps(system))) for name, steps in by_name.items()))
 
 
 def _hamilton(system: System) -> Iterator[Step]:
@@ -57,3 +43,18 @@ def _hamilton(system: System) -> Iterator[Step]:
     yield boundary_terms.apply(whole)
     yield collected_variation.apply(whole)
     yield fundamental_lemma.apply(whole)
+
+
+# The energies first; virtual work only decides which forces have a potential.
+CHAPTERS: Mapping[str, Callable[[System], Iterator[Step]]] = MappingProxyType(
+    {
+        "configuration": chapters.configuration,
+        "kinetic-energy": chapters.kinetic_energy,
+        "variation": chapters.variation,
+        "virtual-work": chapters.virtual_work,
+        "decomposition": chapters.forces,
+        "hamilton": _hamilton,
+        "lagrange": chapters.equations,
+        "model": model,
+    }
+)

@@ -5,10 +5,11 @@ Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.1.
 
 from __future__ import annotations
 
-from ..equilibria import equilibria, free_coordinates, search
+from ..equilibria import free_coordinates
 from ..formula import Explicit, Substituted
 from ..friction import holds_everywhere
 from ..matrix_form import forces_at_rest, forcing
+from ..optional import search_of
 from ..step import Relation, Step
 from ..system import System
 from ._shape import plain_value, shaped
@@ -27,12 +28,12 @@ def apply(system: System) -> Step:
 
 def _outcome(system: System) -> str:
     free = free_coordinates(system)
-    if not equilibria(system):
+    known = search_of(system)
+    if not (known and known.found):
         if holds_everywhere(system):
             return "held"
         forces = [force for force in forces_at_rest(system) if not system.is_zero(force)]
         constant = any(not force.has(*map(system.q, system.free)) for force in forces)
-        known = search(system)
         return "none" if constant or (known and known.complete and not known.ranges) else "not-found"
     if len(free) == len(system.free):
         return "everywhere"

@@ -1,0 +1,41 @@
+"""The parts of the last chapter that a derivation is complete without, each within its share of operations.
+
+A part whose share is used up is as if there were nothing to be found; `system.effort.left_out` tells so.
+"""
+
+from __future__ import annotations
+
+from .conservation import Reduction, reduction
+from .equilibria import Search, search
+from .generator import Symmetry
+from .linearization import Linearization, linearizations
+from .steady import SteadyMotion, steady_motions
+from .symmetry import is_searched, symmetries
+from .system import System
+
+
+def search_of(system: System) -> Search | None:
+    """The search for equilibria."""
+    return system.effort.afford("equilibria", lambda: search(system), None)
+
+
+def motions_of(system: System) -> tuple[Linearization, ...]:
+    """The small motions about the equilibria."""
+    return linearizations(system) if search_of(system) else ()
+
+
+def symmetries_of(system: System) -> tuple[Symmetry, ...]:
+    """The symmetries besides those of cyclic coordinates and of time."""
+    if not is_searched(system):
+        system.effort.left_out["integrals"] = None
+    return system.effort.afford("integrals", lambda: symmetries(system), ())
+
+
+def reduction_of(system: System) -> Reduction | None:
+    """Routh's function."""
+    return system.effort.afford("relative-equilibria", lambda: reduction(system), None)
+
+
+def steady_motions_of(system: System) -> tuple[SteadyMotion, ...]:
+    """The relative equilibria."""
+    return system.effort.afford("relative-equilibria", lambda: steady_motions(system), ())
