@@ -11,6 +11,7 @@ from typing import TypeVar
 import sympy as sp
 
 from ..language import canonical
+from ..language.derivatives import diff
 from ..language.display import size
 from ..language.form_calculus import PlainForm, plain_form
 from ..language.fourier import TooLargeError
@@ -83,7 +84,7 @@ class Calculus(SceneSymbols):
         """∂value/∂by"""
         self._count(value)
         form = self._form(value)
-        return value.diff(by) if form is None else form.derivative(by).expression
+        return diff(value, by) if form is None else form.derivative(by).expression
 
     @cached_method
     def _form(self, value: sp.Expr) -> PlainForm | None:
@@ -109,7 +110,7 @@ class Calculus(SceneSymbols):
         with suppress(TooLargeError):
             if form is not None:
                 return form.derivative(by).displayed(self.symbols, self.given_sums)
-        return self.display(value.diff(by))
+        return self.display(diff(value, by))
 
     def shown_rate(self, value: sp.Expr) -> sp.Expr:
         """d(value)/dt along the motion, in its display form."""
@@ -128,7 +129,7 @@ class Calculus(SceneSymbols):
             if form is not None:
                 change = form.derivative(rate).total_derivative(rates_of(self.symbols))
                 return change.minus(form.derivative(q)).expression
-        return self.time_derivative(energy.diff(rate)) - energy.diff(q)
+        return self.time_derivative(diff(energy, rate)) - diff(energy, q)
 
     def vary(self, value: sp.Expr) -> sp.Expr:
         """δvalue by the chain rule, the time held fixed."""

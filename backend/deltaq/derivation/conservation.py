@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..language.derivatives import diff
 from ..language.memory import cached_method
 from .system import System
 
@@ -87,7 +88,7 @@ def solved_rates(system: System, momenta: dict[str, sp.Symbol]) -> dict[str, sp.
     """The cyclic rates from pᵢ = ∂L/∂q̇ᵢ, which is linear in them."""
     rates = [system.rate(q) for q in momenta]
     laws = [system.momentum(q) for q in momenta]
-    matrix = sp.Matrix([[law.diff(rate) for rate in rates] for law in laws])
+    matrix = sp.Matrix([[diff(law, rate) for rate in rates] for law in laws])
     determinant = system.display(matrix.det(method="berkowitz"))
     if determinant == 0:
         return None

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..language.derivatives import diff
 from ..mechanics.kinetics import Rotation
 from .compiled import compiled
 from .elimination import Row, kernel
@@ -71,7 +72,7 @@ def _moves(samples: list[tuple[Row, Row]]) -> bool:
 def _samples(system: System, body: str, shifts: dict[str, sp.Expr]) -> Iterator[tuple[Row, Row]]:
     """r and δr at random points, the parameters the same at all."""
     position = list(system.position(body))
-    change = [sp.Add(*(x.diff(system.q(q)) * shift for q, shift in shifts.items())) for x in position]
+    change = [sp.Add(*(diff(x, system.q(q)) * shift for q, shift in shifts.items())) for x in position]
     values = _numbers(system, [*position, *change])
     for row in values:
         yield row[: len(position)], row[len(position) :]

@@ -11,6 +11,7 @@ from itertools import combinations
 import sympy as sp
 from flint import acb_mat, arb
 
+from ..language.derivatives import diff
 from ..language.memory import cached_method
 from .spectrum import ZERO
 from .system import System
@@ -21,7 +22,7 @@ def dissipation_function(system: System, load: str) -> sp.Expr | None:
     """R of a load, if its forces are linear in the rates with a symmetric matrix."""
     rates = [system.rate(q) for q in system.free]
     forces = [system.load_force(load, q) for q in system.free]
-    slopes = [[-force.diff(rate) for rate in rates] for force in forces]
+    slopes = [[-diff(force, rate) for rate in rates] for force in forces]
     if any(slope.has(*rates) for row in slopes for slope in row):
         return None
     at_rest = dict.fromkeys(rates, system.zero)

@@ -18,6 +18,7 @@ from typing import Any
 import sympy as sp
 from flint import arb, arb_mat, ctx
 
+from ..language.derivatives import diff
 from .program import BY_CLASS, CONSTANTS
 from .tree_evaluation import power
 
@@ -194,7 +195,7 @@ class _Search:
     def __init__(self, equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], box: Box, budget: Budget) -> None:
         self.size = len(unknowns)
         self.field = tape(equations, unknowns, clipped=True)
-        self.slopes = tape([e.diff(q) for e in equations for q in unknowns], unknowns)
+        self.slopes = tape([diff(e, q) for e in equations for q in unknowns], unknowns)
         self.start, self.budget = box, budget
         self.widths = [high - low for low, high in box]
         self.one = arb_mat(self.size, self.size, [int(i == k) for i in range(self.size) for k in range(self.size)])

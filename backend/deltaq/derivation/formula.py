@@ -13,11 +13,13 @@ from typing import TypeAlias
 
 import sympy as sp
 
+from ..language.memory import hashed_once
 from ..language.tree import Node
 
 Value: TypeAlias = sp.Expr | sp.ImmutableMatrix
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Quantity:
     """What a symbol stands for: its kind (position, kinetic-energy …) and whose it is ("" for the system's).
@@ -30,6 +32,7 @@ class Quantity:
     part: str = ""
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Given:
     """Expressions as the scene states them; a vector has several trees."""
@@ -42,6 +45,7 @@ class Given:
 Owners: TypeAlias = tuple[tuple[sp.Expr, tuple[tuple[sp.Expr, tuple[str, ...]], ...]], ...]
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Explicit:
     """A value written out; `owners` tell summands in its brackets apart: m₁ and m₂ in (m₁ + m₂) l² φ̈."""
@@ -50,6 +54,7 @@ class Explicit:
     owners: Owners = ()
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Named:
     """A quantity under its symbol, with the value that an earlier step gave it."""
@@ -59,6 +64,7 @@ class Named:
     arguments: tuple[sp.Symbol, ...] = ()
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Partial:
     """∂(of)/∂(by)"""
@@ -67,6 +73,7 @@ class Partial:
     by: sp.Symbol
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Rate:
     """d(of)/dt along the motion"""
@@ -74,6 +81,7 @@ class Rate:
     of: Formula
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Gateaux:
     """The first variation by its definition: ∂/∂h of(q + h δq) at h = 0, the time frozen."""
@@ -81,6 +89,7 @@ class Gateaux:
     of: Formula
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Shifted:
     """∂/∂h of the written-out value at q + h δq, at h = 0: the line between the definition and its result."""
@@ -89,6 +98,7 @@ class Shifted:
     h: sp.Symbol
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Times:
     """A product, written side by side."""
@@ -96,6 +106,7 @@ class Times:
     factors: tuple[Formula, ...]
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Dot:
     """The scalar product of two vectors."""
@@ -104,6 +115,7 @@ class Dot:
     right: Formula
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Term:
     """A summand and where it comes from: names of bodies and loads, as `body:bob`, `load:weight`."""
@@ -121,6 +133,7 @@ class Term:
         return self.formula.value
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Plus:
     """A sum of terms that remember their sources."""
@@ -128,6 +141,7 @@ class Plus:
     terms: tuple[Term, ...]
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Substituted:
     """`of` with symbols replaced by values: a guide put into a position."""
@@ -136,6 +150,7 @@ class Substituted:
     values: Mapping[sp.Symbol, sp.Expr] = field(hash=False)
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Bounds:
     """A material coordinate and the interval it runs over."""
@@ -145,6 +160,7 @@ class Bounds:
     upper: sp.Expr
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Integral:
     """∫ of over material coordinates, the last one innermost."""
@@ -153,6 +169,7 @@ class Integral:
     material: tuple[Bounds, ...]
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Equation:
     """left = right as a condition on the motion, not an identity; its value is left − right."""
@@ -161,11 +178,13 @@ class Equation:
     right: Formula
 
 
+@hashed_once
 @dataclass(frozen=True)
 class FunctionFormula:
     """Formulas about functions: directional derivatives, values at an instant, boundary terms, sums over an index."""
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Called(FunctionFormula):
     """A formula under a name: I(x), δI. `arguments` are what it is said to depend on."""
@@ -175,6 +194,7 @@ class Called(FunctionFormula):
     arguments: tuple[sp.Expr, ...] = ()
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Directional(FunctionFormula):
     """∂/∂h of(x + h v) at h = 0: the derivative in a direction, for functions the Gâteaux differential.
@@ -187,6 +207,7 @@ class Directional(FunctionFormula):
     h: sp.Symbol
 
 
+@hashed_once
 @dataclass(frozen=True)
 class LimitOfQuotient(FunctionFormula):
     """The limit of (of(x + h v) − of(x))/h as h → 0."""
@@ -196,6 +217,7 @@ class LimitOfQuotient(FunctionFormula):
     h: sp.Symbol
 
 
+@hashed_once
 @dataclass(frozen=True)
 class AtTime(FunctionFormula):
     """The value of `of` at the instant `time`."""
@@ -204,6 +226,7 @@ class AtTime(FunctionFormula):
     time: sp.Expr
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Boundary(FunctionFormula):
     """[of] from `lower` to `upper`: the value at the end less the value at the start."""
@@ -213,6 +236,7 @@ class Boundary(FunctionFormula):
     upper: sp.Expr
 
 
+@hashed_once
 @dataclass(frozen=True)
 class MassIntegral(FunctionFormula):
     """∫ of over a region of material, written with the element `element`: dm, dS, dV.
@@ -227,6 +251,7 @@ class MassIntegral(FunctionFormula):
     weight: sp.Expr
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Ratio(FunctionFormula):
     """numerator/denominator, written as a fraction; both are scalars."""
@@ -235,6 +260,7 @@ class Ratio(FunctionFormula):
     denominator: Formula
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Summed(FunctionFormula):
     """A sum over a repeated index (Einstein's convention).
@@ -246,6 +272,7 @@ class Summed(FunctionFormula):
     terms: tuple[Formula, ...]
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Each(FunctionFormula):
     """A formula with a free index: `shown` with the index, `instances` for each of its values."""
@@ -258,6 +285,7 @@ class MatrixFormula:
     """Formulas of the model: vectors and matrices, values in an equilibrium, numbers."""
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Stack(MatrixFormula):
     """Formulas one below the other: a column vector."""
@@ -265,6 +293,7 @@ class Stack(MatrixFormula):
     rows: tuple[Formula, ...]
 
 
+@hashed_once
 @dataclass(frozen=True)
 class MatrixTimes(MatrixFormula):
     """A square matrix times a vector."""
@@ -273,6 +302,7 @@ class MatrixTimes(MatrixFormula):
     vector: Formula
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Jacobian(MatrixFormula):
     """The matrix of ∂(of)ᵢ/∂(by)ₖ; `name` is how the vector of the variables is called."""
@@ -282,6 +312,7 @@ class Jacobian(MatrixFormula):
     name: Quantity
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Determinant(MatrixFormula):
     """det(of)"""
@@ -289,6 +320,7 @@ class Determinant(MatrixFormula):
     of: Formula
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Power(MatrixFormula):
     """(of) to a whole power."""
@@ -297,6 +329,7 @@ class Power(MatrixFormula):
     exponent: int
 
 
+@hashed_once
 @dataclass(frozen=True)
 class AtEquilibrium(MatrixFormula):
     """`of` in an equilibrium: the coordinates have these values, all rates are zero. Written with the index 0."""
@@ -305,6 +338,7 @@ class AtEquilibrium(MatrixFormula):
     values: Mapping[sp.Symbol, sp.Expr] = field(hash=False)
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Inserted(MatrixFormula):
     """`of` with symbols standing for these values, which are not written: numbers of parameters, a momentum for p."""
@@ -313,6 +347,7 @@ class Inserted(MatrixFormula):
     values: Mapping[sp.Symbol, sp.Expr] = field(hash=False)
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Rounded(MatrixFormula):
     """An exact value that is written with a few digits and its unit."""

@@ -34,7 +34,7 @@ class Algebra(Protocol):
         """The normal form product by product; None if there is none."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Candidate:
     """A term that may have become another.
 
@@ -92,7 +92,7 @@ class History:
         found: list[Line] = []
         for place, member in enumerate(relation.members):
             terms = tuple(
-                replace(term, id=f"{step.id}/{number}.{place}.{index}") for index, term in enumerate(summands(member))
+                one.called(f"{step.id}/{number}.{place}.{index}") for index, one in enumerate(summands(member))
             )
             if place == 0 or relation.sign in ("≠", "<", "≤"):
                 found.append(Line(self._started(terms, step.sources)))
@@ -108,7 +108,7 @@ class History:
     def _started(self, terms: tuple[Summand, ...], whole: tuple[str, ...]) -> tuple[Summand, ...]:
         """The terms of the first member: what they name comes from the steps that said what it is."""
         of_all = {one.id: one.sources for one in self._inside(terms)}
-        return tuple(_with_sources(replace(term, origins=self._named_in(term)), of_all, whole) for term in terms)
+        return tuple(_with_sources(term.coming_from(self._named_in(term)), of_all, whole) for term in terms)
 
     def _named_in(self, term: Summand) -> tuple[Origin, ...]:
         """Every known term in it that is not zero there."""
@@ -121,13 +121,13 @@ class History:
             return Line(terms)
         if len(before) == 1 and not here:
             (only,) = before
-            return Line(tuple(replace(term, origins=(Origin(only.id, only.change or "expanded"),)) for term in terms))
+            return Line(tuple(term.coming_from((Origin(only.id, only.change or "expanded"),)) for term in terms))
         carried = {one: self.algebra.products(one.carried_out) for one in (*before, *here)}
         told, used = [], set[str]()
         for term in terms:
             origins = tuple(self._matching(term, carried, own))
             used |= {origin.term for origin in origins}
-            told.append(replace(term, origins=origins))
+            told.append(term.coming_from(origins))
         lost = dict.fromkeys(one.id for one in before if carried[one] and one.id not in used)
         return Line(tuple(told), tuple(lost) if all(term.origins for term in told) else ())
 
@@ -148,7 +148,8 @@ class History:
             sharing = [*_left_over(products, {one: carried[one] or {} for one in sharing})]
         if not sharing:
             whole = [one for one in carried if one.id in own and carried[one] != {} and products != {}]
-            yield from (Origin(one.id, one.change or ("merged" if len(whole) > 1 else "expanded")) for one in whole)
+            several = len({one.id for one in whole}) > 1
+            yield from (Origin(one.id, one.change or ("merged" if several else "expanded")) for one in whole)
             return
         told: dict[str, Change] = {}
         for one in sharing:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import sympy as sp
 from flint import arb, ctx
 
+from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..vocabulary import Stability
 from .calculus import column
@@ -96,7 +97,7 @@ def _vanishes_at_rest(system: System, term: sp.Expr) -> bool:
 @cached_method
 def stiffness_at_rest(system: System) -> sp.ImmutableMatrix:
     """−∂f/∂q at q̇ = 0, as a function of q."""
-    return sp.ImmutableMatrix([[-f.diff(system.q(q)) for q in system.free] for f in forces_at_rest(system)])
+    return sp.ImmutableMatrix([[-diff(f, system.q(q)) for q in system.free] for f in forces_at_rest(system)])
 
 
 @cached_method

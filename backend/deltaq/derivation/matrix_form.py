@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..language.textbook import negated
 from .calculus import column
@@ -27,7 +28,7 @@ def mass_matrix(system: System) -> sp.ImmutableMatrix:
 
 def _slope(system: System, coordinate: str, acceleration: sp.Symbol) -> sp.Expr:
     """What stands before an acceleration, as it does in the equation."""
-    slopes = ((term, term.written_out.diff(acceleration)) for term in terms_by_source(system, coordinate))
+    slopes = ((term, diff(term.written_out, acceleration)) for term in terms_by_source(system, coordinate))
     return sp.Add(*(slope if term.sign > 0 else negated(slope) for term, slope in slopes if slope != 0))
 
 
@@ -55,4 +56,4 @@ def forces_at_rest(system: System) -> sp.ImmutableMatrix:
 def is_autonomous(system: System) -> bool:
     """Whether the equations of motion do not depend on time explicitly."""
     laws = (*mass_matrix(system), *forcing(system))
-    return all(system.is_zero(law.diff(system.t)) for law in laws if law.has(system.t))
+    return all(system.is_zero(diff(law, system.t)) for law in laws if law.has(system.t))

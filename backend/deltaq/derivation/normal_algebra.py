@@ -12,14 +12,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import reduce
+from functools import cached_property, reduce
 from itertools import pairwise
 
 import sympy as sp
 from flint import fmpq
 
 from ..language import fourier
-from ..language.form_calculus import derivative
+from ..language.derivatives import diff
+from ..language.form_calculus import derivative, directional
 from ..language.fourier import Form, TooLargeError
 from ..language.memory import cached_method
 from ..language.normal_form import Reader
@@ -74,6 +75,7 @@ class NormalAlgebra:
         differences = (self.add((a, fourier.scale(b, -1))) for a, b in zip(first, other, strict=True))
         return any(difference and self.reader.cleared(difference)[0] for difference in differences)
 
+    @cached_method
     def products(self, formula: f.Formula) -> dict[tuple[int, object], object] | None:
         """The number before each product of the normal form, by component; None where there is no normal form."""
         try:
@@ -110,7 +112,7 @@ class NormalAlgebra:
             case f.Equation(left, right):
                 return self._sum([self._carried_out(left), self._scaled(right, -1)])
             case f.Shifted(value, h):
-                return self.value(value.diff(h).xreplace({h: sp.Integer(0)}))
+                return self.value(diff(value, h).xreplace({h: sp.Integer(0)}))
             case f.Integral(of, material):
                 return self._integral(of, material)
             case f.Substituted(of, values) | f.AtEquilibrium(of, values) | f.Inserted(of, values) if not any(
@@ -177,10 +179,25 @@ class NormalAlgebra:
 
     def rate(self, form: Form) -> Form:
         """d/dt along the motion: Σ ∂/∂x · ẋ + ∂/∂t, also of variations."""
-        pairs = ((spell_rate(name, n), spell_rate(name, n + 1)) for name in self._moving for n in range(HIGHEST))
-        chain = ((derivative(self.reader, form, x), fourier.monomial(speed)) for x, speed in pairs)
-        changes = [self.times(slope, self._known(speed)) for slope, speed in chain if slope]
-        return self.add((*changes, derivative(self.reader, form, "t")))
+        return directional(self.reader, form, self._speed)
+
+    @cached_method
+    def _speed(self, name: str) -> Form:
+        """d/dt of a generator: that of a symbol is a symbol, that of a sum or a function follows by the chain rule."""
+        if name in self._rates:
+            return self._known(fourier.monomial(self._rates[name]))
+        if name in self.reader.bases:
+            return self.rate(self.reader.bases[name])
+        meaning = self.reader.meaning[name]
+        if meaning.is_Symbol or meaning.is_number:
+            return fourier.constant(int(name == "t"))
+        inner = ((symbol, self._speed(symbol.name)) for symbol in sorted(meaning.free_symbols, key=str))
+        return self.add(self.times(self.reader.form(diff(meaning, symbol)), speed) for symbol, speed in inner if speed)
+
+    @cached_property
+    def _rates(self) -> Mapping[str, str]:
+        """ẋ by x, up to the highest rates."""
+        return {spell_rate(name, n): spell_rate(name, n + 1) for name in self._moving for n in range(HIGHEST)}
 
     @property
     def _moving(self) -> tuple[str, ...]:

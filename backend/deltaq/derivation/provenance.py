@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from ..language.derivatives import diff
 from ..language.memory import cached_method
 from .generator import Symmetry, solved
 from .system import System
@@ -50,7 +51,7 @@ def of_force(system: System, coordinate: str) -> Iterator[Share]:
 def of_conservative_force(system: System, coordinate: str) -> Iterator[Share]:
     """Qᵢᵖ = −∂V/∂qᵢ"""
     for source, energy in of_potential_energy(system):
-        yield source, -energy.diff(system.q(coordinate))
+        yield source, -diff(energy, system.q(coordinate))
 
 
 def of_nonconservative_force(system: System, coordinate: str) -> Iterator[Share]:
@@ -99,6 +100,6 @@ def _of_inertia(system: System, coordinate: str) -> Iterator[Share]:
 def _of_loads(system: System, coordinate: str) -> Iterator[Share]:
     for load in system.load_names:
         if system.is_conservative(load):
-            yield f"load:{load}", system.load_potential(load).diff(system.q(coordinate))
+            yield f"load:{load}", diff(system.load_potential(load), system.q(coordinate))
         else:
             yield f"load:{load}", -system.load_force(load, coordinate)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import sympy as sp
 from flint import arb, ctx
 
+from ..language.derivatives import diff
 from .newton import solved
 from .program import number
 
@@ -18,7 +19,7 @@ TINY = arb(2) ** -260  # keeps the normal equations solvable where roots are not
 
 def refined(equations: list[sp.Expr], start: Mapping[sp.Symbol, float]) -> dict[sp.Symbol, sp.Expr] | None:
     """The root as exact binary fractions that are right to more than 400 bits; None if it does not converge."""
-    slopes = [[equation.diff(q) for q in start] for equation in equations]
+    slopes = [[diff(equation, q) for q in start] for equation in equations]
     with ctx.workprec(BITS):
         point = {q.name: arb(value) for q, value in start.items()}
         for _ in range(STEPS):

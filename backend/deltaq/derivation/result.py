@@ -8,6 +8,7 @@ from itertools import combinations
 
 import sympy as sp
 
+from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..mechanics.scene import Scene
 from ..vocabulary import CurlOutcome
@@ -180,7 +181,7 @@ def _integral_terms(system: System, symmetry: Symmetry) -> tuple[Term, ...]:
 def _mass_terms(system: System, coordinate: str, other: str) -> tuple[Term, ...]:
     """What stands before the acceleration of `other` in the equation of the coordinate."""
     acceleration = system.acceleration(other)
-    slopes = ((term, term.written_out.diff(acceleration)) for term in _equation_terms(system, coordinate))
+    slopes = ((term, diff(term.written_out, acceleration)) for term in _equation_terms(system, coordinate))
     return tuple(replace(term, formula=Explicit(slope)) for term, slope in slopes if slope != 0)
 
 
@@ -200,7 +201,7 @@ def _equation_terms(system: System, coordinate: str) -> tuple[Term, ...]:
 def _potential_of(system: System, load: str) -> LoadPotential:
     forces = {q: system.load_force(load, q) for q in system.free}
     differences = {
-        (a, b): forces[a].diff(system.q(b)) - forces[b].diff(system.q(a)) for a, b in combinations(system.free, 2)
+        (a, b): diff(forces[a], system.q(b)) - diff(forces[b], system.q(a)) for a, b in combinations(system.free, 2)
     }
     known = system.has_potential(load)
     curl = {p: system.zero if known or system.is_zero(d) else system.display(d) for p, d in differences.items()}

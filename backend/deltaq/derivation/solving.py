@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 from flint import arb
 
+from ..language.derivatives import diff
 from .compiled import compiled_together
 from .enclosure import Box, Budget, Enclosed, enclosed
 from .factoring import factor_list
@@ -129,7 +130,7 @@ class Solver:
         """The solutions of the other equations, and what follows of an unknown that one holds linearly."""
         for q in reversed(unknowns):
             for index, equation in enumerate(equations):
-                slope = equation.diff(q).expand() if equation.has(q) else sp.Integer(0)
+                slope = diff(equation, q).expand() if equation.has(q) else sp.Integer(0)
                 if slope == 0 or slope.has(*unknowns) or not slope.is_number:
                     continue
                 value = (-equation.xreplace({q: sp.Integer(0)}) / slope).expand()
@@ -243,7 +244,7 @@ class Newton:
         slots = {q: slot for slot, q in enumerate(unknowns)}
         self.unknowns, self.domain, self.size = unknowns, domain, len(unknowns)
         self.field = compiled_together(equations, slots)
-        self.flat = compiled_together([e.diff(q) for e in equations for q in unknowns], slots)
+        self.flat = compiled_together([diff(e, q) for e in equations for q in unknowns], slots)
         values = [self.field(start) for start in self.starts()]
         self.scale = max((math.hypot(*v) for v in values if all(map(math.isfinite, v))), default=1.0)
 
@@ -384,7 +385,7 @@ def _holds(equation: sp.Expr, unknowns: Iterable[sp.Symbol], point: Mapping[str,
     size, rest = sum(map(abs, terms), arb(0)), float(abs(sum(terms, arb(0))).mid())
     if not size.is_finite() or rest <= SMALL * float(size.mid()):
         return bool(size.is_finite())
-    slopes = (abs(number(equation.diff(q), point)) * (1 + abs(point[q.name])) for q in unknowns)
+    slopes = (abs(number(diff(equation, q), point)) * (1 + abs(point[q.name])) for q in unknowns)
     return rest <= SMALL * float(sum((slope for slope in slopes if slope.is_finite()), size).mid())
 
 

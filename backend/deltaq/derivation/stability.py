@@ -23,6 +23,7 @@ from itertools import combinations
 import sympy as sp
 from flint import acb_mat, arb, arb_mat
 
+from ..language.derivatives import diff
 from ..vocabulary import Stability
 from .conservation import is_cyclic, is_passive
 from .degenerate import leading
@@ -142,7 +143,7 @@ def _by_derivatives(system: System, equilibrium: Equilibrium, point: Mapping[str
     """What the force at rest says, of one coordinate that alone matters, conserved or dissipated energy given."""
     q, force = system.q(system.free[index]), forces_at_rest(system)[index]
     for k in range(1, HIGHEST + 1):
-        force = force.diff(q)
+        force = diff(force, q)
         if force.has(sp.DiracDelta, sp.sign, sp.Abs, sp.Derivative):
             return Verdict("undecided")
         if equilibrium.exact and system.is_zero(force.xreplace(dict(equilibrium.values))):

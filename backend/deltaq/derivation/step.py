@@ -61,6 +61,14 @@ class Summand:
     origins: tuple[Origin, ...] = ()
     inside: Owners = ()
 
+    def called(self, name: str) -> Summand:
+        """The same by this id."""
+        return Summand(name, self.shown, self.alone, self.sign, self.side, self.sources, self.origins)
+
+    def coming_from(self, origins: tuple[Origin, ...]) -> Summand:
+        """The same with these origins."""
+        return Summand(self.id, self.shown, self.alone, self.sign, self.side, self.sources, origins)
+
 
 @dataclass(frozen=True)
 class Line:

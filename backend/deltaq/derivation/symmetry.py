@@ -25,6 +25,7 @@ from typing import Literal
 
 import sympy as sp
 
+from ..language.derivatives import diff
 from ..language.fourier import TooLargeError
 from ..language.memory import cached_method
 from ..language.normal_form import Reader
@@ -323,12 +324,12 @@ class Search:
         system = self.system
         rates, places = [system.rate(q) for q in system.free], [system.q(q) for q in system.free]
         still = dict.fromkeys(rates, system.zero)
-        slopes = [change.diff(rate) for rate in rates]
+        slopes = [diff(change, rate) for rate in rates]
         rest = change.xreplace(still)
         for i, slope in enumerate(slopes):
-            yield from (slope.diff(rate) for rate in rates[i:])
-            yield slope.diff(system.t) - rest.diff(places[i])
-            yield from (slope.diff(q) - slopes[k].diff(places[i]) for k, q in list(enumerate(places))[i + 1 :])
+            yield from (diff(slope, rate) for rate in rates[i:])
+            yield diff(slope, system.t) - diff(rest, places[i])
+            yield from (diff(slope, q) - diff(slopes[k], places[i]) for k, q in list(enumerate(places))[i + 1 :])
 
     def _by_motion(self, part: sp.Expr) -> Iterator[sp.Expr]:
         """The numerator's coefficient of every product of what moves; each is a function of parameters."""
@@ -349,7 +350,7 @@ class Search:
             return system.zero
         still = {system.rate(q): system.zero for q in system.free}
         slopes = {system.t: change.xreplace(still)} | {
-            system.q(q): change.diff(system.rate(q)).xreplace(still) for q in system.free
+            system.q(q): diff(change, system.rate(q)).xreplace(still) for q in system.free
         }
         slopes = {x: system.zero if system.is_zero(slope) else system.display(slope) for x, slope in slopes.items()}
         for start in (0, 1):

@@ -8,6 +8,7 @@ from itertools import combinations
 
 import sympy as sp
 
+from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..language.operations import operations
 from ..language.tree import Node
@@ -91,7 +92,7 @@ class System(Work):
         if self._is_given(load):
             return True
         pairs = combinations(forces.items(), 2)
-        return all(self.is_zero(f.diff(p) - g.diff(q)) for (q, f), (p, g) in pairs)
+        return all(self.is_zero(diff(f, p) - diff(g, q)) for (q, f), (p, g) in pairs)
 
     def _is_given(self, load: str) -> bool:
         """Whether the scene states the load's potential: mixed derivatives of one function need no comparison."""

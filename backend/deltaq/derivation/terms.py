@@ -15,7 +15,6 @@ from ..language.fourier import Form, TooLargeError
 from ..language.kernel_reader import KernelReader
 from ..language.memory import cached_method
 from ..language.normal_form import Reader
-from ..language.order import Order
 from ..language.polynomial import Exponents
 from ..language.textbook import Textbook
 from .formula import Explicit, Owners, Term
@@ -47,7 +46,7 @@ def terms_of(system: System, shares: Iterable[Share], *, gathered: bool = False)
 def _as_printed(system: System, shares: tuple[Share, ...], *, gathered: bool) -> tuple[Term, ...] | None:
     """Each group of sources in its shortest form; None if that would take too long."""
     reader = KernelReader()
-    book = Textbook(reader, Order(system.scene.names), system.given_sums)
+    book = Textbook(reader, system.symbols.order, system.given_sums)
     whole = frozenset(system.body_sources) if gathered else frozenset[str]()
     try:
         forms = [(source, reader.read(share)) for source, share in shares]

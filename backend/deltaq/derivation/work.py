@@ -7,6 +7,7 @@ from functools import cached_property
 
 import sympy as sp
 
+from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..mechanics.contributions import (
     Contribution,
@@ -71,7 +72,7 @@ class Work(Kinematics):
 
     def _dissipated(self, function: sp.Expr) -> sp.Expr:
         """−∂R/∂q̇ᵢ δqᵢ"""
-        return -sp.Add(*(function.diff(self.rate(q)) * self.variation(q) for q in self.free))
+        return -sp.Add(*(diff(function, self.rate(q)) * self.variation(q) for q in self.free))
 
     def share(self, load: Contribution, coordinate: str) -> sp.Expr:
         """What the load contributes to Qᵢ: the coefficient of δqᵢ."""

@@ -13,7 +13,6 @@ import sympy
 from ..errors import ExpressionError, Problem
 from .arrangement import Arrangement
 from .fourier import Form, TooLargeError
-from .memory import cached_method
 from .normal_form import Reader
 from .operations import operations
 from .order import Order, split_symbol
@@ -35,7 +34,7 @@ def display(expr: Any, symbols: Symbols, given: frozenset[Any] = frozenset()) ->
     if isinstance(expr, sympy.Tuple):
         return sympy.Tuple(*(display(part, symbols, given) for part in expr))
     try:
-        return _shown(expr, _order(symbols), given)
+        return _shown(expr, symbols.order, given)
     except TooLargeError:
         return expr
     except ZeroDivisionError:
@@ -55,15 +54,10 @@ def display_form(form: Form, reader: Reader, symbols: Symbols, given: frozenset[
     if len(form) > _MAX_SHOWN:
         return reader.expression(form)
     with suppress(TooLargeError):
-        return Textbook(reader, _order(symbols), given).whole(form)
-    arranged = Arrangement(reader, _order(symbols)).expression(form)
+        return Textbook(reader, symbols.order, given).whole(form)
+    arranged = Arrangement(reader, symbols.order).expression(form)
     moves = any(split_symbol(name)[0] for mono, _, _ in form for name, _ in mono)
     return arranged if moves else min(arranged, reader.expression(form), key=size)
-
-
-@cached_method
-def _order(symbols: Symbols) -> Order:
-    return Order(symbols.names)
 
 
 def size(expr: Any) -> int:

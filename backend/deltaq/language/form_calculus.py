@@ -5,18 +5,20 @@ A long sum is differentiated many times faster here than as a tree, as no tree i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import sympy
 
 from . import fourier
+from .derivatives import diff
 from .display import display_form
 from .fourier import Form, Term, TooLargeError
 from .normal_form import Reader
 from .symbols import Symbols
 
+ONE = fourier.constant(1)
 LONG = 2  # terms: forms are faster than SymPy from there on, whatever is in brackets
 
 
@@ -73,11 +75,30 @@ def plain_forms(exprs: Iterable[Any], reader: Reader) -> list[Form] | None:
 
 def derivative(reader: Reader, form: Form, by: str) -> Form:
     """∂/∂by of a form of any generators, by the chain rule through those that are no symbols. Raises TooLargeError."""
-    names = dict.fromkeys(
-        name for mono, phase, _ in form for part in (mono, *(m for m, _ in phase)) for name, _ in part
+    return directional(reader, form, lambda name: _slope(reader, name, by))
+
+
+def directional(reader: Reader, form: Form, slope: Callable[[str], Form]) -> Form:
+    """Σ ∂/∂x · slope(x) over all generators in a form. Raises TooLargeError."""
+    inner = ((name, slope(name)) for name in names_in(form))
+    parts = (
+        form_derivative(form, name) if change == ONE else reader.multiply(form_derivative(form, name), change)
+        for name, change in inner
+        if change
     )
-    inner = ((name, _slope(reader, name, by)) for name in names)
-    return fourier.add(reader.multiply(form_derivative(form, name), slope) for name, slope in inner if slope)
+    return fourier.add(parts)
+
+
+def names_in(form: Form) -> Iterable[str]:
+    """The generators of a form, in the order in which they come."""
+    names: dict[str, None] = {}
+    for mono, phase, _ in form:
+        for name, _ in mono:
+            names[name] = None
+        for inner, _ in phase:
+            for name, _ in inner:
+                names[name] = None
+    return names
 
 
 def _slope(reader: Reader, name: str, by: str) -> Form:
@@ -90,7 +111,7 @@ def _slope(reader: Reader, name: str, by: str) -> Form:
     if meaning.is_Symbol or meaning.is_number:
         return {}
     symbol = next((symbol for symbol in meaning.free_symbols if symbol.name == by), None)
-    return reader.form(meaning.diff(symbol)) if symbol is not None else {}
+    return reader.form(diff(meaning, symbol)) if symbol is not None else {}
 
 
 def form_derivative(form: Form, name: str) -> Form:
@@ -105,16 +126,16 @@ def form_derivative(form: Form, name: str) -> Form:
 def _by_monomial(term: Term, name: str) -> Iterable[tuple[Term, Any]]:
     """(xⁿ)′ = n xⁿ⁻¹"""
     mono, phase, sine = term
-    exponent = dict(mono).get(name)
-    if exponent is not None:
-        yield (fourier.times(mono, ((name, -1),)), phase, sine), exponent
+    for other, exponent in mono:
+        if other == name:
+            yield (fourier.times(mono, ((name, -1),)), phase, sine), exponent
 
 
 def _by_wave(term: Term, name: str) -> Iterable[tuple[Term, Any]]:
     """(cos θ)′ = −θ′ sin θ and (sin θ)′ = θ′ cos θ; θ is a linear form in monomials."""
     mono, phase, sine = term
     for inner, factor in phase:
-        exponent = dict(inner).get(name)
-        if exponent is not None:
-            slope = fourier.times(inner, ((name, -1),))
-            yield (fourier.times(mono, slope), phase, not sine), (factor if sine else -factor) * exponent
+        for other, exponent in inner:
+            if other == name:
+                slope = fourier.times(inner, ((name, -1),))
+                yield (fourier.times(mono, slope), phase, not sine), (factor if sine else -factor) * exponent

@@ -58,13 +58,19 @@ class _Latex:
         self._typography = typography
         self._as_decimal = as_decimal
         self._order = typography.order
+        self._plain = _printer(typography.base, as_decimal) if typography.base else None
 
     def text(self, expr: sympy.Expr, binding: int) -> str:
-        text, own = self._with_binding(expr)
+        printer = self if self._is_marked(expr) else self._plain or self
+        text, own = printer.bound(expr)
         return _bracketed(text) if own < binding else text
 
+    def _is_marked(self, expr: sympy.Expr) -> bool:
+        """Whether a sum stands in it whose terms are wrapped; all else is printed once for all formulas."""
+        return any(part in self._typography.summands for part in expr.atoms(sympy.Add)) if self._plain else True
+
     @cached_method
-    def _with_binding(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
+    def bound(self, expr: sympy.Expr) -> tuple[str, int]:  # noqa: PLR0911 - one case for each kind
         named = named_root(expr, self._typography.roots)
         if named:
             return self._letter(*named)

@@ -63,7 +63,9 @@ class SpokenPrinter:
 
     def _for(self, expr: sympy.Expr) -> _Speech:
         decides = decimals_of(expr, wanted=self._decimals)
-        return self._printers.setdefault(decides, _Speech(self.symbols, self._order, decides, self._roots))
+        if decides not in self._printers:
+            self._printers[decides] = _Speech(self.symbols, self._order, decides, self._roots)
+        return self._printers[decides]
 
     def _matrix(self, value: sympy.MatrixBase) -> str:
         rows = [[self.text(entry) for entry in row] for row in value.tolist()]

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import sympy
 
 from .memory import cached_method
 from .names import Names
+from .order import Order
 from .spelling import spell_rate
 
 
@@ -40,6 +42,11 @@ class Symbols:
     def differential(self, name: str) -> sympy.Symbol:
         """dq, or dt"""
         return sympy.Symbol(f"d({name})", real=True)
+
+    @cached_property
+    def order(self) -> Order:
+        """The order in which they are written: one for all who write them, as the keys of terms are made only once."""
+        return Order(self.names)
 
     @property
     def time(self) -> sympy.Symbol:

@@ -13,6 +13,7 @@ from typing import Any, NoReturn
 import sympy
 
 from ..errors import ExpressionError, Parameter, Problem
+from .derivatives import diff
 from .display import size
 from .form_calculus import plain_form
 from .fourier import TooLargeError
@@ -59,7 +60,7 @@ def time_derivative(expr: Value, symbols: Symbols) -> Value:
     constant, moving = expr.as_independent(*rates, as_Add=False)
     # Term by term: a term has few symbols, a long sum has all of them.
     changes = (
-        constant * term.diff(symbol) * rates[symbol]
+        constant * diff(term, symbol) * rates[symbol]
         for term in sympy.Add.make_args(moving)
         for symbol in sorted(term.free_symbols & rates.keys(), key=str)
     )
@@ -144,7 +145,7 @@ class SympyAlgebra:
         return time_derivative(operand, self.symbols)
 
     def partial_derivative(self, operand: Value, variable: Value) -> Value:
-        value = operand.diff(variable)
+        value = diff(operand, variable)
         if value.has(sympy.DiracDelta, sympy.Derivative, sympy.Subs):
             _refuse("not-differentiable")
         return value

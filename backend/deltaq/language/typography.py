@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -11,6 +11,7 @@ from .names import Names
 from .order import Order, split_symbol
 from .spelling import latex_of
 
+UNNAMED = Order()
 Mark = Callable[[str, str], str]
 
 _ACCENTS: Mapping[int, str] = MappingProxyType({1: r"\dot", 2: r"\ddot", 3: r"\dddot", 8: r"\ddddot"})
@@ -34,10 +35,16 @@ class Typography:
     summands: Mapping[Any, Mapping[Any, Callable[[str], str]]] = field(default_factory=dict, compare=False)
     decimals: bool | None = None
     roots: Mapping[Any, str] = field(default_factory=dict, compare=False)
-    order: Order = field(init=False, repr=False, compare=False)
+    base: Typography | None = field(default=None, repr=False, compare=False)  # the same without summands
+    order: Order = field(default=UNNAMED, repr=False, compare=False)  # what remembers the keys of its terms
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "order", Order(self.names))
+        if self.order is UNNAMED:
+            object.__setattr__(self, "order", Order(self.names))
+
+    def with_summands(self, summands: Mapping[Any, Mapping[Any, Callable[[str], str]]]) -> Typography:
+        """The same for one formula, in which terms of these sums are wrapped."""
+        return replace(self, summands=summands, base=self)
 
     def symbol(self, name: str) -> str:
         """LaTeX of a SymPy symbol by its plain name: "dot(phi)" → \\dot{\\varphi}."""

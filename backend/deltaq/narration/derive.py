@@ -92,7 +92,7 @@ class _Told:
 
     def _document(self, found: Result, left_out: list[Document]) -> Document:
         scene = self.system.scene
-        typography = Typography(scene.names, decimals=scene.writes_decimals)
+        typography = Typography(scene.names, decimals=scene.writes_decimals, order=self.system.symbols.order)
         origins = result_origins(Derivation(self.formulation, self.derived), self.system, found.terms)
         return {
             "scene": scene.id,
@@ -106,7 +106,10 @@ class _Told:
 def notation_of(system: System, language: str) -> Notation:
     """How a scene's quantities are written in a derivation, with the classes of the page."""
     typography = Typography(
-        system.scene.names, by_coordinate(system.scene, in_class), decimals=system.scene.writes_decimals
+        system.scene.names,
+        by_coordinate(system.scene, in_class),
+        decimals=system.scene.writes_decimals,
+        order=system.symbols.order,
     )
     names = {symbol.name: symbol.typeset for symbol in system.scene.names.symbols if symbol.kind == "coordinate"}
     return Notation(typography, QuantitySymbols(system.scene, language, names, in_class), system.h)

@@ -12,6 +12,7 @@ MARK = re.compile(r"\\htmlClass\{[^}]*\}|\\(?:left|right)(?![a-z])|\\,|[{}\s]")
 ROLES = {4: " differential", 5: " variation", 6: " variation", 7: " variation"}  # by the kind of the symbol
 
 BRACE = re.compile(r"(?<!\\)(?:(?P<opening>\{)|(?P<closing>\}))|(?P<mark>\\htmlClass\{[^}]*\}\{)")
+MARKED = r"\htmlClass"
 COMMAND = re.compile(r"\\[A-Za-z]+$")
 
 Wrap = Callable[[str, str], str]
@@ -34,6 +35,8 @@ def bare(latex: str) -> str:
 
 def without_classes(latex: str) -> str:
     """The LaTeX as it is written without marks; a command and the letter that stood in a mark behind it stay apart."""
+    if MARKED not in latex:
+        return latex
     pieces: list[str] = [""]
     is_mark: list[bool] = []
     position = 0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import sympy as sp
@@ -11,6 +11,7 @@ import sympy as sp
 from ..derivation.formula import Formula, Plus, Term
 from ..derivation.history import with_inside, with_names
 from ..derivation.step import Chapter, Derivation, Line, Relation, Step, Summand
+from ..language.memory import cached_method
 from ..language.plain_printer import plain
 from .aligned import aligned
 from .catalog import filled, template, text
@@ -74,7 +75,7 @@ class Narrator:
             "announced": self.speech.sentences(title, sentence),
             **self._mathematics(step),
             "verified": step.verified,
-            "evidence": asdict(step.evidence),
+            "evidence": {"kind": step.evidence.kind, "points": step.evidence.points, "digits": step.evidence.digits},
             "premises": list(step.premises),
             "sources": list(step.sources),
             "cancelled": list(
@@ -118,15 +119,21 @@ class Narrator:
             (rf"\text{{{word} }}{one['symbol_latex']}", one["latex"]) for word, one in zip(words, where, strict=False)
         )
 
+    @cached_method
+    def _shown(self, formula: Formula, sign: int) -> tuple[str, str]:
+        """A term on paper and in words; many stand in several lines."""
+        shown = Term(formula, (), sign)
+        return without_classes(self.notation.term(shown)), self.speech.formula(Plus((shown,)))
+
     def term(self, term: Summand) -> Document:
         """A term of a line, with its sign, and where it comes from."""
-        shown = Term(term.shown, (), term.sign)
+        latex, spoken = self._shown(term.shown, term.sign)
         return {
             "id": term.id,
-            "latex": without_classes(self.notation.term(shown)),
-            "spoken": self.speech.formula(Plus((shown,))),
+            "latex": latex,
+            "spoken": spoken,
             "sources": list(term.sources),
-            "from": [asdict(origin) for origin in term.origins],
+            "from": [{"term": origin.term, "change": origin.change} for origin in term.origins],
         }
 
     def _sentence(self, key: str, names: Mapping[str, CatalogText]) -> CatalogText:

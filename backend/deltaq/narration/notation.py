@@ -101,7 +101,7 @@ class Notation:
             bracket: {term: partial(self.symbols.wrap, in_classes(sources)) for term, sources in terms}
             for bracket, terms in owners
         }
-        return latex(value, replace(self.typography, summands=marks))
+        return latex(value, self.typography.with_summands(marks))
 
     def applied(self, quantity: Quantity, arguments: tuple[sp.Expr, ...]) -> str:
         """A name with what it depends on: r(q₁, q₂, t)."""

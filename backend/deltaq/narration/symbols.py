@@ -165,6 +165,7 @@ class QuantitySymbols:
         elif self._is_alone(quantity) and _hangs_on_spring(self.scene, quantity.of):
             yield text(self.language, "rules.indices.elastic")
 
+    @cached_method
     def is_guided(self, place: str) -> bool:
         """Whether a guide moves the place."""
         guided = {guide.coordinate for guide in self.scene.guides}

@@ -5,6 +5,7 @@ Source: Gelfand, Fomin, Calculus of Variations, §3; the lecture's definition.
 
 from __future__ import annotations
 
+from ...language.derivatives import diff
 from ..formula import Explicit, Gateaux, Named, Quantity, Shifted
 from ..step import Relation, Step
 from ..system import System
@@ -17,6 +18,6 @@ def apply(system: System, place: str) -> Step:
     position = system.named_position(place)
     left = Named(Quantity("virtual-displacement", place), system.virtual_displacement(place), position.arguments)
     shifted = position.value.xreplace({q: q + system.h * dq for q, dq in system.variations.items()})
-    varied = system.display(shifted.diff(system.h).xreplace({system.h: 0}))
+    varied = system.display(diff(shifted, system.h).xreplace({system.h: 0}))
     members = (left, Gateaux(position), Shifted(shifted, system.h), Explicit(varied))
     return Step(RULE, place, (Relation(members),), (system.source(place),), {"place": place})

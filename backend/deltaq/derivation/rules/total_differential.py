@@ -5,6 +5,7 @@ Source: Lanczos, The Variational Principles of Mechanics, ch. II.2; the lecture'
 
 from __future__ import annotations
 
+from ...language.derivatives import diff
 from ..formula import Explicit, Named, Partial, Plus, Quantity, Term, Times
 from ..step import Relation, Step
 from ..system import System
@@ -26,7 +27,7 @@ def apply(system: System, place: str) -> Step:
         Term(Times((Explicit(system.derivative(position.value, by)), Explicit(d))), (), 1, role)
         for by, d, role in pairs
     )
-    total = system.display(sum((position.value.diff(by) * d for by, d, _ in pairs), position.value * 0))
+    total = system.display(sum((diff(position.value, by) * d for by, d, _ in pairs), position.value * 0))
     left = Named(Quantity("differential", place), total, position.arguments)
     lines = (Plus(formal), Plus(written)) if pairs else ()
     line = Relation((left, *lines, Explicit(total)))

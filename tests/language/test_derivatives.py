@@ -1,0 +1,48 @@
+"""Slopes are those of SymPy's own `diff`, in the same form."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+import sympy as sp
+
+from deltaq.language.derivatives import diff
+
+x, y, t = sp.symbols("x y t", real=True)
+k = sp.Symbol("k", positive=True)
+LEAVES = (x, y, t, k, sp.pi, sp.Integer(2), sp.Rational(-1, 3))
+FUNCTIONS = (sp.sin, sp.cos, sp.tan, sp.exp, sp.atan, sp.sinh, sp.Abs, sp.sign, sp.asin, sp.log)
+
+
+def expression(source: random.Random, depth: int) -> sp.Expr:
+    if depth == 0 or source.random() < 0.15:
+        return source.choice(LEAVES)
+    parts = [expression(source, depth - 1) for _ in range(source.randint(2, 3))]
+    match source.randint(0, 4):
+        case 0 | 1:
+            return sp.Add(*parts)
+        case 2:
+            return sp.Mul(*parts)
+        case 3:
+            return (1 + parts[0] ** 2) ** source.choice((2, -1, sp.Rational(1, 2), sp.Rational(-3, 2), y))
+    return source.choice(FUNCTIONS)(2 + parts[0] ** 2 if source.random() < 0.5 else parts[0])
+
+
+@pytest.mark.parametrize("seed", range(120))
+def test_it_is_what_diff_gives(seed: int) -> None:
+    expr = expression(random.Random(seed), 3)
+    for by in (x, y, k):
+        found, expected = diff(expr, by), expr.diff(by)
+        assert found == expected or sp.simplify(found - expected) == 0, expr
+
+
+def test_of_matrices_entry_by_entry() -> None:
+    matrix = sp.ImmutableMatrix([[x * sp.sin(y)], [k]])
+    assert diff(matrix, x) == sp.ImmutableMatrix([[sp.sin(y)], [0]])
+
+
+def test_what_has_rules_of_its_own_is_left_to_sympy() -> None:
+    assert diff(x * sp.Abs(x), x) == sp.Abs(x) + x * sp.sign(x)
+    assert diff(sp.sign(x), x).has(sp.DiracDelta)
+    assert diff(sp.Piecewise((x**2, x > 0), (x, True)), x) == sp.Piecewise((2 * x, x > 0), (1, True))
