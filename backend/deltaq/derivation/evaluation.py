@@ -53,8 +53,8 @@ def evaluate(formula: Formula, point: Point) -> Numbers:  # noqa: PLR0912 - one 
     match formula:
         case Given(trees):
             return tuple(tree_value(tree, point) for tree in trees)
-        case Explicit(value) | Named(_, value) | Rounded(value):
-            return components(value, point)
+        case Explicit() | Named() | Rounded():
+            return tuple(number(part, point) for part in formula.parts)
         case Partial(of, by):
             return difference(at, of, pair(point, by.name, lambda h: shifted(point, {by.name: h})))
         case Rate(of):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TypeAlias
 
 import sympy as sp
@@ -45,9 +46,20 @@ class Given:
 Owners: TypeAlias = tuple[tuple[sp.Expr, tuple[tuple[sp.Expr, tuple[str, ...]], ...]], ...]
 
 
+class Written:
+    """A formula with a value."""
+
+    value: Value
+
+    @cached_property
+    def parts(self) -> tuple[sp.Expr, ...]:
+        """The expression, or the entries of the vector or matrix row by row: taking a matrix apart takes long."""
+        return tuple(self.value.flat()) if isinstance(self.value, sp.MatrixBase) else (self.value,)
+
+
 @hashed_once
 @dataclass(frozen=True)
-class Explicit:
+class Explicit(Written):
     """A value written out; `owners` tell summands in its brackets apart: m₁ and m₂ in (m₁ + m₂) l² φ̈."""
 
     value: Value
@@ -56,7 +68,7 @@ class Explicit:
 
 @hashed_once
 @dataclass(frozen=True)
-class Named:
+class Named(Written):
     """A quantity under its symbol, with the value that an earlier step gave it."""
 
     quantity: Quantity
@@ -349,7 +361,7 @@ class Inserted(MatrixFormula):
 
 @hashed_once
 @dataclass(frozen=True)
-class Rounded(MatrixFormula):
+class Rounded(Written, MatrixFormula):
     """An exact value that is written with a few digits and its unit."""
 
     value: Value

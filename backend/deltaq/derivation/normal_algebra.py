@@ -92,7 +92,9 @@ class NormalAlgebra:
     @cached_method
     def _carried_out(self, formula: f.Formula) -> Forms:  # noqa: C901, PLR0911, PLR0912 - one case for each kind
         match formula:
-            case f.Given(_, value) | f.Explicit(value) | f.Named(_, value):
+            case f.Explicit() | f.Named():
+                return tuple(map(self.reader.form, formula.parts))
+            case f.Given(_, value):
                 return self.value(value)
             case f.Rounded(value) if not _is_rounded(value):
                 return self.value(value)

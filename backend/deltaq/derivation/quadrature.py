@@ -7,9 +7,10 @@ tolerance of the verification. Source: Golub, Welsch, Math. Comp. 23 (1969), 221
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cache
 
 import sympy as sp
-from flint import arb
+from flint import arb, ctx
 
 from .formula import Bounds
 from .points import Point, along_motion, beside, moved
@@ -39,7 +40,7 @@ def integral(
     half, middle = (upper - lower) / 2, (upper + lower) / 2
     total: Numbers = ()
     count = nodes or (FEW_NODES if half < SHORT else NODES)
-    roots = [arb.legendre_p_root(count, node, weight=True) for node in range(count)]
+    roots = legendre(count, ctx.prec)
     for inside, (_, weight) in zip(
         _nodes(point, first, [middle + half * root for root, _ in roots]), roots, strict=True
     ):
@@ -47,6 +48,13 @@ def integral(
         summands = [half * weight * value for value in values]
         total = tuple(a + b for a, b in zip(total or [arb(0)] * len(summands), summands, strict=True))
     return total
+
+
+@cache
+def legendre(count: int, bits: int) -> tuple[tuple[arb, arb], ...]:
+    """The nodes between −1 and 1 with their weights, to so many bits."""
+    with ctx.workprec(bits):
+        return tuple(arb.legendre_p_root(count, node, weight=True) for node in range(count))
 
 
 def _nodes(point: Point, bounds: Bounds, values: list[arb]) -> Iterable[Point]:
