@@ -24,6 +24,7 @@ Products: TypeAlias = Mapping[tuple[int, object], Any]  # coefficients by compon
 Rebuild: TypeAlias = Callable[[f.Formula], f.Formula]
 DERIVATIVES = (f.Partial, f.Rate, f.Gateaux, f.Directional, f.LimitOfQuotient)
 INTEGRALS = (f.Integral, f.MassIntegral)
+ZERO = f.Explicit(sp.Integer(0))
 MOST = 160  # terms of a line; longer ones are told as a whole
 
 
@@ -303,7 +304,7 @@ def summands(formula: f.Formula) -> Iterator[Summand]:  # noqa: C901 - one case 
                 if not _is_zero(one.shown):
                     yield replace(one, alone=_negative(one.alone), side=-1)
         case f.Explicit(value) if isinstance(value, sp.MatrixBase):
-            yield from _entries(value)
+            yield from _entries(formula)
         case f.Explicit(value) if isinstance(value, sp.Add):
             yield from (Summand("", *_signed(part)) for part in value.args)
         case f.Integral(of, material):
@@ -337,7 +338,7 @@ def with_names(formula: f.Formula, names: Iterator[str]) -> f.Formula:  # noqa: 
                 with_names(left, _unless_zero(left, names)), with_names(right, _unless_zero(right, names))
             )
         case f.Explicit(value, owners) if isinstance(value, sp.MatrixBase):
-            entries = [(entry, tuple(part for part in sp.Add.make_args(entry) if part != 0)) for entry in value.flat()]
+            entries = [(entry, tuple(part for part in sp.Add.make_args(entry) if part != 0)) for entry in formula.parts]
             named = [(entry, tuple((part, (next(names),)) for part in parts)) for entry, parts in entries]
             return f.Explicit(value, (*owners, *(pair for pair in named if len(pair[1]) > 1)))
         case f.Explicit(value, owners) if isinstance(value, sp.Add):
@@ -362,14 +363,14 @@ def _unless_zero(side: f.Formula, names: Iterator[str]) -> Iterator[str]:
     return repeat("") if _is_zero(side) else names
 
 
-def _entries(value: sp.MatrixBase) -> Iterator[Summand]:
-    for place, entry in enumerate(value.flat()):
+def _entries(matrix: f.Explicit) -> Iterator[Summand]:
+    """Row by row; alone a term stands among zeros."""
+    zeros = (ZERO,) * len(matrix.parts)
+    for place, entry in enumerate(matrix.parts):
         for part in sp.Add.make_args(entry):
             if part != 0:
-                alone = [sp.Integer(0)] * len(value)
-                alone[place] = part
-                shown, _, sign = _signed(part)
-                yield Summand("", shown, f.Explicit(sp.ImmutableMatrix(*value.shape, alone)), sign)
+                shown, alone, sign = _signed(part)
+                yield Summand("", shown, f.Stack((*zeros[:place], alone, *zeros[place + 1 :])), sign)
 
 
 def _signed(part: sp.Expr) -> tuple[f.Formula, f.Formula, int]:
@@ -405,7 +406,7 @@ def _linear_parts(formula: f.Formula) -> Iterator[tuple[f.Formula, Rebuild]]:  #
         case f.Times(factors):
             yield from ((factor, partial(_among, f.Times, factors, place)) for place, factor in enumerate(factors))
         case f.Stack(rows):
-            zeros = (f.Explicit(sp.Integer(0)),) * len(rows)
+            zeros = (ZERO,) * len(rows)
             yield from ((row, partial(_among, f.Stack, zeros, place)) for place, row in enumerate(rows))
         case f.Dot(left, right):
             yield left, lambda other: f.Dot(other, right)

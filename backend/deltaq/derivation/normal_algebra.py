@@ -72,7 +72,8 @@ class NormalAlgebra:
         """Whether a difference is left when nothing stands below a fraction line."""
         if len(first) != len(other):
             raise NotCarriedOutError
-        differences = (self.add((a, fourier.scale(b, -1))) for a, b in zip(first, other, strict=True))
+        unlike = ((a, b) for a, b in zip(first, other, strict=True) if a != b)
+        differences = (self.add((a, fourier.scale(b, -1))) for a, b in unlike)
         return any(difference and self.reader.cleared(difference)[0] for difference in differences)
 
     @cached_method

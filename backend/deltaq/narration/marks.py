@@ -11,7 +11,7 @@ from ..mechanics.scene import Scene
 MARK = re.compile(r"\\htmlClass\{[^}]*\}|\\(?:left|right)(?![a-z])|\\,|[{}\s]")
 ROLES = {4: " differential", 5: " variation", 6: " variation", 7: " variation"}  # by the kind of the symbol
 
-BRACE = re.compile(r"(?<!\\)(?:(?P<opening>\{)|(?P<closing>\}))|(?P<mark>\\htmlClass\{[^}]*\}\{)")
+BRACE = re.compile(r"\\htmlClass\{[^}]*\}\{|(?<!\\)[{}]")
 MARKED = r"\htmlClass"
 COMMAND = re.compile(r"\\[A-Za-z]+$")
 
@@ -40,19 +40,20 @@ def without_classes(latex: str) -> str:
     pieces: list[str] = [""]
     is_mark: list[bool] = []
     position = 0
-    for brace in BRACE.finditer(latex):
-        pieces.append(latex[position : brace.start()])
-        position = brace.end()
-        match brace.lastgroup:
-            case "mark":
-                is_mark.append(True)
-                before = pieces[-1] or pieces[-2]
-                pieces.append(" " if COMMAND.search(before) and latex[position].isalpha() else "")
-            case "opening":
-                is_mark.append(False)
-                pieces.append("{")
-            case "closing":
-                pieces.append("" if is_mark.pop() else "}")
+    for found in BRACE.finditer(latex):
+        brace = found[0]
+        if brace == "{":
+            is_mark.append(False)
+        elif brace != "}":
+            is_mark.append(True)
+            pieces.append(latex[position : found.start()])
+            position = found.end()
+            before = pieces[-1] or pieces[-2]
+            if COMMAND.search(before) and latex[position].isalpha():
+                pieces.append(" ")
+        elif is_mark.pop():
+            pieces.append(latex[position : found.start()])
+            position = found.end()
     return "".join([*pieces, latex[position:]])
 
 

@@ -1,4 +1,8 @@
-"""What was not carried out because it would take too long: a part of the last chapter, by its name."""
+"""A part of the last chapter that would take too long: how long expressions become cannot be told beforehand.
+
+So each part has a share of operations, after which it ends without a result (`derivation/effort.py`).
+Source: Davenport, Siret, Tournier, Computer Algebra (1988), ch. 2, on the swell of intermediate expressions.
+"""
 
 from __future__ import annotations
 
