@@ -39,6 +39,8 @@ SearchEnd = Literal["budget", "continuum"]
 # its operations were spent, its time was over, or it failed.
 OptionalPart = Literal["model", "equilibria", "small-motions", "integrals", "relative-equilibria", "canonical"]
 Missing = Literal["later", "budget", "time", "failed"]
+# Among which generators symmetries are sought: those affine in coordinates and time; motions of space and rigid bodies.
+GeneratorFamily = Literal["affine", "motions-of-space"]
 # Whether a load has a potential, by the curl of its generalized forces.
 CurlOutcome = Literal[
     "conservative",

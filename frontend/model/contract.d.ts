@@ -1972,6 +1972,7 @@ export interface components {
             equilibria: components["schemas"]["Equilibrium"][];
             /** @description null where the laws depend on time */
             equilibrium_search: components["schemas"]["EquilibriumSearch"] | null;
+            symmetry_search: components["schemas"]["SymmetrySearch"];
             jacobi_energy: components["schemas"]["JacobiEnergy"];
             /** @description where a coordinate is cyclic */
             routh: components["schemas"]["RouthFunction"] | null;
@@ -6026,6 +6027,17 @@ export interface components {
             spoken: string;
             /** Terms */
             terms: components["schemas"]["Term"][];
+        };
+        /**
+         * SymmetrySearch
+         * @description Which symmetries were looked for. Others, such as that of the Runge-Lenz vector, are not found.
+         */
+        SymmetrySearch: {
+            /**
+             * Generators
+             * @description `affine` in coordinates and time; `motions-of-space`: translations and rotations of space and of single rigid bodies, in any coordinates; none where the search was left out
+             */
+            generators: ("affine" | "motions-of-space")[];
         };
         /**
          * TableAnswer

@@ -49,6 +49,7 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "mass_matrix",
         "forcing",
         "conserved",
+        "symmetry_search",
         "equilibria",
         "equilibrium_search",
         "jacobi_energy",

@@ -71,6 +71,37 @@ ROW = [mass(f"b{i}", f"x{i}", "0", value=f"m{i}") for i in (1, 2, 3)]
 LL, GPS = "Landau, Lifshitz, Mechanics", "Goldstein, Poole, Safko, 3rd ed."
 L_X, L_Y, L_Z = "m*(y*dot(z)-z*dot(y))", "m*(x*dot(z)-z*dot(x))", "m*(x*dot(y)-y*dot(x))"
 
+OMEGA = (
+    "(dot(psi)*sin(theta)*sin(phi)+dot(theta)*cos(phi))",
+    "(dot(psi)*sin(theta)*cos(phi)-dot(theta)*sin(phi))",
+    "(dot(psi)*cos(theta)+dot(phi))",
+)
+
+
+def rigid(x: str, y: str, z: str, *loads: Mapping[str, object]) -> Scene:
+    """An asymmetric rigid body in Euler angles, its centre of mass there."""
+    body = {"name": "body", "kind": "rigid", "mass": "m", "position": [x, y, z], "inertia": ["A", "B", "C"]}
+    values = {"m": 1.3, "A": 1, "B": 2, "C": 2.5} | ({"g": 9.81} if loads else {})
+    names = [*(q for q in (x, y, z) if q != "0"), "theta", "psi", "phi"]
+    return scene(names, values, [body | {"angular_velocity": list(OMEGA)}], *loads, dimension=3)
+
+
+def spherical(parameters: Mapping[str, float], *loads: Mapping[str, object]) -> Scene:
+    place = "r*sin(theta)*cos(psi)", "r*sin(theta)*sin(psi)", "r*cos(theta)"
+    names = ["r", "theta", "psi"]
+    return scene(names, {"m": 1.3, **parameters}, [mass("bob", *place)], *loads, dimension=3)
+
+
+# The angular momentum in space, from that in the body by the transposed matrix of the Euler angles.
+SPIN_X = (
+    f"A*{OMEGA[0]}*(cos(psi)*cos(phi)-cos(theta)*sin(phi)*sin(psi))"
+    f"-B*{OMEGA[1]}*(cos(psi)*sin(phi)+cos(theta)*cos(phi)*sin(psi))+C*{OMEGA[2]}*sin(theta)*sin(psi)"
+)
+SPIN_Y = (
+    f"A*{OMEGA[0]}*(sin(psi)*cos(phi)+cos(theta)*sin(phi)*cos(psi))"
+    f"-B*{OMEGA[1]}*(sin(psi)*sin(phi)-cos(theta)*cos(phi)*cos(psi))-C*{OMEGA[2]}*sin(theta)*cos(psi)"
+)
+
 SYSTEMS: Mapping[str, Published] = {
     "free in the plane": Published(
         f"{LL} §7", plane({}), "translation-x translation-y time rotation-origin boost-x", (L_Z, "m*(t*dot(x)-x)")
@@ -289,4 +320,25 @@ SYSTEMS: Mapping[str, Published] = {
     "double pendulum": Published(f"{LL} §5, problem 1", load_scene("double-pendulum"), "time"),
     "bead on a turning hoop": Published("Arnold, 2nd ed., §16", load_scene("bead-on-rotating-hoop"), "time"),
     "oscillator with growing stiffness": Published("Arnold, 2nd ed., §25", line({"k": 2}, potential("k*t*x^2/2")), ""),
+    "free rigid body": Published(
+        f"{LL} §§33, 35; {GPS} §5.6", rigid("0", "0", "0"), "rotation-x rotation-y rotation-z time", (SPIN_X, SPIN_Y)
+    ),
+    "thrown body": Published(
+        f"{LL} §34",
+        rigid("x", "y", "z", potential("m*g*z")),
+        "translation-x translation-y translation-z boost-x boost-z spin-x spin-y spin-z shift time",
+        (SPIN_X, SPIN_Y),
+    ),
+    "Kepler in spherical coordinates": Published(
+        f"{GPS} §3.1",
+        spherical({"k": 2}, potential("-k/r")),
+        "rotation-x rotation-y rotation-z time",
+        ("m*r^2*(sin(psi)*dot(theta)+sin(theta)*cos(theta)*cos(psi)*dot(psi))",),
+    ),
+    "free in polar coordinates": Published(
+        f"{LL} §4",
+        scene(["r", "phi"], {"m": 1.3}, [mass("bob", "r*cos(phi)", "r*sin(phi)")]),
+        "rotation-origin time translation-x scaling",
+        ("m*(dot(r)*cos(phi)-r*sin(phi)*dot(phi))",),
+    ),
 }

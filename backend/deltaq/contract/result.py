@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from ..vocabulary import CurlOutcome, SearchEnd, Stability, StabilityKind
+from ..vocabulary import CurlOutcome, GeneratorFamily, SearchEnd, Stability, StabilityKind
 from .base import Answer
 
 Change = Literal["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged"]
@@ -101,6 +101,15 @@ class ConservedQuantity(Sum):
     meaning: str = Field(description="what the generator does in space, in a word", examples=["rotation-z"])
     conditions: tuple[Formula, ...] = Field(description="equations between parameters on which it rests")
     step: str = Field(description="id of the step that shows it", examples=["noether:1"])
+
+
+class SymmetrySearch(Answer):
+    """Which symmetries were looked for. Others, such as that of the Runge-Lenz vector, are not found."""
+
+    generators: tuple[GeneratorFamily, ...] = Field(
+        description="`affine` in coordinates and time; `motions-of-space`: translations and rotations of space and of"
+        " single rigid bodies, in any coordinates; none where the search was left out"
+    )
 
 
 class JacobiEnergy(Sum):
@@ -254,6 +263,7 @@ class DerivationResult(Answer):
     conserved: tuple[ConservedQuantity, ...]
     equilibria: tuple[Equilibrium, ...]
     equilibrium_search: EquilibriumSearch | None = Field(description="null where the laws depend on time")
+    symmetry_search: SymmetrySearch
     jacobi_energy: JacobiEnergy
     routh: RouthFunction | None = Field(description="where a coordinate is cyclic")
     relative_equilibria: tuple[RelativeEquilibrium, ...]

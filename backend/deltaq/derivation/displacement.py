@@ -18,6 +18,7 @@ from ..mechanics.kinetics import Rotation
 from .compiled import compiled
 from .elimination import Row, kernel
 from .generator import Generator
+from .space import motions
 from .system import System
 
 POINTS = 4
@@ -37,6 +38,9 @@ def meaning(system: System, generator: Generator) -> Meaning:
     """What the generator is called."""
     if generator.time != 0:
         return Meaning(_with_time(system, generator))
+    for whole, shifts in motions(system).items():
+        if any(dict(generator.shifts) == {q: sign * shift for q, shift in shifts.items()} for sign in (1, -1)):
+            return Meaning(whole.word, (whole.alone,) if whole.alone and len(system.scene.bodies) > 1 else ())
     shifts = {q: shift / system.t for q, shift in generator.shifts.items()}
     is_boost = all(not shift.has(system.t) for shift in shifts.values())
     motion = _rigid(system, shifts if is_boost else dict(generator.shifts))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Literal
@@ -12,23 +12,26 @@ import sympy as sp
 from ..language.memory import cached_method
 from .compiled import Function, compiled
 from .elimination import Row
+from .space import Motion, displacements
 from .system import System
 
 MOST_MIXED = 90  # coefficients of coordinates in one another's shifts: beyond it only shifts are tried
 
-Kind = Literal["shift", "linear", "boost", "time", "scaling"]
+Kind = Literal["shift", "linear", "space", "boost", "time", "scaling"]
 
 
 @dataclass(frozen=True)
 class Monomial:
     """One unknown coefficient of a generator.
 
-    `shift` is ξᵢ = 1, `linear` ξᵢ = qₖ, `boost` ξᵢ = t; `time` is τ = 1, `scaling` τ = t.
+    `shift` is ξᵢ = 1, `linear` ξᵢ = qₖ, `boost` ξᵢ = t; `time` is τ = 1, `scaling` τ = t. `space` is ξ of space moved
+    as a whole, as in `displacements`.
     """
 
     kind: Kind
     moved: str = ""
     by: str = ""
+    motion: Motion | None = None
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,8 @@ def monomials(system: System) -> tuple[Monomial, ...]:
     shifts = [Monomial("shift", q) for q in system.free]
     mixed = [Monomial("linear", a, b) for a, b in pairs] if len(pairs) <= MOST_MIXED else []
     boosts = [Monomial("boost", q) for q in system.free]
-    return (*shifts, *mixed, *boosts, Monomial("time"), Monomial("scaling"))
+    moved = [Monomial("space", motion=motion) for motion in displacements(system)]
+    return (*shifts, *mixed, *moved, *boosts, Monomial("time"), Monomial("scaling"))
 
 
 @cached_method
@@ -94,7 +98,13 @@ def numeric(system: System) -> Numeric:
     slots = {symbol: slot for slot, symbol in enumerate((*moving, *system.parameter_values))}
     momenta = [system.momentum(q) for q in system.free]
     parts = [*forces(system).values(), *momenta, clock(system), system.lagrangian]
-    return Numeric(monomials(system), system.free, tuple(compiled(part, slots) for part in parts))
+    moved = {
+        motion: {
+            q: (compiled(shift, slots), compiled(system.time_derivative(shift), slots)) for q, shift in shifts.items()
+        }
+        for motion, shifts in displacements(system).items()
+    }
+    return Numeric(monomials(system), system.free, tuple(compiled(part, slots) for part in parts), moved)
 
 
 @dataclass(frozen=True)
@@ -104,6 +114,7 @@ class Numeric:
     monomials: tuple[Monomial, ...]
     free: tuple[str, ...]
     functions: tuple[Function, ...]
+    displaced: Mapping[Motion, Mapping[str, tuple[Function, Function]]]  # ξᵢ and ξ̇ᵢ of space moved as a whole
 
     def row(self, values: Row) -> Row:
         """One number for each monomial."""
@@ -124,6 +135,8 @@ class Numeric:
                     return force[q]
                 case "linear":
                     return place[by] * force[q] + speed[by] * momentum[q]
+                case "space":
+                    return sum(self._moved(monomial, values, force, momentum))
                 case "boost":
                     return t * force[q] + momentum[q]
                 case "time":
@@ -132,6 +145,24 @@ class Numeric:
                     return t * clock + lagrangian - work
 
         return [change(monomial) for monomial in self.monomials]
+
+    def sizes(self, values: Row) -> Row:
+        """The same without what cancels: where space is moved, all of it may."""
+        found = self.row(values)
+        laws = [function(values) for function in self.functions]
+        force, momentum = (dict(zip(self.free, laws[k:], strict=False)) for k in (0, len(self.free)))
+        return [
+            sum(map(abs, self._moved(monomial, values, force, momentum))) if monomial.kind == "space" else abs(change)
+            for monomial, change in zip(self.monomials, found, strict=True)
+        ]
+
+    def _moved(
+        self, monomial: Monomial, values: Row, force: Mapping[str, float], momentum: Mapping[str, float]
+    ) -> Iterator[float]:
+        """Term by term ξᵢ Fᵢ + ξ̇ᵢ pᵢ."""
+        parts = self.displaced[monomial.motion] if monomial.motion else {}
+        for q, (shift, rate) in parts.items():
+            yield from (shift(values) * force[q], rate(values) * momentum[q])
 
 
 def solved(conditions: Sequence[sp.Expr], system: System) -> dict[sp.Symbol, sp.Expr]:

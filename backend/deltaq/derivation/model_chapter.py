@@ -34,6 +34,7 @@ from .rules import (
     relative_equilibrium,
     routh_function,
     stability_condition,
+    symmetry_search,
 )
 from .step import Step
 from .system import System
@@ -82,6 +83,8 @@ def _conserved(system: System) -> Iterator[Step]:
     yield jacobi_energy.apply(system)
     for number, symmetry in enumerate(symmetries_of(system), 1):
         yield noether.apply(system, symmetry, number)
+    if "integrals" not in system.effort.left_out:
+        yield symmetry_search.apply(system)
     reduced = reduction_of(system)
     if reduced is not None:
         yield routh_function.apply(system, reduced)

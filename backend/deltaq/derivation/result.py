@@ -11,7 +11,7 @@ import sympy as sp
 from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..mechanics.scene import Scene
-from ..vocabulary import CurlOutcome
+from ..vocabulary import CurlOutcome, GeneratorFamily
 from . import provenance
 from .conditions import Conditions, conditions
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate
@@ -23,6 +23,7 @@ from .linearization import Linearization
 from .matrix_form import forcing, left_side, mass_matrix
 from .optional import motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
 from .rules.curl_test import outcome
+from .space import motions
 from .steady import SteadyMotion
 from .system import System
 from .terms import terms_of
@@ -100,6 +101,7 @@ class Result:
     search: Search | None = None
     routh: Reduction | None = None
     steady: tuple[SteadyMotion, ...] = ()
+    generators: tuple[GeneratorFamily, ...] = ()
 
 
 def result_of(system: System) -> Result:
@@ -117,6 +119,7 @@ def completed(system: System, result: Result) -> Result:
         search=search_of(system),
         routh=reduction_of(system),
         steady=steady_motions_of(system),
+        generators=_searched(system),
         terms={**result.terms, "integrals": integrals},
     )
 
@@ -167,6 +170,13 @@ def _terms(system: System) -> Terms:
         "forcing": {q: _forcing_terms(system, q) for q in system.free},
         "mass_matrix": {f"{q} {other}": _mass_terms(system, q, other) for q in system.free for other in system.free},
     }
+
+
+def _searched(system: System) -> tuple[GeneratorFamily, ...]:
+    """Among which generators symmetries were sought."""
+    if "integrals" in system.effort.left_out:
+        return ()
+    return ("affine", "motions-of-space") if motions(system) else ("affine",)
 
 
 def _integral_terms(system: System, symmetry: Symmetry) -> tuple[Term, ...]:

@@ -35,6 +35,7 @@ from .conservation import cyclic, jacobi_energy, jacobi_energy_rate
 from .elimination import Row, kernel
 from .factoring import factor_list
 from .generator import Generator, Kind, Monomial, Numeric, Symmetry, clock, forces, monomials, numeric, solved
+from .space import displacements
 from .system import System
 
 MOST_OPERATIONS = 4000  # of L and the forces: beyond it nothing is tried
@@ -125,6 +126,10 @@ class Search:
     def numeric(self) -> Numeric:
         return numeric(self.system)
 
+    def _moved(self, monomial: Monomial) -> Mapping[str, sp.Expr]:
+        """ξ of space moved as a whole."""
+        return displacements(self.system)[monomial.motion] if monomial.motion else {}
+
     def change(self, monomial: Monomial) -> sp.Expr:
         """The left side of Noether's condition for one monomial."""
         system, t = self.system, self.system.t
@@ -134,6 +139,13 @@ class Search:
             case "linear":
                 q, speed = system.q(monomial.by), system.rate(monomial.by)
                 return q * forces(self.system)[monomial.moved] + speed * system.momentum(monomial.moved)
+            case "space":
+                shifts = self._moved(monomial).items()
+                parts = (
+                    (forces(system)[q] * shift, system.momentum(q) * system.time_derivative(shift))
+                    for q, shift in shifts
+                )
+                return sp.Add(*(one for pair in parts for one in pair))
             case "boost":
                 return t * forces(self.system)[monomial.moved] + system.momentum(monomial.moved)
             case "time":
@@ -155,8 +167,8 @@ class Search:
     @cached_property
     def _scales(self) -> Row:
         """The size of what each monomial changes."""
-        rows = [self.numeric.row(values) for values in self._points(SPARE)]
-        return [max((abs(row[k]) for row in rows), default=0.0) for k in range(len(self.monomials))]
+        rows = [self.numeric.sizes(values) for values in self._points(SPARE)]
+        return [max((row[k] for row in rows), default=0.0) for k in range(len(self.monomials))]
 
     def _quadratic_rows(self) -> Iterator[Row]:
         """W(q̇ + u) + W(q̇ − u) − 2 W(q̇), which is zero if W is linear in the rates."""
@@ -226,7 +238,7 @@ class Search:
     def rank(self, vector: Row) -> tuple[int, int]:
         """Shifts and turns, then the time, then what holds t explicitly; few coordinates first."""
         kinds = [monomial.kind for monomial, entry in zip(self.monomials, vector, strict=True) if entry]
-        order: tuple[Kind, ...] = ("shift", "linear", "time", "boost", "scaling")
+        order: tuple[Kind, ...] = ("shift", "linear", "space", "time", "boost", "scaling")
         return max(map(order.index, kinds)), len(kinds)
 
     def is_of_the_lecture(self, vector: Row) -> bool:
@@ -260,6 +272,10 @@ class Search:
         shifts: dict[str, sp.Expr] = {}
         time = system.zero
         for monomial, coefficient in coefficients.items():
+            if monomial.kind == "space":
+                for q, shift in self._moved(monomial).items():
+                    shifts[q] = shifts.get(q, system.zero) + coefficient * shift
+                continue
             part = coefficient * (factors.get(monomial.kind) or system.q(monomial.by))
             if monomial.moved:
                 shifts[monomial.moved] = shifts.get(monomial.moved, system.zero) + part

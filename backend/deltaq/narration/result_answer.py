@@ -41,6 +41,7 @@ def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write:
         },
         "forcing": {**write.vector(result.forcing), "terms": sums.rows("forcing")},
         "conserved": [sums.conserved(each) for each in result.conserved],
+        "symmetry_search": {"generators": list(result.generators)},
         "equilibria": [equilibrium(each, result.scene, write) for each in result.equilibria],
         "equilibrium_search": search(result.search),
         "jacobi_energy": {**sums.sum("jacobi_energy", result.jacobi_energy), "equals_energy": result.is_energy},

@@ -14,6 +14,7 @@ from .kernels import are_compiled
 from .limits import die_with_parent
 
 SCENE = "pendulum"
+LANGUAGES = ("en", "de")  # each has texts to be read from files
 
 
 def load() -> None:
@@ -25,8 +26,9 @@ def load() -> None:
     gc.disable()  # nearly all that is made here stays
     with suppress(Exception):
         import_module("deltaq.api.jobs")
-    with suppress(Exception):
-        import_module("deltaq.narration.derive").derive_request({"scene": SCENE})
+    for language in LANGUAGES:
+        with suppress(Exception):
+            import_module("deltaq.narration.derive").derive_request({"scene": SCENE, "lang": language})
     with suppress(Exception):
         service = import_module("deltaq.simulation.service")
         if are_compiled():  # compiling them here would keep all workers waiting
