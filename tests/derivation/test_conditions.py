@@ -7,10 +7,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import pytest
+from flint import arb
 from tests.derivation.model_scenes import model_steps, particle, rotating_hoop
 from tests.derivation.textbook_systems import SYSTEMS
 
+from deltaq.derivation.leading_form import leading_form, sign_of
 from deltaq.derivation.linearization import linearizations
+from deltaq.derivation.matrix_form import forces_at_rest
 from deltaq.derivation.system import System
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.parameter import Parameter
@@ -19,6 +22,9 @@ from deltaq.mechanics.writing import write_scene
 from deltaq.narration.derive import derive_request
 
 BOOKS = {each.name: each.scene for each in SYSTEMS}
+
+
+ORIGIN = {name: arb(0) for name in "xyz"} | {"c": arb(1)}
 
 
 def told(scene: Scene) -> list[tuple[str, list[str], list[str]]]:
@@ -113,13 +119,45 @@ def test_friction_that_balances_a_constant_force_holds_everywhere() -> None:
         pytest.param("y^2 + 2*y*x^2/s + 2*x^4/s^2", "stable", 3, id="straight on is not least"),
         pytest.param("y^2 + 2*y*x^2/s + x^4/s^2/2", "unstable", 3, id="straight on rises, beside it falls"),
         pytest.param("x^4 + y^4", "stable", 3, id="apart"),
-        pytest.param("x^3 - 3*x*y^2", "undecided", 0, id="monkey saddle"),
+        pytest.param("x^3 - 3*x*y^2", "unstable", 2, id="monkey saddle"),
+        pytest.param("x^4 - 6*x^2*y^2 + y^4", "unstable", 3, id="saddle with four valleys"),
+        pytest.param("x^4 - x^2*y^2 + y^4", "stable", 3, id="quartic bowl that is no sum of powers"),
+        pytest.param("x^4 - 2*x^2*y^2 + y^4 + x^6", "undecided", 0, id="flat along two lines: the next degree decides"),
+        pytest.param("x^5 + x*y^4", "unstable", 4, id="odd"),
     ],
 )
 def test_minima_by_higher_derivatives(energy: str, verdict: str, order: int) -> None:
     scene = particle(["x", "y"], {"c": 1.0, "s": 1.0}, ["x", "y"], {"kind": "potential", "energy": f"c*({energy})"})
     origin = next(each for each in linearizations(System(scene)) if set(each.equilibrium.values.values()) == {0})
     assert (origin.stability, origin.verdict.derivative) == (verdict, order)
+
+
+@pytest.mark.parametrize(
+    ("energy", "verdict"),
+    [
+        pytest.param("x*y*z", "unstable", id="product"),
+        pytest.param("x^4 + y^4 + z^4 - x^2*y^2 - y^2*z^2", "stable", id="bowl in space"),
+        pytest.param("x^4 + y^4 + z^4 - 3*x^2*y*z", "unstable", id="falls along the diagonals only"),
+    ],
+)
+def test_forms_in_space(energy: str, verdict: str) -> None:
+    scene = particle(["x", "y", "z"], {"c": 1.0}, ["x", "y", "z"], {"kind": "potential", "energy": f"c*({energy})"})
+    system = System(scene)
+    form = leading_form(forces_at_rest(system), list(map(system.q, system.free)), ORIGIN)
+    assert form is not None
+    assert sign_of(form) == {"stable": 1, "unstable": -1}[verdict]
+
+
+def test_a_degenerate_equilibrium_is_told_by_its_form() -> None:
+    """Damping changes nothing of it; gyroscopic forces leave it open."""
+    saddle = {"kind": "potential", "energy": "c*(x^3-3*x*y^2)"}
+    drag = {"kind": "force", "at": "bob", "force": ["-c*dot(x)", "-c*dot(y)"]}
+    turn = {"kind": "force", "at": "bob", "force": ["-c*dot(y)", "c*dot(x)"]}
+    for loads, outcome in (((saddle,), "unstable-by-form"), ((saddle, drag), "unstable-by-form")):
+        steps = model_steps(particle(["x", "y"], {"c": 1.0}, ["x", "y"], *loads))
+        assert (steps["equilibrium:1"].about["outcome"], steps["equilibrium:1"].about["degree"]) == (outcome, "3")
+    steps = model_steps(particle(["x", "y"], {"c": 1.0}, ["x", "y"], saddle, turn))
+    assert steps["equilibrium:1"].about["outcome"] == "degenerate-undecided"
 
 
 @pytest.mark.parametrize("name", scene_ids())

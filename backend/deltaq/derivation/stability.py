@@ -8,9 +8,10 @@ Where that leaves it open and one coordinate remains, the first derivative of it
 the k-th: F ≈ F⁽ᵏ⁾ ξᵏ/k!. The energy has a strict minimum if k is odd and F⁽ᵏ⁾ < 0. Else the force leads away from the
 equilibrium on one side at least, and a disturbance at rest there never comes back (Chetaev).
 Of several coordinates the same is asked along the curve on which the forces across it vanish, where K has a
-one-dimensional kernel (Koiter). Where K has the kernel of a family of equilibria and is positive across it, the system
-stays near the family. Where K is not positive but gyroscopic forces keep all small motions bounded, the linearization
-decides nothing: with any complete damping the equilibrium is unstable (Thomson, Tait, Chetaev).
+one-dimensional kernel (Koiter); where K vanishes, the form of lowest degree of the potential decides. Where K has the
+kernel of a family of equilibria and is positive across it, the system stays near the family. Where K is not positive
+but gyroscopic forces keep all small motions bounded, the linearization decides nothing: with any complete damping the
+equilibrium is unstable (Thomson, Tait, Chetaev).
 Source: Merkin, Introduction to the Theory of Stability, §§2.3, 3.2, 3.4, 4.2, 6.3–6.4.
 """
 
@@ -29,6 +30,7 @@ from .conservation import is_cyclic, is_passive
 from .degenerate import leading
 from .dissipation import is_dissipative
 from .equilibria import Equilibrium, free_coordinates
+from .leading_form import leading_form, sign_of
 from .matrix_form import forces_at_rest
 from .program import number
 from .spectrum import ZERO, Spectrum, kernel
@@ -45,12 +47,13 @@ class Verdict:
 
     `kind` names what first order leaves open: a "family" of equilibria that the system stays near, a "gyroscopic"
     equilibrium where the potential has no minimum, a "degenerate" one where higher derivatives do not tell either, a
-    "band" in which dry friction holds the system.
+    "band" in which dry friction holds the system. With `by_form` the potential tells it by its form of lowest degree.
     """
 
     stability: Stability
     derivative: int = 0
     kind: str = ""
+    by_form: bool = False
 
 
 def verdict(
@@ -96,6 +99,8 @@ def _by_energy(
             known = _each_alone(system, equilibrium, point, kept)
         elif signs.zero == 1 and not (signs.negative or loose or turning):
             known = _along_kernel(system, point, stiffness, kept)
+        elif signs.zero == len(kept) and not (loose or turning):
+            known = _by_leading_form(system, point, kept)
     return known
 
 
@@ -130,6 +135,17 @@ def _along_kernel(system: System, point: Mapping[str, arb], stiffness: list[list
     if found is None:
         return Verdict("undecided", kind="degenerate")
     return Verdict("stable" if found.restores else "unstable", found.order)
+
+
+def _by_leading_form(system: System, point: Mapping[str, arb], kept: list[int]) -> Verdict:
+    """What the potential says where all second derivatives vanish."""
+    forces = forces_at_rest(system)
+    form = leading_form([forces[i] for i in kept], [system.q(system.free[i]) for i in kept], point)
+    sign = sign_of(form) if form else None
+    if form is None or sign is None:
+        return Verdict("undecided", kind="degenerate")
+    degree = sum(next(iter(form)))
+    return Verdict("stable" if sign > 0 else "unstable", degree - 1, by_form=True)
 
 
 def _growth(found: Spectrum) -> int:

@@ -28,6 +28,7 @@ def apply(system: System, linear: Linearization, number: int) -> Step:
     about = {"outcome": _outcome(linear, free), "number": str(number), "coordinate": ", ".join(free)}
     if linear.verdict.derivative:
         about["derivative"] = str(linear.verdict.derivative)
+        about["degree"] = str(linear.verdict.derivative + 1)
     return Step(RULE, str(number), (*places, Relation((proof, zero(system)))), (), about)
 
 
@@ -48,5 +49,5 @@ def _outcome(linear: Linearization, free: tuple[str, ...]) -> str:
         reason = "singular" if linear.is_smooth else "jumps"
         return reason if linear.stability == "undecided" else f"{reason}-{linear.stability}"
     if linear.verdict.derivative > 1:
-        return f"{linear.stability}-by-derivative"
+        return f"{linear.stability}-by-{'form' if linear.verdict.by_form else 'derivative'}"
     return "stable-in-the-others" if linear.stability == "stable" and free else linear.stability
