@@ -23,6 +23,8 @@ from deltaq.derivation.verification import random_points, verified_step
 from deltaq.language.parser import parse
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.scene import Scene
+from deltaq.mechanics.writing import write_scene
+from deltaq.narration.derive import derive_request
 
 NUMBER = 1e-9
 
@@ -139,6 +141,9 @@ def test_a_condition_is_told() -> None:
     assert [str(condition) for condition in each.conditions] == ["kappa - 1"]
     step = noether.apply(System(SYSTEMS["oscillator, κ = 1"].scene), each, 1)
     assert step.about["outcome"] == "invariant-special"
+    answer = derive_request({"scene": write_scene(SYSTEMS["oscillator, κ = 1"].scene)})
+    (told,) = (one for one in answer["result"]["conserved"] if one["kind"] == "symmetry")  # type: ignore[index]
+    assert [one["plain"] for one in told["conditions"]] == ["kappa = 1"]
 
 
 def test_two_equal_parameters_are_a_condition() -> None:

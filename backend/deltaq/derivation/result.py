@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 import sympy as sp
@@ -35,7 +35,8 @@ Terms = Mapping[str, Mapping[str, tuple[Term, ...]]]
 class Conserved:
     """A quantity that does not change along the motion: a momentum, the Jacobi energy, or that of another symmetry.
 
-    `meaning` says in a word what its generator does, `step` is the id of the step that shows it.
+    `meaning` says in a word what its generator does, `step` is the id of the step that shows it. `special` holds the
+    parameters by others or by a number, where it is conserved for these only.
     """
 
     kind: str
@@ -44,7 +45,7 @@ class Conserved:
     generator: Generator
     meaning: str
     step: str
-    conditions: tuple[sp.Expr, ...] = ()
+    special: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -226,8 +227,8 @@ def _conserved(system: System) -> list[Conserved]:
         generator = Generator({}, sp.Integer(1))
         found.append(Conserved("energy", "", jacobi_energy(system), generator, "time", "jacobi-energy"))
     for number, each in enumerate(symmetries_of(system), 1):
-        word = meaning(system, each.generator).word
-        found.append(Conserved("symmetry", "", each.value, each.generator, word, f"noether:{number}", each.conditions))
+        word, special = meaning(system, each.generator).word, solved(each.conditions, system)
+        found.append(Conserved("symmetry", "", each.value, each.generator, word, f"noether:{number}", special))
     return found
 
 

@@ -41,6 +41,15 @@ class ExpressionWriter:
             "spoken": self.speech.equated(value),
         }
 
+    def equation(self, left: sp.Expr, right: sp.Expr) -> Document:
+        """Both sides of an equation."""
+        equation = sp.Eq(left, right, evaluate=False)
+        return {
+            "plain": f"{plain(left, self.order)} = {plain(right, self.order)}",
+            "latex": latex(equation, self.typography),
+            "spoken": self.speech.value(equation),
+        }
+
     def vector(self, value: sp.ImmutableMatrix) -> Document:
         """A column by its components."""
         text = [plain(component, self.order) for component in value]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import sympy as sp
 
@@ -86,7 +86,7 @@ class _Sums:
             **self._integral(quantity),
             "generator": self._generator(quantity.generator),
             "meaning": quantity.meaning,
-            "conditions": [self.write.equated(condition) for condition in quantity.conditions],
+            "conditions": [self.write.equation(*pair) for pair in quantity.special.items()],
             "step": quantity.step,
         }
 
@@ -106,5 +106,5 @@ class _Sums:
         return {
             **self.write.written(term.sign * term.written_out),
             "sources": list(term.sources),
-            "from": [asdict(origin) for origin in origins],
+            "from": [{"term": origin.term, "change": origin.change} for origin in origins],
         }
