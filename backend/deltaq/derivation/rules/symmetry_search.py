@@ -16,4 +16,4 @@ RULE = "symmetry-search"
 
 def apply(system: System) -> Step:
     """A step of words only."""
-    return Step(RULE, "", (), (), {"outcome": "and-space" if motions(system) else "affine"})
+    return Step(RULE, "", (), (), {"outcome": "and-space" if motions(system) else "affine"}, premises=("lagrangian",))
