@@ -12,8 +12,11 @@ from tests.derivation.scenes import chain, spring_in_space
 from deltaq.derivation.equilibria import search
 from deltaq.derivation.linearization import linearizations
 from deltaq.derivation.system import System
+from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
+from deltaq.mechanics.writing import write_scene
+from deltaq.narration.derive import derive_request
 
 
 def found(scene: Scene) -> list[tuple[dict[str, str], str]]:
@@ -126,3 +129,52 @@ def test_all_equilibria_are_counted_and_those_not_told_in_full_stand_below() -> 
     assert len([step for step in steps if step.startswith("linearization:")]) == 4
     assert steps["equilibrium-search"].about == {"outcome": "everywhere", "shown": "4", "count": "16", "listed": "16"}
     assert len(steps["equilibrium-search"].substeps) == 12
+
+
+@pytest.mark.parametrize(
+    ("names", "energy", "count", "free"),
+    [
+        pytest.param("u w", "k*cos(u)", 2, 1, id="a coordinate that no force depends on"),
+        pytest.param("x y", "k*(x-y)^2/2", 1, 1, id="two masses and a spring: one family"),
+        pytest.param("u v w", "k*(cos(u)+cos(v))", 4, 1, id="two angles and a free coordinate"),
+        pytest.param("x y z", "k*((x-y)^2+(y-z)^2)/2", 1, 1, id="three masses in a row: one family"),
+        pytest.param("u w", "k*cos(u)*cos(u)", 4, 1, id="four angles in a turn, each with a free coordinate"),
+    ],
+)
+def test_families_are_counted_as_families(names: str, energy: str, count: int, free: int) -> None:
+    """A family is one, however many positions are in it; the answer says how many there are, and what is free."""
+    scene = in_a_row(names, energy)
+    known = search(System(scene))
+    assert known is not None
+    assert (known.count, len(known.found), known.complete) == (count, count, True)
+    assert all(each.is_family and len(each.free) == free for each in known.found)
+    result = derive_request({"scene": write_scene(scene)})["result"]
+    assert result["equilibrium_search"]["count"] == len(result["equilibria"]) == count  # type: ignore[index]
+    assert {len(each["free"]) for each in result["equilibria"]} == {free}  # type: ignore[index]
+
+
+def test_families_that_are_not_all_found_are_no_complete_search() -> None:
+    """u − v = 0 and u − v = π: two lines of rest on a torus."""
+    known = search(System(in_a_row("u v", "k*cos(u-v)")))
+    assert known is not None
+    assert known.complete or known.left_out == "continuum"
+    assert known.count <= 2
+    assert all(each.is_family for each in known.found)
+
+
+def in_a_row(names: str, energy: str) -> Scene:
+    """A mass for each coordinate, with this potential."""
+    coordinates = names.split()
+    bodies = [
+        {"name": f"b{i}", "kind": "particle", "mass": "m", "position": [q, "0"]} for i, q in enumerate(coordinates)
+    ]
+    return read_scene(
+        {
+            "id": "families",
+            "dimension": 2,
+            "coordinates": [{"name": q, "value": 0.3} for q in coordinates],
+            "parameters": [{"name": "m", "value": 1.0}, {"name": "k", "value": 2.0}],
+            "bodies": bodies,
+            "loads": [{"kind": "potential", "energy": energy}],
+        }
+    )
