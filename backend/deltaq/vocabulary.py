@@ -52,7 +52,23 @@ CurlOutcome = Literal[
     "nonconservative",
 ]
 # What one term of an answer has wrong.
-SlipKind = Literal["sign", "missing", "half", "double"]
+SlipKind = Literal[
+    "sign",
+    "missing",
+    "half",
+    "double",
+    "factor",
+    "superfluous",
+    "factor-missing",
+    "factor-superfluous",
+    "function",
+    "argument",
+    "power",
+    "name",
+    "rate",
+    "exchanged",
+    "components",
+]
 # What the checker says of an answer, and of one of its parts.
 PartOutcome = Literal["correct", "wrong", "undecided"]
 Outcome = Literal["correct", "wrong", "undecided", "invalid", "follow_through"]

@@ -39,18 +39,17 @@ class Mistake:
 
 
 def mistakes() -> Iterator[Mistake]:
-    """The rows of the table, every second one of a scene held out."""
+    """The rows of the table; held out is what stands below `[scene held-out]`."""
     scene = ""
-    number = 0
+    held_out = False
     for line in TABLE.read_text(encoding="utf-8").splitlines():
         if line.startswith("["):
-            scene, number = line.strip("[]"), 0
+            scene, held_out = line.strip("[]").removesuffix(" held-out"), line.endswith(" held-out]")
         elif line and not line.startswith("#"):
-            number += 1
             task, answer, names, term = line.split(" | ")
             syntax: Syntax = "latex" if answer.startswith("latex:") else "plain"
             named = tuple(name.strip() for name in names.split(","))
-            yield Mistake(scene, task, syntax, answer.removeprefix("latex:"), named, term, number % 2 == 0)
+            yield Mistake(scene, task, syntax, answer.removeprefix("latex:"), named, term, held_out)
 
 
 def verdict_on(row: Mistake) -> Verdict:

@@ -8,7 +8,8 @@ from ..errors import ExpressionError
 from ..language.latex_printer import Typography, latex
 from ..language.parser import Syntax
 from .counterexamples import counterexample
-from .diagnosis import Diagnosis, diagnose, own_term
+from . import slips
+from .diagnosis import Diagnosis, diagnose
 from .dimensions import Told, other_unit, unlike_terms
 from .equality import Match, Parts, equation
 from .partwise import part_outcomes
@@ -26,15 +27,14 @@ def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
         reading = read(task, workbook.solution, text, syntax)
     except ExpressionError as error:
         return Verdict("invalid", problems=error.problems)
-    typography = Typography(workbook.scene.names)
-    shown = latex(reading.shown, typography)
+    shown = latex(reading.shown, Typography(workbook.scene.names))
     match = compare(workbook, task, reading.parts)
     if match.equal:
         return Verdict("correct", shown, match.remark)
     parts = part_outcomes(workbook, task, reading.parts)
     if match.equal is None:
         return Verdict("undecided", shown, parts=parts)
-    return replace(_wrong(workbook, task, reading, match, shown, syntax), parts=parts)
+    return replace(_wrong(workbook, task, reading, match, text, syntax), parts=parts)
 
 
 def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
@@ -58,25 +58,30 @@ def _solved(solution: Solution, task: Task, given: Parts) -> Match:
     return Match(equal=False)
 
 
-def _wrong(workbook: Workbook, task: Task, reading: Reading, match: Match, shown: str, syntax: Syntax) -> Verdict:
+def _wrong(workbook: Workbook, task: Task, reading: Reading, match: Match, text: str, syntax: Syntax) -> Verdict:
     given, right = reading.parts, workbook.right(task)
+    shown = latex(reading.shown, Typography(workbook.scene.names))
     if match.remark == "degenerate":
         return Verdict("wrong", shown, match.remark)
     example = counterexample(task, given, right, workbook.solution)
-    found = Diagnosis() if match.remark else diagnose(workbook, task, given)
-    units = None if found.misconceptions else _units(workbook, task, reading, syntax, alone=found.slip is None)
+    found = Diagnosis() if match.remark else diagnose(workbook, task, reading, text)
+    units = None if found.misconceptions or found.slips else _units(workbook, task, reading, syntax)
     if units:
         identifier, told = units
         return Verdict("wrong", shown, "", (identifier,), counterexample=example, parameters=told)
-    typography = Typography(workbook.scene.names)
-    slip = own_term(found.slip) if found.slip else None
-    told_slip = Slip(slip.kind, latex(slip.term, typography)) if slip else None
+    told_slips = tuple(_told(slip, workbook) for slip in found.slips)
     about = found.about[0] if found.about else ""
-    return Verdict("wrong", shown, match.remark, found.misconceptions, about, told_slip, example)
+    return Verdict("wrong", shown, match.remark, found.misconceptions, about, told_slips, example)
 
 
-def _units(workbook: Workbook, task: Task, reading: Reading, syntax: Syntax, *, alone: bool) -> Told | None:
-    """Terms that cannot be added come first; another unit than the one asked for, where no slip explains it."""
+def _told(slip: slips.Slip, workbook: Workbook) -> Slip:
+    """The slip with its term in LaTeX."""
+    term = "" if slip.term is None else latex(slip.term, Typography(workbook.scene.names))
+    return Slip(slip.kind, term, slip.place, slip.part)
+
+
+def _units(workbook: Workbook, task: Task, reading: Reading, syntax: Syntax) -> Told | None:
+    """Terms that cannot be added come first; then another unit than the one asked for."""
     unlike = unlike_terms(reading, workbook.scene, syntax)
-    measured = alone and task.quantity.form in ("expression", "vector") and task.quantity.kind != "conserved"
+    measured = task.quantity.form in ("expression", "vector") and task.quantity.kind != "conserved"
     return unlike or (other_unit(reading, workbook.shown(task), workbook.scene) if measured else None)

@@ -1,17 +1,22 @@
-"""Which mistake leads to exactly this answer: found by numbers among the wrong answers, then confirmed exactly."""
+"""Which mistake leads to exactly this answer: the term that is wrong, and the cause where it can be told.
+
+A slip is a change of one term that makes the answer right; a misconception is a road that leads to this answer. A
+misconception is named only where both say the same: its road changes the terms that the slip is in. One whose trace in
+a single term anything else could have left (a factor 2 in an equation) is named only where the task asks for the very
+thing, or where more than one term bears it out.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
 
-import sympy as sp
-
 from .equality import Fingerprint, Parts
-from .sampling import close
-from .slips import SlippedParts, Slips
-from .solution import Solution
+from .reading import Reading
+from .sampling import Values, close
+from .slips import Slip, slip_search
 from .task import Task
 from .workbook import Candidate, Workbook
 
@@ -20,27 +25,19 @@ MOST_NAMED = 4
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """The misconceptions that explain an answer, the likeliest first; what they are about; a slip besides."""
+    """The misconceptions that explain an answer, the likeliest first; what they are about; the terms that are wrong."""
 
     misconceptions: tuple[str, ...] = ()
     about: tuple[str, ...] = ()
-    slip: SlippedParts | None = None
+    slips: tuple[Slip, ...] = ()
 
 
-def diagnose(workbook: Workbook, task: Task, given: Parts) -> Diagnosis:
-    """The mistake that leads to exactly this answer: a misconception, else one slip, else both."""
-    found = list(islice(_direct(workbook, task, given), MOST_NAMED))
-    if found:
-        return Diagnosis(tuple(c.solution.id for c in found), tuple(c.solution.about for c in found))
-    slips = Slips(workbook.sampler, task.quantity.form, up_to_constant=task.quantity.up_to_constant)
-    right = _slip(slips, given, workbook.right(task), task, workbook.solution)
-    if right is not None:
-        return Diagnosis(slip=right)
-    for candidate in workbook.candidates(task) if any(part != 0 for part in given) else ():
-        besides = _slip(slips, given, candidate.parts, task, candidate.solution)
-        if besides is not None:
-            return Diagnosis((candidate.solution.id,), (candidate.solution.about,), besides)
-    return Diagnosis()
+def diagnose(workbook: Workbook, task: Task, reading: Reading, text: str) -> Diagnosis:
+    """The mistake that leads to exactly this answer, as far as it can be told."""
+    slips = slip_search(workbook, task).slips(reading, text)
+    direct = _direct(workbook, task, reading.parts)
+    found = list(islice((c for c in direct if _agrees(workbook, task, c, reading.parts, slips)), MOST_NAMED))
+    return Diagnosis(tuple(c.solution.id for c in found), tuple(c.solution.about for c in found), slips)
 
 
 def _direct(workbook: Workbook, task: Task, given: Parts) -> Iterator[Candidate]:
@@ -58,14 +55,33 @@ def _alike(own: Fingerprint | None, other: Fingerprint) -> bool:
     return own is not None and len(own) == len(other) and close(own, other)
 
 
-def _slip(slips: Slips, given: Parts, base: Parts, task: Task, solution: Solution) -> SlippedParts | None:
-    for slipped in slips.between(given, base):
-        if task.quantity.equality.same(given, slipped.parts, solution).equal:
-            return slipped
-    return None
+def _agrees(workbook: Workbook, task: Task, candidate: Candidate, given: Parts, slips: tuple[Slip, ...]) -> bool:
+    """Whether the road of a misconception goes through the terms in which the slips are."""
+    if not slips:
+        return True
+    evident, traces = candidate.solution.evident, candidate.solution.traces
+    if evident is not None and task.quantity.kind not in evident:
+        return False
+    if traces is not None and not {slip.kind for slip in slips} <= traces:
+        return False
+    if task.quantity.form not in ("equation", "equations"):
+        return True
+    return all(_compared_alike(workbook, slip, given, candidate.parts) for slip in slips if slip.scale)
 
 
-def own_term(slipped: SlippedParts) -> SlippedParts:
-    """The slip with the term as the student wrote it, so that the right term is not revealed."""
-    factor = {"sign": -1, "half": sp.Rational(1, 2), "double": 2}.get(slipped.kind, 1)
-    return replace(slipped, term=factor * slipped.term)
+def _compared_alike(workbook: Workbook, slip: Slip, given: Parts, road: Parts) -> bool:
+    """Whether the equation is as many times the misconception's as it is the right one, but for the slip."""
+    scales = (_scale(workbook.sampler.rows(given[slip.part]), workbook.sampler.rows(part)) for part in road)
+    return any(scale is not None and close(scale, slip.scale) for scale in scales)
+
+
+def _scale(own: tuple[Values, ...], other: tuple[Values, ...]) -> Values | None:
+    """The factor of one equation over another at every point; None where it is none."""
+    factors = []
+    for a, b in zip(own, other, strict=True):
+        column = max(range(len(b)), key=lambda k: abs(b[k]))
+        factor = a[column] / b[column] if b[column] else math.nan
+        if not close(a, [factor * entry for entry in b]):
+            return None
+        factors.append(factor)
+    return tuple(factors)

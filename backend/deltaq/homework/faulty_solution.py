@@ -15,6 +15,7 @@ from ..language.memory import cached_method
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import Contribution
 from ..packages import classes_of
+from ..vocabulary import SlipKind
 from .solution import Solution
 
 PACKAGE = "deltaq.homework.misconceptions"
@@ -25,14 +26,17 @@ class FaultySolution(Solution):
     """The solution of somebody who gets one law wrong; everything after the mistake is derived correctly from it.
 
     `about` is what the mistake is made on (a load, a body, a coordinate), "" where there is nothing to choose. `likely`
-    orders mistakes that lead to the same answer: the smaller comes first. What comes before the mistake is taken from
-    the true solution.
+    orders mistakes that lead to the same answer: the smaller comes first. `evident` are the kinds of tasks in which a
+    single wrong term shows the mistake (None: all); in others something else may have left the same trace, and it takes
+    more than one term; `traces` are the kinds of slip that it leaves (None: any). What comes before the mistake is taken from the true solution.
     """
 
     true: Solution
     about: str = ""
     id: ClassVar[str]
     likely: ClassVar[int] = 5
+    evident: ClassVar[frozenset[str] | None] = None
+    traces: ClassVar[frozenset[SlipKind] | None] = None
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ..errors import Problem
+from ..language.tree import Span
 from ..vocabulary import Outcome, PartOutcome, SlipKind
 
 
@@ -21,10 +22,14 @@ class Counterexample:
 
 @dataclass(frozen=True)
 class Slip:
-    """One term that differs from what it should be: by its sign, a factor 2 or ½, or it is missing (`slips.KINDS`)."""
+    """One term that is not what it should be: in which way, the term in LaTeX as it was written ("" if it is missing),
+    its place in the answer, None if it has none, and the part of the answer that it is in.
+    """
 
     kind: SlipKind
     term: str
+    place: Span | None = None
+    part: int = 0
 
 
 @dataclass(frozen=True)
@@ -32,7 +37,8 @@ class Verdict:
     """The outcome, what was understood, and what can be said about it.
 
     `remark` tells in which sense a correct answer is equal, or why a wrong one is; `misconceptions` are all that lead
-    to exactly this answer, the likeliest first; `about` fills the texts; `parts` are the outcomes of components, of the
+    to exactly this answer, the likeliest first; `about` fills the texts; `slips` are the terms that are wrong, one for
+    each wrong part; `parts` are the outcomes of components, of the
     equations of a set, or of several frequencies.
     """
 
@@ -41,8 +47,13 @@ class Verdict:
     remark: str = ""
     misconceptions: tuple[str, ...] = ()
     about: str = ""
-    slip: Slip | None = None
+    slips: tuple[Slip, ...] = ()
     counterexample: Counterexample | None = None
     problems: tuple[Problem, ...] = ()
     parts: tuple[PartOutcome, ...] = ()
     parameters: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def slip(self) -> Slip | None:
+        """The first of the slips."""
+        return self.slips[0] if self.slips else None

@@ -119,9 +119,9 @@ def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[s
         return verdict
     given = read(task, workbook.solution, line.text, line.syntax).parts
     if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.solution).equal:
-        return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slip=None)
+        return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slips=())
     if any(_follows(workbook, task, given, solution) for solution in _ways_from_wrong_lines(workbook, task, wrong)):
-        return replace(verdict, outcome="follow_through", remark="", misconceptions=(), slip=None, counterexample=None)
+        return replace(verdict, outcome="follow_through", remark="", misconceptions=(), slips=(), counterexample=None)
     return verdict
 
 

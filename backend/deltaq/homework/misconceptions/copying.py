@@ -25,6 +25,7 @@ class NamesMixedUp(FaultySolution):
 
     id: ClassVar[str] = "names-mixed-up"
     likely: ClassVar[int] = 4
+    evident: ClassVar[frozenset[str] | None] = frozenset()
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:

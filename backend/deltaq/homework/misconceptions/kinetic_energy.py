@@ -11,8 +11,12 @@ import sympy as sp
 from ...derivation.calculus import column
 from ...mechanics.bodies import Body
 from ...mechanics.kinetics import Distribution, Rotation, Translation
+from ...vocabulary import SlipKind
 from ..faulty_solution import FaultySolution
 from ..solution import Solution
+
+OF_THE_ENERGY = frozenset({"kinetic-energy", "lagrangian", "conserved"})
+OF_THE_RATES = OF_THE_ENERGY | {"momentum"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +28,8 @@ class HalfInKineticEnergy(FaultySolution):
 
     id: ClassVar[str] = "half-in-kinetic-energy"
     likely: ClassVar[int] = 1
+    evident: ClassVar[frozenset[str] | None] = OF_THE_ENERGY
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"double"})
 
     def kinetic_energy_of(self, body: Body) -> sp.Expr:
         return 2 * super().kinetic_energy_of(body)
@@ -38,6 +44,8 @@ class HalfOfOneBody(FaultySolution):
 
     id: ClassVar[str] = "half-of-one-body"
     likely: ClassVar[int] = 3
+    evident: ClassVar[frozenset[str] | None] = OF_THE_ENERGY
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"double"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -58,6 +66,7 @@ class BodyMissing(FaultySolution):
 
     id: ClassVar[str] = "body-missing"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -77,6 +86,7 @@ class MixedTermMissing(FaultySolution):
 
     id: ClassVar[str] = "mixed-term-missing"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     def kinetic_energy_of(self, body: Body) -> sp.Expr:
         return _scaled_mixed(super().kinetic_energy_of(body), self, sp.Integer(0))
@@ -91,6 +101,8 @@ class MixedTermHalved(FaultySolution):
 
     id: ClassVar[str] = "mixed-term-halved"
     likely: ClassVar[int] = 2
+    evident: ClassVar[frozenset[str] | None] = OF_THE_ENERGY
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"half"})
 
     def kinetic_energy_of(self, body: Body) -> sp.Expr:
         return _scaled_mixed(super().kinetic_energy_of(body), self, sp.Rational(1, 2))
@@ -105,6 +117,8 @@ class SquareOfLength(FaultySolution):
 
     id: ClassVar[str] = "square-of-length"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"power", "factor-missing"})
+    evident: ClassVar[frozenset[str] | None] = OF_THE_RATES
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -128,6 +142,8 @@ class SquareOfRate(FaultySolution):
 
     id: ClassVar[str] = "square-of-rate"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"power", "factor-missing"})
+    evident: ClassVar[frozenset[str] | None] = OF_THE_RATES
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -148,6 +164,7 @@ class RatesForCoordinates(FaultySolution):
 
     id: ClassVar[str] = "rates-for-coordinates"
     likely: ClassVar[int] = 3
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"rate"})
 
     @property
     def kinetic_energy(self) -> sp.Expr:
@@ -221,6 +238,7 @@ class TranslationMissing(FaultySolution):
 
     id: ClassVar[str] = "translation-missing"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:

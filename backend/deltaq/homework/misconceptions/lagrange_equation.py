@@ -8,6 +8,7 @@ from typing import ClassVar, Self
 
 import sympy as sp
 
+from ...vocabulary import SlipKind
 from ..faulty_solution import FaultySolution
 from ..solution import Solution
 from .kinetic_energy import degrees_in_rates
@@ -22,6 +23,7 @@ class MomentumIsMassTimesRate(FaultySolution):
 
     id: ClassVar[str] = "momentum-is-mass-times-rate"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     def momentum(self, coordinate: str) -> sp.Expr:
         rate = self.rate(coordinate)
@@ -37,6 +39,7 @@ class TotalDerivativePartial(FaultySolution):
 
     id: ClassVar[str] = "total-derivative-partial"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     def momentum_rate(self, coordinate: str) -> sp.Expr:
         momentum = self.kinetic_energy.diff(self.rate(coordinate))
@@ -52,6 +55,7 @@ class TotalDerivativeHalved(FaultySolution):
 
     id: ClassVar[str] = "total-derivative-halved"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"half"})
 
     def momentum_rate(self, coordinate: str) -> sp.Expr:
         momentum = self.kinetic_energy.diff(self.rate(coordinate))
@@ -68,6 +72,7 @@ class GuideAccelerationMissing(FaultySolution):
 
     id: ClassVar[str] = "guide-acceleration-missing"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -88,6 +93,7 @@ class EnergySlopeDropped(FaultySolution):
 
     id: ClassVar[str] = "energy-slope-dropped"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing", "superfluous"})
 
     def energy_slope(self, _coordinate: str, /) -> sp.Expr:
         return self.zero
@@ -102,6 +108,7 @@ class EnergySlopeSign(FaultySolution):
 
     id: ClassVar[str] = "energy-slope-sign"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign", "superfluous", "double"})
 
     def energy_slope(self, coordinate: str) -> sp.Expr:
         return -super().energy_slope(coordinate)
@@ -116,6 +123,7 @@ class CoriolisMissing(FaultySolution):
 
     id: ClassVar[str] = "coriolis-missing"
     likely: ClassVar[int] = 3
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -135,6 +143,7 @@ class CentrifugalMissing(FaultySolution):
 
     id: ClassVar[str] = "centrifugal-missing"
     likely: ClassVar[int] = 3
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     def equation(self, coordinate: str) -> sp.Expr:
         return _without(super().equation(coordinate), self, mixed=False)

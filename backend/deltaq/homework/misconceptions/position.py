@@ -24,6 +24,7 @@ class CoordinateDirection(FaultySolution):
 
     id: ClassVar[str] = "coordinate-direction"
     likely: ClassVar[int] = 3
+    evident: ClassVar[frozenset[str] | None] = frozenset()
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -43,6 +44,7 @@ class RelativeAngle(FaultySolution):
 
     id: ClassVar[str] = "relative-angle"
     likely: ClassVar[int] = 3
+    evident: ClassVar[frozenset[str] | None] = frozenset({"position"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -63,6 +65,7 @@ class SineCosineSwapped(FaultySolution):
 
     id: ClassVar[str] = "sine-cosine-swapped"
     likely: ClassVar[int] = 2
+    evident: ClassVar[frozenset[str] | None] = frozenset({"position", "potential-energy"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:

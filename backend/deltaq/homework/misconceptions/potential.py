@@ -9,6 +9,7 @@ from typing import ClassVar, Self
 import sympy as sp
 
 from ...mechanics.contributions import Contribution, PointForce, PotentialEnergy
+from ...vocabulary import SlipKind
 from ..faulty_solution import FaultySolution
 from ..solution import Solution
 
@@ -22,6 +23,7 @@ class PotentialSign(FaultySolution):
 
     id: ClassVar[str] = "potential-sign"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
 
     @property
     def potential_energy(self) -> sp.Expr:
@@ -37,6 +39,8 @@ class HalfInSpringEnergy(FaultySolution):
 
     id: ClassVar[str] = "half-in-spring-energy"
     likely: ClassVar[int] = 1
+    evident: ClassVar[frozenset[str] | None] = frozenset({"potential-energy", "lagrangian", "conserved"})
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"double"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -82,6 +86,7 @@ class RestLengthMissing(FaultySolution):
 
     id: ClassVar[str] = "rest-length-missing"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -136,6 +141,7 @@ class PotentialForceSign(FaultySolution):
 
     id: ClassVar[str] = "potential-force-sign"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -164,6 +170,7 @@ class PotentialMissing(FaultySolution):
 
     id: ClassVar[str] = "potential-missing"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     def potential_slope(self, _coordinate: str, /) -> sp.Expr:
         return self.zero
@@ -178,6 +185,7 @@ class PotentialCountedTwice(FaultySolution):
 
     id: ClassVar[str] = "potential-counted-twice"
     likely: ClassVar[int] = 1
+    evident: ClassVar[frozenset[str] | None] = frozenset()
 
     def potential_slope(self, coordinate: str) -> sp.Expr:
         return 2 * super().potential_slope(coordinate)
@@ -192,6 +200,7 @@ class PotentialOnTheWrongSide(FaultySolution):
 
     id: ClassVar[str] = "potential-on-the-wrong-side"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
 
     def potential_slope(self, coordinate: str) -> sp.Expr:
         return -super().potential_slope(coordinate)
@@ -206,6 +215,7 @@ class SumOfEnergies(FaultySolution):
 
     id: ClassVar[str] = "sum-of-energies"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
 
     @property
     def lagrangian(self) -> sp.Expr:

@@ -9,6 +9,7 @@ import sympy as sp
 
 from ...derivation.calculus import V
 from ...language.canonical import display
+from ...vocabulary import SlipKind
 from ..faulty_solution import FaultySolution
 from ..solution import Solution
 
@@ -22,6 +23,7 @@ class LinearizedTooEarly(FaultySolution):
 
     id: ClassVar[str] = "linearized-too-early"
     likely: ClassVar[int] = 2
+    evident: ClassVar[frozenset[str] | None] = frozenset()
 
     def position(self, place: str) -> sp.ImmutableMatrix:
         return _with_small_angles(super().position(place), self)
@@ -36,6 +38,7 @@ class EquationLinearized(FaultySolution):
 
     id: ClassVar[str] = "equation-linearized"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"function", "name"})
 
     def equation(self, coordinate: str) -> sp.Expr:
         return _with_small_angles(display(super().equation(coordinate), self.symbols), self)

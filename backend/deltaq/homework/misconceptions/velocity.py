@@ -12,6 +12,7 @@ import sympy as sp
 from ...derivation.calculus import column
 from ...mechanics.bodies import Body
 from ...mechanics.contributions import Contribution
+from ...vocabulary import SlipKind
 from ..faulty_solution import FaultySolution
 from ..solution import Solution
 
@@ -25,6 +26,7 @@ class GuideVelocityMissing(FaultySolution):
 
     id: ClassVar[str] = "guide-velocity-missing"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -44,6 +46,7 @@ class BaseVelocityMissing(FaultySolution):
 
     id: ClassVar[str] = "base-velocity-missing"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -67,6 +70,7 @@ class InnerFrequency(FaultySolution):
 
     id: ClassVar[str] = "inner-frequency"
     likely: ClassVar[int] = 3
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"factor-missing", "power"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -104,6 +108,7 @@ class ChainRuleFactor(FaultySolution):
 
     id: ClassVar[str] = "chain-rule-factor"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"factor-missing", "power"})
 
     def velocity(self, place: str) -> sp.ImmutableMatrix:
         return column(self._without_inner(r, self.rate) for r in self.position(place))
@@ -131,6 +136,8 @@ class DerivativeOfCosine(FaultySolution):
 
     id: ClassVar[str] = "derivative-of-cosine"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
+    evident: ClassVar[frozenset[str] | None] = frozenset({"virtual-displacement", "virtual-work", "kinetic-energy", "momentum"})
 
     def velocity(self, place: str) -> sp.ImmutableMatrix:
         return column(self._slope(r, self.rate) + r.diff(self.t) for r in self.position(place))

@@ -109,6 +109,7 @@ class GuideVaried(FaultySolution):
 
     id: ClassVar[str] = "guide-varied"
     likely: ClassVar[int] = 1
+    evident: ClassVar[frozenset[str] | None] = frozenset({"virtual-displacement", "virtual-work"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:

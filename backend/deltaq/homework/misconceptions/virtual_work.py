@@ -10,6 +10,7 @@ import sympy as sp
 
 from ...language.canonical import display
 from ...mechanics.contributions import Contribution, DissipationFunction, DistributedForce, PointForce
+from ...vocabulary import SlipKind
 from ..faulty_solution import FaultySolution
 from ..solution import Solution
 from .position import swapped
@@ -24,6 +25,7 @@ class LoadMissing(FaultySolution):
 
     id: ClassVar[str] = "load-missing"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -45,6 +47,7 @@ class WeightMissing(FaultySolution):
 
     id: ClassVar[str] = "weight-missing"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -67,6 +70,7 @@ class GravitySign(FaultySolution):
 
     id: ClassVar[str] = "gravity-sign"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -88,6 +92,7 @@ class MassMissingInWeight(FaultySolution):
 
     id: ClassVar[str] = "mass-missing-in-weight"
     likely: ClassVar[int] = 3
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"factor-missing", "power"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -111,6 +116,7 @@ class ForceSign(FaultySolution):
 
     id: ClassVar[str] = "force-sign"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -133,6 +139,7 @@ class ForceComponentsSwapped(FaultySolution):
 
     id: ClassVar[str] = "force-components-swapped"
     likely: ClassVar[int] = 3
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"function"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -156,6 +163,7 @@ class LeverArmMissing(FaultySolution):
 
     id: ClassVar[str] = "lever-arm-missing"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"factor-missing", "power"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -224,6 +232,7 @@ class DissipationSign(FaultySolution):
 
     id: ClassVar[str] = "dissipation-sign"
     likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
@@ -243,6 +252,7 @@ class DissipationFactor(FaultySolution):
 
     id: ClassVar[str] = "dissipation-factor"
     likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"half"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:

@@ -1,0 +1,5 @@
+"""Slips: one term of an answer is wrong, and the answer with that one change is right."""
+
+from .search import Slip, SlipSearch, slip_search
+
+__all__ = ["Slip", "SlipSearch", "slip_search"]
