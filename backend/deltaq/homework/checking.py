@@ -62,7 +62,8 @@ def _wrong(workbook: Workbook, task: Task, reading: Reading, match: Match, text:
     given, right = reading.parts, workbook.right(task)
     shown = latex(reading.shown, Typography(workbook.scene.names))
     if match.remark == "degenerate":
-        return Verdict("wrong", shown, match.remark)
+        terms = slips.slip_search(workbook, task).slips(reading, text)
+        return Verdict("wrong", shown, match.remark, slips=tuple(_told(slip, workbook) for slip in terms))
     example = counterexample(task, given, right, workbook.solution)
     found = Diagnosis() if match.remark else diagnose(workbook, task, reading, text)
     units = None if found.misconceptions or found.slips else _units(workbook, task, reading, syntax)

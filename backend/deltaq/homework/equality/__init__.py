@@ -22,10 +22,15 @@ Fingerprint = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Match:
-    """Whether two answers are equal (None: undecided), and in which sense if not literally."""
+    """Whether two answers are equal (None: undecided), and in which sense if not literally.
+
+    `nonzero` is what must not be zero for them to be; `about` are the names of what the remark is on.
+    """
 
     equal: bool | None
     remark: str = ""
+    nonzero: Parts = ()
+    about: tuple[str, ...] = ()
 
 
 class Equality(Protocol):

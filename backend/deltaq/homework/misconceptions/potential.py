@@ -95,6 +95,7 @@ class RestLengthMissing(FaultySolution):
                 energy = true.energy(part)
                 lengths = [p.name for p in true.scene.parameters if p.unit == "m" and energy.has(true.q(p.name))]
                 lengths = [name for name in lengths if energy.xreplace({true.q(name): true.zero}) != 0]
+                lengths = [name for name in lengths if not energy.diff(true.q(name)).diff(true.q(name)).has(true.t)]
                 yield from (cls(true.scene, true, f"{part.source}:{name}") for name in lengths)
 
     def energy(self, load: PotentialEnergy) -> sp.Expr:

@@ -103,12 +103,11 @@ def constant(values: Values) -> Fraction | None:
 def _factor_changed(spot: Spot, monomial: Monomial, held: dict[Node, int]) -> Iterator[Edit]:
     """Factors that should be there and are not, or are and should not."""
     after = Product((spot.node, monomial.node))
-    missing = [(b, p) for b, p in monomial.powers if p > 0 or held.get(b.node, 0) < -p]
+    missing = [(b, p) for b, p in monomial.powers if p > 0 or held.get(b.node, 0) <= 0]
     surplus = [(b, -p) for b, p in monomial.powers if (b, p) not in missing]
-    known = [b for b, p in missing if p > 0 and held.get(b.node, 0) > 0]
     many = 0.35 * (len(monomial.powers) - 1) + 0.05 * sum(abs(p) - 1 for _, p in monomial.powers)
     if not surplus:
-        kind: SlipKind = "power" if known and len(missing) == 1 else "factor-missing"
+        kind: SlipKind = "power" if all(p > 0 and held.get(b.node, 0) > 0 for b, p in missing) else "factor-missing"
         yield _edit(spot, kind, after, 1.2 + many + (0.0 if all(p > 0 for _, p in missing) else 0.1))
     elif not missing:
         ((base, power), *_) = surplus
@@ -161,9 +160,10 @@ def _of_a_factor(spot: Spot, lexicon: Lexicon, values: Valued) -> Iterator[Edit]
         case Sum():
             yield from _power(spot)
             yield from _missing_within(spot, lexicon)
+            yield from _other_orders(spot, values)
         case Power(base, Number() as exponent):
             yield from _exponent(spot, base, exponent.value, values)
-            if isinstance(base, Sum) and exponent.value % 2 == 0:
+            if exponent.value % 2 == 0:
                 yield from _squared_bracket(spot, base, int(exponent.value), lexicon, values)
         case Quotient(numerator, denominator):
             if near(spot.wanted, tuple(1 / v if v else math.nan for v in spot.values)):
@@ -248,8 +248,7 @@ def _argument(spot: Spot, changed: Call) -> Edit:
 
 
 def _other_arguments(argument: Node) -> Iterator[Node]:
-    """With the sign of one term turned, without one term, twice and half as large."""
-    yield Negation(argument)
+    """Twice and half as large, and with the sign of one term turned."""
     yield Product((exact(2), argument))
     yield Quotient(argument, exact(2))
     if isinstance(argument, Sum):
@@ -268,19 +267,22 @@ def _missing_within(spot: Spot, lexicon: Lexicon) -> Iterator[Edit]:
             yield _edit(spot, "missing", Sum((spot.node, added)), 1.35 + 0.2 * (len(monomial.powers) - 1))
 
 
-def _squared_bracket(spot: Spot, base: Sum, power: int, lexicon: Lexicon, values: Valued) -> Iterator[Edit]:
+def _squared_bracket(spot: Spot, base: Node, power: int, lexicon: Lexicon, values: Valued) -> Iterator[Edit]:
     """One term within a bracket whose even power is known: the bracket itself may have either sign."""
-    for index, term in enumerate(base.terms):
+    terms = base.terms if isinstance(base, Sum) else (base,)
+
+    def fits(changed: Node) -> bool:
+        return near(spot.wanted, tuple(v**power for v in values(changed)))
+
+    for index, term in enumerate(terms if isinstance(base, Sum) else ()):
         for kind, after, cost in _other_terms(term, lexicon):
-            changed = replace(base, terms=(*base.terms[:index], after, *base.terms[index + 1 :]))
-            if near(spot.wanted, tuple(v**power for v in values(changed))):
+            if fits(Sum((*terms[:index], after, *terms[index + 1 :]))):
                 # Of two that fit equally, the later term has the sign that was written down.
                 yield Edit(kind, (*spot.path, 0, index), term, after, cost - 0.002 * index)
     for added in lexicon.bases:
-        for sign in (added.node, Negation(added.node)):
-            changed = replace(base, terms=(*base.terms, sign))
-            if near(spot.wanted, tuple(v**power for v in values(changed))):
-                yield Edit("missing", (*spot.path, 0), base, changed, 1.35)
+        for signed in (added.node, Negation(added.node)):
+            if added.node not in terms and fits(Sum((*terms, signed))):
+                yield Edit("missing", (*spot.path, 0), base, Sum((*terms, signed)), 1.35)
 
 
 def _other_terms(term: Node, lexicon: Lexicon) -> Iterator[tuple[SlipKind, Node, float]]:
@@ -314,3 +316,26 @@ def plain_edits(tree: Node, values: Valued) -> Iterator[Edit]:
             yield _edit(spot, "function", replace(spot.node, function=other), 1.0)
         elif spot.is_addend or not spot.path and not isinstance(spot.node, Sum):
             yield from (_times(spot, times) for times in (Fraction(-1), Fraction(2), Fraction(1, 2)))
+
+
+def _other_orders(spot: Spot, values: Valued) -> Iterator[Edit]:
+    """A bracket of coordinates for one of rates, and the other way round."""
+    for step in (1, -1):
+        changed = _differentiated(spot.node, step)
+        if changed != spot.node and near(spot.wanted, values(changed)):
+            yield _edit(spot, "rate", changed, 1.15)
+
+
+def _differentiated(node: Node, step: int) -> Node:
+    """Every coordinate with a dot more or less; what has none to lose stays."""
+    match node:
+        case Name(name) if step > 0:
+            return Rate(name, 1, span=node.span)
+        case Rate(name, order) if order + step > 0:
+            return Rate(name, order + step, span=node.span)
+        case Rate(name, _):
+            return Name(name, span=node.span)
+        case Call():
+            return node
+        case _:
+            return with_children(node, [_differentiated(part, step) for part in children(node)])

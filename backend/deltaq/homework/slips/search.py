@@ -35,6 +35,7 @@ MOST_TERMS = 40
 MOST_NODES = 400  # of an answer that is looked at
 MOST_TRIED = 24  # first slips, where one does not explain an answer
 PLAIN = ("sign", "function", "half", "double", "power", "missing")  # second slips that are believed
+ACCELERATION = 0.18
 ACCELERATION_SIGN = 0.5  # nobody gets the sign of the inertia wrong and everything else right
 
 
@@ -160,10 +161,10 @@ class SlipSearch:
         inertial = self.task.quantity.form in ("equation", "equations") and any(
             isinstance(node, Rate) and node.order == 2 for node in walk(edit.node)
         )
-        return (ACCELERATION_SIGN if edit.kind == "sign" else 0.02) if inertial else 0.0
+        return (ACCELERATION_SIGN if edit.kind == "sign" else ACCELERATION) if inertial else 0.0
 
     def _missing(self, index: int, given: sp.Expr, right: sp.Expr, spot: Spot, target: Target) -> Iterator[_Found]:
-        """A term of the right answer that is not there."""
+        """A term of the right answer that is not there, or one of a product multiplied out that should not be."""
         if target.factor is None:
             return
         for term, values in self._terms(right):
@@ -172,6 +173,9 @@ class SlipSearch:
                 if near(spot.difference, wanted):
                     slip = Slip("missing", index, None, None, target.scale)
                     yield _Found(slip, (1.3 if sign > 0 else 1.6) + target.cost, given + sign * target.factor * term)
+        for term in sp.Add.make_args(sp.expand(given))[:MOST_TERMS]:
+            if near(spot.difference, tuple(-v for v in self.workbook.sampler.values(term))):
+                yield _Found(Slip("superfluous", index, term, None, target.scale), 1.4 + target.cost, given - term)
 
     @cached_method
     def _terms(self, right: sp.Expr) -> tuple[tuple[sp.Expr, Values], ...]:
@@ -234,14 +238,17 @@ class SlipSearch:
         return ()
 
     def _renamed(self, given: Parts) -> tuple[Slip, ...]:
-        """Two coordinates or two parameters of one unit, each written for the other."""
+        """Two coordinates or two parameters of one unit, each written for the other: everywhere, or where it is wrong."""
         scene, solution = self.workbook.scene, self.workbook.solution
         groups = [[(p.name, p.unit) for p in scene.parameters], [(c.name, c.unit) for c in scene.free]]
+        wrong = {index for index, _ in self._pairs(given)}
         for group in groups:
             for (one, unit), (other, same) in combinations(group, 2):
                 for names in self._exchanges(one, other) if unit == same else ():
-                    if self._right_with(given, names):
-                        return (Slip("exchanged", 0, solution.q(one), None),)
+                    changes = (names if k in wrong else {} for k in range(len(given)))
+                    changed = tuple(part.xreplace(each) for part, each in zip(given, changes, strict=True))
+                    if self._right(changed) or self._right(tuple(part.xreplace(names) for part in given)):
+                        return (Slip("exchanged", min(wrong, default=0), solution.q(one), None),)
         return self._with_other_functions(given)
 
     def _exchanges(self, one: str, other: str) -> Iterator[dict[sp.Expr, sp.Expr]]:
@@ -257,14 +264,11 @@ class SlipSearch:
         waves = {wave for part in given for wave in part.atoms(sp.sin, sp.cos)}
         for argument in sorted({wave.args[0] for wave in waves}, key=str):
             names = {w: (sp.cos if isinstance(w, sp.sin) else sp.sin)(argument) for w in waves if w.args[0] == argument}
-            if self._right_with(given, names):
+            if self._right(tuple(part.xreplace(names) for part in given)):
                 return (Slip("function", 0, None, None),)
         return ()
 
-    def _right_with(self, given: Parts, names: dict[sp.Expr, sp.Expr]) -> bool:
-        changed = tuple(part.xreplace(names) for part in given)
-        if changed == given:
-            return False
+    def _right(self, changed: Parts) -> bool:
         equality, sampler = self.task.quantity.equality, self.workbook.sampler
         own, right = equality.fingerprint(changed, sampler), self.workbook.fingerprint(self.task)
         if not own or not right or len(own) != len(right) or not near(own, right):

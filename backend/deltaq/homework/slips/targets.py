@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import sympy as sp
@@ -22,6 +22,7 @@ from .lexicon import near
 
 MOST_OPERATIONS = 400  # of a factor that is looked at in symbols
 MOST_TERMS = 20
+UNUSUAL = 0.35
 
 
 @dataclass(frozen=True)
@@ -89,20 +90,43 @@ def _scaled_by_terms(given: sp.Expr, right: sp.Expr, sampler: Sampler) -> Iterat
 
 
 def _scaled_equation(given: sp.Expr, right: sp.Expr, sampler: Sampler) -> Iterator[Target]:
-    """The factor is told by any column of (A, b) that has no mistake in it."""
+    """The factor is told by any column of (A, b) that has no mistake in it; besides, the usual ones are tried."""
     own, true = sampler.rows(given), sampler.rows(right)
-    values = sampler.values(right)
     found: list[Target] = []
     for column in range(len(sampler.solution.free) + 1):
         scale = tuple(a[column] / b[column] if b[column] else math.nan for a, b in zip(own, true, strict=True))
-        if all(map(math.isfinite, scale)) and all(scale) and not any(near(scale, t.scale) for t in found):
-            wanted = tuple(s * v for s, v in zip(scale, values, strict=True))
-            found.append(Target(wanted, scale, _factor(given, right, column, sampler.solution)))
-    yield from sorted((_judged(target, given, right, sampler) for target in found), key=lambda t: t.cost)
+        if _is_new(scale, found):
+            found.append(_scaled(scale, _factor(given, right, column, sampler), right, sampler))
+    judged = [_judged(target, given, right, sampler) for target in found]
+    for factor in _usual(right, sampler):
+        scale = sampler.values(factor)
+        if _is_new(scale, found):
+            found.append(_scaled(scale, factor, right, sampler))
+            judged.append(replace(found[-1], cost=UNUSUAL))
+    yield from sorted(judged, key=lambda target: target.cost)
 
 
-def _factor(given: sp.Expr, right: sp.Expr, column: int, solution: Solution) -> sp.Expr | None:
+def _is_new(scale: Values, found: list[Target]) -> bool:
+    regular = all(map(math.isfinite, scale)) and all(scale)
+    return regular and not any(near(scale, target.scale) for target in found)
+
+
+def _scaled(scale: Values, factor: sp.Expr | None, right: sp.Expr, sampler: Sampler) -> Target:
+    return Target(tuple(s * v for s, v in zip(scale, sampler.values(right), strict=True)), scale, factor)
+
+
+def _usual(right: sp.Expr, sampler: Sampler) -> Iterator[sp.Expr]:
+    """1, and what makes an acceleration bare: for mistakes that are in every column."""
+    yield sp.Integer(1)
+    for q in sampler.solution.free:
+        entry = right.diff(sampler.solution.acceleration(q))
+        if entry != 0 and entry.count_ops() <= MOST_OPERATIONS:
+            yield 1 / display(entry.expand(), sampler.solution.symbols)
+
+
+def _factor(given: sp.Expr, right: sp.Expr, column: int, sampler: Sampler) -> sp.Expr | None:
     """The quotient of the two columns in symbols, in short form."""
+    solution = sampler.solution
     entries = []
     for part in (given, right):
         matrix, rest = system_of((part,), solution)
@@ -121,7 +145,7 @@ def _judged(target: Target, given: sp.Expr, right: sp.Expr, sampler: Sampler) ->
     sign = 0.2 if number < 0 else 0.0
     monic = any(near(target.scale, inverse) for inverse in _inverses(sampler.rows(right)))
     whole = not any(r.q != 1 for r in given.expand().atoms(sp.Rational))
-    plain = 0.0 if rest == 1 else 0.02 if monic or _divides(rest, right) else 0.15
+    plain = 0.0 if rest == 1 else 0.1 if monic or _divides(rest, right) else 0.15
     numbered = 0.0 if abs(number) == 1 or monic else 0.3 if whole else 0.5
     return Target(target.values, target.scale, target.factor, sign + plain + numbered)
 
