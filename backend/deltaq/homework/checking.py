@@ -12,7 +12,7 @@ from . import slips
 from .diagnosis import Diagnosis, diagnose
 from .dimensions import Told, other_unit, unlike_terms
 from .equality import Match, Parts, equation
-from .partwise import part_outcomes
+from .partwise import part_outcomes, part_share
 from .reading import Reading, read
 from .sampling import DISTINCT, close
 from .solution import Solution
@@ -30,11 +30,12 @@ def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
     shown = latex(reading.shown, Typography(workbook.scene.names))
     match = compare(workbook, task, reading.parts)
     if match.equal:
-        return Verdict("correct", shown, match.remark)
+        return Verdict("correct", shown, match.remark, about="/".join(match.about), nonzero=_told_factors(workbook, match))
     parts = part_outcomes(workbook, task, reading.parts)
     if match.equal is None:
         return Verdict("undecided", shown, parts=parts)
-    return replace(_wrong(workbook, task, reading, match, text, syntax), parts=parts)
+    found = _wrong(workbook, task, reading, match, text, syntax)
+    return replace(found, parts=parts, partial=part_share(workbook, task, reading.parts))
 
 
 def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
@@ -47,7 +48,16 @@ def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
         return Match(equal=False, remark="degenerate")
     if own is None or right is None or (len(own) == len(right) and close(own, right, DISTINCT)):
         return task.quantity.equality.same(given, workbook.right(task), workbook.solution)
-    return _solved(workbook.solution, task, given)
+    return _besides(workbook, task, given) or _solved(workbook.solution, task, given)
+
+
+def _besides(workbook: Workbook, task: Task, given: Parts) -> Match | None:
+    """The match with another right answer: one that keeps a constant force out of the potential."""
+    for parts, left_out in workbook.alternatives(task):
+        match = task.quantity.equality.same(given, parts, workbook.solution)
+        if match.equal:
+            return Match(equal=True, remark="constant-force", about=left_out)
+    return None
 
 
 def _solved(solution: Solution, task: Task, given: Parts) -> Match:
@@ -63,16 +73,31 @@ def _wrong(workbook: Workbook, task: Task, reading: Reading, match: Match, text:
     shown = latex(reading.shown, Typography(workbook.scene.names))
     if match.remark == "degenerate":
         terms = slips.slip_search(workbook, task).slips(reading, text)
-        return Verdict("wrong", shown, match.remark, slips=tuple(_told(slip, workbook) for slip in terms))
+        return _with_slips(Verdict("wrong", shown, match.remark), terms, workbook, reading, text)
     example = counterexample(task, given, right, workbook.solution)
     found = Diagnosis() if match.remark else diagnose(workbook, task, reading, text)
     units = None if found.misconceptions or found.slips else _units(workbook, task, reading, syntax)
     if units:
         identifier, told = units
         return Verdict("wrong", shown, "", (identifier,), counterexample=example, parameters=told)
-    told_slips = tuple(_told(slip, workbook) for slip in found.slips)
     about = found.about[0] if found.about else ""
-    return Verdict("wrong", shown, match.remark, found.misconceptions, about, told_slips, example)
+    verdict = Verdict("wrong", shown, match.remark, found.misconceptions, about, counterexample=example)
+    return _with_slips(verdict, found.slips, workbook, reading, text)
+
+
+def _with_slips(
+    verdict: Verdict, found: tuple[slips.Slip, ...], workbook: Workbook, reading: Reading, text: str
+) -> Verdict:
+    """The verdict with the terms that are wrong, and the answer with these terms marked."""
+    told = tuple(_told(slip, workbook) for slip in found)
+    places = [slip.place for slip in told if slip.place]
+    marked = slips.marked_latex(reading, text, places, workbook.scene.names) if places else ""
+    return replace(verdict, slips=told, marked=marked)
+
+
+def _told_factors(workbook: Workbook, match: Match) -> tuple[str, ...]:
+    """What must not be zero, in LaTeX."""
+    return tuple(latex(factor, Typography(workbook.scene.names)) for factor in match.nonzero)
 
 
 def _told(slip: slips.Slip, workbook: Workbook) -> Slip:

@@ -24,6 +24,40 @@ def part_outcomes(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOut
     return () if decide is None or len(given) < 2 else decide(workbook, task, given)
 
 
+def part_share(workbook: Workbook, task: Task, given: Parts) -> float:
+    """The share of a wrong answer that is right: of components other than zero, equations, frequencies."""
+    share = SHARES.get(task.quantity.form)
+    return 0.0 if share is None else share(workbook, task, given)
+
+
+def _share_of_components(workbook: Workbook, task: Task, given: Parts) -> float:
+    """What is zero is no work; it earns nothing."""
+    right = workbook.right(task)
+    if len(given) != len(right):
+        return 0.0
+    asked = [k for k, true in enumerate(right) if any(workbook.sampler.values(true))]
+    outcomes = _components(workbook, task, given)
+    return sum(outcomes[k] == "correct" for k in asked) / max(1, len(asked))
+
+
+def _share_of_equations(workbook: Workbook, task: Task, given: Parts) -> float:
+    """How many independent equations of the set there are among those given; what is too many takes one away."""
+    right = workbook.right(task)
+    outcomes = _equations(workbook, task, given)
+    rows = [workbook.sampler.rows(part)[0] for part, told in zip(given, outcomes, strict=True) if told == "correct"]
+    wrong = max(0, len(given) - len(right))
+    return max(0.0, (len(echelon(rows)) - wrong) / len(right))
+
+
+def _share_of_frequencies(workbook: Workbook, task: Task, given: Parts) -> float:
+    """How many of the frequencies are among those given, each once."""
+    right = workbook.right(task)
+    outcomes = _frequencies(workbook, task, given)
+    numbers = [number_of(part, workbook.solution) for part in given]
+    found = {round(n, 6) for n, told in zip(numbers, outcomes, strict=True) if told == "correct"}
+    return min(len(found), len(right)) / max(len(right), len(given))
+
+
 def _components(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOutcome, ...]:
     pairs = zip(given, workbook.right(task), strict=True)
     return tuple(_equal(*map(workbook.sampler.values, pair)) for pair in pairs)
@@ -59,4 +93,8 @@ def _frequencies(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOutc
 
 DECIDED: Mapping[str, Callable[[Workbook, Task, Parts], tuple[PartOutcome, ...]]] = MappingProxyType(
     {"vector": _components, "equations": _equations, "set": _frequencies}
+)
+
+SHARES: Mapping[str, Callable[[Workbook, Task, Parts], float]] = MappingProxyType(
+    {"vector": _share_of_components, "equations": _share_of_equations, "set": _share_of_frequencies}
 )

@@ -39,7 +39,9 @@ class Verdict:
     `remark` tells in which sense a correct answer is equal, or why a wrong one is; `misconceptions` are all that lead
     to exactly this answer, the likeliest first; `about` fills the texts; `slips` are the terms that are wrong, one for
     each wrong part; `parts` are the outcomes of components, of the
-    equations of a set, or of several frequencies.
+    equations of a set, or of several frequencies; `partial` is the share of them that is right in a
+    wrong answer; `nonzero` is what must not be zero for a right answer to be so; `marked` is the answer as it was
+    written, in LaTeX, with the terms marked that are wrong.
     """
 
     outcome: Outcome
@@ -51,6 +53,9 @@ class Verdict:
     counterexample: Counterexample | None = None
     problems: tuple[Problem, ...] = ()
     parts: tuple[PartOutcome, ...] = ()
+    partial: float = 0.0
+    nonzero: tuple[str, ...] = ()
+    marked: str = ""
     parameters: Mapping[str, str] = field(default_factory=dict)
 
     @property

@@ -15,6 +15,7 @@ from ..language.canonical import display
 from ..language.memory import cached_method
 from ..mechanics.requests import changed_scene
 from ..mechanics.scene import Scene
+from .alternatives import alternatives
 from .equality import Fingerprint, Parts
 from .faulty_solution import FaultySolution, misconceptions
 from .gradebook import content_of
@@ -66,6 +67,11 @@ class Workbook:
     def right(self, task: Task) -> Parts:
         """The right answer to a task."""
         return task.value(self.solution)
+
+    @cached_method
+    def alternatives(self, task: Task) -> tuple[tuple[Parts, tuple[str, ...]], ...]:
+        """The answers that are right besides, each with the loads that it leaves out of V."""
+        return tuple(alternatives(self.solution, task))
 
     @cached_method
     def shown(self, task: Task) -> Parts:

@@ -93,7 +93,7 @@ class SlipSearch:
         right = self.workbook.right(self.task)
         if self.task.quantity.form in ("expression", "vector", "equation"):
             return [
-                (k, [true])
+                (k, [true, *(parts[k] for parts, _ in self.workbook.alternatives(self.task))])
                 for k, (own, true) in enumerate(zip(given, right, strict=False))
                 if len(given) == len(right) and not self._same_values(own, true)
             ]
