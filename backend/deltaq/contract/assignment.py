@@ -19,6 +19,7 @@ from .base import Request, SceneWithChanges
 from .document import Text
 
 FOLLOW_THROUGH = 0.5  # share of the points for what follows from a wrong line
+SIMPLIFIED = 0.5  # share of those where the mistake made it easier
 MOST_TASKS = 64
 NEEDED = ("scene", "task")
 
@@ -81,6 +82,9 @@ class AssignmentDocument(Request):
     individual: bool = Field(default=False, description="whether each student has values of their own")
     follow_through: Annotated[float, Field(ge=0, le=1), _told_as("assignment-share")] = Field(
         FOLLOW_THROUGH, description="share of the points for a right consequence"
+    )
+    simplified: Annotated[float, Field(ge=0, le=1), _told_as("assignment-share")] = Field(
+        SIMPLIFIED, description="share of what a right consequence earns, where the mistake before it made it easier"
     )
     tasks: Annotated[
         tuple[AssignedTaskDocument, ...], Field(strict=False, max_length=MOST_TASKS), BeforeValidator(_are_some)

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from .assignment import FOLLOW_THROUGH, AssignmentDocument
+from .assignment import FOLLOW_THROUGH, SIMPLIFIED, AssignmentDocument
 from .base import AskedLanguage, Request, SceneWithChanges, Syntax, examples, items
 from .document import SceneReference
 from .task import TASK, SceneAskedAbout, TaskId
@@ -79,6 +79,7 @@ class PointScheme(Request):
 
     points: dict[TaskId, Annotated[float, Field(ge=0, le=1000)]] = Field({}, max_length=64, description="by task id")
     follow_through: float = Field(FOLLOW_THROUGH, ge=0, le=1, description="share of the points for a right consequence")
+    simplified: float = Field(SIMPLIFIED, ge=0, le=1, description="share of those where the mistake made it easier")
 
 
 class LinesRequest(SceneAskedAbout):

@@ -101,7 +101,7 @@ class AssignmentRequest(Request):
     """An assignment, and the student who opens it."""
 
     assignment: AssignmentDocument = Field(
-        description="format 1: title, individual, follow_through, tasks with scene, task and points",
+        description="format 1: title, individual, follow_through, simplified, tasks with scene, task and points",
         examples=[{"format": 1, "tasks": [{"scene": "pendulum", "task": "equation:phi", "points": 3}]}],
     )
     seed: Seed | None = SEED
@@ -128,4 +128,5 @@ class AssignmentAnswer(Answer):
 
     title: dict[str, str]
     follow_through: float
+    simplified: float
     tasks: tuple[AssignedTaskEntry, ...]

@@ -25,6 +25,17 @@ class NamedMisconception(Answer):
     title: str
 
 
+class SlipAnswer(Answer):
+    """What is wrong with one term: with this change the answer, or its part, is right."""
+
+    kind: SlipKind
+    title: str
+    latex: str = Field(description="the term as it was written; empty where it is missing")
+    part: int = Field(description="which component, equation or frequency it is in, from 0")
+    offset: int | None = Field(description="where it stands in the answer; null where it is missing")
+    length: int | None
+
+
 class CounterexampleAnswer(Answer):
     """A state at which the answer given and the right one have different values."""
 
@@ -45,9 +56,12 @@ class VerdictAnswer(Answer):
     misconception: str | None
     misconceptions: tuple[NamedMisconception, ...]
     slip: SlipKind | None = Field(description="what is wrong with one term")
+    slips: tuple[SlipAnswer, ...] = Field((), description="the terms that are wrong, the first of them being `slip`")
+    marked: str = Field("", description="LaTeX of the answer as it was written, the wrong terms in \\htmlClass{slip}")
     parts: tuple[PartOutcome, ...] = Field(
         description="of a wrong answer of several parts: components, equations of a set, frequencies"
     )
+    share: float = Field(0.0, description="of the points: 1 if right, of a wrong answer what its right parts earn")
     problems: tuple[VerdictProblem, ...]
     offset: int | None
     counterexample: CounterexampleAnswer | None
@@ -92,6 +106,7 @@ class RowVerdict(Answer):
     mistake: str = Field("", description="what went wrong, in words; empty where nothing did")
     understood_as: str = ""
     feedback: str
+    share: float = Field(0.0, description="of the points that the right parts of a wrong answer earn")
 
 
 class GradedRow(Answer):

@@ -14,7 +14,7 @@ from ..narration.catalog import message, sentence, text
 from ..narration.prose import CatalogText, formula, joined
 from ..narration.things import called
 from .counterexamples import rounded_text
-from .verdict import Counterexample, Verdict
+from .verdict import Counterexample, Slip, Verdict
 
 AXES = "xyz"
 Document = dict[str, object]
@@ -31,7 +31,10 @@ def verdict_document(verdict: Verdict, scene: Scene, language: str) -> Document:
         "misconception": verdict.misconceptions[0] if verdict.misconceptions else None,
         "misconceptions": [_named(each, verdict, scene, language) for each in verdict.misconceptions],
         "slip": verdict.slip.kind if verdict.slip else None,
+        "slips": [_slip(slip, language) for slip in verdict.slips],
+        "marked": verdict.marked,
         "parts": list(verdict.parts),
+        "share": 1.0 if verdict.outcome == "correct" else verdict.partial,
         "problems": problems,
         "offset": problems[0]["offset"] if problems else None,
         "counterexample": _example(verdict.counterexample, scene),
@@ -44,6 +47,17 @@ def problem_documents(problems: Iterable[Problem], language: str) -> list[Docume
     return [{"code": p.code, "offset": p.offset, "length": p.length, "message": message(language, p)} for p in problems]
 
 
+def _slip(slip: Slip, language: str) -> Document:
+    return {
+        "kind": slip.kind,
+        "title": text(language, f"homework.summary.slips.{slip.kind}"),
+        "latex": slip.term,
+        "part": slip.part,
+        "offset": slip.place.offset if slip.place else None,
+        "length": slip.place.length if slip.place else None,
+    }
+
+
 def _named(identifier: str, verdict: Verdict, scene: Scene, language: str) -> Document:
     values = _about(verdict, scene, language)
     return {"id": identifier, "title": text(language, f"homework.misconceptions.{identifier}.title", **values)}
@@ -54,17 +68,39 @@ def _sentences(verdict: Verdict, scene: Scene, language: str) -> list[CatalogTex
     sentences = [text(language, f"homework.outcomes.{verdict.outcome}")]
     sentences += [sentence(language, problem) for problem in verdict.problems]
     if verdict.remark:
-        sentences.append(text(language, f"homework.remarks.{verdict.remark}"))
+        sentences.append(_remark(verdict, scene, language))
     if verdict.misconceptions:
         key = f"homework.misconceptions.{verdict.misconceptions[0]}.hint"
         sentences.append(text(language, key, **_about(verdict, scene, language)))
-    if verdict.slip:
-        slip = text(language, f"homework.slips.{verdict.slip.kind}", term=formula(verdict.slip.term))
-        besides = verdict.misconceptions and text(language, "homework.feedback.besides", slip=slip)
-        sentences.append(besides or slip)
-    if verdict.counterexample and not (verdict.misconceptions or verdict.slip):
+    sentences += [_slip_sentence(slip, verdict, language) for slip in verdict.slips]
+    if verdict.counterexample and not (verdict.misconceptions or verdict.slips):
         sentences.append(_told(verdict.counterexample, scene, language))
     return sentences
+
+
+def _slip_sentence(slip: Slip, verdict: Verdict, language: str) -> CatalogText:
+    """What is wrong with one term; after the hint of a misconception just which term it is in."""
+    if not slip.term:
+        return text(language, f"homework.slips-somewhere.{slip.kind}")
+    key = "homework.feedback.term" if verdict.misconceptions else f"homework.slips.{slip.kind}"
+    return text(language, key, term=formula(slip.term))
+
+
+def _remark(verdict: Verdict, scene: Scene, language: str) -> CatalogText:
+    """In which sense an answer is right or wrong, with what that is on."""
+    key = f"homework.remarks.{verdict.remark}"
+    if verdict.remark == "divided" and verdict.nonzero:
+        factors = joined(", ", (formula(rf"{factor} \neq 0") for factor in verdict.nonzero))
+        return text(language, "homework.remarks.divided-by", factors=factors)
+    lines = joined(", ", (_title(task, scene, language) for task in verdict.source))
+    return text(language, key, **_about(verdict, scene, language), lines=lines)
+
+
+def _title(task: str, scene: Scene, language: str) -> CatalogText:
+    """What a task asks for, as its title says it."""
+    kind, _, subject = task.partition(":")
+    subjects = {"subject": label(subject, scene, language), "number": subject} if subject else {}
+    return text(language, f"homework.tasks.{kind}.title", **subjects)
 
 
 def _told(example: Counterexample, scene: Scene, language: str) -> CatalogText:

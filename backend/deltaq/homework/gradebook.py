@@ -4,7 +4,8 @@
   the same right answer a second time adds nothing.
 - Where the table has a column `line`, the rows of one person on one scene with a number there are a working, read in
   the order of these numbers; rows of the same number in the order of the table. What follows correctly from a wrong
-  line earns the share that the assignment sets for it, half if none does.
+  line earns the share that the assignment sets for it, half if none does; less where the mistake made it easier.
+- Of a wrong answer of several parts (components, equations, frequencies) the right parts earn their share.
 - A line follows from the last readable answer to each task before it. So a mistake that has been corrected carries
   nothing any more, and a wrong answer that is written again earns nothing.
 - A row without a number in `line` follows from nothing, and nothing follows from it.
@@ -23,7 +24,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
 
-from ..contract.assignment import FOLLOW_THROUGH
+from ..contract.assignment import FOLLOW_THROUGH, SIMPLIFIED
 from ..contract.base import SceneWithChanges
 from ..contract.check import RowQuestion, WrittenAnswer, WrittenLine
 from ..contract.reading import made_of, plain_data
@@ -51,11 +52,20 @@ def standing_after(standing: Mapping[str, T], task: str, outcome: str, answer: C
     return dict(standing)
 
 
-def earned_share(outcome: str, remark: str, follow_through: float) -> float:
-    """The share of its points that an answer earns by itself: 1 if right, 0 if wrong or repeated."""
+@dataclass(frozen=True)
+class Shares:
+    """What follows from a wrong line earns of its points, and how much of that where the mistake made it easier."""
+
+    follow_through: float = FOLLOW_THROUGH
+    simplified: float = SIMPLIFIED
+
+
+def earned_share(outcome: str, remark: str, partial: float, shares: Shares) -> float:
+    """The share of its points that an answer earns by itself: 1 if right; if wrong, what its right `partial` ones do."""
     if outcome == "follow_through":
-        return 0.0 if remark == "repeated" else follow_through
-    return 1.0 if outcome == "correct" else 0.0
+        easier = {"repeated": 0.0, "simplified": shares.simplified}.get(remark, 1.0)
+        return shares.follow_through * easier
+    return 1.0 if outcome == "correct" else partial if outcome == "wrong" else 0.0
 
 
 @dataclass(frozen=True)
@@ -98,8 +108,8 @@ class Row:
 
 @dataclass(frozen=True)
 class Plan:
-    """A table that has been read: its tasks, its rows, the share for what follows from a wrong line, and how it was
-    written. `of` is what all tasks of the assignment count together, None where there is no assignment.
+    """A table that has been read: its tasks, its rows, the share for what follows from a wrong line, how it was
+    written, and how much of the share is earned where the mistake made it easier. `of` is what all tasks of the assignment count together, None where there is no assignment.
     """
 
     targets: tuple[Target, ...]
@@ -107,6 +117,7 @@ class Plan:
     share: float = FOLLOW_THROUGH
     of: float | None = None
     style: Style = Style()
+    simplified: float = SIMPLIFIED
 
     @classmethod
     def read(cls, document: Mapping[str, Any]) -> Plan:
@@ -142,6 +153,7 @@ class Gradebook:
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
+        self._shares = Shares(plan.share, plan.simplified)
         self._earned: dict[tuple[str, str, str], float] = {}
         self._standing: dict[tuple[str, str, str | None], dict[str, WrittenLine]] = {}
 
@@ -164,7 +176,7 @@ class Gradebook:
         """The row with its verdict and its points."""
         target = None if row.target is None else self._plan.targets[row.target]
         of = target.of if target else 0.0
-        worth = of * earned_share(verdict.outcome, verdict.remark, self._plan.share)
+        worth = of * earned_share(verdict.outcome, verdict.remark, verdict.share, self._shares)
         points = self._gained(row, target, worth) if target else 0.0
         self._note(row, target, verdict.outcome)
         return Graded(

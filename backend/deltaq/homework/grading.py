@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast
 
-from ..contract.assignment import FOLLOW_THROUGH, AssignedTaskDocument, AssignmentDocument
+from ..contract.assignment import AssignedTaskDocument, AssignmentDocument
 from ..contract.base import SceneWithChanges
 from ..contract.check import RowQuestion
 from ..contract.reading import read as read_request
@@ -23,7 +23,7 @@ from ..language.parser import Syntax
 from ..narration.catalog import language_of, message
 from .assignment import resolved, scene_of
 from .feedback import verdict_document
-from .gradebook import Document, Plan, Row, Target, marked, refusal
+from .gradebook import Document, Plan, Row, Shares, Target, marked, refusal
 from .reading import read
 from .results import Graded, named
 from .statement import task_document
@@ -101,8 +101,9 @@ def plan_of(table: Table, sheet: Sheet, language: str) -> Plan:
     rows = tuple(
         _row(number, cells, tasks, table.header) for number, cells in zip(table.numbers, table.rows, strict=True)
     )
-    share = FOLLOW_THROUGH if sheet.assignment is None else sheet.assignment.follow_through
-    return Plan(tuple(tasks.targets), rows, share, tasks.points, table.style)
+    asked = sheet.assignment
+    shares = Shares() if asked is None else Shares(asked.follow_through, asked.simplified)
+    return Plan(tuple(tasks.targets), rows, shares.follow_through, tasks.points, table.style, shares.simplified)
 
 
 def _row(number: int, cells: Mapping[str, str], tasks: _Tasks, header: Sequence[str]) -> Row:
@@ -262,6 +263,7 @@ def _row_verdict(verdict: Verdict, workbook: Workbook, language: str) -> RowVerd
         mistake=titles[0] if titles else named(mistake, language) if mistake else "",
         understood_as=verdict.understood_as,
         feedback=told["feedback"],
+        share=verdict.partial,
     )
 
 

@@ -18,6 +18,7 @@ from ..mechanics.writing import write_scene
 from ..narration.catalog import language_of
 from .assignment import look_up, resolved
 from .feedback import Document, problem_documents, verdict_document
+from .gradebook import Shares
 from .grading import Sheet, plan_of, read_answers
 from .motion import moved_scene
 from .reading import read
@@ -88,7 +89,7 @@ def lines_request(document: Mapping[str, object]) -> Document:
     """The fields of a LinesRequest → the verdict and the points of every line, and where the first mistake is."""
     asked = read_request(LinesRequest, document)
     workbook, lines = workbook_asked_about(asked, asked.seed), [line_of(one) for one in asked.lines]
-    marked = mark(workbook, lines, Scheme(asked.scheme.points, asked.scheme.follow_through))
+    marked = mark(workbook, lines, Scheme(asked.scheme.points, Shares(asked.scheme.follow_through, asked.scheme.simplified)))
     first = next((n for n, each in enumerate(marked) if each.verdict.outcome in ("wrong", "invalid")), None)
     worth = {line.task: each.of for line, each in zip(lines, marked, strict=True)}
     language = language_of(asked.lang)
@@ -116,6 +117,7 @@ def assignment_request(document: Mapping[str, object]) -> Document:
     return {
         "title": plainly(translated(sheet.title)),
         "follow_through": sheet.follow_through,
+        "simplified": sheet.simplified,
         "tasks": [_assigned_document(assigned, seed, language) for assigned in sheet.tasks],
     }
 

@@ -41,7 +41,8 @@ class Verdict:
     each wrong part; `parts` are the outcomes of components, of the
     equations of a set, or of several frequencies; `partial` is the share of them that is right in a
     wrong answer; `nonzero` is what must not be zero for a right answer to be so; `marked` is the answer as it was
-    written, in LaTeX, with the terms marked that are wrong.
+    written, in LaTeX, with the terms marked that are wrong; `source` are the tasks
+    of the lines that a following one has been made easier by.
     """
 
     outcome: Outcome
@@ -56,6 +57,7 @@ class Verdict:
     partial: float = 0.0
     nonzero: tuple[str, ...] = ()
     marked: str = ""
+    source: tuple[str, ...] = ()
     parameters: Mapping[str, str] = field(default_factory=dict)
 
     @property

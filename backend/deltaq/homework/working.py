@@ -1,7 +1,8 @@
 """A student's whole working, line by line: right, wrong, or following correctly from a line that was wrong.
 
-A line that makes everything after it trivial carries nothing: what follows from it must hold the coordinates that the
-right answer holds, and most of its terms.
+What follows from a wrong line should hold the coordinates that the right answer holds, and most of its terms. Where it
+holds less, the mistake has made the rest easier: that is told, and earns less. A line that makes everything after it
+trivial carries nothing: the mistake in it must be one that can be named, and something must be left that moves.
 """
 
 from __future__ import annotations
@@ -12,21 +13,23 @@ from typing import Protocol
 
 import sympy as sp
 
-from ..contract.assignment import FOLLOW_THROUGH
 from ..contract.check import WrittenAnswer
 from ..language.canonical import display
+from ..language.memory import cached_method
 from ..language.parser import Syntax
 from .checking import check
+from .diagnosis import diagnose
 from .equality import Parts
-from .gradebook import earned_share, standing_after
+from .gradebook import Shares, earned_share, standing_after
 from .own import OwnSolution
-from .reading import read
+from .reading import Reading, read
 from .solution import Solution
 from .task import Task
 from .verdict import Verdict
 from .workbook import Workbook
 
 SUBSTANTIAL = 0.6  # of the terms of the right answer
+LEAST = 0.3  # of them: where less is left, nothing was derived
 MOST_WRONG = 6
 
 
@@ -58,10 +61,10 @@ def line_of(asked: Answered) -> Line:
 
 @dataclass(frozen=True)
 class Scheme:
-    """How points are given: by task, and the share that a line earns which follows correctly from a wrong one."""
+    """How points are given: by task, and the shares of a line that follows correctly from a wrong one."""
 
     points: Mapping[str, float] = field(default_factory=dict)
-    follow_through: float = FOLLOW_THROUGH
+    shares: Shares = Shares()
 
     def of(self, task: Task) -> float:
         """The points that a task is worth."""
@@ -85,7 +88,7 @@ def mark(workbook: Workbook, lines: Sequence[Line], scheme: Scheme) -> list[Mark
     for line in lines:
         task = workbook.task(line.task)
         verdict, wrong = _judged(workbook, task, line, wrong)
-        worth = scheme.of(task) * earned_share(verdict.outcome, verdict.remark, scheme.follow_through)
+        worth = scheme.of(task) * earned_share(verdict.outcome, verdict.remark, verdict.partial, scheme.shares)
         before = best.get(task.id, 0.0)
         best[task.id] = max(before, worth)
         marked.append(Marked(verdict, max(0.0, worth - before), scheme.of(task)))
@@ -119,13 +122,23 @@ def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[s
         return verdict
     given = read(task, workbook.solution, line.text, line.syntax).parts
     if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.solution).equal:
-        return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slips=())
-    if any(_follows(workbook, task, given, solution) for solution in _ways_from_wrong_lines(workbook, task, wrong)):
-        return replace(verdict, outcome="follow_through", remark="", misconceptions=(), slips=(), counterexample=None)
-    return verdict
+        return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slips=(), marked="")
+    ways = [way for way in _ways_from_wrong_lines(workbook, task, wrong) if _follows(workbook, task, given, way)]
+    if not ways:
+        return verdict
+    if any(_substantial(task.value(way), workbook.shown(task), workbook) for way in ways):
+        return _following(verdict, "")
+    easier = [tuple(way.answers) for way in ways if _carries(workbook, task, way)]
+    return _following(verdict, "simplified", min(easier, key=len)) if easier else verdict
 
 
-def _ways_from_wrong_lines(workbook: Workbook, task: Task, wrong: Mapping[str, Parts]) -> Iterator[Solution]:
+def _following(verdict: Verdict, remark: str, source: tuple[str, ...] = ()) -> Verdict:
+    """The verdict on a line that is right in the light of those before it."""
+    found = replace(verdict, outcome="follow_through", remark=remark, misconceptions=(), slips=(), marked="")
+    return replace(found, counterexample=None, source=source)
+
+
+def _ways_from_wrong_lines(workbook: Workbook, task: Task, wrong: Mapping[str, Parts]) -> Iterator[OwnSolution]:
     """From all wrong lines, then from each of them alone; never from an earlier answer to the same task."""
     others = {name: parts for name, parts in wrong.items() if name != task.id}
     alone = [{name: parts} for name, parts in others.items()]
@@ -134,13 +147,34 @@ def _ways_from_wrong_lines(workbook: Workbook, task: Task, wrong: Mapping[str, P
 
 
 def _follows(workbook: Workbook, task: Task, given: Parts, solution: Solution) -> bool:
-    """Whether the line is what their own lines lead to, and that is no triviality."""
+    """Whether the line is what their own lines lead to."""
     try:
         expected = task.value(solution)
     except (ValueError, ZeroDivisionError):
         return False
-    same = task.quantity.equality.same(given, expected, solution).equal
-    return same is True and _substantial(expected, workbook.shown(task), workbook)
+    return task.quantity.equality.same(given, expected, solution).equal is True
+
+
+def _carries(workbook: Workbook, task: Task, way: OwnSolution) -> bool:
+    """Whether something is left to be derived from lines of which each has a mistake that can be named."""
+    expected, right = task.value(way), workbook.shown(task)
+    own, true = (_content(parts, workbook) for parts in (expected, right))
+    accelerations = {workbook.solution.acceleration(q) for q in workbook.solution.free}
+    parameters = {workbook.solution.q(p.name) for p in workbook.scene.parameters}
+    moving = _symbols(right) & accelerations or _symbols(right) - parameters
+    enough = own >= LEAST * true and bool(_symbols(expected) & moving)
+    return enough and all(_is_named(workbook, name, parts) for name, parts in way.answers.items())
+
+
+def _symbols(parts: Parts) -> set[sp.Symbol]:
+    return {symbol for part in parts for symbol in part.free_symbols}
+
+
+@cached_method
+def _is_named(workbook: Workbook, task: str, parts: Parts) -> bool:
+    """Whether the mistake in a wrong line can be named: one law, or one term in each of its parts."""
+    found = diagnose(workbook, workbook.task(task), Reading(parts, None, ()), "")
+    return bool(found.misconceptions or found.slips)
 
 
 def _substantial(expected: Parts, right: Parts, workbook: Workbook) -> bool:

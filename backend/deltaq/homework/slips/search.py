@@ -147,12 +147,12 @@ class SlipSearch:
 
     def _changed(self, index: int, written: WrittenPart, edit: Edit, target: Target) -> _Found | None:
         symbols = self.workbook.solution.symbols
+        marked = edit.node if edit.marked is None or written.place(edit.marked) is None else edit.marked
         try:
             changed = to_sympy(put(written.tree, edit.path, edit.after), symbols)
-            term = to_sympy(edit.node, symbols)
+            term = to_sympy(marked, symbols)
         except InputError:
             return None
-        marked = edit.node if edit.marked is None or written.place(edit.marked) is None else edit.marked
         slip = Slip(edit.kind, index, term, written.place(marked), target.scale, marked)
         return _Found(slip, edit.cost + target.cost + self._blame(edit) + 0.01 * len(edit.path), changed)
 
@@ -165,14 +165,14 @@ class SlipSearch:
 
     def _missing(self, index: int, given: sp.Expr, right: sp.Expr, spot: Spot, target: Target) -> Iterator[_Found]:
         """A term of the right answer that is not there, or one of a product multiplied out that should not be."""
-        if target.factor is None:
+        if target.factor is None or given == 0:
             return
         for term, values in self._terms(right):
             for sign in (1, -1):
                 wanted = tuple(sign * s * v for s, v in zip(target.scale, values, strict=True))
                 if near(spot.difference, wanted):
                     slip = Slip("missing", index, None, None, target.scale)
-                    yield _Found(slip, (1.3 if sign > 0 else 1.6) + target.cost, given + sign * target.factor * term)
+                    yield _Found(slip, (1.4 if sign > 0 else 1.6) + target.cost, given + sign * target.factor * term)
         for term in sp.Add.make_args(sp.expand(given))[:MOST_TERMS]:
             if near(spot.difference, tuple(-v for v in self.workbook.sampler.values(term))):
                 yield _Found(Slip("superfluous", index, term, None, target.scale), 1.4 + target.cost, given - term)
