@@ -872,6 +872,8 @@ export interface components {
             };
             /** Follow Through */
             follow_through: number;
+            /** Simplified */
+            simplified: number;
             /** Tasks */
             tasks: components["schemas"]["AssignedTaskEntry"][];
         };
@@ -903,6 +905,11 @@ export interface components {
              */
             follow_through?: number;
             /**
+             * Simplified
+             * @description share of what a right consequence earns, where the mistake before it made it easier
+             */
+            simplified?: number;
+            /**
              * Tasks
              * @description one after the other
              */
@@ -927,7 +934,7 @@ export interface components {
          */
         AssignmentRequest: {
             /**
-             * @description format 1: title, individual, follow_through, tasks with scene, task and points
+             * @description format 1: title, individual, follow_through, simplified, tasks with scene, task and points
              * @example {
              *       "format": 1,
              *       "tasks": [
@@ -3753,12 +3760,30 @@ export interface components {
              * Slip
              * @description what is wrong with one term
              */
-            slip: ("sign" | "missing" | "half" | "double") | null;
+            slip: ("sign" | "missing" | "half" | "double" | "factor" | "superfluous" | "factor-missing" | "factor-superfluous" | "function" | "argument" | "power" | "name" | "rate" | "exchanged" | "components") | null;
+            /**
+             * Slips
+             * @description the terms that are wrong, the first of them being `slip`
+             * @default []
+             */
+            slips: components["schemas"]["SlipAnswer"][];
+            /**
+             * Marked
+             * @description LaTeX of the answer as it was written, the wrong terms in \htmlClass{slip}
+             * @default
+             */
+            marked: string;
             /**
              * Parts
              * @description of a wrong answer of several parts: components, equations of a set, frequencies
              */
             parts: ("correct" | "wrong" | "undecided")[];
+            /**
+             * Share
+             * @description of the points: 1 if right, of a wrong answer what its right parts earn
+             * @default 0
+             */
+            share: number;
             /** Problems */
             problems: components["schemas"]["VerdictProblem"][];
             /** Offset */
@@ -4248,6 +4273,11 @@ export interface components {
              * @description share of the points for a right consequence
              */
             follow_through?: number;
+            /**
+             * Simplified
+             * @description share of those where the mistake made it easier
+             */
+            simplified?: number;
         };
         /**
          * PowerReading
@@ -5452,6 +5482,36 @@ export interface components {
              * @description the student's own earlier lines: what follows from a wrong one is told
              */
             previous?: components["schemas"]["AnsweredTask"][];
+        };
+        /**
+         * SlipAnswer
+         * @description What is wrong with one term: with this change the answer, or its part, is right.
+         */
+        SlipAnswer: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "sign" | "missing" | "half" | "double" | "factor" | "superfluous" | "factor-missing" | "factor-superfluous" | "function" | "argument" | "power" | "name" | "rate" | "exchanged" | "components";
+            /** Title */
+            title: string;
+            /**
+             * Latex
+             * @description the term as it was written; empty where it is missing
+             */
+            latex: string;
+            /**
+             * Part
+             * @description which component, equation or frequency it is in, from 0
+             */
+            part: number;
+            /**
+             * Offset
+             * @description where it stands in the answer; null where it is missing
+             */
+            offset: number | null;
+            /** Length */
+            length: number | null;
         };
         /**
          * SolutionAnswer
@@ -6660,12 +6720,30 @@ export interface components {
              * Slip
              * @description what is wrong with one term
              */
-            slip: ("sign" | "missing" | "half" | "double") | null;
+            slip: ("sign" | "missing" | "half" | "double" | "factor" | "superfluous" | "factor-missing" | "factor-superfluous" | "function" | "argument" | "power" | "name" | "rate" | "exchanged" | "components") | null;
+            /**
+             * Slips
+             * @description the terms that are wrong, the first of them being `slip`
+             * @default []
+             */
+            slips: components["schemas"]["SlipAnswer"][];
+            /**
+             * Marked
+             * @description LaTeX of the answer as it was written, the wrong terms in \htmlClass{slip}
+             * @default
+             */
+            marked: string;
             /**
              * Parts
              * @description of a wrong answer of several parts: components, equations of a set, frequencies
              */
             parts: ("correct" | "wrong" | "undecided")[];
+            /**
+             * Share
+             * @description of the points: 1 if right, of a wrong answer what its right parts earn
+             * @default 0
+             */
+            share: number;
             /** Problems */
             problems: components["schemas"]["VerdictProblem"][];
             /** Offset */

@@ -117,7 +117,8 @@ def main(which: str) -> None:
         if each.kind not in ("accepted", "named") or not (each.shown or each.row.right or each.row.term == "~"):
             slip = each.verdict.slip
             print(f"{each.kind:12} {each.row.scene} {each.row.task} | {each.row.answer} | wanted {each.row.names}")
-            print(f"             said {told(each.verdict)!r}, marked {slip and slip.term!r} {marked(each.row, each.verdict)}")
+            there = marked(each.row, each.verdict)
+            print(f"             said {told(each.verdict)!r}, marked {slip and slip.term!r} {there}")
     kinds = Counter(each.kind for each in seen)
     wrong = [each for each in seen if not each.row.right]
     times = sorted(each.seconds for each in seen)

@@ -21,7 +21,7 @@ def reason(verdict: Verdict) -> str:
     if verdict.problems:
         return verdict.problems[0].code
     if verdict.misconceptions:
-        return verdict.misconceptions[0] + ("+slip" if verdict.slip else "")
+        return verdict.misconceptions[0]
     return f"slip:{verdict.slip.kind}" if verdict.slip else verdict.remark or "-"
 
 

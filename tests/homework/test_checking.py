@@ -8,6 +8,7 @@ from deltaq.errors import Problem
 from deltaq.homework.checking import check
 from deltaq.homework.verdict import Counterexample, Slip, Verdict
 from deltaq.homework.workbook import workbook_of
+from deltaq.language.tree import Span
 
 ROD, POLE = r"\ell \sin\varphi", r"\ell \cos\varphi"
 KINETIC, WEIGHT = r"\frac{1}{2} m \ell^{2} \dot{\varphi}^{2}", r"m g \ell"
@@ -15,6 +16,10 @@ STATE = {"m": 1.0, "l": 1.0, "g": 9.81, "phi": 1.3, "dot(phi)": 0.5}
 RATES = {name: STATE[name] for name in ("m", "l", "phi", "dot(phi)")}
 # A parameter that is 1 hides its power; there m and l are 1.3 and 1.4.
 OTHER = {"m": 1.3, "l": 1.4, "phi": 1.3, "dot(phi)": 0.5}
+
+
+def written(before: str, slip: str, after: str = "") -> str:
+    return rf"{before}\htmlClass{{slip}}{{{slip}}}{after}"
 
 
 def column(*components: str) -> str:
@@ -55,7 +60,9 @@ CASES = [
             "wrong",
             r"m \ell^{2} \dot{\varphi}^{2}",
             misconceptions=("half-in-kinetic-energy",),
+            slips=(Slip("double", r"m \ell^{2} \dot{\varphi}^{2}", Span(0, 16)),),
             counterexample=Counterexample(RATES, 0.25, 0.125),
+            marked=written("", r"m \, \ell^{2} \, \dot{\varphi}^{2}"),
         ),
         id="a misconception",
     ),
@@ -65,8 +72,10 @@ CASES = [
         Verdict(
             "wrong",
             rf"{WEIGHT} \cos\varphi",
-            misconceptions=("gravity-sign", "derivative-of-cosine", "potential-sign"),
+            misconceptions=("gravity-sign", "potential-sign"),
             about="weight",
+            slips=(Slip("sign", rf"{WEIGHT} \cos\varphi", Span(0, 14)),),
+            marked=written("", r"m \, g \, \ell \, \cos(\varphi)"),
             counterexample=Counterexample(
                 {n: STATE[n] for n in ("m", "l", "g", "phi")}, 2.62416, -2.62416
             ),  # g cos 1.3
@@ -79,20 +88,22 @@ CASES = [
         Verdict(
             "wrong",
             column(ROD, f"-{POLE}"),
-            slip=Slip("sign", f"-{POLE}"),
+            slips=(Slip("sign", f"-{POLE}", Span(13, 11), part=1),),
             counterexample=Counterexample({"l": 1.0, "phi": 1.3}, -0.267499, 0.267499, "2"),  # cos 1.3
             parts=("correct", "wrong"),
+            partial=0.5,
+            marked=written(r"\begin{bmatrix} \ell \, \sin(\varphi) \\ ", r"-\ell \, \cos(\varphi)", r" \end{bmatrix}"),
         ),
         id="a slip",
     ),
     pytest.param(
         "kinetic-energy",
-        "m*dot(phi)^2/2",
+        "3*m*dot(phi)^2/7",
         Verdict(
             "wrong",
-            r"\frac{1}{2} m \dot{\varphi}^{2}",
+            r"\frac{3}{7} m \dot{\varphi}^{2}",
             misconceptions=("other-unit",),
-            counterexample=Counterexample(OTHER, 0.1625, 0.3185),
+            counterexample=Counterexample(RATES, 0.107143, 0.125),
             parameters={"found": "kg s⁻²", "expected": "kg m² s⁻²"},
         ),
         id="another unit",
@@ -140,8 +151,14 @@ CASES = [
     pytest.param(
         "kinetic-energy",
         "m*l^2*dot(phi)^2/2 + m*g*l*cos(phi)",
-        Verdict("wrong", rf"{KINETIC} + {WEIGHT} \cos\varphi", counterexample=Counterexample(STATE, 2.74916, 0.125)),
-        id="not diagnosed",
+        Verdict(
+            "wrong",
+            rf"{KINETIC} + {WEIGHT} \cos\varphi",
+            slips=(Slip("superfluous", rf"{WEIGHT} \cos\varphi", Span(21, 14)),),
+            counterexample=Counterexample(STATE, 2.74916, 0.125),
+            marked=written(r"\frac{m \, \ell^{2} \, \dot{\varphi}^{2}}{2} + ", r"m \, g \, \ell \, \cos(\varphi)"),
+        ),
+        id="a term too much",
     ),
 ]
 ELSEWHERE = [
@@ -154,6 +171,7 @@ ELSEWHERE = [
             r"F_0 \ell",
             misconceptions=("load-missing",),
             about="weight",
+            slips=(Slip("missing", ""),),
             counterexample=Counterexample(
                 {"m": 1.0, "l": 1.0, "g": 9.81, "F0": 2.0, "phi": 0.9}, 2.0, -5.68444
             ),  # 2 − 9.81 sin 0.9
@@ -191,14 +209,17 @@ ELSEWHERE = [
         Verdict(
             "wrong",
             rf"\frac{{1}}{{2}} (M + m) \dot{{x}}^{{2}} + m {ROD} \, \dot{{x}} \dot{{\varphi}} + {KINETIC}",
-            misconceptions=("sine-cosine-swapped",),
-            about="phi",
-            slip=Slip("sign", rf"m {ROD} \, \dot{{x}} \dot{{\varphi}}"),
+            slips=(Slip("function", r"\sin\varphi", Span(41, 8)),),
             counterexample=Counterexample(
                 {"M": 2.0, "m": 1.0, "l": 0.8, "phi": 1.5, "dot(x)": 0.6, "dot(phi)": 0.9}, 1.23012, 0.829758
             ),
+            marked=written(
+                r"\frac{(M + m) \, \dot{x}^{2}}{2} + m \, \ell \, \dot{x} \, \dot{\varphi} \, ",
+                r"\sin(\varphi)",
+                r" + \frac{m \, \ell^{2} \, \dot{\varphi}^{2}}{2}",
+            ),
         ),
-        id="a misconception and a slip",
+        id="a function",
     ),
 ]
 

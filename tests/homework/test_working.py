@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from deltaq.homework.checking import check
+from deltaq.homework.gradebook import Shares
 from deltaq.homework.service import check_request, lines_request
 from deltaq.homework.workbook import workbook_of
 from deltaq.homework.working import Line, Scheme, check_following, mark, wrong_among
@@ -159,7 +160,7 @@ def test_set_of_equations_follows_from_a_wrong_lagrangian() -> None:
 
 
 def test_teacher_sets_the_points() -> None:
-    scheme = Scheme({"equation:phi": 10.0}, follow_through=1.0)
+    scheme = Scheme({"equation:phi": 10.0}, Shares(follow_through=1.0))
     lines = [E_DOUBLE, ("equation:phi", "2*m*l^2*phi'' + m*g*l*sin(phi) = 0")]
     assert outcomes("pendulum", *lines, scheme=scheme) == [("wrong", 0), ("follow_through", 10)]
 
@@ -252,7 +253,7 @@ def test_a_line_that_follows_is_told_nothing_of_mistakes(wrong: tuple[str, str],
         assert verdict.counterexample
     standing = wrong_among(book, [Line(*wrong)])
     follows, again = (check_following(book, book.task(one[0]), Line(*one), standing) for one in (line, wrong))
-    nothing = {"outcome": "follow_through", "misconceptions": (), "slip": None}
+    nothing = {"outcome": "follow_through", "misconceptions": (), "slips": (), "marked": ""}
     assert follows == replace(alone, counterexample=None, **nothing)
     assert again == replace(first, remark="repeated", **nothing)
 

@@ -36,7 +36,11 @@ def constant_forces(solution: Solution) -> Iterator[str]:
     """The given forces and moments with a potential that depend on nothing."""
     for load in solution.scene.loads:
         parts = [part for part in solution.scene.contributions if part.source == load.name]
-        if load.kind in GIVEN and solution.is_conservative(load.name) and all(_is_constant(part, solution) for part in parts):
+        if (
+            load.kind in GIVEN
+            and solution.is_conservative(load.name)
+            and all(_is_constant(part, solution) for part in parts)
+        ):
             yield load.name
 
 

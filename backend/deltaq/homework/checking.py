@@ -7,8 +7,8 @@ from dataclasses import replace
 from ..errors import ExpressionError
 from ..language.latex_printer import Typography, latex
 from ..language.parser import Syntax
-from .counterexamples import counterexample
 from . import slips
+from .counterexamples import counterexample
 from .diagnosis import Diagnosis, diagnose
 from .dimensions import Told, other_unit, unlike_terms
 from .equality import Match, Parts, equation
@@ -30,7 +30,9 @@ def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
     shown = latex(reading.shown, Typography(workbook.scene.names))
     match = compare(workbook, task, reading.parts)
     if match.equal:
-        return Verdict("correct", shown, match.remark, about="/".join(match.about), nonzero=_told_factors(workbook, match))
+        return Verdict(
+            "correct", shown, match.remark, about="/".join(match.about), nonzero=_told_factors(workbook, match)
+        )
     parts = part_outcomes(workbook, task, reading.parts)
     if match.equal is None:
         return Verdict("undecided", shown, parts=parts)
@@ -54,8 +56,9 @@ def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
 def _besides(workbook: Workbook, task: Task, given: Parts) -> Match | None:
     """The match with another right answer: one that keeps a constant force out of the potential."""
     for parts, left_out in workbook.alternatives(task):
-        match = task.quantity.equality.same(given, parts, workbook.solution)
-        if match.equal:
+        # What speaks of the load, as the constant M for M φ, does not leave it out.
+        speaks = given[0].free_symbols & (workbook.right(task)[0].free_symbols - parts[0].free_symbols)
+        if not speaks and task.quantity.equality.same(given, parts, workbook.solution).equal:
             return Match(equal=True, remark="constant-force", about=left_out)
     return None
 
@@ -72,7 +75,8 @@ def _wrong(workbook: Workbook, task: Task, reading: Reading, match: Match, text:
     given, right = reading.parts, workbook.right(task)
     shown = latex(reading.shown, Typography(workbook.scene.names))
     if match.remark == "degenerate":
-        terms = slips.slip_search(workbook, task).slips(reading, text)
+        found_slips = slips.slip_search(workbook, task).slips(reading, text)
+        terms = tuple(slip for slip in found_slips if slip.kind == "rate")  # a dot makes the difference
         return _with_slips(Verdict("wrong", shown, match.remark), terms, workbook, reading, text)
     example = counterexample(task, given, right, workbook.solution)
     found = Diagnosis() if match.remark else diagnose(workbook, task, reading, text)

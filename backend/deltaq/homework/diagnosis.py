@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import islice
 
 from .equality import Fingerprint, Parts
 from .reading import Reading
@@ -34,10 +33,15 @@ class Diagnosis:
 
 def diagnose(workbook: Workbook, task: Task, reading: Reading, text: str) -> Diagnosis:
     """The mistake that leads to exactly this answer, as far as it can be told."""
-    slips = slip_search(workbook, task).slips(reading, text)
-    direct = _direct(workbook, task, reading.parts)
-    found = list(islice((c for c in direct if _agrees(workbook, task, c, reading.parts, slips)), MOST_NAMED))
-    return Diagnosis(tuple(c.solution.id for c in found), tuple(c.solution.about for c in found), slips)
+    direct = list(_direct(workbook, task, reading.parts))
+    slips = slip_search(workbook, task).slips(reading, text, explained=bool(direct))
+    found = [c for c in direct if _agrees(workbook, task, c, reading.parts, slips)]
+    if not found and all(slip.kind == "factor" for slip in slips):
+        # Nobody writes 2/3 by a slip of the pen: a road that leads here says more.
+        found = [c for c in direct if _agrees(workbook, task, c, reading.parts, ())]
+        slips = () if found else slips
+    named = found[:MOST_NAMED]
+    return Diagnosis(tuple(c.solution.id for c in named), tuple(c.solution.about for c in named), slips)
 
 
 def _direct(workbook: Workbook, task: Task, given: Parts) -> Iterator[Candidate]:

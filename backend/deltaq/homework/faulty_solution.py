@@ -28,7 +28,8 @@ class FaultySolution(Solution):
     `about` is what the mistake is made on (a load, a body, a coordinate), "" where there is nothing to choose. `likely`
     orders mistakes that lead to the same answer: the smaller comes first. `evident` are the kinds of tasks in which a
     single wrong term shows the mistake (None: all); in others something else may have left the same trace, and it takes
-    more than one term; `traces` are the kinds of slip that it leaves (None: any). What comes before the mistake is taken from the true solution.
+    more than one term. `traces` are the kinds of slip that it leaves (None: any). What comes before the mistake is
+    taken from the true solution.
     """
 
     true: Solution

@@ -61,7 +61,7 @@ class Shares:
 
 
 def earned_share(outcome: str, remark: str, partial: float, shares: Shares) -> float:
-    """The share of its points that an answer earns by itself: 1 if right; if wrong, what its right `partial` ones do."""
+    """The share of its points that an answer earns by itself: 1 if right; if wrong, `partial` for its right parts."""
     if outcome == "follow_through":
         easier = {"repeated": 0.0, "simplified": shares.simplified}.get(remark, 1.0)
         return shares.follow_through * easier
@@ -108,8 +108,9 @@ class Row:
 
 @dataclass(frozen=True)
 class Plan:
-    """A table that has been read: its tasks, its rows, the share for what follows from a wrong line, how it was
-    written, and how much of the share is earned where the mistake made it easier. `of` is what all tasks of the assignment count together, None where there is no assignment.
+    """A table that has been read: its tasks, its rows, the share for what follows from a wrong line, and how it was
+    written. `of` is what all tasks of the assignment count together, None where there is no assignment; `simplified` is
+    how much of the share is earned where the mistake made it easier.
     """
 
     targets: tuple[Target, ...]

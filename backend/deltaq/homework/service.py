@@ -89,7 +89,9 @@ def lines_request(document: Mapping[str, object]) -> Document:
     """The fields of a LinesRequest → the verdict and the points of every line, and where the first mistake is."""
     asked = read_request(LinesRequest, document)
     workbook, lines = workbook_asked_about(asked, asked.seed), [line_of(one) for one in asked.lines]
-    marked = mark(workbook, lines, Scheme(asked.scheme.points, Shares(asked.scheme.follow_through, asked.scheme.simplified)))
+    marked = mark(
+        workbook, lines, Scheme(asked.scheme.points, Shares(asked.scheme.follow_through, asked.scheme.simplified))
+    )
     first = next((n for n, each in enumerate(marked) if each.verdict.outcome in ("wrong", "invalid")), None)
     worth = {line.task: each.of for line, each in zip(lines, marked, strict=True)}
     language = language_of(asked.lang)

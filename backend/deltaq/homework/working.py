@@ -123,7 +123,7 @@ def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[s
     given = read(task, workbook.solution, line.text, line.syntax).parts
     if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.solution).equal:
         return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slips=(), marked="")
-    ways = [way for way in _ways_from_wrong_lines(workbook, task, wrong) if _follows(workbook, task, given, way)]
+    ways = [way for way in _ways_from_wrong_lines(workbook, task, wrong) if _follows(task, given, way)]
     if not ways:
         return verdict
     if any(_substantial(task.value(way), workbook.shown(task), workbook) for way in ways):
@@ -146,7 +146,7 @@ def _ways_from_wrong_lines(workbook: Workbook, task: Task, wrong: Mapping[str, P
         yield OwnSolution(workbook.scene, workbook.solution, answers)
 
 
-def _follows(workbook: Workbook, task: Task, given: Parts, solution: Solution) -> bool:
+def _follows(task: Task, given: Parts, solution: Solution) -> bool:
     """Whether the line is what their own lines lead to."""
     try:
         expected = task.value(solution)
@@ -173,6 +173,8 @@ def _symbols(parts: Parts) -> set[sp.Symbol]:
 @cached_method
 def _is_named(workbook: Workbook, task: str, parts: Parts) -> bool:
     """Whether the mistake in a wrong line can be named: one law, or one term in each of its parts."""
+    if not any(parts):
+        return False  # from nothing follows nothing
     found = diagnose(workbook, workbook.task(task), Reading(parts, None, ()), "")
     return bool(found.misconceptions or found.slips)
 

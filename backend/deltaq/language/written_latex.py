@@ -56,7 +56,7 @@ class _Writer:
         whole = _bracketed(printed) if own < binding else printed
         return rf"\htmlClass{{{self._css}}}{{{whole}}}" if marked else whole
 
-    def _printed(self, node: Node) -> Printed:  # noqa: PLR0911 - one case for each kind
+    def _printed(self, node: Node) -> Printed:  # noqa: C901, PLR0911 - one case for each kind
         match node:
             case Number(value):
                 return _number(value)

@@ -30,8 +30,8 @@ def fingerprint(parts: Parts, sampler: Sampler) -> Fingerprint | None:
 def same(given: Parts, right: Parts, solution: Solution) -> Match:
     """Whether A q̈ + b = 0 is an invertible combination of the right equations: X A₀ = A, X b₀ = b with det X ≠ 0.
 
-    The remark tells where det X can vanish, or what was divided out; undecided where no regular block of A₀ is found, or whether that
-    of A is regular.
+    The remark tells that det X can vanish, or that something was divided out; undecided where no regular block of A₀ is
+    found, or whether that of A is regular.
     """
     if len(given) != len(right):
         return Match(equal=False)
@@ -51,12 +51,14 @@ def same(given: Parts, right: Parts, solution: Solution) -> Match:
     combined = given_square * square.adjugate()
     whole, own_whole = matrix.row_join(rest), own.row_join(own_rest)
     equal = weakest([is_zero(entry, solution.symbols) for entry in determinant * own_whole - combined * whole])
-    if not equal:
-        return Match(equal)
-    divided = Division(given_square, square, whole, solution).divided()
-    if divided is None:
+    return _divided(Division(given_square, square, whole, solution)) if equal else Match(equal)
+
+
+def _divided(division: Division) -> Match:
+    divisors = division.divided()
+    if divisors is None:
         return Match(equal=False, remark="factor-vanishes")
-    return Match(equal=True, remark="divided" if divided else "", nonzero=divided)
+    return Match(equal=True, remark="divided" if divisors else "", nonzero=divisors)
 
 
 def system_of(parts: Parts, solution: Solution) -> tuple[sp.Matrix, sp.Matrix]:

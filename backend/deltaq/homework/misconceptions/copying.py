@@ -12,6 +12,7 @@ import sympy as sp
 from ...derivation.calculus import V
 from ...mechanics.bodies import Body
 from ...mechanics.contributions import Contribution
+from ...vocabulary import SlipKind
 from ..faulty_solution import FaultySolution
 from ..solution import Solution
 
@@ -25,7 +26,7 @@ class NamesMixedUp(FaultySolution):
 
     id: ClassVar[str] = "names-mixed-up"
     likely: ClassVar[int] = 4
-    evident: ClassVar[frozenset[str] | None] = frozenset()
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"exchanged"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:

@@ -238,7 +238,7 @@ class TranslationMissing(FaultySolution):
 
     id: ClassVar[str] = "translation-missing"
     likely: ClassVar[int] = 2
-    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing", "factor"})
 
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:

@@ -45,7 +45,7 @@ class HalfInSpringEnergy(FaultySolution):
     @classmethod
     def variants(cls, true: Solution) -> Iterator[Self]:
         for part in true.scene.contributions:
-            if isinstance(part, PotentialEnergy):
+            if isinstance(part, PotentialEnergy) and _is_stiff(part, true):
                 yield cls(true.scene, true, part.source)
 
     def energy(self, load: PotentialEnergy) -> sp.Expr:
@@ -221,3 +221,10 @@ class SumOfEnergies(FaultySolution):
     @property
     def lagrangian(self) -> sp.Expr:
         return self.kinetic_energy + self.potential_energy
+
+
+def _is_stiff(part: PotentialEnergy, true: Solution) -> bool:
+    """Whether a spring is in it: a parameter with the unit of a stiffness, or none with a unit at all."""
+    energy = true.energy(part)
+    units = [p.unit for p in true.scene.parameters if p.unit and energy.has(true.q(p.name))]
+    return not units or any(unit.startswith("N") for unit in units)

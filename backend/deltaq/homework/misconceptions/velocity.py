@@ -137,7 +137,9 @@ class DerivativeOfCosine(FaultySolution):
     id: ClassVar[str] = "derivative-of-cosine"
     likely: ClassVar[int] = 2
     traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
-    evident: ClassVar[frozenset[str] | None] = frozenset({"virtual-displacement", "virtual-work", "kinetic-energy", "momentum"})
+    evident: ClassVar[frozenset[str] | None] = frozenset(
+        {"virtual-displacement", "virtual-work", "kinetic-energy", "momentum"}
+    )
 
     def velocity(self, place: str) -> sp.ImmutableMatrix:
         return column(self._slope(r, self.rate) + r.diff(self.t) for r in self.position(place))

@@ -38,7 +38,7 @@ EXPONENTS = (Fraction(2), Fraction(1, 2), Fraction(3), Fraction(1, 3), Fraction(
 
 @dataclass(frozen=True)
 class Edit:
-    """A change at a path of a part: its kind, what stands there now and afterwards; what is `marked` of it, None: all."""
+    """A change at a path of a part: its kind, what stands there before and after, and what is `marked` if not all."""
 
     kind: SlipKind
     path: Path
@@ -155,7 +155,7 @@ def _of_a_factor(spot: Spot, lexicon: Lexicon, values: Valued) -> Iterator[Edit]
             yield from _symbol(spot, lexicon)
             yield from _power(spot)
         case Call():
-            yield from _function(spot, lexicon, values)
+            yield from _function(spot, spot.node, lexicon, values)
             yield from _power(spot)
         case Sum():
             yield from _power(spot)
@@ -208,41 +208,41 @@ def _exponent(spot: Spot, base: Node, exponent: Fraction, values: Valued) -> Ite
     own = values(base)
     for other in (Fraction(1), *EXPONENTS, Fraction(-1), Fraction(-2)):
         if other != exponent and near(
-            spot.wanted, tuple(v ** float(other) if v > 0 or other.denominator == 1 and v else math.nan for v in own)
+            spot.wanted, tuple(v ** float(other) if v > 0 or (other.denominator == 1 and v) else math.nan for v in own)
         ):
             yield _edit(spot, "power", Power(base, Number(other)), 1.1)
 
 
-def _function(spot: Spot, lexicon: Lexicon, values: Valued) -> Iterator[Edit]:
-    assert isinstance(spot.node, Call)
-    if spot.node.function not in WAVES:
+def _function(spot: Spot, call: Call, lexicon: Lexicon, values: Valued) -> Iterator[Edit]:
+    if call.function not in WAVES:
         return
-    (argument,) = spot.node.arguments
+    (argument,) = call.arguments
     for name in WAVES:
-        if name != spot.node.function and near(spot.wanted, values(Call(name, (argument,)))):
-            yield _edit(spot, "function", replace(spot.node, function=name), 1.0)
+        if name != call.function and near(spot.wanted, values(Call(name, (argument,)))):
+            yield _edit(spot, "function", replace(call, function=name), 1.0)
+    if near(spot.wanted, tuple(1 / v if v else math.nan for v in spot.values)):
+        yield _edit(spot, "function", Quotient(exact(1), spot.node), 1.1)
     for base in lexicon.symbols(["function"]):
-        if isinstance(base.node, Call) and base.node.arguments != spot.node.arguments:
-            yield from _other_call(spot, base.node, base.values)
+        if isinstance(base.node, Call) and base.node.arguments != call.arguments:
+            yield from _other_call(spot, call, base.node, base.values)
     for other in _other_arguments(argument):
-        changed = Call(spot.node.function, (other,))
+        changed = Call(call.function, (other,))
         if near(spot.wanted, values(changed)):
-            yield _argument(spot, changed)
+            yield _argument(spot, call, changed)
 
 
-def _other_call(spot: Spot, call: Call, values: Values) -> Iterator[Edit]:
+def _other_call(spot: Spot, call: Call, other: Call, values: Values) -> Iterator[Edit]:
     """Another function of another argument, and the square of one."""
-    assert isinstance(spot.node, Call)
     if near(spot.wanted, values):
-        yield _argument(spot, call) if call.function == spot.node.function else _edit(spot, "function", call, 1.7)
+        alike = call.function == other.function
+        yield _argument(spot, call, other) if alike else _edit(spot, "function", other, 1.7)
     elif near(spot.wanted, tuple(v * v for v in values)):
-        yield _edit(spot, "function", Power(call, exact(2)), 1.7)
+        yield _edit(spot, "function", Power(other, exact(2)), 1.7)
 
 
-def _argument(spot: Spot, changed: Call) -> Edit:
+def _argument(spot: Spot, call: Call, changed: Call) -> Edit:
     """The change within the brackets: what is marked is the argument."""
-    assert isinstance(spot.node, Call)
-    argument, other = spot.node.arguments[0], changed.arguments[0]
+    argument, other = call.arguments[0], changed.arguments[0]
     symbols = symbol_kind(argument) and symbol_kind(other)
     return Edit("name" if symbols else "argument", (*spot.path, 0), argument, other, 1.2)
 
@@ -314,7 +314,7 @@ def plain_edits(tree: Node, values: Valued) -> Iterator[Edit]:
         if isinstance(spot.node, Call) and spot.node.function in WAVES[:2]:
             other = "cos" if spot.node.function == "sin" else "sin"
             yield _edit(spot, "function", replace(spot.node, function=other), 1.0)
-        elif spot.is_addend or not spot.path and not isinstance(spot.node, Sum):
+        elif spot.is_addend or (not spot.path and not isinstance(spot.node, Sum)):
             yield from (_times(spot, times) for times in (Fraction(-1), Fraction(2), Fraction(1, 2)))
 
 

@@ -33,7 +33,7 @@ from .written import WrittenPart, written_parts
 MOST_PROVED = 4  # changes that fit by numbers and are looked at exactly
 MOST_TERMS = 40
 MOST_NODES = 400  # of an answer that is looked at
-MOST_TRIED = 24  # first slips, where one does not explain an answer
+MOST_TRIED = 16  # first slips, where one does not explain an answer
 PLAIN = ("sign", "function", "half", "double", "power", "missing")  # second slips that are believed
 ACCELERATION = 0.18
 ACCELERATION_SIGN = 0.5  # nobody gets the sign of the inertia wrong and everything else right
@@ -67,15 +67,19 @@ class SlipSearch:
     workbook: Workbook
     task: Task
 
-    def slips(self, reading: Reading, text: str) -> tuple[Slip, ...]:
-        """One slip for each part that is wrong; none if not all parts can be explained."""
+    def slips(self, reading: Reading, text: str, *, explained: bool = False) -> tuple[Slip, ...]:
+        """One slip for each part that is wrong; none if not all parts can be explained.
+
+        Two slips in one part are looked for only in what is not `explained` otherwise.
+        """
         if sum(1 for _, tree in reading.trees for _ in walk(tree)) > MOST_NODES:
             return ()
         written = written_parts(self.task, reading, text, self.workbook.sampler)
         found = self._of_each_part(reading.parts, written)
         if found and {slip.kind for slip in found} != {"superfluous", "missing"}:
             return found
-        return self._of_the_whole(reading.parts, written) or found or self._of_two_terms(reading.parts, written)
+        found = self._of_the_whole(reading.parts, written) or found
+        return found or (() if explained else self._of_two_terms(reading.parts, written))
 
     # --- part by part ------------------------------------------------------------------------------------------------
 
@@ -108,11 +112,14 @@ class SlipSearch:
 
     def _slip(self, index: int, given: Parts, right: sp.Expr, written: tuple[WrittenPart, ...]) -> Slip | None:
         found = sorted(self._fitting(index, given[index], right, written[index]), key=lambda one: one.cost)
-        return next((one.slip for one in found[:MOST_PROVED] if self._proved(one.changed, right)), None)
+        return next((one.slip for one in found[:MOST_PROVED] if self._proved(one, given[index], right)), None)
 
-    def _proved(self, changed: sp.Expr, right: sp.Expr) -> bool:
-        same = self.task.quantity.equality.same((changed,), (right,), self.workbook.solution)
-        return same.equal is True
+    def _proved(self, found: _Found, given: sp.Expr, right: sp.Expr) -> bool:
+        """Whether the change makes the part right, and not by cancelling another term of it."""
+        before, after = (len(sp.Add.make_args(sp.expand(part))) for part in (given, found.changed))
+        if after < before - 1 and found.slip.kind != "superfluous":
+            return False
+        return self.task.quantity.equality.same((found.changed,), (right,), self.workbook.solution).equal is True
 
     def _fitting(self, index: int, given: sp.Expr, right: sp.Expr, written: WrittenPart) -> Iterator[_Found]:
         """The changes that fit by numbers."""
@@ -205,7 +212,9 @@ class SlipSearch:
                 if first is None:
                     continue
                 rest = replace(written[index], tree=put(written[index].tree, edit.path, edit.after))
-                second = self._slip(index, (*given[:index], first.changed, *given[index + 1 :]), right, (rest,) * len(given))
+                second = self._slip(
+                    index, (*given[:index], first.changed, *given[index + 1 :]), right, (rest,) * len(given)
+                )
                 if second is not None and second.kind in PLAIN:
                     return (replace(first.slip, scale=second.scale), second)
         return ()
@@ -215,9 +224,9 @@ class SlipSearch:
         for a, b in combinations(range(len(given)), 2):
             order = list(given)
             order[a], order[b] = order[b], order[a]
-            if all(self._same_values(own, true) for own, true in zip(order, right, strict=True)):
-                if self.task.quantity.equality.same(tuple(order), right, self.workbook.solution).equal:
-                    return (Slip("components", a, None, None),)
+            alike = all(self._same_values(own, true) for own, true in zip(order, right, strict=True))
+            if alike and self.task.quantity.equality.same(tuple(order), right, self.workbook.solution).equal:
+                return (Slip("components", a, None, None),)
         return ()
 
     def _moved(self, given: Parts, written: tuple[WrittenPart, ...]) -> tuple[Slip, ...]:
@@ -238,7 +247,7 @@ class SlipSearch:
         return ()
 
     def _renamed(self, given: Parts) -> tuple[Slip, ...]:
-        """Two coordinates or two parameters of one unit, each written for the other: everywhere, or where it is wrong."""
+        """Two coordinates or parameters of one unit, each written for the other: everywhere, or where it is wrong."""
         scene, solution = self.workbook.scene, self.workbook.solution
         groups = [[(p.name, p.unit) for p in scene.parameters], [(c.name, c.unit) for c in scene.free]]
         wrong = {index for index, _ in self._pairs(given)}

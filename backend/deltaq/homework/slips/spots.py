@@ -7,11 +7,13 @@ wanted of the whole is carried down to it. So no change has to be tried to be se
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from types import MappingProxyType
 
 from ...language.floats import evaluate
+from ...language.sympy_algebra import to_sympy
 from ...language.tree import (
     Call,
     Equation,
@@ -28,7 +30,6 @@ from ...language.tree import (
     children,
     walk,
 )
-from ...language.sympy_algebra import to_sympy
 from ..sampling import Sampler, Values
 
 Path = tuple[int, ...]
@@ -136,29 +137,27 @@ def _roots(wanted: Values, own: Values, exponent: float) -> Values:
 # --- trees -----------------------------------------------------------------------------------------------------------
 
 
+FIELDS: Mapping[type, tuple[str, ...]] = MappingProxyType(
+    {
+        Quotient: ("numerator", "denominator"),
+        Power: ("base", "exponent"),
+        Equation: ("left", "right"),
+        PartialDerivative: ("operand", "variable"),
+        Negation: ("operand",),
+        TimeDerivative: ("operand",),
+    }
+)
+LISTS: Mapping[type, str] = MappingProxyType(
+    {Sum: "terms", Product: "factors", Vector: "components", Call: "arguments"}
+)
+
+
 def with_children(node: Node, parts: Sequence[Node]) -> Node:
     """The node with other parts, at the same place of the text."""
-    match node:
-        case Sum():
-            return replace(node, terms=tuple(parts))
-        case Product():
-            return replace(node, factors=tuple(parts))
-        case Vector():
-            return replace(node, components=tuple(parts))
-        case Call():
-            return replace(node, arguments=tuple(parts))
-        case Quotient():
-            return replace(node, numerator=parts[0], denominator=parts[1])
-        case Power():
-            return replace(node, base=parts[0], exponent=parts[1])
-        case Equation():
-            return replace(node, left=parts[0], right=parts[1])
-        case PartialDerivative():
-            return replace(node, operand=parts[0], variable=parts[1])
-        case Negation() | TimeDerivative():
-            return replace(node, operand=parts[0])
-        case _:
-            return node
+    if type(node) in LISTS:
+        return replace(node, **{LISTS[type(node)]: tuple(parts)})
+    fields = FIELDS.get(type(node), ())
+    return replace(node, **dict(zip(fields, parts, strict=True)))
 
 
 def put(tree: Node, path: Path, node: Node) -> Node:

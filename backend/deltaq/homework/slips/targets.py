@@ -138,7 +138,7 @@ def _factor(given: sp.Expr, right: sp.Expr, column: int, sampler: Sampler) -> sp
 
 
 def _judged(target: Target, given: sp.Expr, right: sp.Expr, sampler: Sampler) -> Target:
-    """The target with its cost: factors without a number of their own, or that make the acceleration bare, are usual."""
+    """The target with its cost: factors without a number, or that make the acceleration bare, are usual."""
     if target.factor is None:
         return Target(target.values, target.scale, None, 0.3)
     number, rest = sp.factor_terms(target.factor).as_coeff_Mul()

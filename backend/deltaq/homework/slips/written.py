@@ -22,7 +22,6 @@ from ...language.tree import (
     Vector,
     children,
 )
-from ..equality import Parts
 from ..reading import Reading
 from ..sampling import Sampler, Values, close, defined
 from ..task import Task
@@ -83,7 +82,7 @@ def _scalars(task: Task, tree: Node) -> Iterator[Node]:
             yield from _components(tree) or (tree,)
 
 
-def _components(tree: Node) -> tuple[Node, ...]:
+def _components(tree: Node) -> tuple[Node, ...]:  # noqa: PLR0911 - one case for each kind
     """The components of what is a vector: factors and signs before a column stand before each of them."""
     match tree:
         case Vector(parts):
