@@ -346,7 +346,7 @@ test("a busy server is asked again, any other failure is not", async () => {
 
 test("an assignment of all tasks, without anybody's own values", () => {
   const sheet = sheetOfScene({ scene: "swing", seed: "ada" }, /** @type {any} */ ({ scene, symbols, tasks: [task] }));
-  assert.deepEqual(assignmentOf(sheet, { en: "Swing" }), { format: 1, title: { en: "Swing" }, individual: false, follow_through: 0.5, tasks: [{ scene: "swing", task: "equation:phi", points: 3 }] });
+  assert.deepEqual(assignmentOf(sheet, { en: "Swing" }), { format: 1, title: { en: "Swing" }, individual: false, follow_through: 0.5, simplified: 0.5, tasks: [{ scene: "swing", task: "equation:phi", points: 3 }] });
 });
 
 test("a task chosen while others' values are fetched stays chosen", async () => {

@@ -106,8 +106,13 @@ def _length(form: Form) -> int:
     )  # fmt: skip
 
 
+def _is_even(number: Any) -> bool:
+    """Of a rational number; flint takes no remainder of one."""
+    return bool(int(number) == number) and int(number) % 2 == 0
+
+
 def _angle_length(phase: Phase) -> int:
-    doubled = len(phase) == 1 and phase[0][1] % 2 == 0  # sin φ cos φ rather than sin 2φ
+    doubled = len(phase) == 1 and _is_even(phase[0][1])  # sin φ cos φ rather than sin 2φ
     return 2 * len(phase) + sum(len(mono) - 1 + 2 * int(abs(c) != 1) for mono, c in phase) + doubled
 
 

@@ -79,7 +79,11 @@ export function createWorking(store, api, progress, exercise) {
       exercise.write(lines);
       await attempt(store, "trouble", "marking", async () => {
         const points = Object.fromEntries(entries().map(({ task }) => [task.id, task.points]));
-        const scheme = { points, follow_through: sheet?.followThrough ?? 0.5 };
+        const scheme = {
+          points,
+          follow_through: sheet?.followThrough ?? 0.5,
+          simplified: sheet?.simplified ?? 0.5,
+        };
         const body = {
           ...entry.reference,
           lines: lines.map(({ task, syntax, value }) => ({ task, answer: { syntax, value } })),

@@ -70,10 +70,18 @@ function said(view, found) {
   return html`
     ${title ? html`<p class="misconception">${prose(title)}</p>` : nothing}
     ${rest ? html`<p class="prose">${prose(rest)}</p>` : nothing}
+    ${found.marked ? html`<div class="marked" role="group" aria-label=${t("homework.marked")}>${displayed(found.marked)}</div>` : nothing}
+    ${partly(view, found)}
     ${found.misconceptions.length > 1 ? html`<p class="so">${t("homework.or")} ${found.misconceptions.slice(1).map(({ title: other }, i) => html`${i ? ", " : ""}${prose(other)}`)}</p>` : nothing}
     ${found.counterexample && found.misconceptions.length + Number(Boolean(found.slip)) > 0 ? example(view, found.counterexample) : nothing}
     ${comparing(view, found)}`;
 }
+
+/** What the right parts of a wrong answer earn. @param {HomeworkView} view @param {Verdict} found */
+const partly = ({ state, t }, { outcome, share }) =>
+  outcome === "wrong" && share
+    ? html`<p class="so">${t("homework.partly", { share: share.toLocaleString(state.asked.place.lang, { style: "percent" }) })}</p>`
+    : nothing;
 
 /** @param {HomeworkView} view @param {NonNullable<Verdict["counterexample"]>} found */
 function example({ state, t }, { values, latex = {}, of, yours, right }) {

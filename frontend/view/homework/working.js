@@ -57,7 +57,7 @@ function written(view, line, index, mark, first) {
         ? html`<div class="mark" id=${`mark-${index}`}>
       <p><b>${first ? t("homework.first-wrong") : t(`homework.outcome.${mark.outcome}`)}</b> <span class="score">${t("homework.total", { earned: number(view, mark.points), of: number(view, mark.of) })}</span></p>
       ${at ? html`<code class="where" aria-hidden="true">${at[0]}<mark>${at[1]}</mark>${at[2]}</code>` : nothing}
-      ${mark.understood_as && mark.outcome !== "correct" ? displayed(mark.understood_as) : nothing}
+      ${mark.understood_as && mark.outcome !== "correct" ? displayed(mark.marked || mark.understood_as) : nothing}
       ${furtherOf(mark, t) ? html`<p class="prose">${mark.misconceptions[0] ? html`<b>${prose(mark.misconceptions[0].title)}.</b> ` : nothing}${prose(furtherOf(mark, t))}</p>` : nothing}
     </div>`
         : nothing

@@ -1,0 +1,77 @@
+"""What may be divided out of an equation though it can be zero, and what may not.
+
+The mass on a spring in polar coordinates without a range: r² θ̈ + 2 r ṙ θ̇ + g r sin θ = 0 says nothing where r = 0.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from deltaq.homework.checking import check
+from deltaq.homework.service import check_request
+from deltaq.homework.workbook import workbook_of
+
+TURN = "(r*theta'' + 2*r'*theta' + g*sin(theta))"
+ALONG = "(m*r'' - m*r*theta'^2 + k*r - m*g*cos(theta))"
+SCENE = {
+    "format": 1,
+    "id": "polar",
+    "title": {"en": "Mass on a spring"},
+    "dimension": 2,
+    "coordinates": [{"name": "r", "unit": "m", "value": 1.0}, {"name": "theta", "unit": "rad", "value": 0.3}],
+    "parameters": [
+        {"name": "m", "unit": "kg", "value": 1.0},
+        {"name": "k", "unit": "N/m", "value": 3.0},
+        {"name": "g", "unit": "m/s^2", "value": 9.81},
+    ],
+    "bodies": [{"name": "bob", "kind": "particle", "mass": "m", "position": ["r*sin(theta)", "r*cos(theta)"]}],
+    "loads": [
+        {"name": "spring", "kind": "potential", "energy": "k*r^2/2"},
+        {"name": "weight", "kind": "gravity", "acceleration": ["0", "g"]},
+    ],
+}
+
+
+@pytest.mark.parametrize(
+    ("task", "answer", "outcome", "remark"),
+    [
+        ("equation:theta", f"m*r*{TURN} = 0", "correct", ""),
+        ("equation:theta", f"{TURN} = 0", "correct", "divided"),
+        ("equation:theta", f"-3*m*{TURN} = 0", "correct", "divided"),
+        ("equation:theta", "theta'' = -2*r'*theta'/r - g*sin(theta)/r", "correct", "divided"),
+        ("equation:theta", f"theta*{TURN} = 0", "wrong", "factor-vanishes"),
+        ("equation:theta", f"r'*{TURN} = 0", "wrong", "factor-vanishes"),
+        ("equation:theta", f"r^2*{TURN} = 0", "wrong", "factor-vanishes"),
+        ("equation:theta", f"(r - 3/10)*{TURN} = 0", "wrong", "factor-vanishes"),
+        ("equation:theta", f"(r - 3/10)*{TURN}/r = 0", "wrong", "factor-vanishes"),
+        ("equation:theta", f"{TURN}/sin(theta) = 0", "wrong", "factor-vanishes"),
+        ("equation:theta", f"{TURN}/(1 - cos(theta)) = 0", "wrong", "factor-vanishes"),
+        ("equation:theta", f"{TURN}/theta^2 = 0", "wrong", "factor-vanishes"),
+        ("equation:r", f"{ALONG} = 0", "correct", ""),
+        ("equation:r", f"{ALONG}/r = 0", "wrong", "factor-vanishes"),
+        ("equations", f"{ALONG} = 0; {TURN} = 0", "correct", "divided"),
+        ("equations", f"{ALONG} = 0; {TURN}/r = 0", "correct", "divided"),
+        ("equations", f"{ALONG} + m*{TURN} = 0; {TURN} = 0", "correct", "divided"),
+        ("equations", f"theta*{ALONG} = 0; {TURN} = 0", "wrong", "factor-vanishes"),
+        ("equations", f"r*{ALONG} = 0; {TURN} = 0", "wrong", "factor-vanishes"),
+        ("equations", f"{ALONG}/r = 0; {TURN} = 0", "wrong", "factor-vanishes"),
+    ],
+)
+def test_only_what_the_right_equation_has_in_all_terms_is_divided_out(
+    task: str, answer: str, outcome: str, remark: str
+) -> None:
+    workbook = workbook_of({"scene": SCENE})
+    verdict = check(workbook, workbook.task(task), answer, "plain")
+    assert (verdict.outcome, verdict.remark) == (outcome, remark)
+
+
+def test_the_condition_is_told() -> None:
+    asked = {"scene": SCENE, "task": "equation:theta", "answer": {"value": f"{TURN} = 0"}, "lang": "en"}
+    assert r"$r \neq 0$" in check_request(asked)["feedback"]
+
+
+def test_a_mistake_in_a_divided_equation_is_named_all_the_same() -> None:
+    workbook = workbook_of({"scene": SCENE})
+    halved = check(workbook, workbook.task("equation:theta"), "r*theta'' + r'*theta' + g*sin(theta) = 0", "plain")
+    assert halved.misconceptions == ("total-derivative-halved",)
+    assert [(slip.kind, slip.place.offset) for slip in halved.slips if slip.place] == [("half", 12)]
