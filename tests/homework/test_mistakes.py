@@ -1,4 +1,4 @@
-"""The table of mistakes: every one is named, none that was not made, and the term is shown. The script beside does all."""
+"""The table of mistakes: each is named, none that was not made, and the term is shown. The script beside does all."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is told of one wrong term is true: the change makes the answer right, and what is marked is the student's own."""
+"""What is told of one wrong term is true: the change makes it right, and what is marked is the student's own."""
 
 from __future__ import annotations
 
@@ -57,7 +57,8 @@ def test_nobody_is_accused_of_what_they_did_not_write(scene: str, task: str, ans
     found = verdict_on(scene, task, answer)
     assert found.misconceptions == ()
     (slip,) = found.slips
-    assert slip.place and "''" not in answer[slip.place.offset : slip.place.offset + slip.place.length]
+    assert slip.place
+    assert "''" not in answer[slip.place.offset : slip.place.offset + slip.place.length]
 
 
 def test_half_an_angle_is_no_hindrance() -> None:
@@ -129,8 +130,6 @@ def test_what_a_mistake_made_easier_follows_at_a_share_of_its_own() -> None:
     "lines",
     [
         [("kinetic-energy", "0"), ("momentum:psi", "0")],
-        [("potential-energy", "0"), ("lagrangian", "m*l^2/2*(theta'^2 + psi'^2*sin(theta)^2)")],
-        [("potential-energy", "5"), ("conserved:2", "m*l^2/2*(theta'^2 + psi'^2*sin(theta)^2)")],
         [("kinetic-energy", "m*l^2*theta'^2/7"), ("momentum:theta", "2*m*l^2*theta'/7"), ("equation:psi", "0 = 0")],
     ],
 )
