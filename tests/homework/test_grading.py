@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import re
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
@@ -18,8 +18,8 @@ from deltaq.homework.assignment import load_assignment, read_assignment
 from deltaq.homework.command import check_file
 from deltaq.homework.grading import MOST_ROWS, Sheet, grade, read_answers
 from deltaq.homework.results import Graded, results_csv, summary, totals
-from deltaq.homework.slips import KINDS
 from deltaq.narration.catalog import keys, text
+from deltaq.vocabulary import SlipKind
 
 TABLE = """student;scene;task;answer;syntax
 ada;pendulum;kinetic-energy;m*l^2*dot(phi)^2/2;
@@ -59,7 +59,7 @@ def test_summary_counts_misconceptions_by_task() -> None:
 
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_every_mistake_has_a_name_in_the_summary(language: str) -> None:
-    kinds = [*keys(language, "homework.misconceptions"), *(f"slip:{kind}" for kind in KINDS), ""]
+    kinds = [*keys(language, "homework.misconceptions"), *(f"slip:{kind}" for kind in get_args(SlipKind)), ""]
     rows = [Graded("", "pendulum", "t", "wrong", kind, 0.0, 1.0, "", "", "") for kind in kinds]
     assert len(summary(rows, language).splitlines()) == 1 + len(kinds)
 

@@ -9,7 +9,7 @@ import pytest
 from deltaq.contract.base import SceneWithChanges
 from deltaq.homework import grading
 from deltaq.homework.assignment import read_assignment
-from deltaq.homework.gradebook import Plan, Row, Target
+from deltaq.homework.gradebook import Plan, Row, Shares, Target, earned_share
 from deltaq.homework.grading import Sheet, grade, plan_of, read_answers, row_verdict
 from deltaq.homework.results import Graded, summary, totals
 from deltaq.homework.table import Style
@@ -188,7 +188,10 @@ def test_what_many_wrote_is_judged_once(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 T, DOUBLE_T = "m*l^2*dot(phi)^2/2", "m*l^2*dot(phi)^2"
-FACTOR = "Not right yet. Which factor stands before $m v^2$? Check it with a body that moves in a straight line."
+FACTOR = (
+    "Not right yet. Which factor stands before $m v^2$? Check it with a body that moves in a straight line."
+    r" It is about this term: $m \ell^{2} \dot{\varphi}^{2}$."
+)
 
 
 def told(outcome: str, understood: str, feedback: str, mistake: str = "", title: str = "", remark: str = "") -> object:
@@ -292,10 +295,10 @@ def told(outcome: str, understood: str, feedback: str, mistake: str = "", title:
         ),
     ],
 )
-def test_a_row_is_judged(task: str, answer: str, standing: str, entry: object) -> None:
+def test_a_row_is_judged(task: str, answer: str, standing: str, entry: dict) -> None:
     earlier = [{"task": KINETIC, "answer": {"syntax": "plain", "value": standing}}] if standing else []
     question = {"scene": "pendulum", "task": task, "answer": {"value": answer}, "standing": earlier, "lang": "en"}
-    assert row_verdict(question) == entry
+    assert row_verdict(question) == {**entry, "share": 0.0}  # an answer of one part
 
 
 def test_of_several_misconceptions_the_likeliest_is_named() -> None:
@@ -438,3 +441,25 @@ def test_a_summary_as_it_is_printed() -> None:
 def test_a_mistake_without_words_is_named_by_its_id(misconception: str, mistake: str) -> None:
     (task,) = totals([row("ada", "wrong", misconception=misconception)], None, "en")["tasks"]
     assert [one["mistake"] for one in task["mistakes"]] == [mistake]
+
+
+def test_the_right_parts_of_a_wrong_answer_are_told() -> None:
+    right, wrong = "l*phi'' + x''*cos(phi) + g*sin(phi) = 0", "(M + m)*x'' + m*l*phi'' = 0"
+    question = {"scene": "cart-pendulum", "task": "equations", "answer": {"value": f"{right}; {wrong}"}, "lang": "en"}
+    assert row_verdict({**question, "standing": []})["share"] == 0.5
+
+
+@pytest.mark.parametrize(
+    ("outcome", "remark", "partial", "earned"),
+    [
+        ("correct", "", 0.0, 1.0),
+        ("wrong", "", 0.5, 0.5),
+        ("wrong", "", 0.0, 0.0),
+        ("undecided", "", 0.5, 0.0),
+        ("follow_through", "", 0.5, 0.4),
+        ("follow_through", "simplified", 0.0, 0.1),
+        ("follow_through", "repeated", 0.0, 0.0),
+    ],
+)
+def test_what_an_answer_earns(outcome: str, remark: str, partial: float, earned: float) -> None:
+    assert earned_share(outcome, remark, partial, Shares(0.4, 0.25)) == pytest.approx(earned)
