@@ -49,6 +49,7 @@ ROWS = [
     pytest.param("l*sin(phi)*dot(y)", r"\ell \sin q_2 \, \dot{q}_1", id="function before a rate"),
     pytest.param("sin(phi)^2*ddot(y)", r"\sin^{2} q_2 \, \ddot{q}_1", id="power of a function before a rate"),
     pytest.param("sin(phi)*cos(omega*t)*dot(y)", r"\sin q_2 \cos(\omega t) \dot{q}_1", id="function before a function"),
+    pytest.param("cos(phi)*sign(phi)", r"\cos q_2 \operatorname{sgn}(q_2)", id="function before a sign"),
     pytest.param("sin(m)*y", r"q_1 \sin m", id="parameter as argument"),
     pytest.param("sin(m)*cos(phi)*sqrt(y)*exp(t)*dot(y)",
                  r"\sqrt{q_1} \sin m \cos q_2 \, \mathrm{e}^{t} \dot{q}_1", id="function before an exponential"),

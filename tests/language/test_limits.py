@@ -29,6 +29,7 @@ CASES = [
     pytest.param(lambda n: f"x^-{n}", 64, "exponent-too-large", id="negative exponent"),
     pytest.param(lambda n: f"x^(1/{n})", 64, "exponent-too-large", id="root"),
     # degrees up to 64
+    pytest.param(lambda n: f"sin(x)^{n}", 64, "exponent-too-large", id="a function is of the degree of its argument"),
     pytest.param(lambda n: f"((x+1)^{n})^8", 8, "degree-too-large", id="degree of a power of a power"),
     pytest.param(lambda n: f"(x*y)^{n}", 32, "degree-too-large", id="degree of a product"),
     pytest.param(lambda n: f"(x/y)^{n}", 32, "degree-too-large", id="degree of a quotient"),

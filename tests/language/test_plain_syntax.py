@@ -407,6 +407,7 @@ REFUSED = [
     ("dm", "unknown-name", 0, 2, {"name": "dm", "known": KNOWN, "suggestion": "m"}),
     ("d(m)", "differential-of-constant", 0, 4, {"name": "m"}),
     ("d(dot(phi))", "differential-of-rate", 0, 11, {}),
+    ("d(x*delta(phi))", "differential-of-rate", 0, 15, {}),
     ("d", "operand-expected", 0, 1, {"operator": "d"}),
     ("dot(m*d(phi))", "derivative-of-differential", 0, 13, {}),
     ("dot(d(phi))", "derivative-of-differential", 0, 11, {}),

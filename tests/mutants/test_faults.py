@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import tomllib
 from pathlib import Path
 
 import pytest
+from tests.mutants.entries import Entries, Recorder, function_around
 from tests.mutants.faults import mutants_of, sample
 
 SOUND = '''"""Says 3 nowhere."""
@@ -18,6 +20,14 @@ def law(a: int = 1, *, b: list[int] | None = None) -> int:
         return a - 1
     return sum(x for x in b or [] if x)
 '''
+CALLERS = """
+from pathlib import Path
+from tests.mutants.entries import telling
+names = {{}}
+exec(telling(Path("{module}")), names)
+def test_enters(): assert names["law"](3) == 2
+def test_does_not(): assert True
+"""
 EXPECTED = {
     ("1", "2"),
     ("1", "0"),
@@ -68,3 +78,22 @@ def test_every_part_has_its_modules_and_tests(root: Path) -> None:
     files = [file for part in parts.values() for file in (*part["modules"], *part["tests"])]
     files += [*page["mutate"], *re.findall(r"\S+\.test\.js", page["commandRunner"]["command"])]
     assert [file for file in files if not list(root.glob(file.removeprefix("./")))] == []
+
+
+def test_a_fault_is_shown_to_the_tests_that_enter_its_function(module: Path) -> None:
+    start = function_around(module, 6)
+    assert start == (str(module), 4)
+    assert function_around(module, 3) is None
+    entries = Entries("test_law.py", 3, {"test_a": {start}, "test_b": {(str(module), 9)}})
+    assert entries.tests_of(start) == ["test_a"]
+    assert entries.tests_of(None) == ["test_a", "test_b"]
+
+
+def test_what_a_test_enters_is_recorded(module: Path) -> None:
+    tests = module.with_name("test_law.py")
+    tests.write_text(CALLERS.format(module=str(module)), encoding="utf-8")
+    recorder = Recorder()
+    options = ["-n0", "-q", "-p", "no:cacheprovider", "--rootdir", str(module.parent), "-c", os.devnull]
+    assert pytest.main([*options, str(tests)], plugins=[recorder]) == pytest.ExitCode.OK
+    assert recorder.entries.tests_of((str(module), 4)) == [f"{recorder.entries.file}::test_enters"]
+    assert recorder.entries.number == 2

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from functools import cache
 from itertools import pairwise
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -38,6 +39,7 @@ from deltaq.narration.vary import _notation as notation_of_variation
 SEED = 20
 RUBRIC = 240
 LANGUAGES = ("en", "de")
+SAID = Path(__file__).with_name("said.txt")
 SCENES = ("elastic-pendulum", "double-pendulum", "heavy-top", "guided-pendulum", "quarter-car", "wind-on-rod")
 ACTION = {
     "expression": "m*dot(x)^2/2 - k*x^2/2",
@@ -203,6 +205,19 @@ def test_german_nouns_have_their_case_and_letters_stand_side_by_side(step: str, 
         assert not re.search(
             r"\b(von|mit|gleich|über) (partielle Ableitung|Ableitung|Integral|Skalarprodukt|Bruch)", text
         )
+
+
+def test_each_kind_of_formula_is_said_word_for_word() -> None:
+    """Where brackets, pauses and arguments stand, and where they do not."""
+    said = {f"{name}: {speech.formula(formula)}" for name, speech, formula in spoken("en")}
+    wanted = set()
+    for line in filter(None, SAID.read_text(encoding="utf-8").splitlines()):
+        if line.startswith("["):
+            source = line.strip("[]")
+        else:
+            wanted.add(f"{source}: {line}")
+    assert len(wanted) > 40
+    assert wanted - said == set()
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
