@@ -7,8 +7,9 @@ They are made in the syntax tree. Left out is what never runs (annotations) and 
 from __future__ import annotations
 
 import ast
+import itertools
 import random
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import CodeType
@@ -58,21 +59,36 @@ class Mutant:
         return f"{self.module}:{self.line}\n  - {self.before}\n  + {self.after}"
 
 
-def mutants_of(module: Path) -> Iterator[Mutant]:
-    """All faults of a module, in reading order."""
+def mutants_of(module: Path, wanted: Container[int] | None = None) -> Iterator[Mutant]:
+    """The faults of a module, in reading order: those with the wanted numbers, from 0, or all."""
     tree = ast.parse(module.read_text(encoding="utf-8"))
+    number = itertools.count()
     for line, node, put in list(_places(tree)):
         for fault in _faults(node):
-            put(ast.fix_missing_locations(ast.copy_location(fault, node)))
-            code = compile(tree, str(module), "exec", dont_inherit=True)
-            yield Mutant(module, line, _shown(node), _shown(fault), code)
-        put(node)
+            if wanted is None or next(number) in wanted:
+                put(ast.fix_missing_locations(ast.copy_location(fault, node)))
+                code = compile(tree, str(module), "exec", dont_inherit=True)
+                yield Mutant(module, line, _shown(node), _shown(fault), code)
+                put(node)
 
 
 def sample(modules: Iterable[Path], size: int, seed: int) -> tuple[list[Mutant], int]:
     """So many mutants of the modules, drawn at random (0: all), and how many there are."""
-    every = [mutant for module in modules for mutant in mutants_of(module)]
-    return (random.Random(seed).sample(every, size) if 0 < size < len(every) else every), len(every)
+    every = [(module, number) for module in modules for number in range(_size(module))]
+    drawn = random.Random(seed).sample(every, size) if 0 < size < len(every) else every
+    wanted = {module: {number for of, number in drawn if of == module} for module, _ in drawn}
+    made = {
+        (module, number): mutant
+        for module, numbers in wanted.items()
+        for number, mutant in zip(sorted(numbers), mutants_of(module, numbers), strict=True)
+    }
+    return [made[one] for one in drawn], len(every)
+
+
+def _size(module: Path) -> int:
+    """How many faults a module can have."""
+    tree = ast.parse(module.read_text(encoding="utf-8"))
+    return sum(1 for _, node, _ in list(_places(tree)) for _ in _faults(node))
 
 
 class _Put:

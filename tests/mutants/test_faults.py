@@ -97,3 +97,10 @@ def test_what_a_test_enters_is_recorded(module: Path) -> None:
     assert pytest.main([*options, str(tests)], plugins=[recorder]) == pytest.ExitCode.OK
     assert recorder.entries.tests_of((str(module), 4)) == [f"{recorder.entries.file}::test_enters"]
     assert recorder.entries.number == 2
+
+
+def test_a_sample_is_of_all_faults(module: Path) -> None:
+    every = [str(mutant) for mutant in mutants_of(module)]
+    drawn, number = sample([module], len(every) - 1, 3)
+    assert number == len(every)
+    assert len({str(mutant) for mutant in drawn} & set(every)) == len(set(every)) - 1
