@@ -1,0 +1,16 @@
+"""Misconceptions are found again where equations are long; apart from the others, since it takes as long as they do."""
+
+from __future__ import annotations
+
+import pytest
+from tests.homework.wrong_answers import LONG, assert_hints_are_whole, assert_mistakes_are_found
+
+
+@pytest.mark.parametrize("scene", LONG)
+def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str) -> None:
+    assert_mistakes_are_found(scene)
+
+
+@pytest.mark.parametrize("scene", LONG)
+def test_a_hint_names_only_what_the_mistake_is_about(scene: str) -> None:
+    assert_hints_are_whole(scene)
