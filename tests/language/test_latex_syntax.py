@@ -126,6 +126,8 @@ ACCEPTED = [
     ("\\begin{cases} m\\ddot x = 0 \\\\ \\ddot y = g \\end{cases}", "[m*ddot(x) = 0, ddot(y) = g]"),
     ("\\begin{aligned} m\\ddot x &= 0 \\\\ \\ddot y &= g \\end{aligned}", "[m*ddot(x) = 0, ddot(y) = g]"),
     ("m\\left. x \\right.", "m*x"),
+    ("2mg", "2*m*g"),
+    ("kg", "k*g"),
     ("\\boxed{m\\ddot x = 0}", "m*ddot(x) = 0"),
     ("\\[ m\\ddot x = 0 \\]", "m*ddot(x) = 0"),
     ("\\( m\\varphi''(t) \\)", "m*ddot(phi)"),

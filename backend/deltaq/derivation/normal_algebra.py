@@ -145,8 +145,7 @@ class NormalAlgebra:
             case f.Boundary(of, lower, upper):
                 return self._each(of, lambda form: self._between(form, lower, upper))
             case f.Ratio(numerator, denominator):
-                below = self.reader.expression(self._carried_out(denominator)[0])
-                return (self.times(self._carried_out(numerator)[0], self.reader.form(1 / below)),)
+                return (self._quotient(self._carried_out(numerator)[0], self._carried_out(denominator)[0]),)
             case f.Summed(_, terms):
                 return self._sum([self._carried_out(term) for term in terms])
             case f.Each(_, instances):
@@ -179,6 +178,11 @@ class NormalAlgebra:
     def times(self, left: Form, right: Form) -> Form:
         """The product."""
         return self.reader.multiply(left, right)
+
+    def _quotient(self, above: Form, below: Form) -> Form:
+        if not below:
+            raise ZeroDivisionError
+        return self.times(above, self.reader.form(1 / self.reader.expression(below)))
 
     def rate(self, form: Form) -> Form:
         """d/dt along the motion: Σ ∂/∂x · ẋ + ∂/∂t, also of variations."""
