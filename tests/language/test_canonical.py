@@ -13,6 +13,7 @@ from tests.language.scene_names import DOUBLE, DOUBLE_KINETIC_ENERGY, NAMES, SYM
 
 from deltaq.errors import ExpressionError, Problem
 from deltaq.language.canonical import Decision, canonical, display, is_zero, zero_test
+from deltaq.language.normal_form import Reader
 
 EQUAL = [
     ("sign(x)*abs(x)", "x"),
@@ -104,6 +105,27 @@ def test_what_only_values_show(left: str, right: str, outcome: bool | None) -> N
     decision = zero_test(read(left) - read(right), SYMBOLS)
     assert decision.how != "normal form"
     assert decision.outcome is outcome or (outcome is None and decision.outcome is not False)
+
+
+@pytest.mark.parametrize(
+    ("text", "exact"),
+    [
+        ("sin(phi)^2*exp(x) - x^3/(1 + x)", True),
+        ("1/(1 + x*y)^2", True),
+        ("sqrt(m)*exp(x/2)", True),
+        ("sqrt(1 + x)", False),
+        ("1/sqrt(1 + x)", False),
+        ("cos(omega*t*sin(phi))", False),
+        ("log(1 + x)", False),
+        ("sin(x^2/(1 + x))", False),
+        ("abs(x - y)", False),
+    ],
+)
+def test_a_normal_form_says_where_others_may_be_of_the_same_value(text: str, exact: bool) -> None:
+    """Only where it is unique, a difference that is left proves that two expressions differ."""
+    reader = Reader()
+    reader.form(read(text))
+    assert reader.is_exact is exact
 
 
 def test_undecided_outside_the_domain() -> None:
