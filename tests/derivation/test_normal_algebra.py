@@ -104,6 +104,7 @@ EQUAL = [
     pytest.param(integral(X), integral(X), id="integral of what is not known"),
     pytest.param(integral(X**2 * sp.cos(DX * 0) + sp.sin(X) ** 2), integral(X**2 + 1 - sp.cos(X) ** 2), id="integrand"),
     pytest.param(Substituted(e(X**2 * Y), {X: M + 1}), e((M + 1) ** 2 * Y), id="substituted"),
+    pytest.param(Substituted(Rate(e(X**2)), {XD: M}), e(2 * X * M), id="a rate that no expression has named"),
     pytest.param(AtEquilibrium(e(X * XD + sp.cos(X)), {X: ZERO, XD: ZERO}), e(1), id="in an equilibrium"),
     pytest.param(Substituted(e(X / Y + Y), {X: ZERO}), e(Y), id="a zero above a line"),
     pytest.param(Inserted(e(M * X), {M: sp.Integer(3)}), e(3 * X), id="inserted"),
@@ -206,3 +207,11 @@ def test_products_are_told_by_component() -> None:
     assert found is not None
     assert sorted((place, int(number.p)) for (place, _), number in found.items()) == [(0, -1), (0, 3), (2, 1)]  # type: ignore[attr-defined]
     assert algebra.products(e(0)) == {}
+
+
+@pytest.mark.parametrize("moving", [X, XD, XDD, X3, X4, DX, DXD, DXDD], ids=str)
+def test_what_moves_is_another_thing_at_an_instant(moving: sp.Symbol) -> None:
+    algebra = NormalAlgebra(("x",))
+    assert not algebra.holds(Relation((AtTime(e(moving), T1), e(moving))))
+    assert not algebra.holds(Relation((AtTime(e(moving), T1), AtTime(e(moving), T0))))
+    assert algebra.holds(Relation((AtTime(e(M * L), T1), e(M * L))))
