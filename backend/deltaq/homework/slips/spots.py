@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from types import MappingProxyType
+from typing import Any
 
 from ...language.floats import evaluate
 from ...language.sympy_algebra import to_sympy
@@ -154,10 +155,10 @@ LISTS: Mapping[type, str] = MappingProxyType(
 
 def with_children(node: Node, parts: Sequence[Node]) -> Node:
     """The node with other parts, at the same place of the text."""
-    if type(node) in LISTS:
-        return replace(node, **{LISTS[type(node)]: tuple(parts)})
+    field = LISTS.get(type(node))
     fields = FIELDS.get(type(node), ())
-    return replace(node, **dict(zip(fields, parts, strict=True)))
+    changes: dict[str, Any] = {field: tuple(parts)} if field else dict(zip(fields, parts, strict=True))
+    return replace(node, **changes)
 
 
 def put(tree: Node, path: Path, node: Node) -> Node:
