@@ -51,6 +51,9 @@ class Candidate:
     sources: tuple[str, ...] = ()
 
 
+Share: TypeAlias = tuple[Candidate, Products]
+
+
 @dataclass(frozen=True)
 class History:
     """Tells the lines of steps, one after the other; `known` are the terms of what earlier steps gave a value to."""
@@ -143,10 +146,10 @@ class History:
         Where no normal form shows them, as when fractions are brought together, all terms of the line before are.
         """
         products = self.algebra.products(term.alone)
-        sharing = [one for one, found in carried.items() if products and found and found.keys() & products.keys()]
-        sharing = _of_like_sources(term, sharing)
-        if products:
-            sharing = [*_left_over(products, {one: carried[one] or {} for one in sharing})]
+        shares = [
+            (one, found) for one, found in carried.items() if products and found and found.keys() & products.keys()
+        ]
+        sharing = _left_over(products or {}, _of_like_sources(term, shares))
         if not sharing:
             whole = [one for one in carried if one.id in own and carried[one] != {} and products != {}]
             several = len({one.id for one in whole}) > 1
@@ -232,10 +235,11 @@ def _brackets(value: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
             yield base, sp.Mul(*others, base ** (exponent - 1))
 
 
-def _of_like_sources(term: Summand, candidates: list[Candidate]) -> list[Candidate]:
+def _of_like_sources(term: Summand, shares: list[Share]) -> list[Share]:
     """Those that bodies and loads of the term are in; all, if there are none of that kind."""
-    alike = [one for one in candidates if all(_overlap(kind, one.sources, term.sources) for kind in ("body", "load"))]
-    return alike or candidates
+    kinds = ("body", "load")
+    alike = [share for share in shares if all(_overlap(kind, share[0].sources, term.sources) for kind in kinds)]
+    return alike or shares
 
 
 def _overlap(kind: str, *sources: tuple[str, ...]) -> bool:
@@ -244,15 +248,15 @@ def _overlap(kind: str, *sources: tuple[str, ...]) -> bool:
     return not one or not other or bool(one & other)
 
 
-def _left_over(term: Products, candidates: Mapping[Candidate, Products]) -> Iterator[Candidate]:
+def _left_over(term: Products, shares: list[Share]) -> list[Candidate]:
     """Those of which something is left in the term: what two of them have with opposite signs is in neither."""
-    shares = {one: {key: found[key] for key in term if key in found} for one, found in candidates.items()}
-    gone = set[Candidate]()
-    for one, other in combinations(candidates, 2):
-        if gone.isdisjoint((one, other)) and _is_opposite(shares[one], shares[other]):
+    parts = [{key: found[key] for key in term if key in found} for _, found in shares]
+    gone = set[int]()
+    for one, other in combinations(range(len(parts)), 2):
+        if gone.isdisjoint((one, other)) and _is_opposite(parts[one], parts[other]):
             gone |= {one, other}
-    left = [one for one in candidates if one not in gone]
-    yield from left or candidates
+    left = [one for place, (one, _) in enumerate(shares) if place not in gone]
+    return left or [one for one, _ in shares]
 
 
 def _is_opposite(one: Products, other: Products) -> bool:
