@@ -101,7 +101,7 @@ def test_a_distance_has_a_letter_that_is_said() -> None:
     assert [one["symbol"] for one in step["where"]] == ["s"]
     german = steps(pair(), "de")["lagrangian"]
     assert r"\text{mit }s &=" in german["latex"]
-    assert ". mit s gleich Wurzel aus Klammer auf x zwei minus x eins" in german["spoken"]
+    assert ". mit s gleich der Wurzel aus Klammer auf x zwei minus x eins" in german["spoken"]
 
 
 def test_powers_of_a_root_are_powers_of_its_letter() -> None:
