@@ -25,7 +25,6 @@ ROADS = [(scene, road) for scene in scene_ids() for road in formulation_names()]
 FIRST = {
     "position", "guide", "work-of-potential", "work-of-dissipation", "work-of-moment", "exchange-of-variation",
     "generalized-force",  # where nothing acts on the coordinate
-    "symmetry-search",  # which says what was looked for
 }  # fmt: skip
 
 
