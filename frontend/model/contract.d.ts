@@ -3789,6 +3789,11 @@ export interface components {
             /** Offset */
             offset: number | null;
             counterexample: components["schemas"]["CounterexampleAnswer"] | null;
+            /**
+             * Readings
+             * @description all that make sense, where there is more than one: the conventional one first
+             */
+            readings: components["schemas"]["PossibleReading"][];
             /** Points */
             points: number;
             /** Of */
@@ -4280,6 +4285,21 @@ export interface components {
             simplified?: number;
         };
         /**
+         * PossibleReading
+         * @description One way to read an answer: either text, sent as the answer, is read so and in no other way.
+         */
+        PossibleReading: {
+            /** Latex */
+            latex: string;
+            /** Plain */
+            plain: string;
+            /**
+             * Taken
+             * @description whether it was judged
+             */
+            taken: boolean;
+        };
+        /**
          * PowerReading
          * @description Growth read as t^power.
          */
@@ -4461,6 +4481,11 @@ export interface components {
             plain: string;
             /** Problems */
             problems: components["schemas"]["VerdictProblem"][];
+            /**
+             * Readings
+             * @description all that make sense, where there is more than one: the conventional one first
+             */
+            readings: components["schemas"]["PossibleReading"][];
         };
         /**
          * ReadingRequest
@@ -6749,6 +6774,11 @@ export interface components {
             /** Offset */
             offset: number | null;
             counterexample: components["schemas"]["CounterexampleAnswer"] | null;
+            /**
+             * Readings
+             * @description all that make sense, where there is more than one: the conventional one first
+             */
+            readings: components["schemas"]["PossibleReading"][];
         };
         /**
          * VerdictProblem

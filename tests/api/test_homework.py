@@ -192,3 +192,47 @@ async def test_an_answer_without_a_motion(client: httpx.AsyncClient) -> None:
     response = await client.post(f"{API}/checks/motion", json=BASE | {"answer": {"value": "phi = 0"}, "lang": "de"})
     found = [(one["pointer"], one["code"]) for one in response.json()["problems"]]
     assert (response.status_code, found) == (422, [("/answer/value", "motion-not-solvable")])
+
+
+HALF_ANGLE: dict[str, Any] = {
+    "scene": "pendulum",
+    "task": "potential-energy",
+    "answer": {"value": "2 m g l sin^2 phi/2"},
+}
+
+
+@pytest.mark.parametrize("lang", ["de", "en"])
+async def test_the_reading_taken_is_told_beside_the_others(client: httpx.AsyncClient, lang: str) -> None:
+    verdict = VerdictAnswer.model_validate(
+        (await client.post(f"{API}/checks", json=HALF_ANGLE | {"lang": lang})).json()
+    )
+    assert verdict.outcome == "correct"
+    assert [(one.plain, one.taken) for one in verdict.readings] == [
+        ("m*g*l*sin(phi)^2", False),
+        ("2*m*g*l*sin(phi/2)^2", True),
+    ]
+    read = (await client.post(f"{API}/checks/reading", json=HALF_ANGLE | {"lang": lang})).json()
+    assert [one["plain"] for one in read["readings"]] == [one.plain for one in verdict.readings]
+    checks = [{name: HALF_ANGLE[name] for name in ("scene", "task", "answer")}]
+    batch = (await client.post(f"{API}/checks/batch", json={"checks": checks, "lang": lang})).json()
+    assert batch["verdicts"][0]["readings"] == [one.model_dump() for one in verdict.readings]
+
+
+@pytest.mark.parametrize(
+    ("answer", "outcome"),
+    [("2T = m*l^2*phi'^2", "correct"), ("2T = 1/2*m*l^2*phi'^2", "wrong"), ("0,5*m*l^2*phi'^2", "correct")],
+)
+async def test_habits_are_read_over_http(client: httpx.AsyncClient, answer: str, outcome: str) -> None:
+    asked = {"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": answer}, "lang": "de"}
+    verdict = (await client.post(f"{API}/checks", json=asked)).json()
+    assert (verdict["outcome"], verdict["readings"]) == (outcome, [])
+
+
+@pytest.mark.parametrize(("lang", "member"), [("de", "dieses Glied"), ("en", "this member")])
+async def test_a_broken_chain_is_told(client: httpx.AsyncClient, lang: str, member: str) -> None:
+    value = "T = m*l^2*phi'^2 = 1/2*m*l^2*phi'^2"
+    asked = {"scene": "pendulum", "task": "kinetic-energy", "answer": {"value": value}, "lang": lang}
+    verdict = (await client.post(f"{API}/checks", json=asked)).json()
+    assert (verdict["outcome"], verdict["remark"]) == ("wrong", "chain")
+    assert member in verdict["feedback"]
+    assert r"m \ell^{2} \dot{\varphi}^{2}" in verdict["feedback"]

@@ -69,6 +69,38 @@ def test_wrong_diagnosed_corrected_correct(lecture: Lecture) -> None:
     expect(page.locator(".total")).to_contain_text("3 of 18 points")
 
 
+@pytest.mark.parametrize(
+    ("typed", "latex"),
+    [
+        ("1/2(M+m)x'^2+1", r"\frac12\left(M+m\right)x^{\prime2}+1"),
+        ("1/(2m)", r"\frac{1}{\left(2m\right)}"),
+        ("x'^2/2", r"\frac{x^{\prime2}}{2}"),
+    ],
+)
+def test_a_number_below_the_line_is_complete(lecture: Lecture, typed: str, latex: str) -> None:
+    page = _open(lecture, "scene=cart-pendulum&task=kinetic-energy&lang=en")
+    field = _math_field(page)
+    page.keyboard.type(typed, delay=30)
+    until_equal(page, lambda: field.evaluate("field => field.getValue('latex-without-placeholders')"), latex)
+
+
+def test_another_reading_is_a_click_away(lecture: Lecture) -> None:
+    page = _open(lecture, "scene=pendulum&task=potential-energy&lang=en")
+    _answer_as_text(page, "m g l sin^2 phi/2")
+    other = page.get_by_role("group", name="Can also be read as").get_by_role("button")
+    expect(other).to_have_count(1)
+    other.click()
+    expect(page.locator("textarea.entry")).to_have_value("m*g*l*sin(phi/2)^2")
+    expect(other).to_have_count(0)
+    _check(page, "wrong")
+
+
+def test_components_by_name_in_the_first_field(lecture: Lecture) -> None:
+    page = _open(lecture, "scene=pendulum&task=position:bob&lang=en")
+    _answer_as_text(page, "x = l sin phi, y = l cos phi", "")
+    _check(page, "correct")
+
+
 def test_a_formula_is_typed_and_keyed(lecture: Lecture) -> None:
     page = _open(lecture)
     _math_field(page)

@@ -56,6 +56,12 @@ for (const [name, parts, form, syntax, text] of /** @type {const} */ ([
   ["a vector in LaTeX", ["a", "b"], "vector", "latex", "\\begin{bmatrix} a \\\\ b \\end{bmatrix}"],
   ["a set of equations", ["a = 0", "b = 0"], "equations", "plain", "a = 0\nb = 0"],
   ["a whole vector in the first field", ["[a, b]", ""], "vector", "plain", "[a, b]"],
+  ["a vector in parentheses", ["(a, b)", ""], "vector", "plain", "(a, b)"],
+  ["components by name", ["x = a, y = b", ""], "vector", "plain", "x = a, y = b"],
+  ["a sum of unit vectors", ["a e_x + b e_y", ""], "vector", "plain", "a e_x + b e_y"],
+  ["a sum of unit vectors as a formula", ["a\\vec{e}_x+b\\vec{e}_y", ""], "vector", "latex", "a\\vec{e}_x+b\\vec{e}_y"],
+  ["one component with decimals", ["0,5 a", ""], "vector", "plain", "[0,5 a, ]"],
+  ["one component with two arguments", ["atan2(a, b)", ""], "vector", "plain", "[atan2(a, b), ]"],
   ["all equations in the first field", ["a = 0; b = 0", ""], "equations", "plain", "a = 0; b = 0"],
   ["a space is no separator", ["a\\;b = 0", "c = 0"], "equations", "latex", "a\\,b = 0\nc = 0"],
 ])) test(`joined: ${name}`, () => assert.equal(joined(parts, form, syntax), text));
@@ -243,6 +249,16 @@ test("an empty answer is not sent", async () => {
   await answering.check();
   assert.equal(store.get().notice, "homework.empty");
   assert.deepEqual(sent, []);
+});
+
+test("a reading taken by hand is written out, and read again", async () => {
+  const { store, entry, answering, again, sent } = pageWith({ "/checks/reading": { latex: "x", plain: "x", problems: [], readings: [] } });
+  answering.type(0, "m g/2l");
+  answering.reread({ latex: "\\frac{mg}{2\\ell}", plain: "m*g/(2*l)", taken: false });
+  assert.deepEqual(partsIn(entry, store.get().draft), ["\\frac{mg}{2\\ell}"]);
+  assert.deepEqual(again().texts.latex, ["\\frac{mg}{2\\ell}"]);
+  await new Promise((done) => setTimeout(done, 400));
+  assert.equal(sent.at(-1)?.[1].answer.value, "\\frac{mg}{2\\ell}");
 });
 
 test("from formula to text and back: what was typed comes back to the letter", async () => {

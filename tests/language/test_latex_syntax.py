@@ -13,6 +13,9 @@ KNOWN = "y, phi, x, m, l, g, k, c, omega, y0, F0, m1"
 
 # Text and meaning, as plain text.
 ACCEPTED = [
+    (r"x^{\prime2}", "dot(x)^2"),
+    (r"x^{\prime\prime 2}y^{\prime^2}", "dot(y)^2*ddot(x)^2"),
+    (r"m gsinphi", "m*g*sin(phi)"),
     ("2m\\ell", "2*m*l"),
     ("m l^2", "m*l^2"),
     ("m \\ell^2 \\ddot\\varphi + m g \\ell\\sin\\varphi = 0", "m*l^2*ddot(phi) + m*g*l*sin(phi) = 0"),

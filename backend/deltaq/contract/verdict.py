@@ -46,6 +46,17 @@ class CounterexampleAnswer(Answer):
     right: float
 
 
+class PossibleReading(Answer):
+    """One way to read an answer: either text, sent as the answer, is read so and in no other way."""
+
+    latex: str
+    plain: str
+    taken: bool = Field(description="whether it was judged")
+
+
+READINGS = Field(description="all that make sense, where there is more than one: the conventional one first")
+
+
 class VerdictAnswer(Answer):
     """What the checker says of an answer."""
 
@@ -65,6 +76,7 @@ class VerdictAnswer(Answer):
     problems: tuple[VerdictProblem, ...]
     offset: int | None
     counterexample: CounterexampleAnswer | None
+    readings: tuple[PossibleReading, ...] = READINGS
 
 
 class ReadingAnswer(Answer):
@@ -73,6 +85,7 @@ class ReadingAnswer(Answer):
     latex: str = Field(examples=[r"\ell\,\ddot{\varphi} = -g\varphi"])
     plain: str = Field(examples=["l*ddot(phi) = -g*phi"])
     problems: tuple[VerdictProblem, ...]
+    readings: tuple[PossibleReading, ...] = READINGS
 
 
 class MotionAnswer(Answer):

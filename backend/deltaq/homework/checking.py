@@ -2,37 +2,84 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from ..errors import ExpressionError
 from ..language.latex_printer import Typography, latex
 from ..language.parser import Syntax
+from ..language.plain_printer import plain
+from ..mechanics.scene import Scene
 from . import slips
 from .counterexamples import counterexample
 from .diagnosis import Diagnosis, diagnose
 from .dimensions import Told, other_unit, unlike_terms
 from .equality import Match, Parts, equation
-from .partwise import part_outcomes, part_share
-from .reading import Reading, read
+from .partwise import DECIDED, part_outcomes, part_share
+from .reading import Candidate, Reading, candidates
 from .sampling import DISTINCT, close
 from .solution import Solution
 from .task import Task
-from .verdict import Slip, Verdict
+from .verdict import ShownReading, Slip, Verdict
 from .workbook import Workbook
 
 
-def check(workbook: Workbook, task: Task, text: str, syntax: Syntax) -> Verdict:
-    """The verdict on one answer to one task: read, compared by numbers, decided exactly, and diagnosed."""
+def check(workbook: Workbook, task: Task, text: str, syntax: Syntax, *, decimal_comma: bool = False) -> Verdict:
+    """The verdict on one answer to one task: read, compared by numbers, decided exactly, and diagnosed.
+
+    Of several readings that survive, one that is right is taken; else the first. `decimal_comma` tells how 0,5 is
+    usually meant where it can be meant in two ways.
+    """
     try:
-        reading = read(task, workbook.solution, text, syntax)
+        found = candidates(task, workbook.solution, text, syntax, decimal_comma=decimal_comma)
     except ExpressionError as error:
         return Verdict("invalid", problems=error.problems)
-    shown = latex(reading.shown, Typography(workbook.scene.names))
+    judged = [(one.reading, _match(workbook, task, one.reading)) for one in found if one.survives]
+    taken = next((n for n, (_, match) in enumerate(judged) if match.equal), 0)
+    verdict = _judged(workbook, task, *judged[taken], text, syntax)
+    return replace(verdict, readings=shown_readings(workbook.scene, found, taken))
+
+
+def shown_readings(scene: Scene, found: Sequence[Candidate], taken: int) -> tuple[ShownReading, ...]:
+    """The readings of an answer as they can be typed; none where there is nothing to choose."""
+    typography = Typography(scene.names)
+    if len(found) < 2:
+        return ()
+    return tuple(
+        ShownReading(latex(one.reading.shown, typography), plain(one.reading.shown), taken=n == taken)
+        for n, one in enumerate(found)
+    )
+
+
+def _match(workbook: Workbook, task: Task, reading: Reading) -> Match:
+    """Whether an answer is right, and with it all members of its chain."""
     match = compare(workbook, task, reading.parts)
+    if not match.equal or not reading.claims:
+        return match
+    held = [claim_holds(workbook, task, claim.parts) for claim in reading.claims]
+    if False in held:
+        return Match(equal=False, remark="chain")
+    return match if all(held) else Match(equal=None)
+
+
+def claim_holds(workbook: Workbook, task: Task, parts: Parts) -> bool | None:
+    """Whether a member of a chain agrees with the right answer; of a system and of frequencies, with a part of it."""
+    decide = DECIDED.get(task.quantity.form)
+    if decide is not None and task.quantity.form != "vector":
+        return all(outcome == "correct" for outcome in decide(workbook, task, parts))
+    return compare(workbook, task, parts).equal
+
+
+def _judged(workbook: Workbook, task: Task, reading: Reading, match: Match, text: str, syntax: Syntax) -> Verdict:
+    typography = Typography(workbook.scene.names)
+    shown = latex(reading.shown, typography)
     if match.equal:
         return Verdict(
             "correct", shown, match.remark, about="/".join(match.about), nonzero=_told_factors(workbook, match)
         )
+    if match.remark == "chain":
+        broken = next(one for one in reading.claims if claim_holds(workbook, task, one.parts) is False)
+        return Verdict("wrong", shown, "chain", parameters={"member": latex(broken.shown, typography)})
     parts = part_outcomes(workbook, task, reading.parts)
     if match.equal is None:
         return Verdict("undecided", shown, parts=parts)

@@ -8,13 +8,12 @@ from ..language.parser import Syntax, parse
 from ..language.plain_printer import plain
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
-from ..language.tree import Equation, Node, Sum, Vector
 from ..mechanics.homogeneity import DimensionCheck
 from ..mechanics.scene import Scene
-from ..mechanics.units import Dimension, dimension_of
+from ..mechanics.units import Dimension
 from ..narration.prose import formula
 from .equality import Parts
-from .reading import Reading
+from .reading import Reading, sums, units_of
 
 Told = tuple[str, dict[str, str]]
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -23,8 +22,8 @@ RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 def unlike_terms(reading: Reading, scene: Scene, syntax: Syntax) -> Told | None:
     """The message on the first term whose dimension differs from that of the terms before it; None if all fit."""
     for text, tree in reading.trees:
-        for part in _sums(tree):
-            check = DimensionCheck(_units(scene), text, [])
+        for part in sums(tree):
+            check = DimensionCheck(units_of(scene), text, [])
             check.of(part)
             for problem in check.problems:
                 return "wrong-dimension", _told(problem, scene, syntax)
@@ -33,19 +32,14 @@ def unlike_terms(reading: Reading, scene: Scene, syntax: Syntax) -> Told | None:
 
 def other_unit(reading: Reading, right: Parts, scene: Scene) -> Told | None:
     """The message on an answer whose terms fit together but whose dimension is not that of the right answer."""
-    check = DimensionCheck(_units(scene), "", [])
+    check = DimensionCheck(units_of(scene), "", [])
     known = (check.of(parse(plain(part), scene.names).tree) for part in right)
     expected = next((each for each in known if isinstance(each, Dimension)), None)
     for _, tree in reading.trees if expected else ():
-        for found in map(check.of, _sums(tree)):
+        for found in map(check.of, sums(tree)):
             if expected and isinstance(found, Dimension) and not found.fits(expected):
                 return "other-unit", {"found": _raised(str(found)), "expected": _raised(str(expected))}
     return None
-
-
-def _units(scene: Scene) -> dict[str, Dimension | None]:
-    units = {c.name: dimension_of(c.unit) for c in scene.coordinates} | {"t": dimension_of("s")}
-    return units | {p.name: dimension_of(p.unit) for p in scene.parameters}
 
 
 def _told(problem: Problem, scene: Scene, syntax: Syntax) -> dict[str, str]:
@@ -62,18 +56,3 @@ def _told(problem: Problem, scene: Scene, syntax: Syntax) -> dict[str, str]:
 def _raised(unit: str) -> str:
     """kg m s^-2 → kg m s⁻²"""
     return " ".join(base + exponent.translate(RAISED) for base, _, exponent in (w.partition("^") for w in unit.split()))
-
-
-def _sums(tree: Node) -> list[Node]:
-    """Each component by itself; the terms on both sides of an equation belong together."""
-    match tree:
-        case Vector(components=components):
-            return [part for component in components for part in _sums(component)]
-        case Equation(left=left, right=right):
-            return [Sum((*_terms(left), *_terms(right)), span=tree.span)]
-        case _:
-            return [tree]
-
-
-def _terms(side: Node) -> tuple[Node, ...]:
-    return side.terms if isinstance(side, Sum) else (side,)

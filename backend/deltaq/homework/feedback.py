@@ -14,7 +14,7 @@ from ..narration.catalog import message, sentence, text
 from ..narration.prose import CatalogText, formula, joined
 from ..narration.things import called
 from .counterexamples import rounded_text
-from .verdict import Counterexample, Slip, Verdict
+from .verdict import Counterexample, ShownReading, Slip, Verdict
 
 AXES = "xyz"
 Document = dict[str, object]
@@ -38,8 +38,14 @@ def verdict_document(verdict: Verdict, scene: Scene, language: str) -> Document:
         "problems": problems,
         "offset": problems[0]["offset"] if problems else None,
         "counterexample": _example(verdict.counterexample, scene),
+        "readings": reading_documents(verdict.readings),
     }
     return document
+
+
+def reading_documents(readings: Iterable[ShownReading]) -> list[Document]:
+    """The ways to read an answer, where there is more than one."""
+    return [{"latex": one.latex, "plain": one.plain, "taken": one.taken} for one in readings]
 
 
 def problem_documents(problems: Iterable[Problem], language: str) -> list[Document]:
@@ -92,6 +98,8 @@ def _remark(verdict: Verdict, scene: Scene, language: str) -> CatalogText:
     if verdict.remark == "divided" and verdict.nonzero:
         factors = joined(", ", (formula(rf"{factor} \neq 0") for factor in verdict.nonzero))
         return text(language, "homework.remarks.divided-by", factors=factors)
+    if verdict.remark == "chain":
+        return text(language, key, member=formula(verdict.parameters["member"]))
     lines = joined(", ", (_title(task, scene, language) for task in verdict.source))
     return text(language, key, **_about(verdict, scene, language), lines=lines)
 

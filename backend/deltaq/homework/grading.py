@@ -24,13 +24,12 @@ from ..narration.catalog import language_of, message
 from .assignment import resolved, scene_of
 from .feedback import verdict_document
 from .gradebook import Document, Plan, Row, Shares, Target, marked, refusal
-from .reading import read
 from .results import Graded, named
 from .statement import task_document
 from .table import BEYOND, Table, read_table
 from .verdict import Verdict
 from .workbook import Workbook, workbook_asked_about
-from .working import check_following, line_of
+from .working import check_following, line_of, reading_of
 
 SYNTAXES: Mapping[str, Syntax] = {"": "plain", "plain": "plain", "latex": "latex"}
 NUMBER = re.compile(r"-?[0-9]{1,9}([.,][0-9]{1,9})?")
@@ -239,13 +238,12 @@ def row_verdict(question: Mapping[str, object]) -> Document:
     What cannot be asked of the scene in these values is told, too: it spoils no other row.
     """
     asked = read_request(RowQuestion, question)
-    language, line = language_of(asked.lang), line_of(asked)
+    language = language_of(asked.lang)
+    line = line_of(asked, language)
     try:
         workbook = workbook_asked_about(asked, asked.seed)
-        standing = [line_of(one) for one in asked.standing]
-        wrong = {
-            one.task: read(workbook.task(one.task), workbook.solution, one.text, one.syntax).parts for one in standing
-        }
+        standing = [line_of(one, language) for one in asked.standing]
+        wrong = {one.task: reading_of(workbook, one).parts for one in standing}
         verdict = check_following(workbook, workbook.task(line.task), line, wrong)
     except InputError as error:
         return refusal(_told(error, language)).model_dump()

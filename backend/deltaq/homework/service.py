@@ -17,11 +17,12 @@ from ..mechanics.user_text import plainly, translated
 from ..mechanics.writing import write_scene
 from ..narration.catalog import language_of
 from .assignment import look_up, resolved
-from .feedback import Document, problem_documents, verdict_document
+from .checking import shown_readings
+from .feedback import Document, problem_documents, reading_documents, verdict_document
 from .gradebook import Shares
 from .grading import Sheet, plan_of, read_answers
 from .motion import moved_scene
-from .reading import read
+from .reading import candidates
 from .stack.question import quiz
 from .statement import model_answer, task_document
 from .workbook import Workbook, workbook_asked_about, workbook_of
@@ -53,22 +54,31 @@ def _symbols(workbook: Workbook) -> list[Document]:
 def check_request(document: Mapping[str, object]) -> Document:
     """The fields of a CheckRequest → the verdict. Raises InputError for what is not an answer."""
     asked = read_request(CheckRequest, document)
-    workbook, line = workbook_asked_about(asked, asked.seed), line_of(asked)
-    wrong = wrong_among(workbook, [line_of(one) for one in asked.previous])
+    workbook, language = workbook_asked_about(asked, asked.seed), language_of(asked.lang)
+    line = line_of(asked, language)
+    wrong = wrong_among(workbook, [line_of(one, language) for one in asked.previous])
     verdict = check_following(workbook, workbook.task(line.task), line, wrong)
-    return verdict_document(verdict, workbook.scene, language_of(asked.lang))
+    return verdict_document(verdict, workbook.scene, language)
 
 
 def reading_request(document: Mapping[str, object]) -> Document:
     """The fields of a ReadingRequest → what the answer is understood as, LaTeX and plain; no verdict."""
     asked = read_request(ReadingRequest, document)
-    workbook, line = workbook_asked_about(asked, asked.seed), line_of(asked)
+    workbook, language = workbook_asked_about(asked, asked.seed), language_of(asked.lang)
+    line = line_of(asked, language)
     try:
-        shown = read(workbook.task(line.task), workbook.solution, line.text, line.syntax).shown
+        found = candidates(
+            workbook.task(line.task), workbook.solution, line.text, line.syntax, decimal_comma=line.decimal_comma
+        )
     except ExpressionError as error:
-        problems = problem_documents(error.problems, language_of(asked.lang))
-        return {"latex": "", "plain": "", "problems": problems}
-    return {"latex": latex(shown, Typography(workbook.scene.names)), "plain": plain(shown), "problems": []}
+        return {"latex": "", "plain": "", "problems": problem_documents(error.problems, language), "readings": []}
+    shown = found[0].reading.shown
+    return {
+        "latex": latex(shown, Typography(workbook.scene.names)),
+        "plain": plain(shown),
+        "problems": [],
+        "readings": reading_documents(shown_readings(workbook.scene, found, 0)),
+    }
 
 
 def solution_request(document: Mapping[str, object]) -> Document:
@@ -81,20 +91,20 @@ def solution_request(document: Mapping[str, object]) -> Document:
 def motion_request(document: Mapping[str, object]) -> Document:
     """The fields of a ReadingRequest → the scene that moves as the answer says. Raises InputError where none does."""
     asked = read_request(ReadingRequest, document)
-    workbook, line = workbook_asked_about(asked, asked.seed), line_of(asked)
+    workbook, line = workbook_asked_about(asked, asked.seed), line_of(asked, language_of(asked.lang))
     return {"scene": moved_scene(workbook, workbook.task(line.task), line.text, line.syntax)}
 
 
 def lines_request(document: Mapping[str, object]) -> Document:
     """The fields of a LinesRequest → the verdict and the points of every line, and where the first mistake is."""
     asked = read_request(LinesRequest, document)
-    workbook, lines = workbook_asked_about(asked, asked.seed), [line_of(one) for one in asked.lines]
+    workbook, language = workbook_asked_about(asked, asked.seed), language_of(asked.lang)
+    lines = [line_of(one, language) for one in asked.lines]
     marked = mark(
         workbook, lines, Scheme(asked.scheme.points, Shares(asked.scheme.follow_through, asked.scheme.simplified))
     )
     first = next((n for n, each in enumerate(marked) if each.verdict.outcome in ("wrong", "invalid")), None)
     worth = {line.task: each.of for line, each in zip(lines, marked, strict=True)}
-    language = language_of(asked.lang)
     return {
         "lines": [
             {**verdict_document(each.verdict, workbook.scene, language), "points": each.points, "of": each.of}

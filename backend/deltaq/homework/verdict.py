@@ -33,6 +33,15 @@ class Slip:
 
 
 @dataclass(frozen=True)
+class ShownReading:
+    """One way to read an answer, as LaTeX and as plain text; `taken` is the one that was judged."""
+
+    latex: str
+    plain: str
+    taken: bool
+
+
+@dataclass(frozen=True)
 class Verdict:
     """The outcome, what was understood, and what can be said about it.
 
@@ -42,7 +51,8 @@ class Verdict:
     equations of a set, or of several frequencies; `partial` is the share of them that is right in a
     wrong answer; `nonzero` is what must not be zero for a right answer to be so; `marked` is the answer as it was
     written, in LaTeX, with the terms marked that are wrong; `source` are the tasks
-    of the lines that a following one has been made easier by.
+    of the lines that a following one has been made easier by; `readings` are all that make
+    sense, where there is more than one.
     """
 
     outcome: Outcome
@@ -59,6 +69,7 @@ class Verdict:
     marked: str = ""
     source: tuple[str, ...] = ()
     parameters: Mapping[str, str] = field(default_factory=dict)
+    readings: tuple[ShownReading, ...] = ()
 
     @property
     def slip(self) -> Slip | None:

@@ -31,6 +31,7 @@ from .workbook import Workbook
 SUBSTANTIAL = 0.6  # of the terms of the right answer
 LEAST = 0.3  # of them: where less is left, nothing was derived
 MOST_WRONG = 6
+DECIMAL_COMMA = frozenset({"de"})  # languages that write 0,5
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,7 @@ class Line:
     task: str
     text: str
     syntax: Syntax = "plain"
+    decimal_comma: bool = False
 
 
 class Answered(Protocol):
@@ -54,9 +56,15 @@ class Answered(Protocol):
         """The text, and how it is written."""
 
 
-def line_of(asked: Answered) -> Line:
-    """What was answered as a line of a working."""
-    return Line(asked.task, asked.answer.value, asked.answer.syntax)
+def line_of(asked: Answered, language: str) -> Line:
+    """What was answered, in a language that may write decimals with a comma, as a line of a working."""
+    return Line(asked.task, asked.answer.value, asked.answer.syntax, decimal_comma=language in DECIMAL_COMMA)
+
+
+def reading_of(workbook: Workbook, line: Line) -> Reading:
+    """How a line is read. Raises ExpressionError."""
+    task = workbook.task(line.task)
+    return read(task, workbook.solution, line.text, line.syntax, decimal_comma=line.decimal_comma)
 
 
 @dataclass(frozen=True)
@@ -110,17 +118,17 @@ def _judged(
     verdict = check_following(workbook, task, line, wrong)
 
     def parts() -> Parts:
-        return read(task, workbook.solution, line.text, line.syntax).parts
+        return reading_of(workbook, line).parts
 
     return verdict, standing_after(wrong, task.id, verdict.outcome, parts)
 
 
 def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[str, Parts]) -> Verdict:
     """The verdict on a line in the light of the wrong lines before it."""
-    verdict = check(workbook, task, line.text, line.syntax)
+    verdict = check(workbook, task, line.text, line.syntax, decimal_comma=line.decimal_comma)
     if verdict.outcome != "wrong" or not wrong:
         return verdict
-    given = read(task, workbook.solution, line.text, line.syntax).parts
+    given = reading_of(workbook, line).parts
     if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.solution).equal:
         return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slips=(), marked="")
     ways = [way for way in _ways_from_wrong_lines(workbook, task, wrong) if _follows(task, given, way)]

@@ -61,6 +61,14 @@ class Cursor:
             self.take()
         return found
 
+    def mark(self) -> tuple[int, int, int]:
+        """Where reading stands, to come back to it."""
+        return self._at, self._nodes, self.depth
+
+    def rewind(self, mark: tuple[int, int, int]) -> None:
+        """Back to where `mark` was taken."""
+        self._at, self._nodes, self.depth = mark
+
     def close(self, opening: Token) -> Span:
         """Step over the bracket that closes `opening`; the whole stretch."""
         wanted = {"(": ")", "[": "]", "": "", "|": "|"}[opening.text]

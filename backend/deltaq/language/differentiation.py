@@ -13,6 +13,7 @@ from .tree import (
     Node,
     Number,
     PartialDerivative,
+    Power,
     Product,
     Rate,
     Span,
@@ -73,6 +74,13 @@ class Differentiation:
         match upper, lower:
             case Differential(name), Differential("t") if name != "t":
                 return self._cursor.made(Rate(name, 1, span))
+            case Power(Differential(name), Number(raised)), Power(Differential("t"), Number(below)) if (
+                raised == below and name != "t"
+            ):
+                return self._cursor.made(Power(self._cursor.made(Rate(name, 1, span)), Number(raised, span), span))
+            case Product((*others, last)), Power():
+                power = self.quotient_of_differentials(last, lower)
+                return power and Product((*others, power), span)
             case Negation(operand), Differential("t"):
                 rate = self.quotient_of_differentials(operand, lower)
                 return rate and Negation(rate, span)

@@ -1,7 +1,8 @@
 """The Pratt parser: tokens of the common alphabet → tree.
 
 Binding, loosest first: `=`, sums, sign, products (written or implied), powers, primes. Where usage is divided
-(`1/2 m`, `sin phi l`, `sin phi^2`) the answer is an error that shows both readings, never a guess.
+(`1/2 m`, `sin phi l`, `sin phi^2`) the answer is an error that shows both readings, never a guess, unless the caller
+brings the choices to be made.
 """
 
 from __future__ import annotations
@@ -9,13 +10,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import NoReturn
 
+from .arguments import Arguments
 from .bounds import MAX_DEPTH, shape_of
+from .choices import Choices
 from .cursor import Cursor
 from .differentiation import Differentiation
-from .functions import FUNCTIONS
 from .names import Names
 from .tokens import Token, between, fail
-from .tree import Call, Equation, Name, Negation, Node, Number, Power, Product, Quotient, Rate, Span, Sum, Vector, walk
+from .tree import Equation, Name, Negation, Node, Number, Power, Product, Quotient, Rate, Span, Sum, Vector, walk
 
 _SUM, _SIGN, _PRODUCT, _POWER = 10, 20, 20, 40
 _STARTS = frozenset({"name", "function", "dot", "variation", "differential", "partial", "derivative", "diff", "open"})
@@ -24,8 +26,9 @@ _STARTS = frozenset({"name", "function", "dot", "variation", "differential", "pa
 class Grammar:
     """One text being read."""
 
-    def __init__(self, text: str, tokens: list[Token], names: Names) -> None:
+    def __init__(self, text: str, tokens: list[Token], names: Names, choices: Choices | None = None) -> None:
         self.cursor = Cursor(text, tokens, names)
+        self.choices = choices
         self.differentiation = Differentiation(self.cursor)
         self.operators = Operators(self)
         self.arguments = Arguments(self)
@@ -163,10 +166,47 @@ class Grammar:
         rate = self.differentiation.quotient_of_differentials(left, right)
         if rate is not None:
             return rate
-        quotient = self.cursor.made(Quotient(left, right, between(left.span, right.span)))
         if self.starts_factor():
+            right = self._denominator(left, right)
+        return self.cursor.made(Quotient(left, right, between(left.span, right.span)))
+
+    def _denominator(self, left: Node, right: Node) -> Node:
+        """What of the factors that follow `left / right` without a sign stands below the line, by the choice made."""
+        if self.choices is None:
             self._ambiguous_quotient(left, right)
-        return quotient
+        tight, loose = self._factors_below(right)
+        loose = tight if isinstance(right, Number) else loose  # nobody reads x/2 m as x/(2m)
+        readings = [0, *([tight] if tight else []), *([loose] if loose > tight else [])]
+        if len(readings) > 1:
+            place = self.cursor.token.span.offset
+            taken = readings[self.choices.at(place, len(readings), 2 if tight else 1)]
+            for _ in range(taken):
+                right = self._times(right, self.factor())
+        return right
+
+    def _factors_below(self, right: Node) -> tuple[int, int]:
+        """How many factors could stand below the line: those written close to it, and all that are no functions.
+
+        A rate, a function and a bracket after a space are never meant to.
+        """
+        mark = self.cursor.mark()
+        tight = count = 0
+        end = right.span.offset + right.span.length
+        while (close := self.cursor.token.span.offset == end) or self.cursor.token.kind == "name":
+            if not self._may_stand_below(close=close):
+                break
+            node = self.factor()
+            if any(isinstance(part, Rate) for part in walk(node)):
+                break
+            count += 1
+            tight += tight == count - 1 and close
+            end = node.span.offset + node.span.length
+        self.cursor.rewind(mark)
+        return tight, count
+
+    def _may_stand_below(self, *, close: bool) -> bool:
+        token = self.cursor.token
+        return token.kind == "name" or (token.kind == "open" and token.text == "(" and close)
 
     def _ambiguous_quotient(self, left: Node, right: Node) -> NoReturn:
         """`1/2 m`: half of m, or one over 2m?"""
@@ -203,8 +243,11 @@ class Grammar:
             node = self._vector(opening)
         else:
             node = self.expression()
-            self._refuse_comma(opening)
-            self.cursor.close(opening)
+            if self.choices is not None and self.cursor.token.is_operator(",", ";"):
+                node = self._components(opening, node)
+            else:
+                self._refuse_comma(opening)
+                self.cursor.close(opening)
         self._inside_bars = bars
         return replace(node, span=between(opening.span, self.cursor.previous.span))
 
@@ -217,7 +260,11 @@ class Grammar:
             self.cursor.unexpected()
 
     def _vector(self, opening: Token) -> Node:
-        parts = [self.equation()]
+        return self._components(opening, self.equation())
+
+    def _components(self, opening: Token, first: Node) -> Node:
+        """The components from the second one on, and the bracket that ends them."""
+        parts = [first]
         while self.cursor.takes(",", ";"):
             parts.append(self.equation())
         span = self.cursor.close(opening)
@@ -232,117 +279,6 @@ class Grammar:
         if before.kind == "number" and after.kind == "number":
             number = f"{self.cursor.slice(before.span)}.{self.cursor.slice(after.span)}"
             fail("decimal-comma", between(before.span, after.span), suggestion=number)
-
-
-class Arguments:
-    """Reads a function of the allow-list and what it is applied to.
-
-    An argument without brackets is one product of numbers and parameters that ends with the first coordinate or
-    time: `sin 2 phi`, `sin omega t`. It ends before another function, δ, a rate or a bracket. If a further name follows
-    (`sin phi l`), both readings are shown.
-    """
-
-    def __init__(self, grammar: Grammar) -> None:
-        self._grammar = grammar
-        self._cursor = grammar.cursor
-
-    def call(self) -> Node:
-        """The call ahead, with the power that may stand after the function's name."""
-        token = self._cursor.take()
-        power = self._power_after_name(token)
-        opening = self._cursor.token
-        if opening.kind == "open" and opening.text in ("(", "|"):
-            arguments = self._bracketed(token)
-            span = between(token.span, self._cursor.previous.span)
-        else:
-            arguments = (self._bare(token),)
-            span = between(token.span, arguments[0].span)
-        node = self.made(token.text, arguments, span)
-        return node if power is None else self._cursor.made(Power(node, power, span))
-
-    def made(self, function: str, arguments: tuple[Node, ...], span: Span) -> Node:
-        """The call, if the number of arguments is right."""
-        wanted = FUNCTIONS[function].arguments
-        if len(arguments) != wanted:
-            fail("argument-count", span, function=function, wanted=wanted, found=len(arguments))
-        return self._cursor.made(Call(function, arguments, span))
-
-    def _power_after_name(self, token: Token) -> Node | None:
-        if not self._cursor.token.is_operator("^"):
-            return None
-        self._cursor.take()
-        power = self._grammar.atom()
-        span = between(token.span, power.span)
-        if not isinstance(power, Number):
-            fail("inverse-function" if _is_minus_one(power) else "function-power", span, function=token.text)
-        if power.value.denominator > 1 or not FUNCTIONS[token.text].power_after_name:
-            fail("function-power", span, function=token.text)
-        return power
-
-    def _bracketed(self, token: Token) -> tuple[Node, ...]:
-        opening = self._cursor.take()
-        if self._cursor.token.kind == "close":
-            fail("argument-count", between(token.span, self._cursor.token.span), function=token.text,
-                 wanted=FUNCTIONS[token.text].arguments, found=0)  # fmt: skip
-        arguments = [self._grammar.expression()]
-        while self._cursor.takes(","):
-            arguments.append(self._grammar.expression())
-        self._cursor.close(opening)
-        return tuple(arguments)
-
-    def _bare(self, token: Token) -> Node:
-        if self._cursor.token.kind not in ("name", "number", "dot", "open") or self._cursor.token.text == "[":
-            fail("argument-expected", token.span, function=token.text)
-        if token.text == "sqrt":
-            return self._grammar.atom()
-        factors = [self._grammar.atom()]
-        while not self._ends(factors) and self._cursor.token.kind in ("name", "open", "dot"):
-            if self._cursor.token.kind == "open" and self._cursor.token.text:
-                break
-            factors.append(self._grammar.atom())
-        argument = factors[0]
-        if len(factors) > 1:
-            argument = self._cursor.made(Product(tuple(factors), between(factors[0].span, factors[-1].span)))
-        self._check_end(token, argument)
-        return argument
-
-    def _ends(self, factors: list[Node]) -> bool:
-        """Whether the argument is complete: it has a quantity that moves, or a rate follows a parameter."""
-        used = {n.name for f in factors for n in walk(f) if isinstance(n, Name)}
-        moving = any(isinstance(n, Rate) for f in factors for n in walk(f))
-        kinds = {symbol.kind for name in used if (symbol := self._cursor.names.get(name))}
-        return moving or bool(kinds & {"coordinate", "time", "material"}) or (
-            self._cursor.token.kind == "dot" and bool(used)
-        )  # fmt: skip
-
-    def _check_end(self, function: Token, argument: Node) -> None:
-        """Refuse what could belong to the argument or to the call: a further name, a bracket, `^`, `/`, a prime."""
-        ahead = self._cursor.token
-        if ahead.kind in ("name", "open") and not (ahead.kind == "open" and ahead.text == "["):
-            rest = self._grammar.factor()
-            self._ambiguous(function, argument, f"*{self._cursor.reading(rest.span)}",
-                            between(argument.span, rest.span))  # fmt: skip
-        if ahead.is_operator("^", "/"):
-            self._cursor.take()
-            rest = self._grammar.factor()
-            self._ambiguous(function, argument, f"{ahead.text}{self._cursor.reading(rest.span)}",
-                            between(argument.span, rest.span))  # fmt: skip
-        parameters = [n.name for n in walk(argument) if isinstance(n, Name)]
-        several = len(set(parameters)) > 1 and not self._ends([argument])
-        if several and isinstance(argument, Product):
-            near = self._cursor.reading(argument.factors[0].span)
-            far = self._cursor.reading(between(argument.factors[1].span, argument.span))
-            first, second = f"{function.text}({near})*{far}", f"{function.text}({self._cursor.reading(argument.span)})"
-            fail("ambiguous", between(function.span, argument.span), first=first, second=second)
-
-    def _ambiguous(self, function: Token, argument: Node, outside: str, inside: Span) -> NoReturn:
-        near = self._cursor.reading(argument.span)
-        first, second = f"{function.text}({near}){outside}", f"{function.text}({self._cursor.reading(inside)})"
-        fail("ambiguous", between(function.span, inside), first=first, second=second)
-
-
-def _is_minus_one(node: Node) -> bool:
-    return isinstance(node, Negation) and isinstance(node.operand, Number) and node.operand.value == 1
 
 
 class Operators:
@@ -449,6 +385,8 @@ class Operators:
             fail("partial-derivative", token.span)
         self._cursor.take()
         variable = self._grammar.atom()
+        while self._cursor.token.is_operator("'"):  # ∂L/∂φ′ is by the rate
+            variable = self.prime(variable, between(variable.span, self._cursor.take().span))
         return self._applied(token, "partial", variable, on_top)
 
     def _derivative(self, token: Token) -> Node:
@@ -487,6 +425,8 @@ class Operators:
         bracketed = opening.kind == "open" and opening.text != ""
         operand = self._grammar.atom() if bracketed else self._grammar.factor()
         following = self._cursor.token
+        if not bracketed and self._grammar.choices is not None and self._grammar.starts_factor():
+            return self._whole_product(operand)
         divided = following.is_operator("^") if bracketed else following.is_operator("*", "/")
         if divided or (not bracketed and self._grammar.starts_factor()):
             if following.kind == "operator":
@@ -497,4 +437,11 @@ class Operators:
             after = self._cursor.reading(between(following.span, rest))
             first, second = f"({sign} {near}) {after}", f"{sign} ({self._cursor.reading(all_)})"
             fail("ambiguous", between(token.span, rest), first=first, second=second)
+        return operand
+
+    def _whole_product(self, operand: Node) -> Node:
+        """d/dt m l φ′ is the derivative of all of it."""
+        while self._grammar.starts_factor():
+            factor = self._grammar.factor()
+            operand = self._cursor.made(Product((operand, factor), between(operand.span, factor.span)))
         return operand

@@ -21,7 +21,7 @@ from .latex_tables import (
     NUMBER,
     OPERATORS,
     PREFIX,
-    PRIMES,
+    PRIMED,
     QUANTITIES,
     SINGLE,
     SIZES,
@@ -137,7 +137,7 @@ class LatexLexer:
             read_symbol(self, GREEK[character], start)
         elif character in SUPERSCRIPTS:
             self._raised(start)
-        elif character in "+-*/=,;'()[]|·⋅×∗−–÷∕′’″√δ∂":
+        elif character in "+-*/=,;'\"()[]|·⋅×∗−–÷∕′’´″”√δ∂":
             self._operator(character, Span(start, 1))
         elif character == "°":
             fail("unit", Span(start, 1), name="°")
@@ -166,12 +166,16 @@ class LatexLexer:
         span = self.since(start)
         if TRANSPOSE.match(content):
             self.found.append(Token("operator", "T", span))
-        elif PRIMES.match(content):
-            self.found += [Token("operator", "'", span)] * (content.count("'") + content.count("prime"))
-        elif content.strip() in ("\\circ", "°"):
-            fail("unit", span, name="°")
         else:
-            self.found += [Token("operator", "^", Span(start, 1)), *self.grouped(inside)]
+            if content.strip() in ("\\circ", "°"):
+                fail("unit", span, name="°")
+            primed = PRIMED.match(content)
+            end = primed.end() if primed else 0
+            head = content[:end].rstrip(" ^")
+            stands = Span(start, inside[0] - start + len(head)) if end < len(content) else span
+            self.found += [Token("operator", "'", stands)] * len(re.findall("'|prime", head))
+            if not primed or end < len(content):
+                self.found += [Token("operator", "^", Span(start, 1)), *self.grouped((inside[0] + end, inside[1]))]
 
     def _command(self, start: int) -> None:
         name = self.source.command()
@@ -267,7 +271,8 @@ def read_letters(lexer: LatexLexer) -> None:
             if whole:
                 product = "*".join(symbol.name for symbol in single if symbol)
                 fail("ambiguous-product", span, text=run + index, first=product, second=run + index)
-            _check_unit(lexer, run, span)
+            if lexer.after_number() and run in UNITS:
+                fail("unit", span, name=run)
             for i, symbol in enumerate(single):
                 last = Span(letters_end - 1, span.offset + span.length - letters_end + 1)
                 where = Span(start + i, 1) if i < len(run) - 1 else last
@@ -276,11 +281,6 @@ def read_letters(lexer: LatexLexer) -> None:
             return
     lexer.found += word_tokens(run + index, span, lexer.names, after_number=lexer.after_number())
     lexer.found += power
-
-
-def _check_unit(lexer: LatexLexer, run: str, span: Span) -> None:
-    if lexer.after_number() and run in UNITS:
-        fail("unit", span, name=run)
 
 
 def read_symbol(lexer: LatexLexer, base: str, start: int, before: tuple[Token, ...] = ()) -> None:

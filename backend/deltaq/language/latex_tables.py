@@ -10,7 +10,7 @@ NUMBER = re.compile(r"(?:\d+(?:(?:\.|\{,\})\d*)?|\.\d+)(?:[eE][+-]?\d+)?(?P<agai
 PREFIX = re.compile(r"0[xXbBoO][0-9A-Fa-f]+")
 LETTER = re.compile(r"[A-Za-z]")
 TRANSPOSE = re.compile(r"\s*(?:T|\\top|\\intercal|\\(?:mathrm|mathsf|text)\s*(?:\{\s*T\s*\}|T))\s*\Z")
-PRIMES = re.compile(r"\s*((?:\\prime|')\s*)+\Z")
+PRIMED = re.compile(r"\s*(?:(?:\\prime(?![A-Za-z])|')\s*)+(?:\^(?=.))?\s*")  # x^{\prime2} is the square of x′
 LETTERS = re.compile(r"[A-Za-z]+")
 SINGLE = re.compile(r"\s*(?:\\([A-Za-z]+)|([A-Za-z])|([^\x00-\x7f]))\s*\Z")
 MARKS = re.compile(r"[\u0307\u0308]+")

@@ -11,6 +11,7 @@ from itertools import islice
 from typing import Literal
 
 from .bounds import MAX_CHARACTERS, MAX_NODES, check_bounds
+from .choices import Choices
 from .expression import Expression
 from .grammar import Grammar
 from .names import Names
@@ -23,8 +24,8 @@ Syntax = Literal["plain", "latex"]
 MAX_TOKENS = 4 * MAX_NODES
 
 
-def parse(text: str, names: Names, syntax: Syntax = "plain") -> Expression:
-    """The expression that `text` means, with all names resolved among `names`.
+def parse(text: str, names: Names, syntax: Syntax = "plain", choices: Choices | None = None) -> Expression:
+    """The expression that `text` means, with all names resolved among `names`; `choices` are of answers only.
 
     Raises ExpressionError with one Problem: code, offset and length in the text, parameters (a suggestion among them
     where there is one).
@@ -34,7 +35,7 @@ def parse(text: str, names: Names, syntax: Syntax = "plain") -> Expression:
     tokens = list(islice(_tokens(text, names, syntax), MAX_TOKENS + 1))
     if len(tokens) > MAX_TOKENS:
         fail("too-many-nodes", Span(0, len(text)), limit=MAX_NODES)
-    tree = Grammar(text, tokens, names).whole()
+    tree = Grammar(text, tokens, names, choices).whole()
     check_bounds(tree)
     return Expression(text, tree)
 

@@ -23,12 +23,14 @@ _TOKEN = re.compile(
     (?P<space>[\s\u200b\u2060-\u2064\ufeff]+)
   | (?P<prefix>0[xXbBoO][0-9A-Fa-f]+)
   | (?P<number>(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?(?P<again>\.\d*|_\d+)?)
+  | (?P<second>d(?:\^2|\*\*2|²)\s*(?P<moved>[A-Za-z][A-Za-z0-9_{_SUB}]*|[{_GREEK}]{_INDEX}?|\(\s*[A-Za-z0-9_]+\s*\))?
+      \s*/\s*(?:d\s*t|\(\s*dt\s*\))\s*(?:\^2|\*\*2|²)(?![0-9]))
   | (?P<ratio>d\s*/\s*d\s*(?:t(?![A-Za-z0-9_])|\(\s*t\s*\)))
-  | (?P<word>(?:[A-Za-z][A-Za-z0-9_{_SUB}]*(?:(?<=_)\{{[A-Za-z0-9]+\}})?|[{_GREEK}]{_INDEX}?)
+  | (?P<word>(?:[A-Za-z][A-Za-z0-9_{_SUB}]*(?:(?<=_)(?:\{{[A-Za-z0-9]+\}}|[{_GREEK}]))?|[{_GREEK}]{_INDEX}?)
       (?:(?P<marks>[\u0307\u0308]+){_INDEX}?)?)
   | (?P<power>[{"".join(SUPERSCRIPTS)}]+)
   | (?P<fraction>[½¼¾⅓⅔⅙⅚⅛⅜⅝⅞])
-  | (?P<operator>\*\*|[-+*/^,;=|'()\[\]]|[·⋅×∗∙•−–÷∕⁄′’″√∂δ°])
+  | (?P<operator>\*\*|[-+*/^,;=|'()\[\]]|(?<=[\w)\]])"|[·⋅×∗∙•−–÷∕⁄′’´″”√∂δ°])
     """,
     re.VERBOSE | re.ASCII,
 )
@@ -41,6 +43,7 @@ _OPERATORS = {
     "⁄": "/",
     "′": "'",
     "’": "'",
+    "´": "'",
     **dict.fromkeys("·⋅∗∙•", "*"),
 }
 
@@ -88,6 +91,8 @@ def _lexeme(match: re.Match[str], span: Span, names: Names, *, after_number: boo
             yield Token("open", "", span)
             yield Token("name", "t", span)
             yield Token("close", "", span)
+        case "second" | "moved":
+            yield from _second_derivative(match, span, names)
         case "word" | "marks":
             yield from _word(match, span, names, after_number=after_number)
         case "power":
@@ -97,6 +102,13 @@ def _lexeme(match: re.Match[str], span: Span, names: Names, *, after_number: boo
             yield Token("number", text, span, Fraction(unicodedata.numeric(text)).limit_denominator(8))
         case _:
             yield from operator_tokens(text, span)
+
+
+def _second_derivative(match: re.Match[str], span: Span, names: Names) -> Iterator[Token]:
+    """d²φ/dt², or the operator d²/dt²."""
+    yield Token("dot", "2", span)
+    if match["moved"]:
+        yield from word_tokens(match["moved"].strip("() "), span, names)
 
 
 def _word(match: re.Match[str], span: Span, names: Names, *, after_number: bool) -> Iterator[Token]:
@@ -118,7 +130,7 @@ def operator_tokens(text: str, span: Span) -> Iterator[Token]:
             yield Token("open", text, span)
         case ")" | "]":
             yield Token("close", text, span)
-        case "″":
+        case "″" | '"' | "”":
             yield Token("operator", "'", span)
             yield Token("operator", "'", span)
         case "√":

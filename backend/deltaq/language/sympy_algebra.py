@@ -116,7 +116,7 @@ class SympyAlgebra:
         if len(arrays) < 2:
             return scalar * (arrays[0] if arrays else 1)
         first, second = arrays  # more are refused by the bounds
-        return first.dot(second) * scalar
+        return (first.dot(second) if first.shape == second.shape else first * second) * scalar
 
     def quotient(self, numerator: Value, denominator: Value) -> Value:
         if denominator.is_zero:

@@ -46,7 +46,7 @@ def unknown(word: str, span: Span, names: Names) -> NoReturn:
         fail("unit", span, name=word)
     if word == "e":
         fail("euler-number", span, name=word)
-    suggestions = _accented(word, names) or names.suggestions(word)
+    suggestions = _primed(word, names) or names.suggestions(word)
     known = ", ".join(s.name for s in names.symbols[:12])
     if suggestions:
         fail("unknown-name", span, name=word[:40], known=known, suggestion=", ".join(suggestions))
@@ -68,7 +68,7 @@ def _operator(word: str, span: Span) -> Token:
 def _compound(word: str, span: Span, names: Names, *, after_number: bool) -> Iterator[Token]:
     if after_number and len(word) > 1 and word in UNITS:
         fail("unit", span, name=word)
-    prefixed = tuple(_prefixed(word, span, names))
+    prefixed = tuple(_prefixed(word, span, names)) or tuple(_dotted(word, span, names))
     if prefixed:
         yield from prefixed
         return
@@ -98,7 +98,7 @@ def _prefixed(word: str, span: Span, names: Names) -> Iterator[Token]:
 
 
 def _splits(word: str, names: Names) -> list[tuple[tuple[str, Symbol | str], ...]]:
-    """All ways (up to three) to read a word as a product of different symbols, the last part may be a function."""
+    """All ways (up to three) to read a word as a product of different symbols, functions among them: gsinphi."""
     ways: list[list[tuple[tuple[str, Symbol | str], ...]]] = [[] for _ in range(len(word) + 1)]
     ways[len(word)] = [()]
     for start in range(len(word) - 1, -1, -1):
@@ -107,7 +107,7 @@ def _splits(word: str, names: Names) -> list[tuple[tuple[str, Symbol | str], ...
                 continue
             part = word[start:end]
             meaning: Symbol | str | None = names.resolve(part)
-            if meaning is None and end == len(word) and part in SPELLINGS and start > 0:
+            if meaning is None and part in SPELLINGS and len(part) > 2 and part != word:
                 meaning = SPELLINGS[part].name
             if meaning is not None and not part.endswith("_"):
                 ways[start] += [((part, meaning), *rest) for rest in ways[end]]
@@ -115,10 +115,17 @@ def _splits(word: str, names: Names) -> list[tuple[tuple[str, Symbol | str], ...
     return [way for way in ways[0] if len({part for part, _ in way}) == len(way)]
 
 
-def _accented(word: str, names: Names) -> tuple[str, ...]:
-    """`phidot`, `phi_ddot`, `phi_dot`: what to write instead."""
+def _dotted(word: str, span: Span, names: Names) -> Iterator[Token]:
+    """`phidot`, `phi_ddot`: a rate written as one word."""
     for accent in _ACCENTS:
         base = word.removesuffix(accent).rstrip("_")
-        if base != word and names.resolve(base) is not None:
-            return (f"{accent}({base})",)
+        symbol = names.resolve(base) if base not in (word, "") else None
+        if symbol is not None and symbol.kind == "coordinate":
+            yield _operator(accent, span)
+            yield Token("name", symbol.name, span)
+            return
+
+
+def _primed(word: str, names: Names) -> tuple[str, ...]:
+    """`phip`: what to write instead, phi' or its rate, is not known; the coordinate is."""
     return tuple(name for name in names.coordinates if folded(word) == name + "p")

@@ -21,8 +21,30 @@ const SPACE = /\\;/g;
 export const partsOf = ({ form, components }, freedoms) =>
   form === "vector" ? (components ?? 1) : form in FRAMES ? freedoms : 1;
 
-/** @param {string} text */
-const isWhole = (text) => /^\s*(\[|\\begin|\\left)/.test(text) || /[;\n]/.test(text.replace(SPACE, ""));
+/** A comma between numbers may be that of a decimal. */
+const COMMA = /(?<!\d|\{),(?=\s*\S)|,(?![\d}])(?=\s*\S)/;
+/** e_x, \\hat x, \\vec e_1: a sum of unit vectors. */
+const UNIT_VECTOR = /\be_?[123xyz]\b|\be_\{|\\(?:hat|vec|mathbf)\b|\\[ij]math\b/;
+
+/** Whether a text says of itself where its parts are. @param {string} text */
+const isWhole = (text) =>
+  /^\s*(\[|\(.*,|\\begin|\\left)/.test(text) ||
+  /[;\n]/.test(text.replace(SPACE, "")) ||
+  UNIT_VECTOR.test(text) ||
+  COMMA.test(outside(text));
+
+/** What stands outside of all brackets. @param {string} text */
+function outside(text) {
+  let depth = 0;
+  return [...text]
+    .filter((one) => {
+      depth += Number("([{".includes(one));
+      const kept = depth === 0;
+      depth -= Number(")]}".includes(one));
+      return kept;
+    })
+    .join("");
+}
 
 /** One text alone in the first part, brackets and all, is the whole answer. @param {readonly string[]} parts @param {string} form */
 const whole = (parts, form) => form in FRAMES && isWhole(parts[0]) && parts.slice(1).every((part) => !part.trim());

@@ -136,6 +136,19 @@ export function createAnswering(store, api, progress) {
       set({ notice: "" });
       reading.ask();
     },
+    /** What stands there is meant so, and from now on it says so. @param {import("./progress.js").PossibleReading} one */
+    reread(one) {
+      const { entry } = get();
+      if (!entry) return;
+      keep(entry, (draft) => ({
+        texts: {
+          ...draft.texts,
+          [draft.syntax]: partsIn(entry, draft).map((_, i) => (i === 0 ? one[draft.syntax] : "")),
+        },
+      }));
+      set({ notice: "" });
+      reading.ask();
+    },
     async check() {
       const { entry, draft } = get();
       if (!entry) return;

@@ -6,6 +6,7 @@ import { tableOf } from "../own.js";
 /** @typedef {{getItem: (key: string) => string | null, setItem: (key: string, value: string) => void, key: (index: number) => string | null, readonly length: number}} Keeper */
 /** @typedef {import("../types.js").Contract["VerdictProblem"]} AnswerProblem */
 /** @typedef {import("../types.js").Contract["VerdictAnswer"]} Verdict */
+/** @typedef {import("../types.js").Contract["PossibleReading"]} PossibleReading */
 /** @typedef {{verdict: Verdict, syntax: Syntax, value: string, lang: string}} Checked  the last verdict and what it is about */
 /**
  * @typedef {object} Draft

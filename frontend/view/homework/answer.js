@@ -105,12 +105,21 @@ function complaint(problem, parts, place) {
   return html`${at ? html`<code class="where" aria-hidden="true">${at[0]}<mark>${at[1]}</mark>${at[2]}</code>` : nothing}<p class="wrong">${problem.message}</p>`;
 }
 
-/** @param {HomeworkView} view @param {Entry} entry */
-function understood({ state, t }, entry) {
+/** What was read, or judged, and the other ways to read it: one of them is a click away. @param {HomeworkView} view @param {Entry} entry */
+function understood({ state, t, answering }, entry) {
   const { reading, draft } = state;
   const fresh = reading?.of === valueOf(entry, draft);
-  return html`<div class="understood-as ${fresh ? "" : "stale"}"><span class="caption">${t("homework.understood")}</span>
-    <div class="room">${reading?.latex ? displayed(reading.latex) : html`<span class="nothing-yet">${t("homework.nothing-yet")}</span>`}</div></div>`;
+  const verdict = isCurrent(entry, draft) ? draft.checked?.verdict : null;
+  const latex = verdict?.understood_as || reading?.latex;
+  const others = ((verdict ?? (fresh ? reading : null))?.readings ?? []).filter(({ taken }) => !taken);
+  return html`<div class="understood-as ${fresh || verdict ? "" : "stale"}"><span class="caption">${t("homework.understood")}</span>
+    <div class="room">${latex ? displayed(latex) : html`<span class="nothing-yet">${t("homework.nothing-yet")}</span>`}</div>
+    ${others.length ? html`<div class="other-readings" role="group" aria-label=${t("homework.readings")}><span class="caption">${t("homework.readings")}</span>${others.map((one) => reread(one, () => answering.reread(one)))}</div>` : nothing}</div>`;
+}
+
+/** @param {import("../../model/homework/progress.js").PossibleReading} reading @param {() => void} take */
+function reread({ latex }, take) {
+  return html`<button type="button" class="reading-chip" @click=${take}>${inline(latex)}</button>`;
 }
 
 /** @param {HomeworkView} view @param {Entry} entry */

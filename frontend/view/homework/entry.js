@@ -4,7 +4,7 @@ import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "../formula.js";
 import { columnsFor, written } from "../../model/homework/keys.js";
-import { mathField } from "./mathfield.js";
+import { leaveNumber, mathField } from "./mathfield.js";
 
 /** @typedef {import("../../model/homework/keys.js").Key} Key */
 /** @typedef {import("../../model/homework/answer.js").Syntax} Syntax */
@@ -46,6 +46,7 @@ function strike(root, key) {
   } else if (field) {
     const formula = /** @type {import("mathlive").MathfieldElement} */ (field);
     // What is selected becomes the base of a power. Else MathLive takes what stands before, but not a letter with a dot.
+    if (!/^[\^/]/.test(key.latex)) leaveNumber(formula);
     const latex = formula.selectionIsCollapsed ? key.latex : key.latex.replace(/^\^/, "#@^");
     formula.insert(latex, { focus: true, feedback: false });
   }

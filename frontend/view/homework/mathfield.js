@@ -81,6 +81,9 @@ class MathField extends Directive {
       (event) => {
         if (event.key === "Enter") this.wiring?.enter();
         if (event.key === " " && !event.ctrlKey) blank(field, event);
+        if (event.key === "^") afterPrimes(field, event);
+        if (event.key.length === 1 && !event.ctrlKey && !event.metaKey && !/[\d.,^_ ]/.test(event.key))
+          leaveNumber(field);
       },
       { capture: true },
     );
@@ -120,6 +123,42 @@ function blank(field, event) {
   const { selection } = field;
   field.executeCommand("moveAfterParent");
   if (HELD.test(field.getElementInfo(field.position)?.latex ?? "")) field.selection = selection;
+}
+
+const PRIMED = /\^(\{(\\prime|')+\}|\\prime|')$|'$/;
+
+/** A power of x′ stands behind the prime: MathLive would write it over the prime. @param {import("mathlive").MathfieldElement} field @param {Event} event */
+function afterPrimes(field, event) {
+  const before = field.getValue(0, field.position, "latex");
+  if (!field.selectionIsCollapsed || !PRIMED.test(before)) return;
+  event.preventDefault();
+  event.stopImmediatePropagation();
+  field.executeCommand("moveToSuperscript");
+  field.position = field.selection.ranges[0][1];
+  // As with x^2: one digit, and the exponent is complete.
+  field.addEventListener(
+    "input",
+    () => /\d\}*$/.test(field.getValue(0, field.position, "latex")) && field.executeCommand("moveAfterParent"),
+    {
+      once: true,
+    },
+  );
+}
+
+/** A fraction with a number below the line, no other one in it. */
+const OVER_NUMBER = /^\\[dt]?frac(\d|\{.*\})(\d|\{\d+\})$/;
+
+/**
+ * Whoever types 1/2(M+m)… means half of it: a number below the line is complete when something else follows. What goes
+ * below the line as well is put in brackets. @param {import("mathlive").MathfieldElement} field
+ */
+export function leaveNumber(field) {
+  if (!field.selectionIsCollapsed) return;
+  const { position, selection } = field;
+  field.executeCommand("moveAfterParent");
+  const left = field.getElementInfo(field.position)?.latex ?? "";
+  const atItsEnd = field.position === position + 1 && OVER_NUMBER.test(left);
+  if (!atItsEnd) field.selection = selection;
 }
 
 const wired = directive(MathField);
