@@ -32,7 +32,8 @@ from .written import WrittenPart, written_parts
 
 MOST_PROVED = 4  # changes that fit by numbers and are looked at exactly
 MOST_TERMS = 40
-MOST_NODES = 400  # of an answer that is looked at
+MOST_NODES = 240  # of an answer that is looked at
+MOST_NODES_TWICE = 80  # of one in which two slips are looked for
 MOST_TRIED = 16  # first slips, where one does not explain an answer
 PLAIN = ("sign", "function", "half", "double", "power", "missing")  # second slips that are believed
 ACCELERATION = 0.18
@@ -72,14 +73,16 @@ class SlipSearch:
 
         Two slips in one part are looked for only in what is not `explained` otherwise.
         """
-        if sum(1 for _, tree in reading.trees for _ in walk(tree)) > MOST_NODES:
+        size = sum(1 for _, tree in reading.trees for _ in walk(tree))
+        if size > MOST_NODES:
             return ()
         written = written_parts(self.task, reading, text, self.workbook.sampler)
         found = self._of_each_part(reading.parts, written)
         if found and {slip.kind for slip in found} != {"superfluous", "missing"}:
             return found
         found = self._of_the_whole(reading.parts, written) or found
-        return found or (() if explained else self._of_two_terms(reading.parts, written))
+        once = explained or size > MOST_NODES_TWICE
+        return found or (() if once else self._of_two_terms(reading.parts, written))
 
     # --- part by part ------------------------------------------------------------------------------------------------
 

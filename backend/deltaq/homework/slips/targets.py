@@ -20,7 +20,7 @@ from ..solution import Solution
 from ..task import Task
 from .lexicon import near
 
-MOST_OPERATIONS = 400  # of a factor that is looked at in symbols
+MOST_OPERATIONS = 100  # of a factor that is looked at in symbols: common divisors of more may take seconds
 MOST_TERMS = 20
 UNUSUAL = 0.35
 
