@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+from collections.abc import Callable
 from itertools import product
 
 import pytest
@@ -11,19 +12,31 @@ import sympy as sp
 
 from deltaq.derivation.enclosure import Budget, enclosed
 from deltaq.derivation.solving import Domain, Solutions, Solver
+from deltaq.language import canonical
+from deltaq.language.names import Names
+from deltaq.language.symbols import Symbols
 
 X, Y, Z = sp.symbols("x y z", real=True)
 
 
 def solved(
-    equations: list[sp.Expr], unknowns: list[sp.Symbol], operations: int = 600_000, *, angles: bool = False
+    equations: list[sp.Expr],
+    unknowns: list[sp.Symbol],
+    operations: int = 600_000,
+    *,
+    angles: bool = False,
+    is_zero: Callable[[sp.Expr], bool] = lambda e: sp.simplify(e) == 0,
 ) -> Solutions:
     domain = Domain(
         dict.fromkeys(unknowns, (-10.0, 10.0)),
         frozenset(unknowns if angles else ()),
         dict.fromkeys(unknowns, sp.Rational(1, 3)),
     )
-    return Solver(domain, lambda e: sp.simplify(e) == 0, Budget(operations)).solve(equations, unknowns)
+    return Solver(domain, is_zero, Budget(operations)).solve(equations, unknowns)
+
+
+def canonical_zero(e: sp.Expr) -> bool:
+    return canonical.is_zero(e, Symbols(Names(()))) is True
 
 
 def places(found: Solutions, unknowns: list[sp.Symbol]) -> list[tuple[float, ...]]:
@@ -97,3 +110,16 @@ def test_a_root_on_a_common_face_is_proved_once() -> None:
     found = enclosed([sp.sin(X - sp.Rational(cut)) + (X - sp.Rational(cut)) ** 3], [X], ((-1.0, 1.0),), Budget(10**5))
     assert found.complete
     assert [root[0] for root in found.roots] == pytest.approx([cut])
+
+
+@pytest.mark.parametrize(
+    "gap",
+    [
+        pytest.param(sp.sin(Y) ** 2 + sp.cos(Y) ** 2 - X, id="zero by an identity"),
+        pytest.param((Y + Z) ** 2 - X * (Y**2 + 2 * Y * Z + Z**2), id="zero when expanded"),
+    ],
+)
+def test_a_branch_on_which_an_equation_divides_by_zero_has_no_solutions(gap: sp.Expr) -> None:
+    """With X = 1 the ends of a spring meet, whatever Y and Z are; with X = −1 they do not."""
+    found = solved([X**2 - 1, Z + Y**2 + Y / sp.sqrt(gap)], [X, Y, Z], is_zero=canonical_zero)
+    assert {each.values[X] for each in found.found} == {-1.0}

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 from flint import arb
 
+from ..errors import ExpressionError
 from ..language.derivatives import diff
 from .compiled import compiled_together
 from .enclosure import Box, Budget, Enclosed, enclosed
@@ -89,8 +90,8 @@ class Solver:
         return replace(found, found=tuple(_distinct(real, self.domain.angles)))
 
     def _solve(self, equations: tuple[sp.Expr, ...], unknowns: tuple[sp.Symbol, ...]) -> Solutions:
-        left = tuple(e for e in equations if not (e == 0 or self.is_zero(e)))
-        if any(not e.has(*unknowns) for e in left) or (left and not unknowns):
+        left = self._remaining(equations)
+        if left is None or any(not e.has(*unknowns) for e in left) or (left and not unknowns):
             return Solutions()
         absent = tuple(q for q in unknowns if not any(e.has(q) for e in left))
         if absent:
@@ -105,6 +106,16 @@ class Solver:
                 ),
             )
         return self._split(left, unknowns) or self._eliminated(left, unknowns) or self._searched(left, unknowns)
+
+    def _remaining(self, equations: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...] | None:
+        """The equations that do not hold anyway; None if one has no value anywhere, so that nothing solves it.
+
+        A spring's force where what was put in makes its ends meet is divided by a length that is zero for good.
+        """
+        try:
+            return tuple(e for e in equations if not (e == 0 or self.is_zero(e)))
+        except ExpressionError:
+            return None
 
     def _split(self, equations: tuple[sp.Expr, ...], unknowns: tuple[sp.Symbol, ...]) -> Solutions | None:
         """The solutions for each factor of an equation; None if there is but one."""
@@ -149,7 +160,7 @@ class Solver:
         return None
 
     def _constants(self, equations: tuple[sp.Expr, ...]) -> Solutions:
-        return Solutions((Solution({}),)) if all(self.is_zero(e) for e in equations) else Solutions()
+        return Solutions((Solution({}),)) if self._remaining(equations) == () else Solutions()
 
     def _searched(self, equations: tuple[sp.Expr, ...], unknowns: tuple[sp.Symbol, ...]) -> Solutions:
         if len(equations) < len(unknowns):
@@ -224,8 +235,8 @@ class Solver:
     def _snapped(self, equations: tuple[sp.Expr, ...], root: Values) -> Values | None:
         """A multiple root, which floats find to half their digits, at round numbers if these solve the equations."""
         guess = {q: _round(x, angle=q in self.domain.angles) for q, x in root.items()}
-        solved = all(self.is_zero(e.xreplace(guess)) for e in equations)
-        return {q: float(x) for q, x in guess.items()} if solved else None
+        left = self._remaining(tuple(e.xreplace(guess) for e in equations))
+        return {q: float(x) for q, x in guess.items()} if left == () else None
 
     def _family(self, equations: tuple[sp.Expr, ...], unknowns: tuple[sp.Symbol, ...]) -> Solutions:
         """One solution that stands for all of fewer equations than unknowns."""
