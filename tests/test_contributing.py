@@ -126,7 +126,10 @@ def test_the_api_knows_what_was_added(copy: Path, root: Path) -> None:
         {"kind": "number", "label": "Gültige Ziffern", "range": {"shown": 12, "min": 2, "max": 15}},
     ]
     assert verdict["misconception"] == "energies-swapped"
-    assert verdict["feedback"] == "Not right yet. Which of the two energies is positive in L?"
+    assert verdict["feedback"] == (
+        "Not right yet. Which of the two energies is positive in L? It is about these terms: "
+        r"$-\frac{1}{2} m \ell^{2} \dot{\varphi}^{2} - m g \ell \cos\varphi$."
+    )
 
 
 ASKED = """

@@ -824,13 +824,13 @@ export interface components {
              * Guides
              * @description coordinates to be made functions of time
              */
-            guides?: components["schemas"]["GuideChange"][];
+            guides?: components["schemas"]["GuideChange"][] | null;
             /**
              * Freeze
              * @description coordinates to be held constant
              * @example []
              */
-            freeze?: string[];
+            freeze?: string[] | null;
             /**
              * Parameters
              * @description values of parameters
@@ -838,7 +838,9 @@ export interface components {
              *       "l": 0.8
              *     }
              */
-            parameters?: components["schemas"]["AssignedTaskDocumentParameters"];
+            parameters?: {
+                [key: string]: number;
+            } | null;
             /**
              * Task
              * @description a task of the scene by its id
@@ -898,17 +900,17 @@ export interface components {
              * Individual
              * @description whether each student has values of their own
              */
-            individual?: boolean;
+            individual?: boolean | null;
             /**
              * Follow Through
              * @description share of the points for a right consequence
              */
-            follow_through?: number;
+            follow_through?: number | null;
             /**
              * Simplified
              * @description share of what a right consequence earns, where the mistake before it made it easier
              */
-            simplified?: number;
+            simplified?: number | null;
             /**
              * Tasks
              * @description one after the other
@@ -3792,6 +3794,7 @@ export interface components {
             /**
              * Readings
              * @description all that make sense, where there is more than one: the conventional one first
+             * @default []
              */
             readings: components["schemas"]["PossibleReading"][];
             /** Points */
@@ -4484,6 +4487,7 @@ export interface components {
             /**
              * Readings
              * @description all that make sense, where there is more than one: the conventional one first
+             * @default []
              */
             readings: components["schemas"]["PossibleReading"][];
         };
@@ -6777,6 +6781,7 @@ export interface components {
             /**
              * Readings
              * @description all that make sense, where there is more than one: the conventional one first
+             * @default []
              */
             readings: components["schemas"]["PossibleReading"][];
         };
@@ -7235,13 +7240,6 @@ export interface components {
          * @default {}
          */
         NumericParameters: {
-            [key: string]: number;
-        };
-        /**
-         * AssignedTaskDocumentParameters
-         * @default {}
-         */
-        AssignedTaskDocumentParameters: {
             [key: string]: number;
         };
         /**

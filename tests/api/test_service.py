@@ -114,6 +114,7 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
     }
     assert calls == {
         "GET /catalogs/{lang}",
+        "GET /experiments",
         "POST /derivations",
         "POST /expressions",
         "POST /expressions/batch",

@@ -55,7 +55,12 @@ def test_a_wrong_jacobi_energy_is_caught(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_the_answer() -> None:
     result = derive_request({"scene": "base-pendulum"})["result"]
     hanging, standing = result["equilibria"]
-    assert hanging["values"]["y"] == {"plain": "m*g/k", "latex": r"\frac{m g}{k}", "number": 0.1635}
+    assert hanging["values"]["y"] == {
+        "plain": "m*g/k",
+        "latex": r"\frac{m g}{k}",
+        "spoken": "the fraction m g over k, end of fraction",
+        "number": 0.1635,
+    }
     assert (hanging["exact"], hanging["stability"], standing["stability"]) == (True, "stable", "unstable")
     assert hanging["eigenfrequencies"] == pytest.approx([math.sqrt(9.81), math.sqrt(60)])
     assert hanging["modes"][0]["shape"] == {"y": 0.0, "phi": 1.0}

@@ -72,9 +72,11 @@ def test_wrong_diagnosed_corrected_correct(lecture: Lecture) -> None:
 @pytest.mark.parametrize(
     ("typed", "latex"),
     [
-        ("1/2(M+m)x'^2+1", r"\frac12\left(M+m\right)x^{\prime2}+1"),
+        ("1/2(M+m)x'^2+1", r"\frac12\left(M+m\right)\dot{x}^2+1"),
         ("1/(2m)", r"\frac{1}{\left(2m\right)}"),
-        ("x'^2/2", r"\frac{x^{\prime2}}{2}"),
+        ("x'^2/2", r"\frac{\dot{x}^2}{2}"),
+        ("xdot/2 + 1", r"\frac{\dot{x}}{2}+1"),
+        ("sqrt x'^2/2", r"\sqrt{\frac{\dot{x}^2}{2}}"),
     ],
 )
 def test_a_number_below_the_line_is_complete(lecture: Lecture, typed: str, latex: str) -> None:

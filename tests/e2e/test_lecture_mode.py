@@ -42,7 +42,7 @@ def test_one_step_at_a_time_by_keys_and_remote(hall: Lecture) -> None:
         ("Space", "work-of-force:weight"),
         ("PageUp", "total-differential:bob"),
         ("ArrowLeft", first),
-        ("End", "jacobi-energy"),
+        ("End", "symmetry-search"),
         ("Home", "position:bob"),
     ):
         page.keyboard.press(key)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from deltaq.homework.checking import check
+from deltaq.homework.service import check_request
 from deltaq.homework.workbook import workbook_of
 
 CASES = [
@@ -36,3 +37,13 @@ def test_one_of_two_frequencies() -> None:
     task = workbook.task("eigenfrequencies")
     right = workbook.right(task)[0]
     assert check(workbook, task, f"{right}; 1".replace("**", "^"), "plain").parts == ("correct", "wrong")
+
+
+@pytest.mark.parametrize(
+    ("answer", "share"),
+    [("sqrt(g)/l", 0.0), ("sqrt(l*g)", 0.0), ("g/l", 0.0), ("sqrt(g/l); 3.13", 0.5), ("3.13", 1.0), ("sqrt(g/l)", 1.0)],
+)
+def test_a_frequency_that_is_right_for_a_length_of_one_metre_only_earns_nothing(answer: str, share: float) -> None:
+    """The pendulum of the library is 1 m long."""
+    asked = {"scene": "pendulum", "task": "eigenfrequencies", "answer": {"value": answer}, "lang": "en"}
+    assert check_request(asked)["share"] == share

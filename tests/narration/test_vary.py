@@ -81,8 +81,8 @@ def test_result_of_an_integral_with_fixed_ends() -> None:
     assert result["first_variation"] == {
         "plain": "-k*x*delta(x) + m*dot(x)*dot(delta(x))",
         "latex": r"\int_{0}^{T} \left(-k x \, \delta x + m \dot{x} \, \delta \dot{x}\right)\,\mathrm{d}t",
-        "spoken": "the integral from zero to capital T of open bracket minus k times x times delta x, "
-        "plus m times x dot times delta x dot close bracket d t",
+        "spoken": "the integral from zero to capital T of open bracket minus k x times delta x, "
+        "plus m x dot times delta x dot close bracket d t",
         "from": "0",
         "to": "T",
         "ends": "fixed",

@@ -83,7 +83,9 @@ _EXAMPLES: Mapping[ProblemType, Example] = {
         "GET /api/v1/catalogs/fr",
     ),
     NOT_FOUND: Example(Report(NOT_FOUND), "GET /api/v1/pendulum"),
-    METHOD_NOT_ALLOWED: Example(Report(METHOD_NOT_ALLOWED, parameters={"allowed": "GET"}), "DELETE /api/v1/scenes"),
+    METHOD_NOT_ALLOWED: Example(
+        Report(METHOD_NOT_ALLOWED, parameters={"allowed": "GET, HEAD"}), "DELETE /api/v1/scenes"
+    ),
     BODY_NOT_CALLED_JSON: Example(
         Report(BODY_NOT_CALLED_JSON, parameters={"syntax": "JSON", "media": "application/json"}),
         'POST /api/v1/derivations\ncontent-type: text/plain\n\n{"scene": "pendulum"}',

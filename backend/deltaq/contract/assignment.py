@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import (
     BeforeValidator,
+    ConfigDict,
     Field,
     ValidationError,
     ValidatorFunctionWrapHandler,
@@ -53,8 +54,22 @@ def _are_some(tasks: Any) -> Any:
     raise PydanticCustomError("assignment-no-task", "a list of tasks")
 
 
+ABOUT = ("title", "description", "default", "examples")
+
+
+def _optional_or_null(schema: dict[str, Any]) -> None:
+    """What may be left out may be null as well."""
+    for name, field in schema["properties"].items():
+        if name in schema["required"] or {"type": "null"} in field.get("anyOf", ()):
+            continue
+        kinds = {key: field.pop(key) for key in [*field] if key not in ABOUT}
+        field["anyOf"] = [*(kinds.get("anyOf") or [kinds]), {"type": "null"}]
+
+
 class AssignedTaskDocument(SceneWithChanges):
     """A task of an assignment, and what is changed in its scene before."""
+
+    model_config = ConfigDict(json_schema_extra=_optional_or_null)
 
     task: str = Field(description="a task of the scene by its id", examples=["equation:phi"])
     points: Annotated[float | None, Field(ge=0, le=1000), _told_as("request-not-number")] = Field(
@@ -72,6 +87,8 @@ class AssignedTaskDocument(SceneWithChanges):
 
 class AssignmentDocument(Request):
     """An assignment, format 1."""
+
+    model_config = ConfigDict(json_schema_extra=_optional_or_null)
 
     format: Annotated[int, Field(ge=1, le=1), _told_as("assignment-format", format=1)] = Field(
         description="of the document"

@@ -54,7 +54,7 @@ class PossibleReading(Answer):
     taken: bool = Field(description="whether it was judged")
 
 
-READINGS = Field(description="all that make sense, where there is more than one: the conventional one first")
+READINGS = Field((), description="all that make sense, where there is more than one: the conventional one first")
 
 
 class VerdictAnswer(Answer):

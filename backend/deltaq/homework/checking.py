@@ -154,7 +154,7 @@ def _told_factors(workbook: Workbook, match: Match) -> tuple[str, ...]:
 def _told(slip: slips.Slip, workbook: Workbook) -> Slip:
     """The slip with its term in LaTeX."""
     term = "" if slip.term is None else latex(slip.term, Typography(workbook.scene.names))
-    return Slip(slip.kind, term, slip.place, slip.part)
+    return Slip(slip.kind, term, slip.place, slip.part, slip.term is not None and slip.term.is_Add)
 
 
 def _units(workbook: Workbook, task: Task, reading: Reading, syntax: Syntax) -> Told | None:

@@ -88,7 +88,8 @@ def _slip_sentence(slip: Slip, verdict: Verdict, language: str) -> CatalogText:
     """What is wrong with one term; after the hint of a misconception just which term it is in."""
     if not slip.term:
         return text(language, f"homework.slips-somewhere.{slip.kind}")
-    key = "homework.feedback.term" if verdict.misconceptions else f"homework.slips.{slip.kind}"
+    where = "homework.feedback.terms" if slip.is_sum else "homework.feedback.term"
+    key = where if verdict.misconceptions else f"homework.slips.{slip.kind}"
     return text(language, key, term=formula(slip.term))
 
 

@@ -86,9 +86,21 @@ def _implied(workbook: Workbook, part: sp.Expr, right: list[tuple[tuple[float, .
 
 
 def _frequencies(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOutcome, ...]:
-    right = [number_of(part, workbook.solution) for part in workbook.right(task)]
-    own = (number_of(part, workbook.solution) for part in given)
-    return tuple("correct" if any(abs(a - b) <= ROUNDED * abs(b) for b in right) else "wrong" for a in own)
+    """A number counts at the scene's values; a formula at others as well: √g/ℓ is not √(g/ℓ), though ℓ be 1 m."""
+    right = workbook.right(task)
+    return tuple(
+        "correct" if any(_same_frequency(workbook, part, true) for true in right) else "wrong" for part in given
+    )
+
+
+def _same_frequency(workbook: Workbook, own: sp.Expr, right: sp.Expr) -> bool:
+    a, b = (number_of(part, workbook.solution) for part in (own, right))
+    if not abs(a - b) <= ROUNDED * abs(b):
+        return False
+    if not own.free_symbols:
+        return True
+    mine, theirs = (workbook.sampler.values(part) for part in (own, right))
+    return defined(mine) and defined(theirs) and close(mine, theirs)
 
 
 DECIDED: Mapping[str, Callable[[Workbook, Task, Parts], tuple[PartOutcome, ...]]] = MappingProxyType(

@@ -23,13 +23,15 @@ class Counterexample:
 @dataclass(frozen=True)
 class Slip:
     """One term that is not what it should be: in which way, the term in LaTeX as it was written ("" if it is missing),
-    its place in the answer, None if it has none, and the part of the answer that it is in.
+    its place in the answer, None if it has none, the part of the answer that it is in, and whether it is a sum of terms
+    that all have the same fault.
     """
 
     kind: SlipKind
     term: str
     place: Span | None = None
     part: int = 0
+    is_sum: bool = False
 
 
 @dataclass(frozen=True)

@@ -82,6 +82,7 @@ class MathField extends Directive {
         if (event.key === "Enter") this.wiring?.enter();
         if (event.key === " " && !event.ctrlKey) blank(field, event);
         if (event.key === "^") afterPrimes(field, event);
+        if (event.key === "/") overDotted(field, event);
         if (event.key.length === 1 && !event.ctrlKey && !event.metaKey && !/[\d.,^_ ]/.test(event.key))
           leaveNumber(field);
       },
@@ -145,6 +146,24 @@ function afterPrimes(field, event) {
   );
 }
 
+const DOTTED = /^\\d+ot\s*(\{(\\[a-z]+|.)\}|[A-Za-z])(_(\{.*?\}|.))?(\^(\{.*\}|.))?$/i;
+
+/** ẋ and ẋ² are divided as a whole: MathLive would take the exponent alone, and of ẋ nothing. @param {import("mathlive").MathfieldElement} field @param {Event} event */
+function overDotted(field, event) {
+  const end = field.position;
+  if (!field.selectionIsCollapsed || !/^\^|^\\d+ot/.test(field.getElementInfo(end)?.latex ?? "")) return;
+  for (let start = end - 1; start >= 0; start -= 1) {
+    const latex = field.getValue(start, end, "latex");
+    if (!DOTTED.test(latex)) continue;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    // Not by a selection: at the beginning of a root or the like it would take the whole of it.
+    while (field.position > start) field.executeCommand("deleteBackward");
+    field.insert(`\\frac{${latex}}{#?}`, { selectionMode: "placeholder" });
+    return;
+  }
+}
+
 /** A fraction with a number below the line, no other one in it. */
 const OVER_NUMBER = /^\\[dt]?frac(\d|\{.*\})(\d|\{\d+\})$/;
 
@@ -155,6 +174,8 @@ const OVER_NUMBER = /^\\[dt]?frac(\d|\{.*\})(\d|\{\d+\})$/;
 export function leaveNumber(field) {
   if (!field.selectionIsCollapsed) return;
   const { position, selection } = field;
+  // Who moves the caret ends the word that MathLive is about to recognize, as sqrt: only behind a digit there is none.
+  if (!/^\d$/.test(field.getElementInfo(position)?.latex ?? "")) return;
   field.executeCommand("moveAfterParent");
   const left = field.getElementInfo(field.position)?.latex ?? "";
   const atItsEnd = field.position === position + 1 && OVER_NUMBER.test(left);

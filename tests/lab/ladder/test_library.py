@@ -8,10 +8,10 @@ import pytest
 from tests.lab.ladder.climbing import Climbed, climbed
 from tests.lab.ladder.observers import EXACT, Verdict, another
 
+from deltaq.derivation.engine import derive
 from deltaq.lab.ladder.findings import FULL
 from deltaq.mechanics.document import examine, read_scene
 from deltaq.mechanics.library import load_scene, scene_ids
-from deltaq.narration.derive import derive
 from deltaq.simulation.service import run
 
 SPAN = 2.0
