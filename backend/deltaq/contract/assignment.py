@@ -7,14 +7,15 @@ from typing import Annotated, Any, Literal
 
 from pydantic import (
     BeforeValidator,
-    ConfigDict,
     Field,
+    GetJsonSchemaHandler,
     ValidationError,
     ValidatorFunctionWrapHandler,
     WrapValidator,
     model_validator,
 )
-from pydantic_core import PydanticCustomError
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError
 
 from .base import Request, SceneWithChanges
 from .document import Text
@@ -43,7 +44,7 @@ def _by_language(title: Any) -> Any:
     """By language; a title without one is for all."""
     if isinstance(title, Mapping):
         return title
-    if title and not isinstance(title, str):
+    if not isinstance(title, str):
         raise PydanticCustomError("request-not-text", "a text, or one by language")
     return dict.fromkeys(("en", "de"), title) if title else {}
 
@@ -57,19 +58,23 @@ def _are_some(tasks: Any) -> Any:
 ABOUT = ("title", "description", "default", "examples")
 
 
-def _optional_or_null(schema: dict[str, Any]) -> None:
-    """What may be left out may be null as well."""
-    for name, field in schema["properties"].items():
-        if name in schema["required"] or {"type": "null"} in field.get("anyOf", ()):
-            continue
-        kinds = {key: field.pop(key) for key in [*field] if key not in ABOUT}
-        field["anyOf"] = [*(kinds.get("anyOf") or [kinds]), {"type": "null"}]
+class _NullIsNothing(Request):
+    """A document of which every field that may be left out may be null as well."""
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        named = handler(core)
+        schema = handler.resolve_ref_schema(named)
+        for name, field in schema["properties"].items():
+            if name in schema["required"] or {"type": "null"} in field.get("anyOf", ()):
+                continue
+            kinds = {key: field.pop(key) for key in [*field] if key not in ABOUT}
+            field["anyOf"] = [*(kinds.get("anyOf") or [kinds]), {"type": "null"}]
+        return named
 
 
-class AssignedTaskDocument(SceneWithChanges):
+class AssignedTaskDocument(_NullIsNothing, SceneWithChanges):
     """A task of an assignment, and what is changed in its scene before."""
-
-    model_config = ConfigDict(json_schema_extra=_optional_or_null)
 
     task: str = Field(description="a task of the scene by its id", examples=["equation:phi"])
     points: Annotated[float | None, Field(ge=0, le=1000), _told_as("request-not-number")] = Field(
@@ -85,10 +90,8 @@ class AssignedTaskDocument(SceneWithChanges):
         return {name: value for name, value in sorted(document.items()) if value is not None or name in NEEDED}
 
 
-class AssignmentDocument(Request):
+class AssignmentDocument(_NullIsNothing):
     """An assignment, format 1."""
-
-    model_config = ConfigDict(json_schema_extra=_optional_or_null)
 
     format: Annotated[int, Field(ge=1, le=1), _told_as("assignment-format", format=1)] = Field(
         description="of the document"
