@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from deltaq.handout import latex, markdown
-from deltaq.handout.document import handout_of
+from deltaq.handout.document import Handout, handout_of
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.narration.prose import CatalogText, words
 
@@ -34,6 +35,11 @@ COMMANDS = set(
 ROADS = ("dalembert-lagrange", "hamilton")
 
 
+@cache
+def written(identifier: str, language: str) -> Handout:
+    return handout_of(load_scene(identifier), language, ROADS[language == "en"])
+
+
 def opened_and_closed(text: str) -> bool:
     """Whether braces nest, and every \\begin has its \\end and every \\left its \\right."""
     bare = re.sub(r"\\[{}\\]", "", text)
@@ -55,7 +61,7 @@ def opened_and_closed(text: str) -> bool:
 @pytest.mark.parametrize("language", ["de", "en"])
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_latex_file_is_sound(identifier: str, language: str) -> None:
-    handout = handout_of(load_scene(identifier), language, ROADS[language == "en"])
+    handout = written(identifier, language)
     text = latex.latex_file(handout)
     assert opened_and_closed(text)
     formulas = FORMULA.findall(text)
@@ -84,7 +90,7 @@ def test_latex_file_compiles(identifier: str, tmp_path: Path) -> None:
     if engine is None:
         pytest.skip("no LaTeX engine on this machine: balance and commands are tested, compiling is not")
     file = tmp_path / "handout.tex"
-    file.write_text(latex.latex_file(handout_of(load_scene(identifier), "de", ROADS[0])), encoding="utf-8")
+    file.write_text(latex.latex_file(written(identifier, "de")), encoding="utf-8")
     options = [] if engine.endswith("tectonic") else ["-interaction=nonstopmode", "-halt-on-error"]
     done = subprocess.run([engine, *options, file.name], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout[-2000:]
@@ -125,7 +131,7 @@ def test_a_dollar_sign_of_a_user_opens_no_formula() -> None:
 
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_markdown_file_holds_every_step(identifier: str) -> None:
-    handout = handout_of(load_scene(identifier), "en", ROADS[0])
+    handout = written(identifier, "en")
     text = markdown.markdown_file(handout)
     lines = [line for part in handout.parts for line in part.lines]
     assert text.count("\n$$\n") == 2 * sum(bool(line.latex) for line in lines)

@@ -8,6 +8,7 @@ import json
 import os
 from collections.abc import Iterator
 from datetime import UTC, datetime
+from functools import cache
 from typing import Any
 
 import plotly.graph_objects as go
@@ -22,6 +23,7 @@ from deltaq.lab.experiment import drawn
 from deltaq.lab.export import page, table
 from deltaq.lab.library import experiment_ids, get_experiment
 from deltaq.lab.peers import PEERS
+from deltaq.lab.report import Report
 from deltaq.lab.subject import subject_of
 from deltaq.narration.catalog import keys, text
 from deltaq.simulation.kernels.motion import HELD
@@ -44,16 +46,21 @@ QUESTIONS: dict[str, dict[str, Any]] = {key: {"scene": "pendulum", "t_end": 1.0}
 }
 
 
+@cache
+def reports(name: str) -> tuple[Report, ...]:
+    return tuple(get_experiment(name).run(QUESTIONS[name]))
+
+
 @pytest.mark.parametrize("name", QUESTIONS)
 @pytest.mark.parametrize("lang", ["de", "en"])
 def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str) -> None:
     experiment, say = get_experiment(name), words(text, lang)
-    reports = list(experiment.run(QUESTIONS[name]))
-    for report in (reports[0], reports[len(reports) // 2], reports[-1]):
+    first, *_, last = reports(name)
+    for report in (first, reports(name)[len(reports(name)) // 2], last):
         for chart in experiment.charts(report.result, say):
             go.Figure({"data": chart["data"], "layout": chart["layout"]})  # Plotly refuses what it does not know
-    charts = drawn(experiment, reports[-1].result, text, lang)
-    assert all(chart["subject"].startswith(reports[-1].result["title"][lang]) for chart in charts)  # type: ignore[index]
+    charts = drawn(experiment, last.result, text, lang)
+    assert all(chart["subject"].startswith(last.result["title"][lang]) for chart in charts)  # type: ignore[index]
     assert table(charts).count("\n") > 10
     assert page(charts, lang).count("<figure>") == len(charts)
 
@@ -61,7 +68,7 @@ def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str)
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_charts_have_no_member_of_which_their_description_is_silent(name: str) -> None:
     experiment = get_experiment(name)
-    *_, last = experiment.run(QUESTIONS[name])
+    *_, last = reports(name)
     charts = json.loads(json.dumps(drawn(experiment, last.result, text, "en")))
     assert charts
     assert [place for chart in charts for place in silent(Chart.model_validate(chart), "chart")] == []
