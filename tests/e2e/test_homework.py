@@ -42,6 +42,10 @@ def _math_field(page: Page) -> Locator:
 TAKES_LETTERS = """field => document.activeElement === field && field.shadowRoot.activeElement !== null
     && field.menuItems.length === 0"""
 
+LONG = (
+    "1/2 (m1+m2) l1^2 phi1'^2 + 1/2 m2 l2^2 phi2'^2 - m2 l1 l2 phi1' phi2' cos(phi1-phi2) "
+    "+ (m1+m2) g l1 cos phi1 + m2 g l2 cos phi2"
+)
 PARTED = """() => {
     const [right, yours] = ['right', 'yours'].map((one) => document.querySelector(`.drawing.${one} path.bob`));
     return right && yours && right.getAttribute('transform') !== yours.getAttribute('transform');
@@ -408,3 +412,13 @@ def test_what_is_typed_and_not_kept_is_said_to_be_so(lecture: Lecture) -> None:
     page = _open(lecture)
     _answer_as_text(page, RIGHT)
     expect(page.locator(".answering .wrong")).to_contain_text("keep")
+
+
+def test_a_long_answer_and_its_verdict_fit_on_a_phone(lecture: Lecture) -> None:
+    page = _open(lecture, "scene=double-pendulum&task=lagrangian&lang=de")
+    page.set_viewport_size({"width": 360, "height": 780})
+    _answer_as_text(page, LONG)
+    _check(page, "wrong")
+    expect(page.locator(".marked .slip").first).to_be_visible()
+    wide = "all => all.filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.className)"
+    assert page.locator("main, .question, .answering, .verdict-card, .keypad").evaluate_all(wide) == []
