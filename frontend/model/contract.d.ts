@@ -1790,6 +1790,14 @@ export interface components {
             yours: number;
             /** Right */
             right: number;
+            /**
+             * Reference
+             * @description of what is known up to a constant: where the constant makes both agree
+             * @default {}
+             */
+            reference: {
+                [key: string]: number;
+            };
         };
         /**
          * Curl

@@ -77,8 +77,8 @@ CASES = [
             slips=(Slip("sign", rf"{WEIGHT} \cos\varphi", Span(0, 14)),),
             marked=written("", r"m \, g \, \ell \, \cos(\varphi)"),
             counterexample=Counterexample(
-                {n: STATE[n] for n in ("m", "l", "g", "phi")}, 2.62416, -2.62416
-            ),  # g cos 1.3
+                {n: STATE[n] for n in ("m", "l", "g", "phi")}, 2.62416, 16.9958, reference={"phi": 0.0}
+            ),  # g cos 1.3, and 2g − g cos 1.3, which is g at 0 as well
         ),
         id="several misconceptions",
     ),
@@ -145,7 +145,11 @@ CASES = [
     pytest.param(
         "conserved:1",
         "m*dot(phi)",
-        Verdict("wrong", r"m \dot{\varphi}", counterexample=Counterexample(STATE, 0.5, -2.49916)),
+        Verdict(
+            "wrong",
+            r"m \dot{\varphi}",
+            counterexample=Counterexample(STATE, 0.5, 7.31084, reference={"phi": 0.0, "dot(phi)": 0.0}),
+        ),
         id="a conserved quantity may have any unit",
     ),
     pytest.param(

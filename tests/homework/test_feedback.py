@@ -75,3 +75,15 @@ def test_the_component_that_differs_is_named(language: str, told: str) -> None:
 def test_units_are_told_with_raised_exponents() -> None:
     told = verdict("elastic-pendulum", "generalized-force:phi", "m*g*sin(phi)")["feedback"]
     assert "has the unit kg m s⁻²; what is asked for has kg m² s⁻²." in told
+
+
+@pytest.mark.parametrize(
+    ("task", "answer"), [("potential-energy", "m*g*l*sin(phi/2)^2"), ("lagrangian", "-m*l*g*phi^2")]
+)
+def test_what_is_known_up_to_a_constant_differs_whatever_the_constant(task: str, answer: str) -> None:
+    """Both agree at the reference, so that no constant makes them agree at the state as well."""
+    shifted = [verdict("pendulum", task, f"{answer} + {constant}")["counterexample"] for constant in ("0", "7*m*g*l")]
+    assert [one["reference"]["phi"] for one in shifted] == [0.0, 0.0]
+    gaps = [one["yours"] - one["right"] for one in shifted]
+    assert gaps[0] == pytest.approx(gaps[1], rel=1e-4)
+    assert abs(gaps[0]) > 1e-3

@@ -44,6 +44,9 @@ class CounterexampleAnswer(Answer):
     of: str
     yours: float
     right: float
+    reference: dict[str, float] = Field(
+        {}, description="of what is known up to a constant: where the constant makes both agree"
+    )
 
 
 class PossibleReading(Answer):

@@ -24,12 +24,30 @@ def counterexample(task: Task, given: Parts, right: Parts, solution: Solution) -
     `given` and `right` are the components or residuals of the two; the values are in the units of the scene.
     """
     for state in _states(solution):
-        for of, yours, true in _values(task, given, right, solution, state):
+        reference, gap = _reference(task, given, right, state, solution)
+        for of, yours, value in _values(task, given, right, solution, state):
+            true = value + gap
             finite = math.isfinite(yours) and math.isfinite(true)
             if finite and abs(yours - true) > RELATIVE * max(abs(yours), abs(true), 1e-3):
-                shown = _shown(state, (*given, *right), _unknown(task, of, solution))
-                return Counterexample(shown, _rounded(yours), _rounded(true), of)
+                unknown = _unknown(task, of, solution)
+                shown, agreeing = (_shown(values, (*given, *right), unknown) for values in (state, reference))
+                return Counterexample(shown, _rounded(yours), _rounded(true), of, agreeing)
     return None
+
+
+def _reference(
+    task: Task, given: Parts, right: Parts, state: dict[str, float], solution: Solution
+) -> tuple[dict[str, float], float]:
+    """Where a constant makes both answers agree, and the constant: at rest at zero, or where the scene starts."""
+    if not task.quantity.up_to_constant:
+        return {}, 0.0
+    still = {name: 0.0 for name in state if name not in {p.name for p in solution.scene.parameters}}
+    starts = {c.name: c.value for c in solution.scene.coordinates}
+    for reference in (still, still | starts):
+        gap = _at(given[0], state | reference) - _at(right[0], state | reference)
+        if math.isfinite(gap):
+            return reference, gap
+    return {}, math.nan
 
 
 def _states(solution: Solution) -> Iterator[dict[str, float]]:

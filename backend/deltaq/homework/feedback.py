@@ -121,6 +121,11 @@ def _told(example: Counterexample, scene: Scene, language: str) -> CatalogText:
     if example.of.isdecimal():
         component = formula(AXES[int(example.of) - 1])
         return text(language, "homework.feedback.counterexample-component", component=component, **told)
+    if example.reference:
+        values = (f"{_typeset(name, scene)} = {_number(v, language)}" for name, v in example.reference.items())
+        return text(
+            language, "homework.feedback.counterexample-constant", reference=joined(", ", map(formula, values)), **told
+        )
     return text(language, "homework.feedback.counterexample", **told)
 
 
@@ -155,6 +160,7 @@ def _example(example: Counterexample | None, scene: Scene) -> Document | None:
         "of": example.of,
         "yours": example.yours,
         "right": example.right,
+        "reference": dict(example.reference),
         "latex": {name: _typeset(name, scene) for name in names},
     }
 

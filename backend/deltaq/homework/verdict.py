@@ -12,12 +12,16 @@ from ..vocabulary import Outcome, PartOutcome, SlipKind
 
 @dataclass(frozen=True)
 class Counterexample:
-    """A state at which two answers have different values, in the scene's values of the parameters."""
+    """A state at which two answers have different values, in the scene's values of the parameters.
+
+    Of a quantity that is known up to a constant `right` has the one with which both agree at the `reference`.
+    """
 
     state: Mapping[str, float]
     yours: float
     right: float
     of: str = ""
+    reference: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

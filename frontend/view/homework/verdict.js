@@ -84,14 +84,19 @@ const partly = ({ state, t }, { outcome, share }) =>
     : nothing;
 
 /** @param {HomeworkView} view @param {NonNullable<Verdict["counterexample"]>} found */
-function example({ state, t }, { values, latex = {}, of, yours, right }) {
+function example({ state, t }, { values, latex = {}, of, yours, right, reference = {} }) {
   const { lang } = state.asked.place;
   const given = (/** @type {number} */ value) => value.toLocaleString(lang, { maximumSignificantDigits: 4 });
   const number = (/** @type {number} */ value) => significant(value, 4, lang);
   const component = AXES[Number(of)];
   const what = component ? html`${inline(component)}: ` : latex[of] ? html`${inline(latex[of])} = ` : nothing;
+  const place = (/** @type {Record<string, number>} */ where) =>
+    Object.entries(where).map(
+      ([name, value]) => html`<span>${latex[name] ? inline(latex[name]) : name} = ${given(value)}</span>`,
+    );
   return html`<details class="example"><summary>${icon("chevron")}${t("homework.example")}</summary>
-    <p class="state">${Object.entries(values).map(([name, value]) => html`<span>${latex[name] ? inline(latex[name]) : name} = ${given(value)}</span>`)}</p>
+    <p class="state">${place(values)}</p>
+    ${Object.keys(reference).length ? html`<p class="state"><span>${t("homework.agreeing")}</span>${place(reference)}</p>` : nothing}
     <dl class="numbers"><div><dt>${t("homework.yours")}</dt><dd>${what}${number(yours)}</dd></div><div><dt>${t("homework.right")}</dt><dd>${what}${number(right)}</dd></div></dl>
   </details>`;
 }
