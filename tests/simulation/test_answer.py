@@ -87,6 +87,15 @@ def test_energies_of_a_rough_motion_are_short() -> None:
         np.testing.assert_allclose(np.array(heavy[name]), 100.0 * np.array(light[name]), rtol=1e-8)
 
 
+def test_energies_of_a_small_swing_have_the_digits_of_the_largest_of_them() -> None:
+    """E stays below 10⁻³ J and V near −9.81 J: what V may be off by, the balance may be off by as well."""
+    answer = ask(method="explicit-euler", step=0.01, initial={"phi": {"value": 0.01}})
+    energy, doubts = answer["energy"], np.array(answer["error"]["estimate"])
+    places = np.ceil(-np.log10(np.maximum(1e-3 * doubts, 1e-14) * 9.0)) + 3
+    for told, most in zip(energy["balance"][1:], places[1:], strict=True):
+        assert told == round(told, int(most))
+
+
 def test_where_nothing_moves_there_is_no_error_to_tell() -> None:
     """The force is infinite where the particle stands at first."""
     push = {"kind": "force", "at": "mass", "force": ["1/x", "0"]}

@@ -15,6 +15,8 @@ from deltaq.simulation.rounding import rounded, short, significant
         pytest.param(1.23456789012, 3e-9, 1.23456789012, id="fine error"),
         pytest.param(123456.789, 50.0, 123456.79, id="large numbers keep decimals while in doubt"),
         pytest.param(123456.789, 1e9, 123457.0, id="never coarser than one"),
+        pytest.param(2.0**51 + 0.5, 1e9, 2.0**51, id="the last numbers with a half, to even"),
+        pytest.param(2.0**52 + 1.0, 1e9, 2.0**52 + 1.0, id="the first without decimals"),
         pytest.param(1 / 3, 0.0, 0.333333333333333, id="no error: fifteen decimals"),
         pytest.param(-1e-9, 1e-3, 0.0, id="no negative zero"),
     ],
@@ -38,6 +40,8 @@ def test_vectors_are_rounded_by_their_sample() -> None:
         pytest.param(123456.0, 3, 123000.0, id="large"),
         pytest.param(9.9999, 3, 10.0, id="a digit more"),
         pytest.param(0.1 + 0.2, 15, 0.3, id="fifteen"),
+        pytest.param(1.23456e-20, 3, 1.23e-20, id="the last power of ten that is a double"),
+        pytest.param(1.23456e-21, 3, 1.23456e-21, id="the first that is none"),
         pytest.param(1.23456e-25, 3, 1.23456e-25, id="too small for powers of ten"),
     ],
 )

@@ -315,6 +315,7 @@ def test_a_motion_that_cannot_start_has_no_samples() -> None:
     """The force is infinite where the particle stands at first."""
     answer = ask(scene=write_scene(oscillator("-k/x", x=0.0)))
     assert (answer["status"], answer["t"], answer["energy"]["balance"]) == ("diverged", [], [])
+    assert answer["error"]["estimate"] == []
 
 
 def test_all_problems_are_told_at_once() -> None:
@@ -347,12 +348,15 @@ from deltaq.lab.experiments.convergence import EXPERIMENT
 from deltaq.simulation.integration import integrate, integrate_implicit, integrate_newmark, integrate_split
 from deltaq.simulation.library import families
 from deltaq.simulation.service import run, warm
+kernels = (integrate, integrate_implicit, integrate_newmark, integrate_split)
+count = lambda: [len(kernel.signatures) for kernel in kernels]
+seen = []
 for family in families():
     warm(family)
+    seen.append(count())
 run({"scene": "elastic-pendulum", "t_end": 1.0})
 assert [*EXPERIMENT.run({"scene": "pendulum", "t_end": 0.5})]
-kernels = (integrate, integrate_implicit, integrate_newmark, integrate_split)
-print([len(kernel.signatures) for kernel in kernels])
+print(seen[0], count())
 """
     told = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
-    assert told.splitlines()[-1] == "[1, 1, 1, 1]"
+    assert told.splitlines()[-1] == "[1, 0, 0, 0] [1, 1, 1, 1]"

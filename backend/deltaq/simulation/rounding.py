@@ -11,7 +11,7 @@ from .problem import Floats
 GUARD_DIGITS = 3  # below the first digit in doubt
 MOST_DIGITS = 15
 EXACT = 22  # powers of ten up to this one are doubles
-WHOLE = 2.0**53  # from here on doubles are whole numbers, and without decimals
+WHOLE = 2.0**52  # from here on doubles are whole numbers, and without decimals
 
 
 def rounded(values: Floats, errors: Floats) -> Floats:
