@@ -876,6 +876,12 @@ export interface components {
             follow_through: number;
             /** Simplified */
             simplified: number;
+            /**
+             * Code
+             * @description by which what is handed in says which assignment it answers
+             * @default
+             */
+            code: string;
             /** Tasks */
             tasks: components["schemas"]["AssignedTaskEntry"][];
         };
@@ -911,6 +917,21 @@ export interface components {
              * @description share of what a right consequence earns, where the mistake before it made it easier
              */
             simplified?: number | null;
+            /**
+             * Deadline
+             * @description when it is to be handed in (ISO 8601, UTC without an offset)
+             */
+            deadline?: string | null;
+            /**
+             * Late
+             * @description share of the points that an answer earns after the deadline
+             */
+            late?: number | null;
+            /**
+             * Attempts
+             * @description how many different answers of a person to a task count, the first ones; all if empty
+             */
+            attempts?: number | null;
             /**
              * Tasks
              * @description one after the other
@@ -1106,6 +1127,31 @@ export interface components {
             outcome: "correct" | "wrong" | "undecided" | "invalid" | "follow_through";
             /** Points */
             points: number;
+            /**
+             * Last
+             * @description of the last attempt
+             * @default invalid
+             * @enum {string}
+             */
+            last: "correct" | "wrong" | "undecided" | "invalid" | "follow_through";
+            /**
+             * Last Points
+             * @description what the last attempt earns by itself
+             * @default 0
+             */
+            last_points: number;
+            /**
+             * Attempts
+             * @description how many different answers there were
+             * @default 1
+             */
+            attempts: number;
+            /**
+             * Late
+             * @description how many of them came after the deadline
+             * @default 0
+             */
+            late: number;
         };
         /**
          * BoundaryTerm
@@ -3286,6 +3332,48 @@ export interface components {
             feedback: string;
             /** Answer */
             answer: string;
+            /**
+             * Id
+             * @description of the student in the course
+             * @default
+             */
+            id: string;
+            /**
+             * Time
+             * @description when it was handed in
+             * @default
+             */
+            time: string;
+            /**
+             * File
+             * @description in which file it was handed in
+             * @default
+             */
+            file: string;
+            /**
+             * Attempt
+             * @description which of the student's different answers to the task, from 1; 0 if nobody's
+             * @default 0
+             */
+            attempt: number;
+            /**
+             * Late
+             * @description whether it came after the deadline
+             * @default false
+             */
+            late: boolean;
+            /**
+             * Counts
+             * @description share of its points that counts: less if late, 0 beyond the attempts allowed
+             * @default 1
+             */
+            counts: number;
+            /**
+             * Worth
+             * @description what it earns by itself
+             * @default 0
+             */
+            worth: number;
         };
         /**
          * GrowthReadings
@@ -4589,6 +4677,16 @@ export interface components {
             parameters: {
                 [key: string]: string | number;
             };
+        };
+        /**
+         * RefusedFile
+         * @description A file that could not be taken; the others are marked.
+         */
+        RefusedFile: {
+            /** File */
+            file: string;
+            /** Why */
+            why: string;
         };
         /**
          * RelativeEquilibrium
@@ -6099,6 +6197,24 @@ export interface components {
              */
             of: number;
             /**
+             * Id
+             * @description in the course
+             * @default
+             */
+            id: string;
+            /**
+             * Late
+             * @description answers after the deadline
+             * @default 0
+             */
+            late: number;
+            /**
+             * Beyond
+             * @description answers beyond the attempts that are allowed
+             * @default 0
+             */
+            beyond: number;
+            /**
              * Answers
              * @description to each of `tasks`, in their order
              */
@@ -6159,6 +6275,30 @@ export interface components {
              * @description the rows as a table, written as the one that was sent
              */
             csv: string;
+            /**
+             * Mistakes
+             * @description of all tasks, the most frequent first
+             * @default []
+             */
+            mistakes: components["schemas"]["FrequentMistake"][];
+            /**
+             * Refused
+             * @description files that could not be taken, and why
+             * @default []
+             */
+            refused: components["schemas"]["RefusedFile"][];
+            /**
+             * Moodle
+             * @description the points of an assignment as Moodle imports them (CSV)
+             * @default
+             */
+            moodle: string;
+            /**
+             * Canvas
+             * @description the same for Canvas
+             * @default
+             */
+            canvas: string;
         };
         /**
          * TableRequest
@@ -6190,7 +6330,7 @@ export interface components {
         TableRequest: {
             /**
              * Table
-             * @description CSV with the columns task and answer, and student, scene, syntax, seed and line where wanted; between the cells commas, semicolons or tabs. Pieces of any kind, such as its lines, that are put together
+             * @description CSV with the columns task and answer, and student, id, scene, syntax, seed, line, time (ISO 8601) and file where wanted; between the cells commas, semicolons or tabs. Pieces of any kind, such as its lines, that are put together. In base64 also a zip of the files that students hand in
              * @example [
              *       "student,scene,task,answer\n",
              *       "ada,pendulum,kinetic-energy,m*l^2*dot(phi)^2/2\n"
@@ -6309,6 +6449,12 @@ export interface components {
             task: string;
             /** Title */
             title: string;
+            /**
+             * Of
+             * @description what it counts
+             * @default 0
+             */
+            of: number;
             /** Count */
             count: number;
             /** Outcomes */

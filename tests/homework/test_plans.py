@@ -61,7 +61,8 @@ def plan(table: str, assignment: object = None, scene: object = "", language: st
 
 
 def ada(task: str, scene: str = "", **more: Any) -> Row:
-    return Row(2, "ada", scene, task, "a", **({"person": "ada", "seed": "ada"} | more))
+    first = int("target" in more and "refused" not in more)  # what answers no task is no attempt at one
+    return Row(2, "ada", scene, task, "a", **({"person": "ada", "seed": "ada", "attempt": first} | more))
 
 
 def refused(task: str, told: str, scene: str = "") -> Row:
@@ -98,7 +99,7 @@ def refused(task: str, told: str, scene: str = "") -> Row:
         pytest.param("ada,,4,a,,, 1.5 ", ada("4", target=3, line=1.5), id="a line between others"),
         pytest.param(
             " Zoe\u0308 ,,4,a,,,",
-            Row(2, " Zoe\u0308 ", "", "4", "a", person="Zo\u00eb", target=3, seed="Zoe\u0308"),
+            Row(2, " Zoe\u0308 ", "", "4", "a", person="Zo\u00eb", target=3, seed="Zoe\u0308", attempt=1),
             id="a name with an accent",
         ),
         pytest.param(",,4,a,,,", Row(2, "", "", "4", "a", target=3), id="nobody"),
@@ -183,7 +184,7 @@ def test_what_many_wrote_is_judged_once(monkeypatch: pytest.MonkeyPatch) -> None
 
     monkeypatch.setattr(grading, "row_verdict", judged)
     table = f"scene,task,answer\npendulum,{KINETIC},m\npendulum,{KINETIC},l\npendulum,{KINETIC},m\n"
-    found = [each.outcome for _, each in grade(read_answers(table.encode()), Sheet(), "en")]
+    found = [each.outcome for _, each in grade(plan(table), "en")]
     assert (found, asked) == (["wrong"] * 3, ["m", "l"])
 
 
@@ -344,20 +345,19 @@ CLASS = [
 
 def test_a_class_in_total() -> None:
     found = totals(CLASS, None, "en")
-    assert found["students"] == [
-        {
-            "student": "ada",
-            "points": 4.0,
-            "of": 5.0,
-            "answers": [{"outcome": "correct", "points": 4.0}, {"outcome": "undecided", "points": 0.0}],
-        },
-        {
-            "student": "bob",
-            "points": 1.0,
-            "of": 5.0,
-            "answers": [{"outcome": "wrong", "points": 0.0}, {"outcome": "correct", "points": 1.0}],
-        },
-        {"student": "eve", "points": 2.0, "of": 4.0, "answers": [{"outcome": "follow_through", "points": 2.0}, None]},
+    best = [
+        (
+            one["student"],
+            one["points"],
+            one["of"],
+            [each and (each["outcome"], each["points"]) for each in one["answers"]],
+        )
+        for one in found["students"]
+    ]
+    assert best == [
+        ("ada", 4.0, 5.0, [("correct", 4.0), ("undecided", 0.0)]),
+        ("bob", 1.0, 5.0, [("wrong", 0.0), ("correct", 1.0)]),
+        ("eve", 2.0, 4.0, [("follow_through", 2.0), None]),
     ]
     assert (found["points"], found["of"]) == (7.0, 18.0)  # 5 + 5 + 4, and 4 of a row that is nobody's
     assert found["tasks"] == [
@@ -365,6 +365,7 @@ def test_a_class_in_total() -> None:
             "scene": "s",
             "task": "t",
             "title": "",
+            "of": 4.0,
             "count": 6,
             "outcomes": {"correct": 1, "wrong": 4, "follow_through": 1},
             "mistakes": [
@@ -376,6 +377,7 @@ def test_a_class_in_total() -> None:
             "scene": "s",
             "task": "u",
             "title": "",
+            "of": 1.0,
             "count": 3,
             "outcomes": {"undecided": 1, "invalid": 1, "correct": 1},
             "mistakes": [
@@ -397,7 +399,8 @@ def test_a_class_in_total() -> None:
 )
 def test_the_best_of_several_answers(outcomes: list[str], best: str) -> None:
     (student,) = totals([row("ada", outcome, 1.0) for outcome in outcomes], None, "en")["students"]
-    assert student["answers"] == [{"outcome": best, "points": float(len(outcomes))}]
+    (answer,) = student["answers"]
+    assert (answer["outcome"], answer["points"], answer["last"]) == (best, float(len(outcomes)), outcomes[-1])
 
 
 def test_what_an_assignment_counts_is_what_everybody_can_earn() -> None:

@@ -11,13 +11,14 @@ import asyncio
 import json
 import time
 from collections.abc import AsyncIterator, Awaitable, Callable
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from ..contract.check import RowQuestion
 from ..contract.verdict import RowVerdict
 from ..errors import InputError, Problem
 from ..homework.gradebook import Document, Gradebook, Plan, refusal
+from ..homework.platforms import canvas_csv, moodle_csv
 from ..homework.results import Graded, results_csv, totals
 from ..narration.catalog import message, text
 from ..vocabulary import Language
@@ -63,12 +64,15 @@ class Marking:
         self._graded: dict[int, Graded] = {}
 
     async def events(self) -> AsyncIterator[Told]:
-        """`begun` with the number of `rows`; `row` for each when it is marked; `waiting` with `seconds` where the
-        service is busy or the client has used its share; `totals` of what is done, now and again.
+        """`begun` with the number of `rows`; `refused` with the `files` that could not be taken; `row` for each when it
+        is marked; `waiting` with `seconds` where the service is busy or the client has used its share; `totals` of what
+        is done, now and again.
 
         What is too large, or comes after the time is over, is left undecided; what makes no sense is told in its row.
         """
         yield "begun", {"rows": len(self._plan.rows)}
+        if self._plan.refused:
+            yield "refused", {"files": self._refused()}
         book, next_totals = Gradebook(self._plan), self._clock()
         for index in self._plan.order:
             row = self._plan.rows[index]
@@ -86,11 +90,23 @@ class Marking:
 
     def result(self) -> Document:
         """Totals and the table of results, once all is marked."""
-        return {**self._totals(), "csv": self.csv().decode()}
+        found = self._totals()
+        return {**found, **self._platforms(found), "csv": self.csv().decode(), "refused": self._refused()}
+
+    def _platforms(self, found: Document) -> Document:
+        """The points as course platforms import them; they know assignments only."""
+        if self._plan.of is None:
+            return {}
+        title = self._plan.title or text(self._language, "homework.platforms.title")
+        moodle, canvas = moodle_csv(found, title, self._language), canvas_csv(found, self._plan.of, title)
+        return {"moodle": moodle.decode(), "canvas": canvas.decode()}
+
+    def _refused(self) -> list[Document]:
+        return [asdict(one) for one in self._plan.refused]
 
     def csv(self) -> bytes:
         """The results as a file, written as the table was."""
-        return results_csv(self._in_order(), self._plan.style)
+        return results_csv(self._in_order(), self._plan.style, dated=self._plan.dated)
 
     def rows(self) -> list[Document]:
         """The rows in the order of the table."""

@@ -7,14 +7,17 @@ from pathlib import Path
 
 from ._common import scene_of
 
-HELP = "check a table of answers"
-DESCRIPTION = """Checks the answers of a CSV table with the columns task and answer, and student, scene, syntax (plain
-or latex), seed and line where wanted; writes the verdicts, and tells which mistakes were made how often. A task earns
-its points once: of several answers of a student the best counts. With a column line the rows of a student on a scene
-are a working in the order of these numbers: a line may follow from the last answer to each task before it, so a mistake
-that has been corrected carries nothing any more; a row without a number stands alone. The homework page marks by the
-same rules. The table may be written as spreadsheets do: with commas, semicolons or tabs, in UTF-8, UTF-16 or
-Windows-1252; the verdicts are then, too."""
+HELP = "check the answers of a class"
+DESCRIPTION = """Checks the answers of a CSV table with the columns task and answer, and student, id, scene, syntax
+(plain or latex), seed, line, time (ISO 8601) and file where wanted; or what students handed in on the homework page: a
+zip, a folder or a file, with the assignment that it answers. A file that cannot be taken is named. Writes the
+verdicts, and tells which mistakes were made how often. A task earns its points once: of several answers of a student
+the best counts. With a column line the rows of a student on a scene are a working in the order of these numbers: a
+line may follow from the last answer to each task before it, so a mistake that has been corrected carries nothing any
+more; a row without a number stands alone. Late answers, and those beyond the attempts that are allowed, count by the
+rule of the assignment. The homework page marks by the same rules. For an assignment the points are written as Moodle
+and Canvas import them, too. The table may be written as spreadsheets do: with commas, semicolons or tabs, in UTF-8,
+UTF-16 or Windows-1252; the verdicts are then, too."""
 
 
 EXAMPLE = "deltaq check answers.csv --assignment sheet.toml --output verdicts.csv"
@@ -22,7 +25,9 @@ EXAMPLE = "deltaq check answers.csv --assignment sheet.toml --output verdicts.cs
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.add_argument("answers", type=Path, help="CSV with a header")
+    parser.add_argument(
+        "answers", type=Path, help="CSV with a header; or a zip, a folder or a file of what was handed in"
+    )
     parser.add_argument("--output", type=Path, help="where the results go (default: beside, -results.csv)")
     parser.add_argument("--assignment", type=Path, help="TOML or JSON file with scenes, tasks and points")
     parser.add_argument("--scene", default="", help="where the table names none: a built-in scene's id, or a TOML file")

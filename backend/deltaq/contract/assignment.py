@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from datetime import UTC, date, datetime
 from typing import Annotated, Any, Literal
 
 from pydantic import (
@@ -23,11 +24,16 @@ from .document import Text
 FOLLOW_THROUGH = 0.5  # share of the points for what follows from a wrong line
 SIMPLIFIED = 0.5  # share of those where the mistake made it easier
 MOST_TASKS = 64
+MOST_ATTEMPTS = 1000
+LONGEST_TIME = 40  # signs
 NEEDED = ("scene", "task")
 
 
 def _told_as(
-    code: Literal["assignment-format", "assignment-share", "request-not-number"], **told: Any
+    code: Literal[
+        "assignment-format", "assignment-share", "assignment-time", "assignment-attempts", "request-not-number"
+    ],
+    **told: Any,
 ) -> WrapValidator:
     """Whatever is wrong with the value is told by one sentence."""
 
@@ -38,6 +44,21 @@ def _told_as(
             raise PydanticCustomError(code, code, told) from None
 
     return WrapValidator(check)
+
+
+def instant(written: str) -> datetime:
+    """A time of ISO 8601 (2026-11-30T23:59+01:00); without an offset it is UTC. Raises ValueError."""
+    found = datetime.fromisoformat(written.strip())
+    return found if found.tzinfo else found.replace(tzinfo=UTC)
+
+
+def _instant_text(given: Any) -> str:
+    """TOML has times of its own."""
+    written = given.isoformat() if isinstance(given, date) else given
+    if not isinstance(written, str) or len(written) > LONGEST_TIME:
+        raise ValueError("no time")
+    instant(written)
+    return written
 
 
 def _by_language(title: Any) -> Any:
@@ -105,6 +126,15 @@ class AssignmentDocument(_NullIsNothing):
     )
     simplified: Annotated[float, Field(ge=0, le=1), _told_as("assignment-share")] = Field(
         SIMPLIFIED, description="share of what a right consequence earns, where the mistake before it made it easier"
+    )
+    deadline: Annotated[str | None, BeforeValidator(_instant_text), _told_as("assignment-time")] = Field(
+        None, description="when it is to be handed in (ISO 8601, UTC without an offset)"
+    )
+    late: Annotated[float, Field(ge=0, le=1), _told_as("assignment-share")] = Field(
+        0.0, description="share of the points that an answer earns after the deadline"
+    )
+    attempts: Annotated[int | None, Field(ge=1, le=MOST_ATTEMPTS), _told_as("assignment-attempts")] = Field(
+        None, description="how many different answers of a person to a task count, the first ones; all if empty"
     )
     tasks: Annotated[
         tuple[AssignedTaskDocument, ...], Field(strict=False, max_length=MOST_TASKS), BeforeValidator(_are_some)

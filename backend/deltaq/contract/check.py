@@ -147,8 +147,9 @@ class TableRequest(Request):
     """The answers of a class."""
 
     table: Annotated[tuple[TablePiece, ...], items(min_length=1, max_length=1000)] = Field(
-        description="CSV with the columns task and answer, and student, scene, syntax, seed and line where wanted; "
-        "between the cells commas, semicolons or tabs. Pieces of any kind, such as its lines, that are put together",
+        description="CSV with the columns task and answer, and student, id, scene, syntax, seed, line, time (ISO 8601) "
+        "and file where wanted; between the cells commas, semicolons or tabs. Pieces of any kind, such as its lines, "
+        "that are put together. In base64 also a zip of the files that students hand in",
         examples=[["student,scene,task,answer\n", "ada,pendulum,kinetic-energy,m*l^2*dot(phi)^2/2\n"]],
     )
     encoding: Literal["text", "base64"] = Field(

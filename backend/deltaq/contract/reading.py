@@ -54,6 +54,8 @@ CODES: Mapping[str, str] = MappingProxyType(
         "request-not-number": "request-not-number",
         "assignment-format": "assignment-format",
         "assignment-share": "assignment-share",
+        "assignment-time": "assignment-time",
+        "assignment-attempts": "assignment-attempts",
         "assignment-no-task": "assignment-no-task",
     }
 )

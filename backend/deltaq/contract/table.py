@@ -16,6 +16,9 @@ class TableRow:
     syntax: str = ""
     seed: str = ""
     line: str = ""
+    id: str = ""
+    time: str = ""
+    file: str = ""
 
 
 COLUMNS = tuple(one.name for one in fields(TableRow))

@@ -129,4 +129,5 @@ class AssignmentAnswer(Answer):
     title: dict[str, str]
     follow_through: float
     simplified: float
+    code: str = Field("", description="by which what is handed in says which assignment it answers")
     tasks: tuple[AssignedTaskEntry, ...]

@@ -143,6 +143,22 @@ class GradedRow(Answer):
     understood_as: str
     feedback: str
     answer: str
+    id: str = Field("", description="of the student in the course")
+    time: str = Field("", description="when it was handed in")
+    file: str = Field("", description="in which file it was handed in")
+    attempt: int = Field(0, description="which of the student's different answers to the task, from 1; 0 if nobody's")
+    late: bool = Field(default=False, description="whether it came after the deadline")
+    counts: float = Field(
+        1.0, description="share of its points that counts: less if late, 0 beyond the attempts allowed"
+    )
+    worth: float = Field(0.0, description="what it earns by itself")
+
+
+class RefusedFile(Answer):
+    """A file that could not be taken; the others are marked."""
+
+    file: str
+    why: str
 
 
 class FrequentMistake(Answer):
@@ -160,6 +176,7 @@ class TaskTotals(Answer):
     scene: str
     task: str
     title: str
+    of: float = Field(0.0, description="what it counts")
     count: int
     outcomes: dict[Outcome, int]
     mistakes: tuple[FrequentMistake, ...] = Field(description="the most frequent first")
@@ -170,6 +187,10 @@ class BestAnswer(Answer):
 
     outcome: Outcome
     points: float
+    last: Outcome = Field("invalid", description="of the last attempt")
+    last_points: float = Field(0.0, description="what the last attempt earns by itself")
+    attempts: int = Field(1, description="how many different answers there were")
+    late: int = Field(0, description="how many of them came after the deadline")
 
 
 class StudentTotals(Answer):
@@ -178,6 +199,9 @@ class StudentTotals(Answer):
     student: str
     points: float
     of: float = Field(description="on the assignment; without one, by the tasks that were answered")
+    id: str = Field("", description="in the course")
+    late: int = Field(0, description="answers after the deadline")
+    beyond: int = Field(0, description="answers beyond the attempts that are allowed")
     answers: tuple[BestAnswer | None, ...] = Field(description="to each of `tasks`, in their order")
 
 
@@ -190,6 +214,10 @@ class TableAnswer(Answer):
     tasks: tuple[TaskTotals, ...]
     students: tuple[StudentTotals, ...]
     csv: str = Field(description="the rows as a table, written as the one that was sent")
+    mistakes: tuple[FrequentMistake, ...] = Field((), description="of all tasks, the most frequent first")
+    refused: tuple[RefusedFile, ...] = Field((), description="files that could not be taken, and why")
+    moodle: str = Field("", description="the points of an assignment as Moodle imports them (CSV)")
+    canvas: str = Field("", description="the same for Canvas")
 
 
 class BatchAnswer(Answer):

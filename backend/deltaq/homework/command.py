@@ -7,8 +7,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TextIO, TypeVar
 
-from .grading import Sheet, grade, read_answers
-from .results import results_csv, summary
+from ..narration.catalog import text
+from .gradebook import Plan
+from .grading import Sheet, grade, plan_of, read_class
+from .handins import LARGEST, HandIns, handed_in
+from .platforms import canvas_csv, moodle_csv
+from .results import Graded, results_csv, summary, totals
 from .stack.question import quiz
 from .workbook import workbook_of
 
@@ -20,12 +24,42 @@ T = TypeVar("T")
 def check_file(
     answers: Path, output: Path, sheet: Sheet = ANY_SCENE, language: str = "en", *, screen: TextIO = sys.stderr
 ) -> str:
-    """Grade the answers of a CSV into `output`; the text is the summary. Raises InputError for a wrong table."""
-    table = read_answers(answers.read_bytes())
-    marked = dict(_with_progress(grade(table, sheet, language), len(table.rows), screen))
-    graded = [marked[index] for index in range(len(table.rows))]
-    output.write_bytes(results_csv(graded, table.style))
-    return summary(graded, language)
+    """Grade answers into `output`: a CSV, a zip or a folder of what was handed in, or one such file. The text is the
+    summary, and which files could not be taken. For an assignment the points are written beside `output` as Moodle and
+    Canvas import them. Raises InputError for a wrong table.
+    """
+    found = _read(answers, sheet, language)
+    plan = plan_of(found.table, sheet, language, found.refused)
+    marked = dict(_with_progress(grade(plan, language), len(plan.rows), screen))
+    graded = [marked[index] for index in range(len(plan.rows))]
+    output.write_bytes(results_csv(graded, plan.style, dated=plan.dated))
+    _write_points(plan, graded, output, language)
+    told = [f"{one.file}: {one.why}" for one in plan.refused]
+    return "\n".join([summary(graded, language), *told])
+
+
+def _read(answers: Path, sheet: Sheet, language: str) -> HandIns:
+    if answers.is_dir():
+        files = sorted(one for one in answers.rglob("*") if one.is_file())
+        return handed_in(
+            [(str(one.relative_to(answers)), _beginning(one)) for one in files], sheet.assignment, language
+        )
+    if answers.suffix == ".json":
+        return handed_in([(answers.name, _beginning(answers))], sheet.assignment, language)
+    return read_class(answers.read_bytes(), sheet, language)
+
+
+def _beginning(path: Path) -> bytes:
+    with path.open("rb") as file:
+        return file.read(LARGEST + 1)
+
+
+def _write_points(plan: Plan, graded: Sequence[Graded], output: Path, language: str) -> None:
+    if plan.of is None:
+        return
+    found, title = totals(graded, plan.of, language), plan.title or text(language, "homework.platforms.title")
+    output.with_name(f"{output.stem}-moodle.csv").write_bytes(moodle_csv(found, title, language))
+    output.with_name(f"{output.stem}-canvas.csv").write_bytes(canvas_csv(found, plan.of, title))
 
 
 def _with_progress(graded: Iterable[T], total: int, screen: TextIO) -> Iterator[T]:

@@ -9,8 +9,10 @@
 - A line follows from the last readable answer to each task before it. So a mistake that has been corrected carries
   nothing any more, and a wrong answer that is written again earns nothing.
 - A row without a number in `line` follows from nothing, and nothing follows from it.
-- Persons are told apart by the column `student`, without spaces around the name. A row that leaves it empty is nobody
-  else's; a table that has `line` and no `student` is the working of one person.
+- Persons are told apart by the column `id`, where that is empty by `student`, without spaces around the name. A row
+  that leaves both empty is nobody else's; a table that has `line` and no `student` is the working of one person.
+- What was handed in at another `time` is another working. Late answers, and those beyond the attempts that are allowed,
+  are marked and count by the rule of the assignment (`attempts`).
 - What cannot be marked (no such task, a wrong cell) earns nothing and spoils no other row.
 
 No SymPy here, so that the process that serves the page may keep the book while workers judge the rows.
@@ -41,6 +43,7 @@ MISTAKEN = ("wrong", "follow_through")  # outcomes of lines that others may foll
 CHANGES = set(SceneWithChanges.model_fields)
 T = TypeVar("T")
 Document = dict[str, Any]
+Working = tuple[str, str, str | None, str]  # person, scene, whose values, and when it was handed in
 
 
 def standing_after(standing: Mapping[str, T], task: str, outcome: str, answer: Callable[[], T]) -> dict[str, T]:
@@ -89,7 +92,8 @@ class Row:
     """An answer in the table. `number` counts as a spreadsheet does, the header being row 1.
 
     `person` is whose answers it counts with, None if nobody's. `target` is the number of its task in the plan, None if
-    it has none; `refused` says why it cannot be marked, and `column` where that is.
+    it has none; `refused` says why it cannot be marked, and `column` where that is. `time` is when it was handed in,
+    `file` in which file; `counts` is the share of its points that counts.
     """
 
     number: int
@@ -104,13 +108,28 @@ class Row:
     line: float | None = None
     refused: str = ""
     column: str = ""
+    id: str = ""
+    time: str = ""
+    file: str = ""
+    attempt: int = 0
+    late: bool = False
+    counts: float = 1.0
+
+
+@dataclass(frozen=True)
+class Refused:
+    """A file that could not be taken, and why."""
+
+    file: str
+    why: str
 
 
 @dataclass(frozen=True)
 class Plan:
     """A table that has been read: its tasks, its rows, the share for what follows from a wrong line, and how it was
     written. `of` is what all tasks of the assignment count together, None where there is no assignment; `simplified` is
-    how much of the share is earned where the mistake made it easier.
+    how much of the share is earned where the mistake made it easier. `dated` says whether it matters when and how often
+    something was handed in, `title` what the assignment is called, `refused` which files could not be taken.
     """
 
     targets: tuple[Target, ...]
@@ -119,6 +138,9 @@ class Plan:
     of: float | None = None
     style: Style = Style()
     simplified: float = SIMPLIFIED
+    dated: bool = False
+    title: str = ""
+    refused: tuple[Refused, ...] = ()
 
     @classmethod
     def read(cls, document: Mapping[str, Any]) -> Plan:
@@ -142,11 +164,11 @@ class Plan:
     def _together(self, index: int) -> object:
         return self.working_of(self.rows[index]) or index
 
-    def working_of(self, row: Row) -> tuple[str, str, str | None] | None:
+    def working_of(self, row: Row) -> Working | None:
         """What names the working that a row is a line of; None if it stands alone."""
         if row.line is None or row.person is None or row.target is None or row.refused:
             return None
-        return row.person, self.targets[row.target].working, row.seed
+        return row.person, self.targets[row.target].working, row.seed, row.time
 
 
 class Gradebook:
@@ -156,7 +178,7 @@ class Gradebook:
         self._plan = plan
         self._shares = Shares(plan.share, plan.simplified)
         self._earned: dict[tuple[str, str, str], float] = {}
-        self._standing: dict[tuple[str, str, str | None], dict[str, WrittenLine]] = {}
+        self._standing: dict[Working, dict[str, WrittenLine]] = {}
 
     def question(self, row: Row) -> RowQuestion | None:
         """What is to be asked about a row (`grading.row_verdict`); None if it is refused."""
@@ -177,7 +199,7 @@ class Gradebook:
         """The row with its verdict and its points."""
         target = None if row.target is None else self._plan.targets[row.target]
         of = target.of if target else 0.0
-        worth = of * earned_share(verdict.outcome, verdict.remark, verdict.share, self._shares)
+        worth = of * row.counts * earned_share(verdict.outcome, verdict.remark, verdict.share, self._shares)
         points = self._gained(row, target, worth) if target else 0.0
         self._note(row, target, verdict.outcome)
         return Graded(
@@ -197,6 +219,13 @@ class Gradebook:
             mistake=verdict.mistake,
             understood_as=verdict.understood_as,
             feedback=verdict.feedback,
+            id=row.id,
+            time=row.time,
+            file=row.file,
+            attempt=row.attempt,
+            late=row.late,
+            counts=row.counts,
+            worth=worth if target else 0.0,
         )
 
     def refuse(self, row: Row) -> Graded:

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast
 
-from ..contract.assignment import AssignedTaskDocument, AssignmentDocument
+from ..contract.assignment import LONGEST_TIME, AssignedTaskDocument, AssignmentDocument, instant
 from ..contract.base import SceneWithChanges
 from ..contract.check import RowQuestion
 from ..contract.reading import read as read_request
@@ -20,10 +20,13 @@ from ..contract.table import COLUMNS, NEEDED, TableRow
 from ..contract.verdict import RowVerdict
 from ..errors import InputError, Problem, RequestError, UnknownNameError
 from ..language.parser import Syntax
+from ..mechanics.user_text import in_language, translated
 from ..narration.catalog import language_of, message
 from .assignment import resolved, scene_of
+from .attempts import counted
 from .feedback import verdict_document
-from .gradebook import Document, Plan, Row, Shares, Target, marked, refusal
+from .gradebook import Document, Plan, Refused, Row, Shares, Target, marked, refusal
+from .handins import HandIns, archived, handed_in, is_archive
 from .results import Graded, named
 from .statement import task_document
 from .table import BEYOND, Table, read_table
@@ -32,8 +35,9 @@ from .workbook import Workbook, workbook_asked_about
 from .working import check_following, line_of, reading_of
 
 SYNTAXES: Mapping[str, Syntax] = {"": "plain", "plain": "plain", "latex": "latex"}
+HANDED_IN = {"id", "time", "file"}  # columns that say when and by whom something was handed in
 NUMBER = re.compile(r"-?[0-9]{1,9}([.,][0-9]{1,9})?")
-MOST_ROWS = 5000
+MOST_ROWS = 20_000
 
 
 def read_answers(data: bytes) -> Table:
@@ -50,12 +54,25 @@ def read_answers(data: bytes) -> Table:
         raise RequestError(Problem("answers-column-twice", parameters={"name": twice[0]}))
     if not table.rows:
         raise RequestError(Problem("answers-none"))
+    return _bounded(table)
+
+
+def _bounded(table: Table) -> Table:
     if len(table.rows) > MOST_ROWS:
         raise RequestError(Problem("answers-many", parameters={"count": len(table.rows), "most": MOST_ROWS}))
     return table
 
 
-def grade(table: Table, sheet: Sheet, language: str) -> Iterator[tuple[int, Graded]]:
+def read_class(data: bytes, sheet: Sheet, language: str) -> HandIns:
+    """The answers of a class: a table, or a zip of what was handed in. Raises RequestError with what is wrong."""
+    if not is_archive(data):
+        return HandIns(read_answers(data), ())
+    found = handed_in(archived(data), sheet.assignment, language)
+    _bounded(found.table)
+    return found
+
+
+def grade(plan: Plan, language: str) -> Iterator[tuple[int, Graded]]:
     """Every row with its place in the table, as it is marked: in this process, without bounds of time.
 
     What many students wrote is judged once.
@@ -69,7 +86,7 @@ def grade(table: Table, sheet: Sheet, language: str) -> Iterator[tuple[int, Grad
             known[key] = RowVerdict.model_validate(row_verdict(asked))
         return known[key]
 
-    return marked(plan_of(table, sheet, language), verdict_on)
+    return marked(plan, verdict_on)
 
 
 # --- a table as a plan -----------------------------------------------------------------------------------------------
@@ -94,7 +111,7 @@ class WrongCell(Exception):
         self.error = error
 
 
-def plan_of(table: Table, sheet: Sheet, language: str) -> Plan:
+def plan_of(table: Table, sheet: Sheet, language: str, refused: tuple[Refused, ...] = ()) -> Plan:
     """The rows with the tasks that they answer; what is wrong with a row is told in it, and spoils no other."""
     tasks = _Tasks(sheet, language)
     rows = tuple(
@@ -102,19 +119,38 @@ def plan_of(table: Table, sheet: Sheet, language: str) -> Plan:
     )
     asked = sheet.assignment
     shares = Shares() if asked is None else Shares(asked.follow_through, asked.simplified)
-    return Plan(tuple(tasks.targets), rows, shares.follow_through, tasks.points, table.style, shares.simplified)
+    return Plan(
+        tuple(tasks.targets),
+        counted(rows, tasks.targets, asked),
+        shares.follow_through,
+        tasks.points,
+        table.style,
+        shares.simplified,
+        dated=bool(HANDED_IN & set(table.header)) or (asked is not None and bool(asked.deadline or asked.attempts)),
+        title=in_language(translated(asked.title), language).line if asked else "",
+        refused=refused,
+    )
 
 
 def _row(number: int, cells: Mapping[str, str], tasks: _Tasks, header: Sequence[str]) -> Row:
     """The row as a question, as far as it goes until something is wrong."""
     given = TableRow(**{name: cells[name] for name in COLUMNS if name in cells})
-    row = Row(number, given.student, given.scene, given.task, given.answer, person=_person(given.student, header))
+    row = Row(
+        number,
+        given.student,
+        given.scene,
+        given.task,
+        given.answer,
+        person=_person(given.id.strip() or given.student, header),
+        id=given.id.strip(),
+        file=given.file,
+    )
     try:
         target = tasks.number(given.task.strip(), given.scene.strip())
         row = replace(row, target=target, seed=_seed(given, tasks.sheet))
         if BEYOND in cells:
             raise _wrong("answer", "answers-cells", beyond=cells[BEYOND][:40])
-        return replace(row, syntax=_syntax(given), line=_line_number(given))
+        return replace(row, syntax=_syntax(given), line=_line_number(given), time=_time(given))
     except WrongCell as wrong:
         return replace(row, refused=_told(wrong.error, tasks.language), column=wrong.column)
 
@@ -144,6 +180,19 @@ def _line_number(row: TableRow) -> float | None:
     if written and not NUMBER.fullmatch(written):
         raise _wrong("line", "answers-line", name=written[:20])
     return float(written.replace(",", ".")) if written else None
+
+
+def _time(row: TableRow) -> str:
+    """When it was handed in; empty if that is not told."""
+    written = row.time.strip()
+    try:
+        if len(written) > LONGEST_TIME:
+            raise ValueError
+        if written:
+            instant(written)
+    except (ValueError, OverflowError):
+        raise _wrong("time", "answers-time", name=written[:LONGEST_TIME]) from None
+    return written
 
 
 def _wrong(column: str, code: str, **parameters: str) -> WrongCell:

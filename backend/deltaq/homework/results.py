@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from math import inf
 from operator import attrgetter
 from typing import Any
 
@@ -13,6 +14,7 @@ from ..narration.prose import plain
 from .table import Style
 
 RESULT = ("student", "scene", "task", "outcome", "misconception", "points", "of", "understood_as", "feedback", "answer")
+HANDED_IN = ("id", "time", "attempt", "counts", "file")  # what follows where it matters when something was handed in
 TASK = ("target", "scene", "task")  # what rows that answer the same task have in common
 OUTCOMES = ("correct", "follow_through", "undecided", "wrong", "invalid")  # the best first
 FAILED = ("wrong", "invalid", "undecided")
@@ -27,7 +29,8 @@ class Graded:
 
     Beside what stands in the CSV: the title of the task, the mistake in words ("" if it has no name), the row in the
     table and the column in which it is wrong ("" if it is not), whose answers it counts with, and the number of its
-    task in the plan.
+    task in the plan; when it was handed in, which attempt it is, what share of its points counts, and what it is worth
+    by itself.
     """
 
     student: str
@@ -46,34 +49,50 @@ class Graded:
     column: str = ""
     person: str | None = None
     target: int | None = None
+    id: str = ""
+    time: str = ""
+    file: str = ""
+    attempt: int = 0
+    late: bool = False
+    counts: float = 1.0
+    worth: float = 0.0
 
-    def cells(self) -> list[object]:
+    def cells(self, names: Iterable[str] = RESULT) -> list[object]:
         """What the CSV says of it."""
-        return [getattr(self, name) for name in RESULT]
+        return [getattr(self, name) for name in names]
 
 
-def results_csv(graded: Iterable[Graded], style: Style = PLAIN) -> bytes:
-    """The results as a file of CSV."""
-    return style.written(RESULT, (each.cells() for each in graded))
+def results_csv(graded: Iterable[Graded], style: Style = PLAIN, *, dated: bool = False) -> bytes:
+    """The results as a file of CSV; `dated` ones say when each answer was handed in, and how much it counts."""
+    names = (*RESULT, *HANDED_IN) if dated else RESULT
+    return style.written(names, (each.cells(names) for each in graded))
 
 
 def totals(graded: Sequence[Graded], of: float | None, language: str) -> Document:
-    """{points, of, tasks: [{scene, task, title, count, outcomes, mistakes}], students: [{student, points, of,
-    answers}]}.
+    """{points, of, mistakes, tasks: [{scene, task, title, of, count, outcomes, mistakes}], students: [{student, id,
+    points, of, late, beyond, answers}]}.
 
     `of` is what a person can earn; where it is None, that is the sum over the tasks that the person answered. `answers`
-    has a student's best answer to each of the tasks, {outcome, points}, or None.
+    has for each of the tasks {outcome, points} of a student's best answer, {last, last_points} of the last attempt, the
+    number of `attempts` and how many were `late`; or None. `beyond` are answers beyond the attempts that are allowed.
     """
-    by_task = _grouped(graded, *TASK)
+    groups = _grouped(graded, *TASK)
+    by_task = groups if of is None else {key: groups[key] for key in sorted(groups, key=_place)}
     by_person = {name: rows for name, rows in _grouped(graded, "person").items() if name is not None}
     people = [_student(name, rows, of, by_task) for name, rows in by_person.items()]
     alone = sum(each.of for each in graded if each.person is None)
     return {
         "points": sum(each.points for each in graded),
         "of": sum(each["of"] for each in people) + alone,
+        "mistakes": _mistakes(graded, language),
         "tasks": [_task(rows, language) for rows in by_task.values()],
         "students": [each for each in people if each["student"]],
     }
+
+
+def _place(task: tuple[int | None, str, str]) -> float:
+    """Tasks in the order of the assignment, then what is none of them."""
+    return inf if task[0] is None else task[0]
 
 
 def _grouped(graded: Iterable[Graded], *names: str) -> dict[Any, list[Graded]]:
@@ -89,13 +108,30 @@ def _student(name: str, rows: Sequence[Graded], of: float | None, tasks: Iterabl
     answered = _grouped(rows, *TASK)
     worth = sum(max(each.of for each in some) for some in answered.values()) if of is None else of
     answers = [_best(answered[task]) if task in answered else None for task in tasks]
-    return {"student": name, "points": sum(each.points for each in rows), "of": worth, "answers": answers}
+    identity = next((each.id for each in rows if each.id), "")
+    return {
+        "student": next((each.student.strip() for each in rows if each.student.strip()), name) if identity else name,
+        "id": identity,
+        "points": sum(each.points for each in rows),
+        "of": worth,
+        "late": sum(each.late for each in rows),
+        "beyond": sum(each.counts == 0.0 and not each.late for each in rows),
+        "answers": answers,
+    }
 
 
 def _best(rows: Sequence[Graded]) -> Document:
-    """What a student earned with several answers to one task, and the outcome of the best of them."""
+    """What a student earned with several answers to one task, the outcome of the best of them, and the last of them."""
     outcome = min((each.outcome for each in rows), key=OUTCOMES.index)
-    return {"outcome": outcome, "points": sum(each.points for each in rows)}
+    last = max(enumerate(rows), key=lambda one: (one[1].attempt, one[0]))[1]
+    return {
+        "outcome": outcome,
+        "points": sum(each.points for each in rows),
+        "last": last.outcome,
+        "last_points": last.worth,
+        "attempts": len({each.attempt for each in rows}),
+        "late": sum(each.late for each in rows),
+    }
 
 
 def _task(rows: Sequence[Graded], language: str) -> Document:
@@ -104,6 +140,7 @@ def _task(rows: Sequence[Graded], language: str) -> Document:
         "scene": first.scene,
         "task": first.task,
         "title": first.title,
+        "of": max(each.of for each in rows),
         "count": len(rows),
         "outcomes": dict(Counter(each.outcome for each in rows)),
         "mistakes": _mistakes(rows, language),

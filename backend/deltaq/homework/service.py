@@ -20,7 +20,8 @@ from .assignment import look_up, resolved
 from .checking import shown_readings
 from .feedback import Document, problem_documents, reading_documents, verdict_document
 from .gradebook import Shares
-from .grading import Sheet, plan_of, read_answers
+from .grading import Sheet, plan_of, read_class
+from .handins import code_of
 from .motion import moved_scene
 from .reading import candidates
 from .stack.question import quiz
@@ -130,6 +131,7 @@ def assignment_request(document: Mapping[str, object]) -> Document:
         "title": plainly(translated(sheet.title)),
         "follow_through": sheet.follow_through,
         "simplified": sheet.simplified,
+        "code": code_of(sheet),
         "tasks": [_assigned_document(assigned, seed, language) for assigned in sheet.tasks],
     }
 
@@ -152,9 +154,10 @@ def table_request(document: Mapping[str, object]) -> Document:
             look_up(asked.assignment)
     if asked.scene:
         workbook_of({"scene": asked.scene})  # what is wrong with it is told once, not in each row
+    sheet, language = Sheet(asked.assignment, asked.scene or ""), language_of(asked.lang)
     with inside("/table"):
-        table = read_answers(_bytes("".join(asked.table), asked.encoding))
-    return plan_of(table, Sheet(asked.assignment, asked.scene or ""), language_of(asked.lang)).document
+        found = read_class(_bytes("".join(asked.table), asked.encoding), sheet, language)
+    return plan_of(found.table, sheet, language, found.refused).document
 
 
 def _bytes(table: str, encoding: str) -> bytes:
