@@ -30,6 +30,8 @@ import { keeper } from "./view/keeper.js";
 
 /** Milliseconds after which the field for formulas has waited long enough. */
 const PATIENCE = 500;
+/** Bytes; an assignment may bring along its scenes. */
+const LARGEST_SHEET = 2_000_000;
 
 const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -52,6 +54,8 @@ let formulas = false;
 let fragment = "";
 /** @type {import("./view/homework/page.js").HomeworkView["classroom"]} */
 let classroom = null;
+/** @type {import("./view/homework/page.js").HomeworkView["picker"]} */
+let picker = null;
 const staging = createStaging(root, clock);
 const reach = createReach(root);
 
@@ -85,15 +89,31 @@ function scrub(t) {
 
 const download = () => offer("deltaq-homework.json", progress.exported(), "application/json");
 
+/** @param {import("./model/homework/sheet.js").Assignment} assignment */
+async function assign(assignment) {
+  fragment = await fragmentOfAssignment(assignment);
+  await exercise.assign(assignment);
+}
+
+/** An assignment that is dropped by itself where none is open; what students hand in never takes its place. @param {File} file */
+async function opened(file) {
+  if (get().assignment || file.size > LARGEST_SHEET) return false;
+  const assignment = await assignmentIn(await file.text(), file.name, api, get().asked.place.lang);
+  if (assignment) await assign(assignment);
+  return Boolean(assignment);
+}
+
+/** @param {import("./model/homework/sheet.js").Assignment} assignment */
+function open(assignment) {
+  exercise.turn("task");
+  void assign(assignment);
+}
+
 /** The student's own work, or an assignment. @param {File} file */
 async function upload(file) {
   const text = await file.text();
   const assignment = await assignmentIn(text, file.name, api, get().asked.place.lang);
-  if (assignment) {
-    fragment = await fragmentOfAssignment(assignment);
-    await exercise.assign(assignment);
-    return;
-  }
+  if (assignment) return assign(assignment);
   const taken = progress.imported(text);
   set({ notice: taken === null ? "homework.no-file" : "homework.imported" });
   const { entry } = get();
@@ -128,6 +148,11 @@ function view() {
     upload,
     formulas,
     classroom,
+    picker,
+    progress,
+    notice: (key) => set({ notice: key, asked: { ...get().asked } }),
+    opened,
+    open,
     keys: offered.keys,
     shortcuts: offered.shortcuts,
     t: translator({ ...catalog.page, ...catalog.exercises }),
@@ -158,6 +183,13 @@ async function openClassroom() {
   update();
 }
 
+async function openPicker() {
+  if (picker) return;
+  const { open: opening } = await import("./view/homework/open-picker.js");
+  picker = opening({ api, state: get, keeper: keeper(), changed: update });
+  update();
+}
+
 async function fetchFormulas() {
   formulas = await fetchMathLive();
   offerKeys(offered.keys, "δq");
@@ -180,6 +212,7 @@ function update() {
   reach(get(), still.matches);
   trail(current.link({}), entry?.key ?? "");
   if (side === "class") void openClassroom();
+  if (side === "sheet") void openPicker();
   if (!entry || wanted) return;
   wanted = true;
   whenIdle(() => void fetchFormulas(), PATIENCE);

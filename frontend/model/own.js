@@ -41,10 +41,15 @@ async function gathered(parts, limit) {
   return all;
 }
 
+/** Bytes deflated (RFC 1951). @param {Uint8Array} bytes @param {number} limit  a RangeError beyond it */
+export const deflated = (bytes, limit) => gathered(piped(bytes, new CompressionStream("deflate-raw")), limit);
+/** And back. @param {Uint8Array} bytes @param {number} limit  a RangeError beyond it */
+export const inflated = (bytes, limit) => gathered(piped(bytes, new DecompressionStream("deflate-raw")), limit);
+
 /** The fragment of a document: deflated, base64url. @param {SceneDocument} document */
 export async function fragmentOf(document) {
   const bytes = new TextEncoder().encode(JSON.stringify(document));
-  const packed = await gathered(piped(bytes, new CompressionStream("deflate-raw")), LARGEST);
+  const packed = await deflated(bytes, LARGEST);
   const text = Array.from(packed, (byte) => String.fromCharCode(byte)).join("");
   return START + btoa(text).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
@@ -58,7 +63,7 @@ export async function documentIn(fragment) {
   try {
     const text = atob(fragment.slice(START.length).replaceAll("-", "+").replaceAll("_", "/"));
     const packed = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
-    const bytes = await gathered(piped(packed, new DecompressionStream("deflate-raw")), LARGEST);
+    const bytes = await inflated(packed, LARGEST);
     return tableOf(JSON.parse(new TextDecoder().decode(bytes)));
   } catch {
     return null;

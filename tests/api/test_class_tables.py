@@ -12,6 +12,7 @@ from typing import Any
 import httpx
 import pytest
 from fastapi import FastAPI
+from tests.homework.classes import class_archive
 
 from deltaq.api.marking import BUSY_PAUSE, Marking
 from deltaq.api.workers.account import QuotaExceeded
@@ -68,6 +69,22 @@ async def test_a_file_of_a_spreadsheet_comes_as_its_bytes_and_goes_back_alike(cl
     file = await client.post(TABLE, json=question, headers={"accept": "text/csv"})
     assert file.content.startswith(b"\xef\xbb\xbfstudent;scene;")
     assert "Jürgen;pendulum;kinetic-energy;correct;;2;2;" in file.text
+
+
+async def test_files_that_cannot_be_taken_are_named_before_the_rows_come(client: httpx.AsyncClient) -> None:
+    archive = class_archive(3)
+    table = [base64.b64encode(archive.data).decode()]
+    question = {"table": table, "encoding": "base64", "assignment": archive.assignment, "lang": "en"}
+    async with client.stream("POST", TABLE, json=question, headers=STREAM) as response:
+        events = [event async for event in events_of(response) if event[0] != "totals"]
+    kinds = [kind for kind, _ in events]
+    assert kinds[:2] == ["begun", "refused"]
+    files, result = events[1][1]["files"], events[-1][1]
+    assert files
+    assert result["refused"] == files
+    assert {row["file"] for kind, row in events if kind == "row"}.isdisjoint(one["file"] for one in files)
+    assert result["canvas"].startswith("Student,ID,SIS User ID,SIS Login ID,Section,Blatt 3\n    Points Possible,")
+    assert result["moodle"].startswith("Full name,ID number,Email address,Blatt (3),")
 
 
 SHEET = {"format": 1, "tasks": [{"scene": "pendulum", "task": "kinetic-energy", "points": 3}]}

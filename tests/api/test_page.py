@@ -139,7 +139,7 @@ def test_a_bundled_page_begins_with_few_files_that_may_be_kept(name: str, bundle
 LATER = {
     "scene": ["rows", "overlays", "editor/open", "lecture/open", "figure/open", "share", "summary", "embed"],
     "proof": ["rows", "lecture/open", "share", "embed"],
-    "homework": ["rows", "homework/open-classroom"],
+    "homework": ["rows", "homework/open-classroom", "homework/open-picker"],
 }
 
 

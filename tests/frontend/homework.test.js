@@ -13,7 +13,7 @@ import { stepOf } from "../../frontend/model/homework/solution.js";
 import { framed, parting } from "../../frontend/model/homework/motions.js";
 import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homework/place.js";
 import { BLANK, createProgress, draftOf, linesOf } from "../../frontend/model/homework/progress.js";
-import { assignmentOf, groupOf, pointsOf, referenceIn, sheetOfAssignment, sheetOfScene } from "../../frontend/model/homework/sheet.js";
+import { groupOf, pointsOf, referenceIn, sheetOfAssignment, sheetOfScene } from "../../frontend/model/homework/sheet.js";
 import { begin } from "../../frontend/model/homework/state.js";
 import { createTrail } from "../../frontend/model/homework/trail.js";
 import { ApiError } from "../../frontend/model/api.js";
@@ -300,7 +300,7 @@ const saying = (said, asked, size = 7) => async (path, options) => {
   return new Response(new ReadableStream({ pull: (stream) => (pieces.length ? stream.enqueue(pieces.shift()) : stream.close()) }));
 };
 const event = (/** @type {string} */ kind, /** @type {object} */ data) => `event: ${kind}\ndata: ${JSON.stringify(data)}\n\n`;
-const TOTALS = { points: 2, of: 2, tasks: [], students: [{ student: "Zoë", points: 2, of: 2, answers: [] }] };
+const TOTALS = { points: 2, of: 2, tasks: [], students: [{ student: "Zoë", points: 2, of: 2, answers: [] }], mistakes: [] };
 const ROWS = [event("begun", { rows: 2 }), event("row", { index: 1, student: "Zoë" }), event("waiting", { seconds: 3 }), event("row", { index: 0 })].join("");
 
 /** @param {typeof fetch} send @param {object} [more] */
@@ -358,11 +358,6 @@ test("a busy server is asked again, any other failure is not", async () => {
   assert.equal(await failing(503, 429)(), "answer");
   await assert.rejects(failing(422)(), ApiError);
   await assert.rejects(failing(503, 503, 503, 503, 503)(), ApiError);
-});
-
-test("an assignment of all tasks, without anybody's own values", () => {
-  const sheet = sheetOfScene({ scene: "swing", seed: "ada" }, /** @type {any} */ ({ scene, symbols, tasks: [task] }));
-  assert.deepEqual(assignmentOf(sheet, { en: "Swing" }), { format: 1, title: { en: "Swing" }, individual: false, follow_through: 0.5, simplified: 0.5, tasks: [{ scene: "swing", task: "equation:phi", points: 3 }] });
 });
 
 test("a task chosen while others' values are fetched stays chosen", async () => {

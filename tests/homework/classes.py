@@ -8,8 +8,12 @@ import csv
 import io
 import json
 import random
+import zipfile
 from dataclasses import dataclass, field
 from typing import Any
+
+from deltaq.homework.assignment import read_assignment
+from deltaq.homework.handins import code_of
 
 # Workings of the pendulum: right, with a T that is twice too large, with a V of the wrong sign, and what follows.
 RIGHT = {
@@ -73,6 +77,33 @@ def class_table(seed: int, students: int = 4) -> ClassTable:
     data = _written(source, columns, rows)
     scene = "pendulum" if assignment is None and "scene" not in columns else ""
     return ClassTable(seed, data, assignment, scene, source.choice(("en", "de")), rows)
+
+
+def class_archive(seed: int, students: int = 3) -> ClassTable:
+    """What a class hands in on an assignment with all the rules, as a zip: some twice, some late, some of it broken."""
+    source = random.Random(seed)
+    rules = {"deadline": "2026-11-30T12:00Z", "late": 0.5, "attempts": source.choice([1, 2])}
+    sheet = {**SHEET, "title": "Blatt (3)", **rules}
+    code, out = code_of(read_assignment(sheet)), io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for number, name in enumerate(source.sample(NAMES, students) * 2):
+            found = {
+                "format": "deltaq-handin-1",
+                "sheet": source.choice([code] * 9 + ["AAAA-AAAA"]),
+                "student": name,
+                "id": source.choice(["", f"id{number}"]),
+                "time": f"2026-11-{source.choice((29, 30))}T{source.choice((11, 13))}:{number:02}Z",
+                "answers": [_handed(source, task) for task in TASKS if source.random() < 0.8],
+            }
+            text = json.dumps(found, ensure_ascii=source.random() < 0.5)
+            archive.writestr(f"{name or 'none'}/{number}.json", text[: source.choice([None] * 9 + [40])])
+    return ClassTable(seed, out.getvalue(), sheet, "", source.choice(("en", "de")))
+
+
+def _handed(source: random.Random, task: str) -> dict[str, Any]:
+    value, syntax = _answer(source, task)
+    known = syntax if syntax in ("plain", "latex") else "plain"
+    return {"task": TASKS.index(task) + 1, "syntax": known, "value": value}
 
 
 def _working(source: random.Random, student: str, *, numbered: bool) -> list[dict[str, str]]:

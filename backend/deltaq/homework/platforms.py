@@ -2,7 +2,7 @@
 
 Moodle (Grades → Import → CSV; grade/import/csv/classes/load_data.php): a header, one row for each person, who is found
 by an ID number, a login or an address; one person whom the course does not have calls off the whole import, an empty
-cell only passes the row over. Points are numbers with a point.
+cell only passes the row over. Points are numbers with a point. What stands between backslash brackets is typeset.
 
 Canvas (Gradebook → Import; lib/gradebook_importer.rb): the columns Student, ID, SIS User ID, SIS Login ID, Section, and
 below the header a row of the points that are possible. Who has no id is found by name. A number in brackets at the
@@ -16,7 +16,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ..narration.catalog import text
-from ..narration.prose import plain
+from ..narration.prose import pieces, plain
 from .table import Style
 
 STYLE = Style()
@@ -44,7 +44,7 @@ def _feedback(student: Document, tasks: Iterable[Document], language: str) -> st
         text(
             language,
             "homework.platforms.task",
-            task=plain(task["title"]),
+            task="".join(f"\\({one.text}\\)" if one.is_formula else one.text for one in pieces(task["title"])),
             points=f"{answer['points'] if answer else 0.0:.4g}",
             of=f"{task['of']:.4g}",
         )

@@ -6,17 +6,20 @@
 import { ApiError } from "../api.js";
 import { EVENTS, ask, eventsOf } from "../labs/stream.js";
 import { createStore } from "../store.js";
+import { gathered } from "./handin.js";
 import { patient } from "./patience.js";
+import { ALL, USUAL } from "./roster.js";
 
 /** @typedef {import("../types.js").Contract} Contract */
 /** @typedef {Contract["GradedRow"]} Row  an answer, marked */
 /** @typedef {Row["outcome"]} Outcome */
 /** @typedef {Contract["TaskTotals"]} TaskTotals */
 /** @typedef {Contract["StudentTotals"]} StudentTotals */
-/** @typedef {Pick<Contract["TableAnswer"], "points" | "of" | "tasks" | "students">} Totals */
+/** @typedef {Pick<Contract["TableAnswer"], "points" | "of" | "tasks" | "students" | "mistakes">} Totals */
+/** @typedef {Contract["RefusedFile"]} Refused */
 /**
  * What is heard while a table is marked.
- * @typedef {{begun: {rows: number}, row: Row, totals: Totals, waiting: {seconds: number}, result: Contract["TableAnswer"]}} Heard
+ * @typedef {{begun: {rows: number}, refused: {files: Refused[]}, row: Row, totals: Totals, waiting: {seconds: number}, result: Contract["TableAnswer"]}} Heard
  * @typedef {import("../labs/stream.js").Events<Heard>} TableEvent
  */
 /**
@@ -27,10 +30,14 @@ import { patient } from "./patience.js";
  * @property {number} total  how many answers there are
  * @property {Row[]} rows  those that are marked, in the order in which they were
  * @property {Totals} totals
+ * @property {Refused[]} refused  files that could not be taken, and why
  * @property {string | null} csv  the table of results, once all is marked
+ * @property {{moodle: string, canvas: string}} platforms  the points as these import them; empty without an assignment
  * @property {import("../types.js").Failure | null} failure
  * @property {string} notice  the key of a sentence
  * @property {boolean} looked  whether the list of all answers is open
+ * @property {import("./roster.js").Order} order  of the students
+ * @property {import("./roster.js").Wanted} wanted  answers
  */
 
 /** @type {Class} */
@@ -40,11 +47,15 @@ const EMPTY = {
   waiting: 0,
   total: 0,
   rows: [],
-  totals: { points: 0, of: 0, tasks: [], students: [] },
+  totals: { points: 0, of: 0, tasks: [], students: [], mistakes: [] },
+  refused: [],
   csv: null,
+  platforms: { moodle: "", canvas: "" },
   failure: null,
   notice: "",
   looked: false,
+  order: USUAL,
+  wanted: ALL,
 };
 /** Bytes of a piece; a multiple of three, so that only the last one is filled up. */
 const PIECE = 6000;
@@ -58,12 +69,14 @@ export const base64 = (bytes) =>
 /** What is known of a class after some more events. @param {Class} known @param {readonly TableEvent[]} events @returns {Class} */
 export function heard(known, events) {
   const [result] = of(events, "result");
-  const { points, of: most, tasks, students } = result ?? of(events, "totals").at(-1) ?? known.totals;
+  const { points, of: most, tasks, students, mistakes } = result ?? of(events, "totals").at(-1) ?? known.totals;
   const last = events.at(-1);
   return {
     ...known,
-    totals: { points, of: most, tasks, students },
+    totals: { points, of: most, tasks, students, mistakes: mistakes ?? [] },
+    refused: [...known.refused, ...of(events, "refused").flatMap(({ files }) => files)],
     csv: result?.csv ?? known.csv,
+    platforms: result ? { moodle: result.moodle ?? "", canvas: result.canvas ?? "" } : known.platforms,
     total: of(events, "begun")[0]?.rows ?? known.total,
     rows: [...known.rows, ...of(events, "row")],
     waiting: last ? (last.kind === "waiting" ? last.data.seconds : 0) : known.waiting,
@@ -90,12 +103,12 @@ export function createClassroom({ send, state, questions }) {
     return { table: base64(bytes), encoding: "base64", ...around, lang: asked.place.lang };
   }
 
-  /** @param {string} name @param {Uint8Array} bytes */
-  async function grade(name, bytes) {
+  /** @param {string} name @param {Uint8Array} bytes @param {Refused[]} [refused]  what could not even be sent */
+  async function grade(name, bytes, refused = []) {
     marking.abort();
     const { signal } = (marking = new AbortController());
-    again = () => void grade(name, bytes);
-    set({ ...EMPTY, name, running: true, looked: get().looked });
+    again = () => void grade(name, bytes, refused);
+    set({ ...EMPTY, name, refused, running: true, looked: get().looked });
     const failure = await marked(question(bytes), signal).catch((error) => failureIn(error, signal));
     if (!signal.aborted) set({ running: false, waiting: 0, failure });
   }
@@ -115,9 +128,23 @@ export function createClassroom({ send, state, questions }) {
     get,
     subscribe: store.subscribe,
     grade,
+    /** A table; or what students handed in, as files or archives. @param {readonly import("./handin.js").Dropped[]} files @param {{named: string, broken: string}} told  what many files are called, and what is said of an archive that cannot be read */
+    async take(files, told) {
+      const [first] = files;
+      if (!first) return;
+      if (files.length === 1 && isTable(first.name))
+        return grade(first.name, new Uint8Array(await first.slice(0, first.size).arrayBuffer()));
+      const { bytes, broken } = await gathered(files);
+      const refused = broken.map((file) => ({ file, why: told.broken }));
+      return grade(files.length === 1 ? first.name : told.named, bytes, refused);
+    },
     again: () => again(),
     /** @param {boolean} looked */
     look: (looked) => set({ looked }),
+    /** @param {Partial<Class["order"]>} patch */
+    arrange: (patch) => set({ order: { ...get().order, page: 0, ...patch } }),
+    /** @param {Partial<Class["wanted"]>} patch */
+    want: (patch) => set({ wanted: { ...get().wanted, page: 0, ...patch }, looked: true }),
     /** The tasks of the scene on the page as questions for Moodle; null if the server made none. */
     async stack() {
       const { entry } = state();
@@ -134,6 +161,9 @@ export function createClassroom({ send, state, questions }) {
     },
   };
 }
+
+/** Whether a file is a table by its name. @param {string} name */
+const isTable = (name) => /\.(csv|tsv|txt)$/i.test(name);
 
 /** What can be shown of an error; one that comes of stopping is none. @param {unknown} error @param {AbortSignal} signal */
 function failureIn(error, signal) {

@@ -3,10 +3,10 @@
 import { HOME, readPlace, writePlace } from "../url.js";
 
 /** @typedef {Omit<Asked, "place"> & {place: import("../types.js").Address}} Address  what an address says of it: perhaps no language */
-/** @typedef {"task" | "working" | "class"} Side  one answer, a whole working, or the table of a class */
+/** @typedef {"task" | "working" | "handin" | "sheet" | "class"} Side  one answer, a whole working, what is handed in; for teachers a sheet in the making, or the table of a class */
 /** @typedef {{task: string, seed: string, side: Side, place: import("../types.js").Place}} Asked */
 
-export const SIDES = /** @type {const} */ (["task", "working", "class"]);
+export const SIDES = /** @type {const} */ (["task", "working", "handin", "sheet", "class"]);
 export const FIRST_SCENE = "pendulum";
 const LONGEST = 64;
 

@@ -105,6 +105,11 @@ export function createProgress(keeper) {
     draft: (key) => draftOf(read(key)),
     /** @param {string} key */
     lines: (key) => linesOf(read(key)),
+    /** Who hands in. @param {string} key @returns {{name: string, id: string}} */
+    who(key) {
+      const { name, id } = tableOf(read(key)) ?? {};
+      return { name: typeof name === "string" ? name : "", id: typeof id === "string" ? id : "" };
+    },
     write,
     /** All records as a file's text. */
     exported: () =>

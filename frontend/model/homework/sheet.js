@@ -8,7 +8,7 @@ import { asWritten } from "../own.js";
 /** @typedef {Contract["TaskEntry"]} Task */
 /** @typedef {Pick<Contract["TasksRequest"], "scene" | "guides" | "freeze" | "parameters" | "seed">} Reference  what requests say of the scene */
 /** @typedef {{id: string, key: string, group: string, reference: Reference, scene: Scene, symbols: TaskSymbol[], task: Task}} Entry  a task with its scene; `id` stands in addresses, `group` names the scene with its changes */
-/** @typedef {{title: Record<string, string> | null, followThrough: number, simplified: number, entries: Entry[]}} Sheet */
+/** @typedef {{title: Record<string, string> | null, followThrough: number, simplified: number, code: string, entries: Entry[]}} Sheet  `code` is that of an assignment */
 /** @typedef {Contract["AssignmentDocument"]} Assignment */
 
 const CHANGES = /** @type {const} */ (["scene", "guides", "freeze", "parameters"]);
@@ -36,6 +36,7 @@ export function sheetOfScene(reference, { scene: document, symbols, tasks }) {
     title: null,
     followThrough: 0.5,
     simplified: 0.5,
+    code: "",
     entries: tasks.map((task) => ({ id: task.id, key: `${group}/${task.id}`, group, reference, scene, symbols, task })),
   };
 }
@@ -58,29 +59,17 @@ export function sheetOfAssignment(assignment, seed, answer) {
       task,
     };
   });
-  return { title: answer.title, followThrough: answer.follow_through, simplified: answer.simplified, entries };
+  const { title, follow_through: followThrough, simplified, code } = answer;
+  return { title, followThrough, simplified, code, entries };
 }
 
 /** What requests say of the scene of an assignment's task. @param {Assignment} assignment @param {number} index @param {string} seed @returns {Reference} */
 export function referenceIn(assignment, index, seed) {
   const given = assignment.tasks[index];
   const own = /** @type {Reference} */ (
-    Object.fromEntries(CHANGES.filter((name) => name in given).map((name) => [name, given[name]]))
+    Object.fromEntries(CHANGES.filter((name) => given[name] != null).map((name) => [name, given[name]]))
   );
   return assignment.individual && seed ? { ...own, seed } : own;
-}
-
-/**
- * An assignment of all tasks on a sheet, to begin one's own with.
- * @param {Sheet} sheet @param {Record<string, string>} title @returns {Assignment}
- */
-export function assignmentOf({ entries, followThrough, simplified }, title) {
-  const tasks = entries.map(({ reference: { seed: _, ...scene }, task }) => ({
-    ...scene,
-    task: task.id,
-    points: task.points,
-  }));
-  return { format: 1, title, individual: false, follow_through: followThrough, simplified, tasks };
 }
 
 /** Whether it is the library's scene as it is, so that its own page shows the same. @param {Reference} reference */

@@ -10,6 +10,7 @@ import { appearance, lettersOf, titleMenu } from "../header.js";
 import { top } from "../top.js";
 import { answer } from "./answer.js";
 import { figure } from "./figure.js";
+import { handingIn } from "./handin.js";
 import { tasks } from "./tasks.js";
 import { hints, solution, verdict } from "./verdict.js";
 import { working } from "./working.js";
@@ -36,7 +37,20 @@ import { working } from "./working.js";
  * @property {() => void} download  the student's work as a file
  * @property {(file: File) => Promise<void>} upload  such a file, or an assignment
  * @property {((view: HomeworkView) => unknown) | null} classroom  once it has been opened
+ * @property {((view: HomeworkView) => unknown) | null} picker  once it has been opened
+ * @property {import("../../model/homework/progress.js").Progress} progress
+ * @property {(key: string) => void} notice  says a sentence
+ * @property {(file: File) => Promise<boolean>} opened  opens a file that is an assignment where none is open
+ * @property {(assignment: import("../../model/homework/sheet.js").Assignment) => void} open  shows it as students see it
  */
+
+/** What is shown on the other sides of the page. @type {Partial<Record<import("../../model/homework/place.js").Side, (view: HomeworkView) => unknown>>} */
+const BESIDE = {
+  working,
+  handin: handingIn,
+  sheet: (view) => view.picker?.(view) ?? nothing,
+  class: (view) => view.classroom?.(view) ?? nothing,
+};
 
 /** @param {HomeworkView} view */
 export function page(view) {
@@ -49,7 +63,7 @@ export function page(view) {
       ${tasks(view)}
       <div class="work" id="work" tabindex="-1">
         ${sides(view)}
-        ${side === "class" ? (view.classroom?.(view) ?? nothing) : side === "working" ? working(view) : single(view)}
+        ${BESIDE[side]?.(view) ?? single(view)}
       </div>
       ${figure(view)}
     </main>`;
@@ -80,7 +94,9 @@ function heading({ state, t, exercise }) {
 
 /** @param {HomeworkView} view */
 function sides({ state, t, exercise }) {
-  return html`<div class="work-head"><div class="segments" role="group" aria-label=${t("homework.side")}>${SIDES.map(
+  return html`<div class="work-head"><div class="segments" role="group" aria-label=${t("homework.side")}>${SIDES.filter(
+    (side) => side !== "handin" || state.assignment || state.asked.side === side,
+  ).map(
     (side) => html`
     <button aria-pressed=${String(side === state.asked.side)} @click=${() => exercise.turn(side)}>${t(`homework.side-${side}`)}</button>`,
   )}</div></div>`;

@@ -45,7 +45,7 @@ function row({ state, t, draftOf, exercise, link, follow }, entry, index) {
     <li><a class="task" data-status=${status || nothing} href=${link({ task: entry.id, side: "task" })} aria-current=${entry.key === state.entry?.key ? "true" : nothing}
       @click=${(/** @type {Event} */ event) =>
         follow(event, () => {
-          exercise.turn(state.asked.side === "class" ? "task" : state.asked.side);
+          exercise.turn(["task", "working"].includes(state.asked.side) ? state.asked.side : "task");
           exercise.show(entry);
         })}>
       <span class="tick" aria-hidden="true">${status === "solved" ? icon("verified") : nothing}</span><span>${prose(entry.task.title)}</span>

@@ -122,6 +122,8 @@ export function solution(view) {
   const { state, t, exercise } = view;
   const { entry, draft } = state;
   if (!entry || !(draft.solved || draft.tries)) return nothing;
+  const { deadline } = state.assignment ?? {};
+  if (deadline && new Date(deadline) > new Date()) return html`<p class="so">${t("homework.solution-later")}</p>`;
   if (!state.solution)
     return html`<p class="acts solving"><button type="button" class="quiet framed" ?disabled=${state.busy === "solving"} @click=${exercise.solve}>${t("homework.solution")}</button>
     ${draft.solved ? nothing : html`<span class="so">${t("homework.solution-costs")}</span>`}</p>`;
