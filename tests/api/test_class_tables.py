@@ -72,7 +72,7 @@ async def test_a_file_of_a_spreadsheet_comes_as_its_bytes_and_goes_back_alike(cl
 
 
 async def test_files_that_cannot_be_taken_are_named_before_the_rows_come(client: httpx.AsyncClient) -> None:
-    archive = class_archive(3)
+    archive = class_archive(0)
     table = [base64.b64encode(archive.data).decode()]
     question = {"table": table, "encoding": "base64", "assignment": archive.assignment, "lang": "en"}
     async with client.stream("POST", TABLE, json=question, headers=STREAM) as response:

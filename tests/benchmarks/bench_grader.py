@@ -38,9 +38,8 @@ def main(count: int) -> int:
     print(
         f"{count} tables, {sum(len(table.rows) for table in tables)} rows: {count - len(differing)} files are the same"
     )
-    print(
-        f"page {middle - begin:.0f} s, shell {end - middle:.0f} s; outcomes {dict(outcomes([one.results for one in shells]))}"
-    )
+    told = dict(outcomes([one.results for one in shells]))
+    print(f"page {middle - begin:.0f} s, shell {end - middle:.0f} s; outcomes {told}")
     print(f"differing: {differing}")
     return 1 if differing else 0
 

@@ -6,6 +6,7 @@ Labels are a matter of the language, which changes from page to page: both have 
 from __future__ import annotations
 
 import itertools
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -68,6 +69,36 @@ def answer(page: Page) -> None:
     expect(page.locator(".worked")).to_be_visible()
 
 
+def pick(page: Page) -> None:
+    """A sheet of one task, with its address and the code for phones."""
+    page.locator(".catalogue button").first.click()
+    page.locator(".link-of-sheet summary").click()
+    expect(page.locator(".qr")).to_be_visible()
+
+
+def mark_class(page: Page) -> None:
+    """Answers in a table, one of them wrong, one late, and the list of all."""
+    page.locator(".classroom input[type=file]").set_input_files(
+        {"name": "class.csv", "mimeType": "text/csv", "buffer": CLASS.encode()}
+    )
+    page.locator(".mistakes button").first.click()
+    expect(page.locator(".all-results tbody tr")).to_have_count(1)
+
+
+def hand_in(page: Page) -> None:
+    """What is there to be handed in on a sheet with a deadline."""
+    sheet = {"format": 1, "deadline": "2099-01-01", "tasks": [{"scene": "pendulum", "task": "equation:phi"}]}
+    page.locator(".files-of-work input").set_input_files(
+        {"name": "sheet.json", "mimeType": "application/json", "buffer": json.dumps(sheet).encode()}
+    )
+    page.locator("#handin-name").fill("Ada")
+    expect(page.locator(".to-hand-in .katex")).to_be_visible()
+
+
+CLASS = "student,id,scene,task,answer,time\n" + "".join(
+    f"ada,7,pendulum,kinetic-energy,{answer},2026-11-30T12:0{n}Z\n"
+    for n, answer in enumerate(["m*l^2*dot(phi)^2", "m*l^2*dot(phi)^2/2"])
+)
 SCENE = "scene?scene=elastic-pendulum&step=generalized-forces"
 # Where, what must be there before it is looked at, and what is done first.
 PLACES = [
@@ -90,7 +121,9 @@ PLACES = [
     ),
     pytest.param("homework?", "main .katex", nothing, id="homework"),
     pytest.param("homework?scene=pendulum&task=equation:phi", ".question h2", answer, id="homework, answered"),
-    pytest.param("homework?scene=pendulum&side=class", ".classroom .pick", nothing, id="homework of a class"),
+    pytest.param("homework?scene=pendulum&side=class", ".classroom .pick", mark_class, id="homework of a class"),
+    pytest.param("homework?scene=pendulum&side=sheet", ".catalogue .katex", pick, id="homework, a sheet in the making"),
+    pytest.param("homework?scene=pendulum&side=handin", ".files-of-work input", hand_in, id="homework, handed in"),
     pytest.param("docs?", ".calls article", nothing, id="reference"),
     pytest.param("help?", ".guide article", nothing, id="help"),
     pytest.param("docs/try?", ".trial textarea", send, id="trial of the API"),
@@ -169,7 +202,9 @@ def test_dialog(
     assert violations_in_both_themes(page, axe) == []
 
 
-@pytest.mark.parametrize("place", ["?", "scene?scene=elastic-pendulum&view=", "homework?", "labs?"])
+@pytest.mark.parametrize(
+    "place", ["?", "scene?scene=elastic-pendulum&view=", "homework?", "homework?side=sheet", "labs?"]
+)
 def test_phone(lecture: Lecture, axe: str, place: str) -> None:
     page = lecture.page
     page.set_viewport_size({"width": 360, "height": 740})

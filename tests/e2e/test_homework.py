@@ -299,16 +299,64 @@ def test_the_answers_of_a_class_are_graded_and_their_mistakes_counted(lecture: L
     ]
 
 
-def test_a_teacher_gets_an_assignment_to_begin_with_and_questions_for_moodle(lecture: Lecture) -> None:
+def test_the_tasks_of_a_scene_are_questions_for_moodle(lecture: Lecture) -> None:
     page = _open(lecture, "scene=pendulum&side=class&lang=en")
     page.locator(".task").first.wait_for()
-    with page.expect_download() as sheet:
-        page.get_by_role("button", name="Assignment of these tasks").click()
-    document = json.loads(sheet.value.path().read_text(encoding="utf-8"))
-    assert document["tasks"][0] == {"scene": "pendulum", "task": "position:bob", "points": 1}
+    count = page.locator(".task").count()
     with page.expect_download() as questions:
         page.get_by_role("button", name="Questions for Moodle").click()
-    assert questions.value.path().read_text(encoding="utf-8").count('type="stack"') == len(document["tasks"])
+    assert questions.value.path().read_text(encoding="utf-8").count('type="stack"') == count
+
+
+def test_a_sheet_is_picked_answered_handed_in_and_marked(lecture: Lecture, tmp_path: Path) -> None:
+    """From the list of tasks to the points for Moodle and Canvas, by keyboard where it matters, without an editor."""
+    page = _open(lecture, "scene=pendulum&side=sheet&lang=en")
+    page.get_by_label("Title").fill("Sheet 1")
+    for task in ("Kinetic energy", "Equation of motion"):
+        page.locator(".catalogue li", has_text=task).first.get_by_role("button").press("Enter")
+    page.get_by_label("Points of task 2").fill("6")
+    page.get_by_label("Attempts that count").fill("2")
+    page.get_by_label("Move task 2 up").press("Enter")
+    link = page.get_by_label("Link for the class").input_value()
+    page.goto("about:blank")
+    page.goto(link)  # as a student
+    expect(page.locator(".task")).to_have_text([re.compile("Equation of motion"), re.compile("Kinetic energy")])
+    expect(page.locator(".total")).to_contain_text("0 of 8 points")
+    _answer_as_text(page, RIGHT)
+    page.get_by_role("button", name="Hand in").click()
+    expect(page.get_by_role("button", name="Save file to hand in")).to_be_disabled()
+    page.get_by_label("Your name").fill("Zoë, Müller")
+    page.get_by_label("Number, login").fill("=77")
+    with page.expect_download() as handed:
+        page.get_by_role("button", name="Save file to hand in").click()
+    first = json.loads(handed.value.path().read_text(encoding="utf-8"))
+    other = {**first, "student": "Ada", "id": "5", "answers": [{"task": 1, "syntax": "plain", "value": FALLING}]}
+    files = {
+        "a": first,
+        "b": other,
+        "c": {**first, "sheet": "AAAA-AAAA"},
+        "d": "<script>document.title = 'run'</script>",
+    }
+    for name, content in files.items():
+        (tmp_path / f"{name}.json").write_text(json.dumps(content), encoding="utf-8")
+    page.get_by_role("button", name="Class table").click()
+    page.locator(".classroom input[type=file]").set_input_files([tmp_path / f"{name}.json" for name in files])
+    expect(page.locator(".refusals li")).to_have_text(
+        [re.compile("c.json.*AAAA-AAAA", re.DOTALL), re.compile("d.json")]
+    )
+    expect(page.locator(".roster tbody tr")).to_have_text(
+        [re.compile(r"Ada.*0 / 8", re.DOTALL), re.compile(r"Zoë, Müller.*6 / 8", re.DOTALL)]
+    )
+    page.get_by_label("Search").first.fill("zoë")
+    expect(page.locator(".roster tbody tr")).to_have_count(1)
+    page.locator(".mistakes button", has_text="Sign of the weight").first.click()
+    expect(page.locator(".all-results tbody tr")).to_have_text([re.compile("Ada.*b.json", re.DOTALL)])
+    with page.expect_download() as canvas:
+        page.get_by_role("button", name="Points for Canvas").click()
+    assert canvas.value.path().read_text(encoding="utf-8").splitlines()[2:] == [
+        "\"Zoë, Müller\",,'=77,'=77,,6",
+        "Ada,,5,5,,0",
+    ]
 
 
 OWN = {

@@ -108,7 +108,7 @@ function refusals({ t }, session) {
     count: refused.length,
   });
   return html`<details class="refusals" open><summary role="alert">${told}</summary>
-    <ul tabindex="0" role="region" aria-label=${told}>${refused.map(({ file, why }) => html`<li><b>${file}</b> ${why}</li>`)}</ul></details>`;
+    <div tabindex="0" role="region" aria-label=${told}><ul>${refused.map(({ file, why }) => html`<li><b>${file}</b> ${why}</li>`)}</ul></div></details>`;
 }
 
 /** A bar for every mistake, which shows the answers that made it. @param {Classroom} session @param {import("../../model/homework/classroom.js").TaskTotals["mistakes"]} mistakes @param {number} count @param {string} task */

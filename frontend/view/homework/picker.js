@@ -61,7 +61,7 @@ function offered(view, session) {
     ${failed ? failure(failed, t("homework.no-tasks"), () => void session.choose(scene), t) : nothing}
     ${
       list
-        ? html`<ul class="catalogue" tabindex="0" role="region" aria-label=${t("homework.pick-tasks")}>${list.tasks.map((task) => offeredTask(view, session, task))}</ul>
+        ? html`<div class="catalogue" tabindex="0" role="region" aria-label=${t("homework.pick-tasks")}><ul>${list.tasks.map((task) => offeredTask(view, session, task))}</ul></div>
         <p class="acts"><button type="button" class="quiet small framed" @click=${() => session.add(list.tasks)}>${icon("add")}${t("homework.pick-all")}</button></p>`
         : failed
           ? nothing
