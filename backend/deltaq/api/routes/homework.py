@@ -158,10 +158,10 @@ async def check_batch(request: Request, body: BatchRequest) -> Response:
 async def check_table(request: Request, body: TableRequest) -> Response:
     """Mark the answers of a class. Rows come as they are marked where `Accept` asks for text/event-stream.
 
-    The events: `begun` with the number of `rows`; `row`, as in `rows`, with its `index`; `waiting` with the `seconds`
-    until it goes on, where the service is busy; `totals` of what is marked so far; then `result`, which is all but
-    `rows`, or `problem`. text/csv gives the table of results. One answer that takes too long is left undecided, and
-    without a stream what is not marked within 40 s.
+    The events: `begun` with the number of `rows`; `refused` with the `files` of a zip that could not be taken; `row`,
+    as in `rows`, with its `index`; `waiting` with the `seconds` until it goes on, where the service is busy; `totals`
+    of what is marked so far; then `result`, which is all but `rows`, or `problem`. text/csv gives the table of
+    results. One answer that takes too long is left undecided, and without a stream what is not marked within 40 s.
 
     A task earns its points once: of several answers of a student the best counts. With a column `line` the rows of a
     student on a scene are a working in the order of these numbers, and what follows correctly from the last answer to
@@ -169,7 +169,8 @@ async def check_table(request: Request, body: TableRequest) -> Response:
     """
     service, language = service_of(request), language_of(request)
     question = body.model_dump() | {"lang": language}
-    plan = Plan.read(loads(await service.run(PLAN, question)))
+    written = await service.run(PLAN, question)
+    plan = await asyncio.to_thread(lambda: Plan.read(loads(written)))
 
     async def verdict_on(asked: RowQuestion) -> RowVerdict:
         row = asked.model_dump() | {"lang": language}
