@@ -16,7 +16,7 @@ from deltaq.errors import InputError
 from deltaq.homework.assignment import read_assignment
 from deltaq.homework.gradebook import Gradebook, Plan, refusal
 from deltaq.homework.grading import Sheet, plan_of, read_answers, read_class
-from deltaq.homework.handins import LARGEST, code_of
+from deltaq.homework.handins import LARGEST, archived, code_of
 from deltaq.homework.platforms import canvas_csv, moodle_csv
 from deltaq.homework.results import Graded, totals
 
@@ -117,7 +117,10 @@ def test_an_archive_that_cannot_be_read(data: bytes, code: str) -> None:
 
 
 def test_an_archive_that_blows_up_is_read_no_further_than_a_file_may_be_long() -> None:
-    (refused,) = plan({"bomb.json": b" " * 200_000_000}).refused
+    bomb = archive({"bomb.json": b" " * 20_000_000})
+    ((_, content),) = archived(bomb)
+    assert len(content) == LARGEST + 1
+    (refused,) = read_class(bomb, Sheet(read_assignment(SHEET)), "en").refused
     assert str(LARGEST // 1024) in refused.why
 
 
@@ -181,6 +184,18 @@ def test_attempts_are_counted_in_the_order_of_time_and_those_beyond_earn_nothing
     ]
     (student,) = totals(found, 10.0, "en")["students"]
     assert (student["points"], student["beyond"]) == (4.0, 2)
+
+
+def test_the_best_outcome_is_one_that_counts() -> None:
+    files = {value: handin(time=time, answers=answered(value)) for value, time in (("T", IN_TIME), ("U", LATER))}
+    (student,) = totals(marked(plan(files, attempts=1), JUDGE), 10.0, "en")["students"]
+    answer = student["answers"][0]
+    assert (answer["outcome"], answer["points"], answer["last"], answer["last_points"]) == (
+        "wrong",
+        0.0,
+        "correct",
+        0.0,
+    )
 
 
 def test_who_hands_in_the_same_again_has_made_no_further_attempt() -> None:

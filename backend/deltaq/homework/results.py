@@ -121,8 +121,9 @@ def _student(name: str, rows: Sequence[Graded], of: float | None, tasks: Iterabl
 
 
 def _best(rows: Sequence[Graded]) -> Document:
-    """What a student earned with several answers to one task, the outcome of the best of them, and the last of them."""
-    outcome = min((each.outcome for each in rows), key=OUTCOMES.index)
+    """What a student earned with several answers to one task, the outcome of the best that counts, and the last."""
+    counting = [each for each in rows if each.counts > 0.0] or rows
+    outcome = min((each.outcome for each in counting), key=OUTCOMES.index)
     last = max(enumerate(rows), key=lambda one: (one[1].attempt, one[0]))[1]
     return {
         "outcome": outcome,

@@ -8,6 +8,7 @@ import { bounded, instantOf, listKey, localOf, sceneIn } from "../../model/homew
 import { writeAsked } from "../../model/homework/place.js";
 import { OWN } from "../../model/own.js";
 import { pathOf } from "../../model/share.js";
+import { HOME } from "../../model/url.js";
 import { failure } from "../failure.js";
 import { offer, toClipboard } from "../files.js";
 import { prose } from "../formula.js";
@@ -144,7 +145,7 @@ function ready(view, session) {
   const { sheet: made, fragment, code, wrong } = session.get();
   const title = inLanguage(made.title, lang) || t("homework.assignment");
   const save = () => offer(`${fileName(title)}.json`, session.file(), "application/json");
-  const place = { ...state.asked.place, scene: "" };
+  const place = { ...HOME, lang };
   const address =
     fragment &&
     location.origin + location.pathname + writeAsked({ task: "", seed: "", side: "task", place }) + fragment;
