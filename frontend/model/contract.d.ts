@@ -579,10 +579,10 @@ export interface paths {
          * Mark the answers of a class
          * @description Mark the answers of a class. Rows come as they are marked where `Accept` asks for text/event-stream.
          *
-         *     The events: `begun` with the number of `rows`; `row`, as in `rows`, with its `index`; `waiting` with the `seconds`
-         *     until it goes on, where the service is busy; `totals` of what is marked so far; then `result`, which is all but
-         *     `rows`, or `problem`. text/csv gives the table of results. One answer that takes too long is left undecided, and
-         *     without a stream what is not marked within 40 s.
+         *     The events: `begun` with the number of `rows`; `refused` with the `files` of a zip that could not be taken; `row`,
+         *     as in `rows`, with its `index`; `waiting` with the `seconds` until it goes on, where the service is busy; `totals`
+         *     of what is marked so far; then `result`, which is all but `rows`, or `problem`. text/csv gives the table of
+         *     results. One answer that takes too long is left undecided, and without a stream what is not marked within 40 s.
          *
          *     A task earns its points once: of several answers of a student the best counts. With a column `line` the rows of a
          *     student on a scene are a working in the order of these numbers, and what follows correctly from the last answer to

@@ -9,6 +9,7 @@ import { FORMS, SHOWN } from "../../frontend/model/share.js";
 import { PAGES } from "../../frontend/model/url.js";
 import { KNOWN } from "../../frontend/model/labs/experiments.js";
 import { SIDES } from "../../frontend/model/homework/place.js";
+import { ONLY } from "../../frontend/model/homework/roster.js";
 import { EXAMPLES, GROUPS } from "../../frontend/model/variations/examples.js";
 import { HOLDS, KINDS } from "../../frontend/model/variations/question.js";
 
@@ -83,6 +84,9 @@ const EXERCISES = [
   ...["keys-motion", "keys-parameters", "keys-operations", "status-solved", "status-begun"].map((key) => `homework.${key}`),
   ...["latex", "plain"].flatMap((syntax) => ["syntax", "to", "kept"].map((key) => `homework.${key}-${syntax}`)),
   ...SIDES.map((side) => `homework.side-${side}`),
+  ...ONLY.map((one) => `homework.only-${one || "all"}`),
+  ...["up", "down", "remove"].flatMap((way) => [`homework.pick-${way}`, `homework.pick-${way}-task`]),
+  ...["pick-late", "pick-follow_through", "page-previous", "page-next"].map((key) => `homework.${key}`),
   ...["row", "student", "task", "answer", "outcome", "points"].map((key) => `homework.class-${key}`),
   ...["checking", "check", "solution", "points", "points-one", "hint", "next-hint", "compare", "moving", "mark"].map((key) => `homework.${key}`),
 ];
