@@ -75,6 +75,18 @@ test("all that is dropped is one archive; what is too long, or broken, comes as 
   assert.ok(bytes.length < 1000);
 });
 
+test("pictures and megabytes of noise leave room for those who handed in", async () => {
+  let state = 7;
+  const noise = (/** @type {number} */ length) => Uint8Array.from({ length }, () => (state = (state * 1103515245 + 12345) % 2147483648) >> 16);
+  const pictures = Array.from({ length: 40 }, (_, n) => new File([noise(60_000)], `${n}.png`));
+  const braces = Array.from({ length: 40 }, (_, n) => new File(["{", noise(60_000)], `${n}.json`));
+  const good = new File([`{"a": "${"x".repeat(5000)}"}`], "good.json");
+  const { bytes } = await gathered([...pictures, ...braces, good]);
+  const found = await unzipped(bytes, 100_000);
+  assert.ok(bytes.length < 700_000, String(bytes.length));
+  assert.deepEqual([found.length, found.at(-1)?.bytes?.length], [81, 5009]);
+});
+
 const scene = { coordinates: [{ name: "phi" }], guides: [] };
 const entries = /** @type {any[]} */ (["kinetic-energy", "lagrangian", "equation:phi"].map((id, n) => ({ id: String(n + 1), key: `g/${id}`, group: "g", scene, task: { id, form: "expression", components: null } })));
 

@@ -71,6 +71,7 @@ HOSTILE: dict[str, tuple[object, str]] = {
     "beyond.json": (handin(answers=[{"task": 3, "value": "T"}]), "a task 3"),
     "empty.json": (handin(answers=[]), "no answer"),
     "no time.json": (handin(time="yesterday"), "“yesterday” is no time"),
+    "often.json": (handin(answers=[{"task": 1, "value": "T"}] * 3), "answers"),
     "endless name.json": (handin("x" * 101), "student"),
     "twice.json": (handin("ada"), "the same as “right.json”"),
 }
@@ -225,6 +226,14 @@ def test_persons_are_told_apart_by_their_number_where_they_give_one() -> None:
     }
     found = totals(marked(plan(files), JUDGE), 10.0, "en")
     assert [(one["student"], one["id"]) for one in found["students"]] == [("Max Müller", "1"), ("Max Müller", "2")]
+
+
+@pytest.mark.parametrize(("individual", "seed"), [(True, "Ada  L."), (False, None)])
+def test_values_of_ones_own_are_those_of_the_name_as_it_was_typed(individual: bool, seed: str | None) -> None:
+    sheet = SHEET | {"individual": individual}
+    found = handin(" Ada  L. ", sheet=code_of(read_assignment(sheet)))
+    (row,) = plan({"a": found}, individual=individual).rows
+    assert (row.student, row.seed) == ("Ada L.", seed)
 
 
 def test_a_table_tells_times_too() -> None:

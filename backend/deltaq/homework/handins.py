@@ -102,7 +102,7 @@ def handed_in(files: Sequence[File], assignment: AssignmentDocument | None, lang
     refused: list[Refused] = []
     for name, content in files:
         try:
-            rows.extend(_rows(name, _handin(name, content, code, before), len(assignment.tasks)))
+            rows.extend(_rows(name, _handin(name, content, code, before), assignment))
         except _WrongFile as wrong:
             refused.append(Refused(UserText(name).line, message(language, wrong.problem)))
     style = Style(";" if language == "de" else ",", marked=True)  # as spreadsheets in this language open it
@@ -142,11 +142,17 @@ def _read(content: bytes) -> HandIn:
         raise _WrongFile("handin-field", field=places[0]) from None
 
 
-def _rows(name: str, handin: HandIn, tasks: int) -> Iterator[Row]:
-    """The answers of a file as rows of a table. Raises _WrongFile, before any, if it answers what was not asked."""
+def _rows(name: str, handin: HandIn, assignment: AssignmentDocument) -> Iterator[Row]:
+    """The answers of a file as rows of a table. Raises _WrongFile, before any, if it answers what was not asked.
+
+    Whoever has values of their own has those of the name as it was typed.
+    """
+    tasks, seed = len(assignment.tasks), handin.student.strip() if assignment.individual else ""
     beyond = [one.task for one in handin.answers if one.task > tasks]
     if beyond:
         raise _WrongFile("handin-task", number=str(beyond[0]), count=str(tasks))
+    if len(handin.answers) > tasks:
+        raise _WrongFile("handin-field", field="answers")
     if not handin.answers:
         raise _WrongFile("handin-empty")
     student, identity = UserText(handin.student).line, UserText(handin.id).line
@@ -158,6 +164,7 @@ def _rows(name: str, handin: HandIn, tasks: int) -> Iterator[Row]:
             "line": str(one.task),
             "answer": one.value,
             "syntax": one.syntax,
+            "seed": seed,
             "time": handin.time.strip(),
             "file": UserText(name).line,
         }
