@@ -163,6 +163,7 @@ def test_a_handout_is_whole_and_printed_in_light(lecture: Lecture, tmp_path: Pat
     expect(page).to_have_url(re.compile("substeps=no"))
     page.reload()
     expect(page.get_by_label("with intermediate steps")).not_to_be_checked()
+    until(page, steps.count, lambda count: count >= 15)
     expect(page.locator(".untypeset, .katex-error")).to_have_count(0)
     page.emulate_media(media="print")
     expect(page.locator(".top")).to_be_hidden()

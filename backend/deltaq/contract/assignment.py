@@ -91,6 +91,8 @@ class _NullIsNothing(Request):
                 continue
             kinds = {key: field.pop(key) for key in [*field] if key not in ABOUT}
             field["anyOf"] = [*(kinds.get("anyOf") or [kinds]), {"type": "null"}]
+            if field.get("default") == {}:
+                field["default"] = None  # as good as an empty object, which generators cannot tell the type of
         return named
 
 
