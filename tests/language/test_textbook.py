@@ -280,6 +280,12 @@ def test_what_was_multiplied_out_is_found_again() -> None:
     assert len(longer) <= 2  # a habit may outweigh an operation
 
 
+def test_what_is_zero_only_where_it_is_multiplied_out_is_zero() -> None:
+    hidden = read("l*cos(phi)*sin(psi) - l*sin(2*phi)*sin(psi)/(2*sin(phi))")
+    assert hidden != 0
+    assert display(hidden, SYMBOLS) == 0
+
+
 def test_inertia_is_written_apart() -> None:
     """One term for each acceleration and product of rates, though they share m l²."""
     reader = KernelReader()

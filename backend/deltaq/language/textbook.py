@@ -90,6 +90,8 @@ class Textbook:
         if not form:
             return sympy.S.Zero
         poly, denominator, alphabet = self._polynomial(form)
+        if not poly:
+            return sympy.S.Zero  # cos a − sin 2a/(2 sin a): what it is shows only where it is multiplied out
         plan = Planner(alphabet).plan(poly, denominator, free=free)
         _check(plan, poly, denominator, alphabet)
         return self.value(plan, alphabet)
