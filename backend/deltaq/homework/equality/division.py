@@ -31,6 +31,7 @@ POWERS = range(4)  # of a factor that may have been divided out
 NEAR = (1e-3, 1e-5)  # how far from the zero of a factor what is left of it is looked at
 STEADY = 4.0  # times: what grows or shrinks more between the two is not regular
 GRID = 29
+APART = 0.011
 
 Numbers = Sequence[float]
 
@@ -95,10 +96,20 @@ class Division:
                 return False
         return True
 
+    @cached_property
+    def _noise(self) -> float:
+        """What a determinant that is zero may come out as: its products are of the size of those elsewhere."""
+        sizes = (abs(each(base)) for each in (self._above, self._below) for base in self._bases)
+        return NOTHING * max(1.0, *filter(math.isfinite, sizes))
+
     @property
     def _bases(self) -> list[list[float]]:
-        """Two states at which nothing happens."""
-        return [[*(choices[max(k, -len(choices))] for choices in self._choices), *self._others] for k in (-1, -2)]
+        """Two states at which nothing happens: no two coordinates are equal, where sin(φ₁ − φ₂) is zero."""
+        return [[*self._apart(k), *self._others] for k in (-1, -2)]
+
+    def _apart(self, place: int) -> Iterator[float]:
+        for index, choices in enumerate(self._choices):
+            yield choices[0] if len(choices) == 1 else choices[max(place, -len(choices))] * (1 + index * APART)
 
     def _with(self, state: Numbers, symbol: sp.Symbol, value: float) -> list[float]:
         slot = self._slots[symbol]
@@ -112,7 +123,7 @@ class Division:
         def ratio(state: Numbers) -> float:
             a, b = self._above(state), self._below(state)
             whole = math.prod(each(state) for each in scale)
-            return a * whole / b if abs(b) > NOTHING else math.inf
+            return a * whole / b if abs(b) > self._noise else math.inf
 
         return self._in_special_states(ratio) and self._along_lines(ratio) and self._near_zeros(ratio, scale)
 
@@ -127,7 +138,7 @@ class Division:
         ratios = []
         for state in ([*state, *self._others] for state in states(self._choices)):
             a, b = self._above(state), self._below(state)
-            told = not math.isnan(b) and not max(abs(a), abs(b)) <= NOTHING
+            told = not math.isnan(b) and not max(abs(a), abs(b)) <= self._noise
             if told and not any(self._vanishes(content, state) for content in self.contents):
                 ratios.append(ratio(state))
         regular = all(NOTHING <= abs(each) <= 1 / NOTHING for each in ratios)
