@@ -130,8 +130,9 @@ const own = () => Boolean(get().assignment || get().own);
 function view() {
   const state = get();
   const { entry, catalog } = state;
+  const t = translator({ ...catalog.page, ...catalog.exercises });
   if (entry && offered.entry !== entry) {
-    offered = { entry, keys: keyboardOf(entry), shortcuts: shortcutsOf(entry.symbols) };
+    offered = { entry, keys: keyboardOf(entry, t), shortcuts: shortcutsOf(entry.symbols) };
     offerKeys(offered.keys, "δq");
   }
   return {
@@ -155,7 +156,7 @@ function view() {
     open,
     keys: offered.keys,
     shortcuts: offered.shortcuts,
-    t: translator({ ...catalog.page, ...catalog.exercises }),
+    t,
     draftOf: (key) => (key === entry?.key ? state.draft : progress.draft(key)),
     ownStep: (step) => (state.own ? stepAddress(OWN, step, state.asked.place) + fragment : ""),
     link: (patch) => location.pathname + writeAsked({ ...state.asked, ...patch }) + (own() ? fragment : ""),

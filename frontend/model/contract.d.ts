@@ -6374,7 +6374,7 @@ export interface components {
              * Form
              * @enum {string}
              */
-            form: "expression" | "vector" | "equation" | "equations" | "set";
+            form: "expression" | "vector" | "equation" | "equations" | "set" | "positions" | "stability" | "rate";
             /** Form Text */
             form_text: string;
             /**

@@ -1,8 +1,8 @@
 """Random scenes that are valid: bodies, guides and loads with roots, poles, kinks and drags, in many coordinates.
 
 As a command, `python -m tests.derivation.random_scenes 2000 1`, it tries so many of them from a seed on: each is
-derived with every step verified, its equations are those of SymPy's LagrangesMethod, its equilibria are at rest, and it
-moves.
+derived with every step verified, its equations are those of SymPy's LagrangesMethod, its equilibria are at rest, it
+moves, and the right answers to its tasks are judged right.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ import sys
 import time
 import traceback
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 from flint import ctx
@@ -26,6 +27,8 @@ from deltaq.derivation.matrix_form import forces_at_rest
 from deltaq.derivation.program import number
 from deltaq.derivation.result import result_of
 from deltaq.derivation.system import System
+from deltaq.homework.service import check_request, solution_request, tasks_request
+from deltaq.language.bounds import MAX_CHARACTERS
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.writing import write_scene
@@ -35,6 +38,8 @@ from deltaq.simulation.service import run
 
 Document = dict[str, Any]
 DIGITS = 25
+FOR_TASKS = 4.0  # seconds
+ASKED_FIRST = ("equilibria", "stability", "symmetry", "steady-motion")
 
 
 @dataclass
@@ -212,7 +217,40 @@ def faults(scene: Scene) -> list[str]:
     answer = run({"scene": write_scene(scene), "t_end": 0.5, "samples": 5})
     if answer["status"] not in STATUSES:
         found.append(f"status {answer['status']}")
+    return found + wrong_tasks(scene)
+
+
+def wrong_tasks(scene: Scene) -> list[str]:
+    """The tasks whose own right answer is not judged right, as text and as LaTeX, as far as time allows."""
+    asked = {"scene": write_scene(scene)}
+    tasks = tasks_request(asked)["tasks"]
+    end = time.process_time() + FOR_TASKS
+    found = []
+    for task in sorted(cast("list[Document]", tasks), key=lambda task: task["kind"] not in ASKED_FIRST):
+        if time.process_time() > end:
+            break
+        found += [f"task {task['id']}: {told}" for told in not_right(asked | {"task": task["id"]}, task["form"])]
     return found
+
+
+def not_right(asked: Document, form: str) -> list[str]:
+    """What is said of the right answer handed back, where it is not that it is right."""
+    found = []
+    for syntax, parts in solution_request(asked).items():
+        value = written(cast("Sequence[str]", parts), form, syntax)
+        if len(value) <= MAX_CHARACTERS:
+            verdict = check_request(asked | {"answer": {"syntax": syntax, "value": value}})
+            codes = {problem["code"] for problem in cast("list[Document]", verdict["problems"])}
+            fine = verdict["outcome"] == "correct" or "too-many-nodes" in codes  # so long is no answer of a student
+            found += [] if fine else [f"{syntax} {verdict['outcome']} {value}"]
+    return found
+
+
+def written(parts: Sequence[str], form: str, syntax: str) -> str:
+    """The parts of an answer as one writes them."""
+    if form == "vector" and syntax == "latex":
+        return r"\begin{bmatrix}" + r"\\".join(parts) + r"\end{bmatrix}"
+    return f"[{', '.join(parts)}]" if form == "vector" else "; ".join(parts)
 
 
 STATUSES = (

@@ -70,7 +70,7 @@ def test_wrong_diagnosed_corrected_correct(lecture: Lecture) -> None:
     expect(page.locator(".verdict-card")).to_contain_text("changed since")
     _check(page, "correct")
     expect(page.locator(".task[aria-current]")).to_have_attribute("data-status", "solved")
-    expect(page.locator(".total")).to_contain_text("3 of 18 points")
+    expect(page.locator(".total")).to_contain_text("3 of 22 points")
 
 
 @pytest.mark.parametrize(

@@ -97,7 +97,7 @@ for (const [name, text, start, end, plain, value, caret] of /** @type {const} */
 ])) test(`a key writes ${name}`, () => assert.deepEqual(written(text, start, end, plain), { value, caret }));
 
 const names = (/** @type {Partial<typeof task>} */ change, /** @type {string} */ row, guides = /** @type {any[]} */ ([])) =>
-  keyboardOf(/** @type {any} */ ({ symbols, scene: { ...scene, guides }, task: { ...task, ...change } })).find(({ id }) => id === row)?.keys.map(({ name }) => name);
+  keyboardOf(/** @type {any} */ ({ symbols, scene: { ...scene, guides }, task: { ...task, ...change } }), (text) => text).find(({ id }) => id === row)?.keys.map(({ name }) => name);
 
 test("the keyboard offers what a task is made of", () => {
   assert.deepEqual(names({}, "motion")?.slice(3, 6), ["phi", "dot(phi)", "ddot(phi)"]);
@@ -105,6 +105,9 @@ test("the keyboard offers what a task is made of", () => {
   assert.equal(names({ kind: "eigenfrequencies", form: "set" }, "motion")?.[0], "omega");
   assert.deepEqual(names({}, "motion", [{ coordinate: "y", value: "0" }])?.slice(0, 2), ["phi", "dot(phi)"]);
   assert.deepEqual(names({}, "parameters"), ["m"]);
+  assert.deepEqual(names({ kind: "stability", form: "stability" }, "operations")?.slice(0, 5), ["homework.word-stable", "homework.word-unstable", "homework.word-for", "<", ">"]);
+  assert.deepEqual(names({ kind: "equilibria", form: "positions" }, "operations")?.slice(0, 3), [" = ", ";", "±"]);
+  assert.equal(names({ kind: "position", form: "vector" }, "operations")?.includes(" = "), false);
   assert.equal(shortcutsOf(symbols)["phi''"], "\\ddot{q}_2");
 });
 

@@ -47,7 +47,8 @@ def samples(count: int, seed: int = 1) -> Iterator[Sample]:
     """Half rewrites, half mutations, over all scenes and tasks in turn."""
     source = random.Random(seed)
     books = {scene: workbook_of({"scene": scene}) for scene in SCENES}
-    pairs = [(scene, task) for scene in SCENES for task in books[scene].tasks]
+    formulas = ((scene, task) for scene in SCENES for task in books[scene].tasks)
+    pairs = [(scene, task) for scene, task in formulas if task.quantity.judge is None]
     made = 0
     while made < count:
         scene, task = source.choice(pairs)

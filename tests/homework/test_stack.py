@@ -7,6 +7,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from deltaq.errors import RequestError
 from deltaq.homework.stack.maxima import maxima, maxima_name
 from deltaq.homework.stack.question import quiz
 from deltaq.homework.workbook import Workbook, workbook_of
@@ -62,6 +63,7 @@ BRANCH = ["scoremode", "score", "penalty", "nextnode", "answernote", "feedback"]
 NODE = ["name", "description", "answertest", "sans", "tans", "testoptions", "quiet"]
 NODE += [f"{branch}{name}" for branch in ("true", "false") for name in BRANCH]
 TREE = ["name", "value", "autosimplify", "feedbackstyle", "feedbackvariables"]
+NOT_COMPARED = ("equilibria", "stability", "symmetry", "steady-motion")  # words, sets of positions, other integrals
 SCENES = ["pendulum", "elastic-pendulum", "guided-pendulum"]
 
 
@@ -84,7 +86,7 @@ def content(element: ET.Element, path: str) -> str:
 def test_every_task_is_a_question_with_the_documented_elements(exported: tuple[Workbook, list]) -> None:
     workbook, questions = exported
     assert [content(question, "questionnote/text").split(", ")[1] for question in questions] == [
-        task.id for task in workbook.tasks
+        task.id for task in workbook.tasks if task.quantity.kind not in NOT_COMPARED
     ]
     for question in questions:
         assert question.attrib == {"type": "stack"}
@@ -143,3 +145,22 @@ def test_maxima_of_an_expression() -> None:
     workbook = workbook_of({"scene": "pendulum"})
     (energy,) = workbook.shown(workbook.task("kinetic-energy"))
     assert maxima(energy) == "l^2*m*phi_dot^2/2"
+
+
+def test_what_stack_cannot_judge_is_named_in_the_export() -> None:
+    workbook = workbook_of({"scene": "conical-pendulum"})
+    text = quiz(workbook, workbook.tasks, "en")
+    (comment,) = re.findall("<!--(.*?)-->", text)
+    left_out = [task.id for task in workbook.tasks if task.quantity.kind in NOT_COMPARED]
+    assert left_out == ["equilibria", "stability:1", "stability:2", "steady-motion:psi"]
+    assert all(task in comment for task in left_out)
+    assert text.count("<question ") == len(workbook.tasks) - len(left_out)
+
+
+def test_an_export_of_nothing_that_stack_can_judge_is_refused() -> None:
+    workbook = workbook_of({"scene": "pendulum"})
+    with pytest.raises(RequestError) as caught:
+        quiz(workbook, [workbook.task("equilibria"), workbook.task("stability:1")], "en")
+    (problem,) = caught.value.problems
+    assert (problem.code, problem.pointer) == ("stack-none", "/tasks")
+    assert problem.parameters["tasks"] == "equilibria, stability:1"

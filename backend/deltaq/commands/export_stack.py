@@ -23,5 +23,9 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     """Write the questions."""
     from ..homework.command import stack_file
+    from ..narration.catalog import text
 
-    print(f"{stack_file(options.scene, options.tasks, options.output, options.lang)} → {options.output}")
+    count, left_out = stack_file(options.scene, options.tasks, options.output, options.lang)
+    print(f"{count} → {options.output}")
+    if left_out:
+        print(text(options.lang, "homework.stack.left-out", tasks=", ".join(left_out)))

@@ -64,7 +64,7 @@ class TaskEntry(Answer):
     subject: str
     title: str
     statement: str
-    form: Literal["expression", "vector", "equation", "equations", "set"]
+    form: Literal["expression", "vector", "equation", "equations", "set", "positions", "stability", "rate"]
     form_text: str
     components: int | None = Field(description="of a vector")
     points: float

@@ -1,20 +1,28 @@
-"""Checking one answer: it is read, compared by numbers, decided exactly, and diagnosed."""
+"""Checking one answer: by the judge of its kind of question, or as formulas: compared by numbers, decided exactly, and
+diagnosed.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
 
 from ..errors import ExpressionError
+from ..language.bounds import MAX_CHARACTERS
 from ..language.latex_printer import Typography, latex
 from ..language.parser import Syntax
 from ..language.plain_printer import plain
+from ..language.tokens import fail
+from ..language.tree import Span
 from ..mechanics.scene import Scene
 from . import slips
 from .counterexamples import counterexample
 from .diagnosis import Diagnosis, diagnose
 from .dimensions import Told, other_unit, unlike_terms
 from .equality import Match, Parts, equation
+from .model_questions import QuestionJudge, Understood, Written
 from .partwise import DECIDED, part_outcomes, part_share
 from .reading import Candidate, Reading, candidates
 from .sampling import DISTINCT, close
@@ -23,21 +31,137 @@ from .task import Task
 from .verdict import ShownReading, Slip, Verdict
 from .workbook import Workbook
 
+DECIMAL = re.compile(r"(?<=[0-9])\s?(?:,|\{,\})(?=[0-9])")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What somebody wrote; `decimal_comma` tells how 0,5 is usually meant where it can be meant in two ways."""
+
+    text: str
+    syntax: Syntax
+    decimal_comma: bool = False
+
+
+@dataclass(frozen=True)
+class Shown:
+    """An answer as it is understood before it is judged: its parts, LaTeX and plain, and the ways to read it."""
+
+    parts: Parts
+    latex: str
+    plain: str
+    readings: tuple[ShownReading, ...] = ()
+
+
+class Judge(Protocol):
+    """What decides on the answers to a task."""
+
+    def check(self, workbook: Workbook, task: Task, answer: Answer, /) -> Verdict:
+        """The verdict. Of several readings that survive, one that is right is taken; else the first."""
+
+    def shown(self, workbook: Workbook, task: Task, answer: Answer, /) -> Shown:
+        """How an answer is read. Raises ExpressionError with the offset in the text."""
+
+    def written(self, workbook: Workbook, task: Task, language: str, /) -> Written:
+        """The right answer in its display form."""
+
+
+def judge_of(task: Task) -> Judge:
+    """The judge of a task: formulas are compared, all other answers have a judge of their own."""
+    own = task.quantity.judge
+    return FormulaJudge() if own is None else AnswerJudge(own)
+
 
 def check(workbook: Workbook, task: Task, text: str, syntax: Syntax, *, decimal_comma: bool = False) -> Verdict:
-    """The verdict on one answer to one task: read, compared by numbers, decided exactly, and diagnosed.
+    """The verdict on one answer to one task."""
+    return judge_of(task).check(workbook, task, Answer(text, syntax, decimal_comma))
 
-    Of several readings that survive, one that is right is taken; else the first. `decimal_comma` tells how 0,5 is
-    usually meant where it can be meant in two ways.
-    """
-    try:
-        found = candidates(task, workbook.solution, text, syntax, decimal_comma=decimal_comma)
-    except ExpressionError as error:
-        return Verdict("invalid", problems=error.problems)
-    judged = [(one.reading, _match(workbook, task, one.reading)) for one in found if one.survives]
-    taken = next((n for n, (_, match) in enumerate(judged) if match.equal), 0)
-    verdict = _judged(workbook, task, *judged[taken], text, syntax)
-    return replace(verdict, readings=shown_readings(workbook.scene, found, taken))
+
+# --- answers that are more than formulas -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class AnswerJudge:
+    """Has the judge of a kind of question read an answer with and without decimal commas."""
+
+    own: QuestionJudge[Any]
+
+    def check(self, workbook: Workbook, task: Task, answer: Answer) -> Verdict:
+        """What is right in one of the readings is right."""
+        try:
+            found = self._readings(workbook, task, answer)
+        except ExpressionError as error:
+            return Verdict("invalid", problems=error.problems)
+        judged = [
+            replace(self.own.verdict(workbook.solution, task.subject, one), understood_as=one.latex) for one in found
+        ]
+        return next((one for one in judged if one.outcome == "correct"), judged[0])
+
+    def shown(self, workbook: Workbook, task: Task, answer: Answer) -> Shown:
+        """By the usual reading."""
+        first, *_ = self._readings(workbook, task, answer)
+        return Shown(first.parts, first.latex, first.plain)
+
+    def written(self, workbook: Workbook, task: Task, language: str) -> Written:
+        """As the judge writes it."""
+        return self.own.written(workbook.solution, task.subject, language)
+
+    def _readings(self, workbook: Workbook, task: Task, answer: Answer) -> list[Understood[Any]]:
+        """Those that can be read, the usual one first. Raises ExpressionError, of the usual one, if there is none."""
+        found, failed = [], []
+        for text in _with_and_without_decimals(answer):
+            try:
+                found.append(self.own.read(workbook.solution, task.subject, text, answer.syntax))
+            except ExpressionError as error:
+                failed.append(error)
+        if not found:
+            raise failed[0]
+        return found
+
+
+def _with_and_without_decimals(answer: Answer) -> Iterator[str]:
+    length = len(answer.text)
+    if length > MAX_CHARACTERS:
+        fail("too-long", Span(MAX_CHARACTERS, length - MAX_CHARACTERS), length=length, limit=MAX_CHARACTERS)
+    points = DECIMAL.sub(lambda found: ".".rjust(len(found[0])), answer.text)
+    yield from dict.fromkeys((points, answer.text) if answer.decimal_comma else (answer.text, points))
+
+
+# --- formulas --------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class FormulaJudge:
+    """Compares expressions, vectors and equations."""
+
+    def check(self, workbook: Workbook, task: Task, answer: Answer) -> Verdict:
+        """Read, compared by numbers, decided exactly, and diagnosed."""
+        try:
+            found = _candidates(workbook, task, answer)
+        except ExpressionError as error:
+            return Verdict("invalid", problems=error.problems)
+        judged = [(one.reading, _match(workbook, task, one.reading)) for one in found if one.survives]
+        taken = next((n for n, (_, match) in enumerate(judged) if match.equal), 0)
+        verdict = _judged(workbook, task, *judged[taken], answer.text, answer.syntax)
+        return replace(verdict, readings=shown_readings(workbook.scene, found, taken))
+
+    def shown(self, workbook: Workbook, task: Task, answer: Answer) -> Shown:
+        """The first of the readings, with the others."""
+        found = _candidates(workbook, task, answer)
+        first, readings = found[0].reading, shown_readings(workbook.scene, found, 0)
+        return Shown(first.parts, latex(first.shown, Typography(workbook.scene.names)), plain(first.shown), readings)
+
+    def written(self, workbook: Workbook, task: Task, _language: str) -> Written:
+        """One text for each part; equations with `= 0`."""
+        typography, shown = Typography(workbook.scene.names), workbook.shown(task)
+        ending = " = 0" if task.quantity.form in ("equation", "equations") else ""
+        return Written(
+            tuple(plain(part) + ending for part in shown), tuple(latex(part, typography) + ending for part in shown)
+        )
+
+
+def _candidates(workbook: Workbook, task: Task, answer: Answer) -> tuple[Candidate, ...]:
+    return candidates(task, workbook.solution, answer.text, answer.syntax, decimal_comma=answer.decimal_comma)
 
 
 def shown_readings(scene: Scene, found: Sequence[Candidate], taken: int) -> tuple[ShownReading, ...]:
@@ -160,5 +284,5 @@ def _told(slip: slips.Slip, workbook: Workbook) -> Slip:
 def _units(workbook: Workbook, task: Task, reading: Reading, syntax: Syntax) -> Told | None:
     """Terms that cannot be added come first; then another unit than the one asked for."""
     unlike = unlike_terms(reading, workbook.scene, syntax)
-    measured = task.quantity.form in ("expression", "vector") and task.quantity.kind != "conserved"
+    measured = task.quantity.form in ("expression", "vector") and not task.quantity.up_to_factor
     return unlike or (other_unit(reading, workbook.shown(task), workbook.scene) if measured else None)

@@ -13,7 +13,7 @@ from .grading import Sheet, grade, plan_of, read_class
 from .handins import LARGEST, HandIns, handed_in
 from .platforms import canvas_csv, moodle_csv
 from .results import Graded, results_csv, summary, totals
-from .stack.question import quiz
+from .stack.question import left_out, quiz
 from .workbook import workbook_of
 
 WIDTH = 30
@@ -75,9 +75,13 @@ def _with_progress(graded: Iterable[T], total: int, screen: TextIO) -> Iterator[
         screen.write("\n")
 
 
-def stack_file(scene: str, tasks: Sequence[str], output: Path, language: str) -> int:
-    """Write questions for STACK: the named tasks of a built-in scene, all of them if none is named; their number."""
+def stack_file(scene: str, tasks: Sequence[str], output: Path, language: str) -> tuple[int, list[str]]:
+    """Write questions for STACK: the named tasks of a built-in scene, all of them if none is named.
+
+    Returns how many there are, and the names of those that STACK cannot judge.
+    """
     workbook = workbook_of({"scene": scene})
     wanted = [workbook.task(task) for task in tasks] or workbook.tasks
     output.write_text(quiz(workbook, wanted, language), encoding="utf-8")
-    return len(wanted)
+    told = left_out(wanted)
+    return len(wanted) - len(told), told

@@ -99,7 +99,7 @@ def _remark(verdict: Verdict, scene: Scene, language: str) -> CatalogText:
     if verdict.remark == "divided" and verdict.nonzero:
         factors = joined(", ", (formula(rf"{factor} \neq 0") for factor in verdict.nonzero))
         return text(language, "homework.remarks.divided-by", factors=factors)
-    if verdict.remark == "chain":
+    if "member" in verdict.parameters:
         return text(language, key, member=formula(verdict.parameters["member"]))
     lines = joined(", ", (_title(task, scene, language) for task in verdict.source))
     return text(language, key, **_about(verdict, scene, language), lines=lines)

@@ -32,7 +32,7 @@ from .statement import task_document
 from .table import BEYOND, Table, read_table
 from .verdict import Verdict
 from .workbook import Workbook, workbook_asked_about
-from .working import check_following, line_of, reading_of
+from .working import check_following, line_of, parts_of
 
 SYNTAXES: Mapping[str, Syntax] = {"": "plain", "plain": "plain", "latex": "latex"}
 HANDED_IN = {"id", "time", "file"}  # columns that say when and by whom something was handed in
@@ -292,7 +292,7 @@ def row_verdict(question: Mapping[str, object]) -> Document:
     try:
         workbook = workbook_asked_about(asked, asked.seed)
         standing = [line_of(one, language) for one in asked.standing]
-        wrong = {one.task: reading_of(workbook, one).parts for one in standing}
+        wrong = {one.task: parts_of(workbook, one) for one in standing}
         verdict = check_following(workbook, workbook.task(line.task), line, wrong)
     except InputError as error:
         return refusal(_told(error, language)).model_dump()

@@ -15,11 +15,25 @@ from .equality import (
     expression,
     frequencies,
     lagrangian,
+    stated,
+    symmetry,
     up_to_constant,
 )
+from .model_questions import positions, stability, steady
 from .quantity import Quantity
 from .solution import Solution
-from .subjects import bodies, coordinates, coupled, loaded, numbered, oscillating, resting, whole, with_potential
+from .subjects import (
+    bodies,
+    coordinates,
+    coupled,
+    loaded,
+    numbered,
+    oscillating,
+    resting,
+    symmetric,
+    whole,
+    with_potential,
+)
 
 
 def _vector(value: sp.ImmutableMatrix) -> Parts:
@@ -30,14 +44,28 @@ def _virtual_work(solution: Solution, _: str) -> Parts:
     return (sum(map(solution.virtual_work, solution.scene.contributions), solution.zero),)
 
 
+def _true(solution: Solution) -> Solution:
+    """The way to the right answer, also where a law is got wrong: equilibria and the like are not led on from that."""
+    return cast("Solution", getattr(solution, "true", solution))
+
+
 def _conserved_value(solution: Solution, number: str) -> Parts:
-    true = getattr(solution, "true", solution)
-    return (solution.conserved(true.conserved_of[int(number) - 1]),)
+    return (solution.conserved(_true(solution).conserved_of[int(number) - 1]),)
 
 
-EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE = (
+EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED = (
     cast("Equality", module)
-    for module in (expression, up_to_constant, lagrangian, equation, equations, frequencies, conserved)
+    for module in (
+        expression,
+        up_to_constant,
+        lagrangian,
+        equation,
+        equations,
+        frequencies,
+        conserved,
+        symmetry,
+        stated,
+    )
 )
 
 QUANTITIES: tuple[Quantity, ...] = (
@@ -188,6 +216,53 @@ QUANTITIES: tuple[Quantity, ...] = (
         ("p", "h", "H", "E"),
         ("lagrangian", "momentum"),
         steps=("cyclic-coordinate:{cyclic}", "jacobi-energy"),
+    ),
+    Quantity(
+        "equilibria",
+        "positions",
+        STATED,
+        lambda solution, _: positions.value(_true(solution)),
+        lambda solution: ("",) if positions.asked(_true(solution)) else (),
+        "model",
+        needs=("equation", "potential-energy"),
+        points=2.0,
+        steps=("equilibrium:1", "equilibrium-condition"),
+        judge=positions.Positions(),
+    ),
+    Quantity(
+        "stability",
+        "stability",
+        STATED,
+        lambda solution, number: stability.value(_true(solution), number),
+        lambda solution: stability.asked(_true(solution)),
+        "model",
+        needs=("equilibria", "potential-energy"),
+        steps=("stability-condition:{subject}", "equilibrium:{subject}"),
+        judge=stability.Stability(),
+    ),
+    Quantity(
+        "symmetry",
+        "expression",
+        MADE_OF,
+        lambda solution, number: (_true(solution).symmetries[number].value,),
+        symmetric,
+        "model",
+        ("I", "p", "Q", "C"),
+        ("lagrangian", "conserved"),
+        2.0,
+        steps=("noether:{subject}",),
+    ),
+    Quantity(
+        "steady-motion",
+        "rate",
+        STATED,
+        lambda solution, turning: steady.value(_true(solution), turning),
+        lambda solution: steady.asked(_true(solution)),
+        "model",
+        needs=("lagrangian", "conserved"),
+        points=2.0,
+        steps=("relative-equilibrium:1", "routh-function"),
+        judge=steady.Steady(),
     ),
 )
 

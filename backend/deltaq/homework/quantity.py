@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
-from .equality import Equality, Parts, conserved, lagrangian, up_to_constant
+from .equality import Equality, Parts, conserved, lagrangian, symmetry, up_to_constant
+from .model_questions import QuestionJudge
 from .solution import Solution
 
-Form = Literal["expression", "vector", "equation", "equations", "set"]
+Form = Literal["expression", "vector", "equation", "equations", "set", "positions", "stability", "rate"]
 Subjects = Callable[[Solution], Iterable[str]]
 
 
@@ -19,7 +20,7 @@ class Quantity:
 
     `needs` are the quantities it is derived from, `chapter` is where the derivation shows it and `steps` the steps that
     do, the likeliest first. `labels` are the symbols that may stand on the left of the answer, and `points` is what it
-    counts if nobody says otherwise.
+    counts if nobody says otherwise. `judge` decides on answers that are more than expressions.
     """
 
     kind: str
@@ -32,8 +33,14 @@ class Quantity:
     needs: tuple[str, ...] = ()
     points: float = 1.0
     steps: tuple[str, ...] = ()
+    judge: QuestionJudge[Any] | None = None
+
+    @property
+    def up_to_factor(self) -> bool:
+        """Whether a constant factor makes no difference: an integral of motion has no unit of its own."""
+        return self.equality in (conserved, symmetry)
 
     @property
     def up_to_constant(self) -> bool:
         """Whether an added constant makes no difference."""
-        return self.equality in (up_to_constant, lagrangian, conserved)
+        return self.up_to_factor or self.equality in (up_to_constant, lagrangian)

@@ -10,24 +10,20 @@ from ..contract.check import CheckRequest, LinesRequest, ReadingRequest, TableRe
 from ..contract.reading import read as read_request
 from ..contract.task import AssignmentRequest, SolutionRequest, StackRequest, TasksRequest
 from ..errors import ExpressionError, Problem, RequestError
-from ..language.latex_printer import Typography, latex
-from ..language.plain_printer import plain
 from ..mechanics.requests import inside
 from ..mechanics.user_text import plainly, translated
 from ..mechanics.writing import write_scene
 from ..narration.catalog import language_of
 from .assignment import look_up, resolved
-from .checking import shown_readings
 from .feedback import Document, problem_documents, reading_documents, verdict_document
 from .gradebook import Shares
 from .grading import Sheet, plan_of, read_class
 from .handins import code_of
 from .motion import moved_scene
-from .reading import candidates
 from .stack.question import quiz
 from .statement import model_answer, task_document
 from .workbook import Workbook, workbook_asked_about, workbook_of
-from .working import Scheme, check_following, line_of, mark, wrong_among
+from .working import Scheme, check_following, line_of, mark, shown_line, wrong_among
 
 
 def tasks_request(document: Mapping[str, object]) -> Document:
@@ -68,25 +64,18 @@ def reading_request(document: Mapping[str, object]) -> Document:
     workbook, language = workbook_asked_about(asked, asked.seed), language_of(asked.lang)
     line = line_of(asked, language)
     try:
-        found = candidates(
-            workbook.task(line.task), workbook.solution, line.text, line.syntax, decimal_comma=line.decimal_comma
-        )
+        shown = shown_line(workbook, line)
     except ExpressionError as error:
         return {"latex": "", "plain": "", "problems": problem_documents(error.problems, language), "readings": []}
-    shown = found[0].reading.shown
-    return {
-        "latex": latex(shown, Typography(workbook.scene.names)),
-        "plain": plain(shown),
-        "problems": [],
-        "readings": reading_documents(shown_readings(workbook.scene, found, 0)),
-    }
+    readings = reading_documents(shown.readings)
+    return {"latex": shown.latex, "plain": shown.plain, "problems": [], "readings": readings}
 
 
 def solution_request(document: Mapping[str, object]) -> Document:
     """The fields of a SolutionRequest → the right answer, one text for each part, plain and LaTeX."""
     asked = read_request(SolutionRequest, document)
     workbook = workbook_asked_about(asked, asked.seed)
-    return model_answer(workbook.task(asked.task), workbook)
+    return model_answer(workbook.task(asked.task), workbook, language_of(asked.lang))
 
 
 def motion_request(document: Mapping[str, object]) -> Document:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,7 +10,9 @@ import sympy as sp
 
 from ..derivation.calculus import V
 from ..derivation.conservation import cyclic, jacobi_energy, jacobi_energy_rate
+from ..derivation.generator import Symmetry
 from ..derivation.linearization import linearizations
+from ..derivation.optional import symmetries_of
 from ..derivation.system import System
 from ..language.canonical import display
 from ..language.memory import cached_method
@@ -42,9 +45,14 @@ class Solution(System):
         return inertia + self.potential_slope(coordinate) - self.nonconservative_force(coordinate)
 
     @cached_property
+    def model(self) -> System:
+        """The system of the last chapter, whose expressions are brought into their shown form."""
+        return System(self.scene)
+
+    @cached_property
     def rest(self) -> dict[sp.Symbol, sp.Expr] | None:
         """The first equilibrium that is stable and known in the parameters; None where there is none."""
-        for linear in linearizations(System(self.scene)):
+        for linear in linearizations(self.model):
             regular = linear.equilibrium.exact and linear.spectrum is not None
             if regular and linear.stability == "stable":
                 return dict(linear.equilibrium.values)
@@ -94,3 +102,15 @@ class Solution(System):
     def conserved(self, coordinate: str) -> sp.Expr:
         """The momentum of a cyclic coordinate, or the Jacobi energy."""
         return self.momentum(coordinate) if coordinate else jacobi_energy(self)
+
+    @cached_property
+    def symmetries(self) -> Mapping[str, Symmetry]:
+        """Those that hold for all parameters, besides cyclic coordinates and time, by their number."""
+        found = enumerate(symmetries_of(self.model), 1)
+        return {str(number): each for number, each in found if not each.conditions}
+
+    @property
+    def integrals(self) -> tuple[sp.Expr, ...]:
+        """All that is known to be conserved, whatever the parameters."""
+        further = (each.value for each in self.symmetries.values())
+        return (*map(self.conserved, self.conserved_of), *further)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from ..language.latex_printer import Typography, latex
-from ..language.plain_printer import plain
 from ..narration.catalog import text
-from ..narration.prose import formula, joined
 from .axes import axes_text
+from .checking import judge_of
 from .feedback import Document, label
 from .task import Task
+from .told import asked_about
 from .workbook import Workbook
 
 
@@ -49,26 +48,10 @@ def _subject(task: Task, workbook: Workbook, language: str) -> dict[str, object]
     values: dict[str, object] = {"subject": label(task.subject, scene, language), "dimension": scene.dimension}
     if task.quantity.form == "vector":
         values["axes"] = axes_text(scene, language)
-    if task.quantity.kind in ("linearized", "eigenfrequencies"):
-        typography = Typography(scene.names)
-        rest = workbook.solution.rest or {}
-        equations = (f"{latex(q, typography)} = {latex(v, typography)}" for q, v in rest.items())
-        values["rest"] = joined(", ", map(formula, equations))
-    if task.quantity.kind == "conserved":
-        coordinate = workbook.solution.conserved_of[int(task.subject) - 1]
-        kind = "momentum" if coordinate else "energy"
-        values["number"] = task.subject
-        named = label(coordinate, scene, language)
-        values["what"] = text(language, f"homework.conserved.{kind}", coordinate=named)
-    return values
+    return values | asked_about(task, workbook, language)
 
 
-def model_answer(task: Task, workbook: Workbook) -> Document:
+def model_answer(task: Task, workbook: Workbook, language: str = "en") -> Document:
     """The right answer as plain text and LaTeX, in its display form."""
-    typography = Typography(workbook.scene.names)
-    shown = workbook.shown(task)
-    ending = " = 0" if task.quantity.form in ("equation", "equations") else ""
-    return {
-        "plain": [plain(part) + ending for part in shown],
-        "latex": [latex(part, typography) + ending for part in shown],
-    }
+    right = judge_of(task).written(workbook, task, language)
+    return {"plain": list(right.plain), "latex": list(right.latex)}

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import sympy as sp
+
 from .equality import frequencies
 from .solution import Solution
+
+MOST_SYMMETRIES = 6
 
 
 def bodies(solution: Solution) -> list[str]:
@@ -27,8 +31,9 @@ def loaded(solution: Solution) -> tuple[str, ...]:
 
 
 def with_potential(solution: Solution) -> tuple[str, ...]:
-    """The scene, if a load has a potential."""
-    return ("",) if any(map(solution.is_conservative, solution.load_names)) else ()
+    """The scene, if a load has a potential that does anything: that of a spring of constant length is a constant."""
+    moving = (not solution.is_zero(solution.potential_slope(q)) for q in solution.free)
+    return ("",) if any(map(solution.is_conservative, solution.load_names)) and any(moving) else ()
 
 
 def coupled(solution: Solution) -> tuple[str, ...]:
@@ -37,8 +42,12 @@ def coupled(solution: Solution) -> tuple[str, ...]:
 
 
 def resting(solution: Solution) -> tuple[str, ...]:
-    """Each free coordinate, if the scene has a position of rest."""
-    return solution.free if solution.rest is not None else ()
+    """Each free coordinate, if there is a position of rest at which the equations have slopes; √(ẋ² + ẏ²) has none."""
+    return solution.free if solution.rest is not None and _has_slopes(solution) else ()
+
+
+def _has_slopes(solution: Solution) -> bool:
+    return not any(solution.linear_equation(q).has(sp.nan, sp.zoo) for q in solution.free)
 
 
 def oscillating(solution: Solution) -> tuple[str, ...]:
@@ -55,3 +64,8 @@ def _positive(solution: Solution) -> bool:
 def numbered(solution: Solution) -> list[str]:
     """Each conserved quantity, by its number."""
     return [str(n) for n, _ in enumerate(solution.conserved_of, 1)]
+
+
+def symmetric(solution: Solution) -> list[str]:
+    """Each integral of a symmetry that is not seen at a glance, by its number, the first ones."""
+    return list(solution.symmetries)[:MOST_SYMMETRIES]

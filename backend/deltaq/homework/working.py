@@ -17,12 +17,12 @@ from ..contract.check import WrittenAnswer
 from ..language.canonical import display
 from ..language.memory import cached_method
 from ..language.parser import Syntax
-from .checking import check
+from .checking import Answer, Shown, check, judge_of
 from .diagnosis import diagnose
 from .equality import Parts
 from .gradebook import Shares, earned_share, standing_after
 from .own import OwnSolution
-from .reading import Reading, read
+from .reading import Reading
 from .solution import Solution
 from .task import Task
 from .verdict import Verdict
@@ -61,10 +61,15 @@ def line_of(asked: Answered, language: str) -> Line:
     return Line(asked.task, asked.answer.value, asked.answer.syntax, decimal_comma=language in DECIMAL_COMMA)
 
 
-def reading_of(workbook: Workbook, line: Line) -> Reading:
+def shown_line(workbook: Workbook, line: Line) -> Shown:
     """How a line is read. Raises ExpressionError."""
     task = workbook.task(line.task)
-    return read(task, workbook.solution, line.text, line.syntax, decimal_comma=line.decimal_comma)
+    return judge_of(task).shown(workbook, task, Answer(line.text, line.syntax, line.decimal_comma))
+
+
+def parts_of(workbook: Workbook, line: Line) -> Parts:
+    """What a line says. Raises ExpressionError."""
+    return shown_line(workbook, line).parts
 
 
 @dataclass(frozen=True)
@@ -118,7 +123,7 @@ def _judged(
     verdict = check_following(workbook, task, line, wrong)
 
     def parts() -> Parts:
-        return reading_of(workbook, line).parts
+        return parts_of(workbook, line)
 
     return verdict, standing_after(wrong, task.id, verdict.outcome, parts)
 
@@ -128,7 +133,7 @@ def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[s
     verdict = check(workbook, task, line.text, line.syntax, decimal_comma=line.decimal_comma)
     if verdict.outcome != "wrong" or not wrong:
         return verdict
-    given = reading_of(workbook, line).parts
+    given = parts_of(workbook, line)
     if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.solution).equal:
         return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slips=(), marked="")
     ways = [way for way in _ways_from_wrong_lines(workbook, task, wrong) if _follows(task, given, way)]

@@ -42,6 +42,21 @@ const OPERATIONS = [
   key("-", "-", " - "),
 ];
 const EQUALS = key("=", "=", " = ");
+const OR = key(";", ";", "; ", ";");
+const PLUS_MINUS = key("\\pm", "\\pm", "±", "±");
+const LESS = key("<", "<", " < ", "<");
+const MORE = key(">", ">", " > ", ">");
+/** What stands between the formulas of an answer. @type {Record<string, Key[]>} */
+const RELATIONS = {
+  equation: [EQUALS],
+  equations: [EQUALS],
+  set: [EQUALS],
+  positions: [EQUALS, OR, PLUS_MINUS],
+  stability: [LESS, MORE],
+  rate: [EQUALS, OR, PLUS_MINUS],
+};
+/** The words of an answer. @type {Record<string, readonly string[]>} */
+const WORDS = { stability: ["homework.word-stable", "homework.word-unstable", "homework.word-for"] };
 const TIME = [
   key("t", "t", "t"),
   key("\\tfrac{\\mathrm d}{\\mathrm dt}", "\\frac{d}{dt}\\left(#0\\right)", "diff(|, t)", "d/dt"),
@@ -57,22 +72,26 @@ function motionKeys({ name, latex }, kind) {
   return kind === "position" ? all.slice(0, 1) : [...all, key(twiceDotted(latex), twiceDotted(latex), `ddot(${name})`)];
 }
 
+/** @param {string} word */
+const wordKey = (word) => key(`\\text{${word}}`, `\\operatorname{${word}}`, ` ${word} `, word);
+
 /**
  * @param {Pick<import("./sheet.js").Entry, "symbols" | "task" | "scene">} entry
+ * @param {(key: string) => string} t  texts
  * @returns {Row[]}
  */
-export function keyboardOf({ symbols, task, scene }) {
+export function keyboardOf({ symbols, task, scene }, t) {
   const guided = new Set((scene.guides ?? []).map(({ coordinate }) => coordinate));
   const coordinates = symbols.filter(({ kind, name }) => kind === "coordinate" && !guided.has(name));
   const parameters = symbols
     .filter(({ kind }) => kind === "parameter")
     .map(({ name, latex }) => key(latex, latex, name));
-  const relation = /equation|set/.test(task.form) ? [EQUALS] : [];
+  const words = (WORDS[task.form] ?? []).map((word) => wordKey(t(word)));
   const frequency = task.form === "set" ? [key("\\omega", "\\omega", "omega")] : [];
   return [
     { id: "motion", keys: [...frequency, ...coordinates.flatMap((symbol) => motionKeys(symbol, task.kind)), ...TIME] },
     { id: "parameters", keys: parameters },
-    { id: "operations", keys: [...relation, ...OPERATIONS] },
+    { id: "operations", keys: [...words, ...(RELATIONS[task.form] ?? []), ...OPERATIONS] },
     { id: "greek", keys: GREEK.map((name) => key(`\\${name}`, `\\${name}`, name.replace("var", ""))) },
   ].filter(({ keys }) => keys.length > 0);
 }
@@ -108,6 +127,6 @@ export function shortcutsOf(symbols) {
       [`delta${name}`, `\\delta ${latex}`],
     ]);
   const greek = [...GREEK, "phi"].map((name) => [name, `\\${name}`]);
-  const functions = ["sin", "cos", "tan", "exp", "ln"].map((name) => [name, `\\${name}`]);
+  const functions = ["sin", "cos", "tan", "arcsin", "arccos", "arctan", "exp", "ln"].map((name) => [name, `\\${name}`]);
   return Object.fromEntries([...greek, ...functions, ["sqrt", "\\sqrt{#?}"], ["*", "\\cdot"], ...named, ...moving]);
 }

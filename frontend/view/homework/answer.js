@@ -96,7 +96,10 @@ function labelOf({ task }, index, count, t) {
 function placeholderOf({ task, symbols }) {
   const name = symbols.find(({ kind }) => kind === "coordinate")?.name ?? "q";
   const equation = `ddot(${name}) + … = 0`;
-  return { equation, equations: equation, set: "omega = …", expression: "…", vector: "…" }[task.form];
+  const positions = `${name} = …; ${name} = …`;
+  const rate = `dot(${name})^2 = …`;
+  const forms = { equation, equations: equation, set: "omega = …", expression: "…", vector: "…" };
+  return { ...forms, positions, rate, stability: "…" }[task.form];
 }
 
 /** @param {AnswerProblem} problem @param {string[]} parts @param {{part: number, offset: number} | null} place */

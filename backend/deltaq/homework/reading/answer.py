@@ -40,11 +40,7 @@ def _without_constant(task: Task, solution: Solution, layout: Layout) -> Layout:
         return layout
     start, end = layout.statements[-1].members[-1]
     last = layout.slice((start, end))
-    if (
-        task.quantity.kind == "conserved"
-        and CONSTANT.fullmatch(last.strip())
-        and len(layout.statements[-1].members) > 1
-    ):
+    if task.quantity.up_to_factor and CONSTANT.fullmatch(last.strip()) and len(layout.statements[-1].members) > 1:
         shorter = replace(layout.statements[-1], members=layout.statements[-1].members[:-1])
         return replace(layout, statements=(*layout.statements[:-1], shorter))
     added = ADDED.search(last) if solution.scene.names.get("C") is None else None

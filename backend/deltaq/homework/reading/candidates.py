@@ -140,7 +140,7 @@ def _makes_sense(task: Task, solution: Solution, reading: Reading) -> bool:
 
 def _wanted(task: Task, solution: Solution) -> Dimension | None:
     """The dimension of the right answer, where it has one."""
-    if task.quantity.form not in ("expression", "vector", "set") or task.quantity.kind == "conserved":
+    if task.quantity.form not in ("expression", "vector", "set") or task.quantity.up_to_factor:
         return None
     check = DimensionCheck(units_of(solution.scene), "", [])
     try:

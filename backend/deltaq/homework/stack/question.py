@@ -10,13 +10,15 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 from itertools import islice
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Comment, Element, SubElement, indent, tostring
 
+from ...errors import Problem, RequestError
 from ...language.latex_printer import Typography, latex
 from ...mechanics.scene import Scene
 from ...mechanics.user_text import UserText
 from ...narration.catalog import text
 from ...narration.prose import CatalogText, joined, pieces, plain, words
+from ..equality import symmetry
 from ..feedback import about_texts
 from ..statement import task_document
 from ..task import Task
@@ -72,13 +74,27 @@ class Node:
     score: str = "0"
 
 
-def quiz(workbook: Workbook, tasks: Iterable[Task], language: str) -> str:
-    """The XML document of several questions."""
+def quiz(workbook: Workbook, tasks: Sequence[Task], language: str) -> str:
+    """The XML document of several questions. Those that STACK cannot judge are named in a comment.
+
+    Raises RequestError where it can judge none.
+    """
+    told = left_out(tasks)
+    if told and len(told) == len(tasks):
+        raise RequestError(Problem("stack-none", "/tasks", parameters={"tasks": ", ".join(told)}))
     root = Element("quiz")
+    if told:
+        root.append(Comment(f" {text(language, 'homework.stack.left-out', tasks=', '.join(told))} "))
     for task in tasks:
-        root.append(question(workbook, task, language))
+        if task.id not in told:
+            root.append(question(workbook, task, language))
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+
+
+def left_out(tasks: Iterable[Task]) -> list[str]:
+    """The tasks whose answers Maxima cannot compare: words, positions, and what other integrals may be added to."""
+    return [task.id for task in tasks if task.quantity.judge is not None or task.quantity.equality is symmetry]
 
 
 def question(workbook: Workbook, task: Task, language: str) -> Element:
