@@ -4,7 +4,7 @@ import { isComplete, joined, partsOf, placeIn } from "../../frontend/model/homew
 import { createAnswering, isCurrent, partsIn } from "../../frontend/model/homework/answering.js";
 import { assignmentIn, fragmentOfAssignment } from "../../frontend/model/homework/assignment.js";
 import { createConversion } from "../../frontend/model/homework/conversion.js";
-import { columnsFor, inRows, keyboardOf, shortcutsOf, written } from "../../frontend/model/homework/keys.js";
+import { columnsFor, inRows, isWord, keyboardOf, shortcutsOf, written } from "../../frontend/model/homework/keys.js";
 import { paired } from "../../frontend/model/homework/fences.js";
 import { base64, createClassroom } from "../../frontend/model/homework/classroom.js";
 import { patient } from "../../frontend/model/homework/patience.js";
@@ -106,6 +106,8 @@ test("the keyboard offers what a task is made of", () => {
   assert.deepEqual(names({}, "motion", [{ coordinate: "y", value: "0" }])?.slice(0, 2), ["phi", "dot(phi)"]);
   assert.deepEqual(names({}, "parameters"), ["m"]);
   assert.deepEqual(names({ kind: "stability", form: "stability" }, "operations")?.slice(0, 5), ["homework.word-stable", "homework.word-unstable", "homework.word-for", "<", ">"]);
+  const words = keyboardOf(/** @type {any} */ ({ symbols, scene, task: { ...task, form: "stability" } }), (text) => text).flatMap(({ keys }) => keys).filter(isWord);
+  assert.deepEqual(words.map(({ latex }) => latex), ["stable", "unstable", "for"].map((word) => `\\operatorname{homework.word-${word}}`));
   assert.deepEqual(names({ kind: "equilibria", form: "positions" }, "operations")?.slice(0, 3), [" = ", ";", "±"]);
   assert.equal(names({ kind: "position", form: "vector" }, "operations")?.includes(" = "), false);
   assert.equal(shortcutsOf(symbols)["phi''"], "\\ddot{q}_2");

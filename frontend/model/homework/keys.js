@@ -96,6 +96,9 @@ export function keyboardOf({ symbols, task, scene }, t) {
   ].filter(({ keys }) => keys.length > 0);
 }
 
+/** Whether a key is a word, as wide as two. @param {Key} key */
+export const isWord = ({ label }) => label.startsWith("\\text");
+
 /** How many keys stand in a row of a phone, so that none is alone in the last. @param {number} count */
 export const columnsFor = (count) => [6, 5, 4].find((columns) => count % columns !== 1) ?? 6;
 

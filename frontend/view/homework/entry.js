@@ -3,7 +3,7 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "../formula.js";
-import { columnsFor, written } from "../../model/homework/keys.js";
+import { columnsFor, isWord, written } from "../../model/homework/keys.js";
 import { leaveNumber, mathField } from "./mathfield.js";
 
 /** @typedef {import("../../model/homework/keys.js").Key} Key */
@@ -65,10 +65,10 @@ export function keyboard(rows, t) {
   const keys = (/** @type {Key[]} */ some) =>
     some.map(
       (key) => html`
-    <button type="button" class="key-cap" title=${key.name} aria-label=${key.name} @pointerdown=${hold} @mousedown=${hold} @click=${(/** @type {Event} */ e) => press(e, key)}>${inline(key.label)}</button>`,
+    <button type="button" class="key-cap ${isWord(key) ? "word" : ""}" title=${key.name} aria-label=${key.name} @pointerdown=${hold} @mousedown=${hold} @click=${(/** @type {Event} */ e) => press(e, key)}>${inline(key.label)}</button>`,
     );
   const together = rows.filter(({ id }) => id !== "greek").flatMap((row) => row.keys);
-  const columns = (/** @type {Key[]} */ some) => `--columns:${columnsFor(some.length)}`;
+  const columns = (/** @type {Key[]} */ some) => `--columns:${columnsFor(some.length + some.filter(isWord).length)}`;
   return html`<div class="keyboard" role="group" aria-label=${t("homework.keyboard")} style=${columns(together)}>${rows.map(
     ({ id, keys: some }) =>
       id === "greek"

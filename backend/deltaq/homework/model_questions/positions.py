@@ -38,6 +38,7 @@ MOST = 8  # positions that are asked for
 MOST_GIVEN = 40
 DIGITS = 30
 SHOWN_DIGITS = 5
+DECIMALS = 15
 SAME = sp.Float("1e-18")
 ROUNDED = sp.Float("5e-3")  # how far a number may be off that was written with three digits
 NUDGES = (0, 1, -1)  # of the parameters, by thousandths of different size
@@ -120,7 +121,8 @@ def shown_values(equilibrium: Equilibrium) -> Position:
     """Formulas, or numbers to a few digits where there is none."""
     if equilibrium.exact:
         return equilibrium.values
-    return {q: sp.Rational(f"{float(value):.{SHOWN_DIGITS}g}") for q, value in equilibrium.values.items()}
+    numbers = {q: round(float(value), DECIMALS) for q, value in equilibrium.values.items()}  # a zero of balls is near 0
+    return {q: sp.Rational(f"{number:.{SHOWN_DIGITS}g}") for q, number in numbers.items()}
 
 
 def value(solution: Solution) -> Parts:
@@ -324,7 +326,7 @@ def _same(model: System, q: sp.Symbol, given: sp.Expr, right: sp.Expr, *, exact:
         return False
     size = max(sp.Float(1) if turn else sp.Float(0), abs(_number(right, parameter_sets(model)[0]) or 0))
     is_number = not given.free_symbols or not exact
-    return True if is_number and own is not None and own <= ROUNDED * size else None
+    return True if is_number and own is not None and own <= max(ROUNDED * size, SAME) else None
 
 
 def _apart(given: sp.Expr, right: sp.Expr, values: Mapping[sp.Symbol, sp.Expr], turn: sp.Expr | None) -> sp.Expr | None:
