@@ -6,13 +6,18 @@ Thousands of them: `python -m tests.derivation.random_scenes 2000 1`.
 from __future__ import annotations
 
 import pytest
-from tests.derivation.random_scenes import faults, random_scene
+from tests.derivation.random_scenes import faults, random_scene, wrong_tasks
 
 # Those in which something was wrong: a factor that vanishes where two angles are equal, a drag that has no slope at
 # rest, a spring of constant length, an entry that is zero only once it is multiplied out, a position at 1e-80.
 MET = (76, 117, 127, 155, 332)
 
 
-@pytest.mark.parametrize("seed", [*MET, *range(1000, 1008)])
+@pytest.mark.parametrize("seed", MET)
+def test_the_tasks_of_a_scene_that_had_a_fault_have_right_answers(seed: int) -> None:
+    assert wrong_tasks(random_scene(seed), seconds=60) == []
+
+
+@pytest.mark.parametrize("seed", range(1000, 1008))
 def test_a_random_scene_is_sound(seed: int) -> None:
     assert faults(random_scene(seed)) == []
