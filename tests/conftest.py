@@ -34,8 +34,8 @@ def kernels() -> None:
 
 
 def pytest_xdist_auto_num_workers() -> int:
-    """One more than there are cores: somebody always waits, for a browser, a service or a deadline."""
-    return (os.cpu_count() or 1) + 1
+    """Two more than there are cores: some always wait, for a browser, a service or a deadline."""
+    return (os.cpu_count() or 1) + 2
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
