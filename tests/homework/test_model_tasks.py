@@ -5,8 +5,9 @@ What is right is what textbooks publish, written as students write it; what is w
 
 from __future__ import annotations
 
+import random
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from itertools import cycle
 from typing import Any
@@ -80,6 +81,8 @@ hoop | equilibria | theta = 0, theta = pi, theta = ±acos(g/(R*Omega^2))
 hoop | equilibria | sin(theta) = 0 or cos(theta) = g/(Omega^2*R)
 double-pendulum | equilibria | [0, 0]; [0, pi]; [pi, 0]; [pi, pi]
 double-pendulum | equilibria | (0, 0), (0, pi), (pi, 0), (pi, pi)
+double-pendulum | equilibria | (phi1, phi2) = (0,0), (pi,0), (0,pi), (pi,pi)
+double-pendulum | equilibria | (0|0), (pi|0), (0|pi), (pi|pi)
 two | equilibria | phi1 = 0, phi2 = 0; phi1 = 0, phi2 = pi; phi1 = pi, phi2 = 0; phi1 = pi, phi2 = pi
 double-pendulum | equilibria | phi1 = n*pi, phi2 = k*pi
 spring-pendulum | equilibria | phi = 0, r = r0 + m*g/k; phi = pi, r = r0 - m*g/k
@@ -299,6 +302,8 @@ HOSTILE = (
     "stable for a <",
     "stable for < >",
     "stable stable unstable < 1",
+    "stable unstable",
+    "stable, unstable for g < l",
     "maybe",
     "phi = " + "(" * 900,
     "phi = " + "(" * 400 + "0" + ")" * 400,
@@ -333,6 +338,23 @@ def test_hostile_answers_are_refused_or_wrong_in_no_time(kind: str, syntax: str)
         for problem in found.problems:
             assert problem.offset is None or 0 <= problem.offset <= len(answer), (answer[:60], problem)
         verdict_document(found, book(name).scene, "de")
+
+
+def spliced(count: int, seed: int) -> Iterator[tuple[str, str, str, str]]:
+    """Right answers cut somewhere and joined with others of any kind."""
+    source = random.Random(seed)
+    told = [(*row, "plain") for row in rows(RIGHT)] + [(*row, "latex") for row in rows(RIGHT_IN_LATEX)]
+    for _ in range(count):
+        (name, task, one, syntax), (*_, other, _) = source.choice(told), source.choice(told)
+        start, end = source.randrange(len(one) + 1), source.randrange(len(other) + 1)
+        yield name, task, one[:start] + other[end:], syntax
+
+
+def test_answers_cut_and_joined_at_random_get_a_verdict() -> None:
+    for name, task, answer, syntax in spliced(400, 23):
+        found = verdict(name, task, answer, syntax)
+        assert found.outcome in ("correct", "wrong", "invalid", "undecided"), answer
+        verdict_document(found, book(name).scene, "en")
 
 
 def test_what_is_wrong_is_said_where_it_stands() -> None:

@@ -29,7 +29,7 @@ from ..equality import Parts
 from ..solution import Solution
 from ..verdict import Verdict
 from . import Understood, Written
-from .wording import Formulas, Piece, blanked, both_signs, formulas, prepared, refuse, split
+from .wording import Formulas, Piece, blanked, both_signs, formulas, is_number, prepared, refuse, split
 
 Position = Mapping[sp.Symbol, sp.Expr]
 Said = tuple[sp.Symbol, tuple[sp.Expr, ...]]
@@ -49,6 +49,7 @@ INTEGERS = (
 )
 OR = r"\b(?:oder|or|sowie)\b|\\lor(?![A-Za-z])|\\vee(?![A-Za-z])|∨|\\\\|\n"
 AND = r"\b(?:und|and)\b|\\land(?![A-Za-z])|\\wedge(?![A-Za-z])|∧|\\q?quad(?![A-Za-z])"
+BARS = re.compile(r"\([^()|]+(?:\|[^()|]+)+\)")  # (0|pi), as schools write coordinates
 BRACES: Mapping[Syntax, str] = MappingProxyType({"plain": r"[{}]", "latex": r"(?:\\left|\\right)?\\[{}]"})
 BOTH_INDICES = r"_\s*(?:\{\s*\d\s*(?:[,/]\s*\d\s*)+\}|1\s*[,/]\s*2(?!\d))"
 ANY = re.compile(r"\b(?:beliebig|arbitrary|any|frei|free)\b")
@@ -145,6 +146,7 @@ def _rows(position: Position, typography: Typography) -> list[str]:
 
 def _prepared(text: str, syntax: Syntax) -> Piece:
     """Words become signs of the same length."""
+    text = BARS.sub(lambda found: found[0].replace("|", ","), text)
     plainer = blanked(
         BRACES[syntax],
         blanked(
@@ -223,7 +225,7 @@ class _Reader:
                 raise refuse("answer-position-incomplete", piece, names=", ".join(q.name for q in self.wanted))
             yield from ((q, q - value) for q, value in zip(names, right, strict=True))
             return
-        if not isinstance(right, sp.Expr) or not (left is None or isinstance(left, sp.Expr)):
+        if not is_number(right) or not (left is None or is_number(left)):
             raise refuse("answer-position", piece)
         if left is None:
             q = self.last or (self.wanted[0] if len(self.wanted) == 1 else None)

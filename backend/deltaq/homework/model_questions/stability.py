@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
+from typing import Any
 
 import sympy as sp
 
@@ -31,7 +32,7 @@ from ..verdict import Verdict
 from . import Understood, Written
 from .positions import asked as positions_asked
 from .regions import Inequality, Place, Point, Valued, definiteness, places, points, says_the_same, valued
-from .wording import Formulas, Piece, blanked, formulas, prepared, refuse, split
+from .wording import Formulas, Piece, blanked, formulas, is_number, prepared, refuse, split
 
 STABLE, UNSTABLE = "stable", "unstable"
 OPPOSITE = {STABLE: UNSTABLE, UNSTABLE: STABLE}
@@ -251,11 +252,15 @@ def _clauses(text: Piece, reader: Formulas, model: System) -> Iterator[Clause]:
     if len(words) > MOST_CLAUSES:
         raise refuse("answer-stability", text)
     before = text.cut(0, words[0].start())
+    always = ""
     for number, (word, end) in enumerate(zip(words, ends, strict=True)):
         after = text.cut(word.end(), end)
         around = [after] if number else [before, after]
         held = tuple(each for piece in around for each in _comparisons(piece, reader, model))
         said = UNSTABLE if UNSTABLE_WORDS.search(word[0]) else STABLE
+        if always not in ("", said):
+            raise refuse("answer-stability", text)  # stable and unstable at once
+        always = always if held else said
         yield Clause(said, held, "en" if ENGLISH.search(word[0]) else "de")
 
 
@@ -270,8 +275,8 @@ def _comparisons(piece: Piece, reader: Formulas, model: System) -> Iterator[Ineq
             yield Inequality(model, *((left, right) if sign == "<" else (right, left)))
 
 
-def _in_parameters(value: object, piece: Piece, model: System) -> sp.Expr:
-    if not isinstance(value, sp.Expr) or value.free_symbols - set(model.parameter_values):
+def _in_parameters(value: Any, piece: Piece, model: System) -> sp.Expr:
+    if not is_number(value) or value.free_symbols - set(model.parameter_values):
         raise refuse("answer-comparison", piece)
     return value
 

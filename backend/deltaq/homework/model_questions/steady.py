@@ -24,7 +24,7 @@ from ..equality import Parts
 from ..solution import Solution
 from ..verdict import Verdict
 from . import Understood, Written
-from .wording import Formulas, Piece, blanked, both_signs, formulas, prepared, refuse, split
+from .wording import Formulas, Piece, blanked, both_signs, formulas, is_number, prepared, refuse, split
 
 HALF = 0.5
 BETWEEN = re.compile(r"\b(?:oder|or|und|and|bzw)\b\.?|\\\\|\n|\\(?:lor|land|vee|wedge|q?quad)(?![A-Za-z])")
@@ -133,10 +133,10 @@ def _residuals(solution: Solution, subject: str, text: Piece, reader: Formulas) 
     for piece in pieces:
         for one in both_signs(piece):
             found = reader.value(one)
-            residual = found.lhs - found.rhs if isinstance(found, sp.Eq) else None
-            if residual is None and isinstance(found, sp.Expr):
-                residual = rate - found
-            residual = residual.xreplace(names) if isinstance(residual, sp.Expr) else None
-            if residual is None or residual.free_symbols - known or not residual.has(rate):
+            sides = (found.lhs, found.rhs) if isinstance(found, sp.Eq) else (rate, found)
+            if not all(map(is_number, sides)):
+                raise refuse("answer-steady", piece, rate=str(rate))
+            residual = sp.Add(sides[0], -sides[1]).xreplace(names)
+            if residual.free_symbols - known or not residual.has(rate):
                 raise refuse("answer-steady", piece, rate=str(rate))
             yield display(residual.expand(), solution.symbols)

@@ -11,6 +11,8 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
+import sympy as sp
+
 from ...errors import ExpressionError, Problem
 from ...language.latex_tables import SYSTEMS
 from ...language.names import Names, Symbol
@@ -101,6 +103,11 @@ def both_signs(piece: Piece) -> Iterator[Piece]:
         yield from (Piece(blanked(BOTH, piece.text, sign), piece.start) for sign in "+-")
     else:
         yield piece
+
+
+def is_number(value: Any) -> bool:
+    """Neither a list nor an equation: SymPy's matrices are expressions as well."""
+    return isinstance(value, sp.Expr) and not isinstance(value, sp.MatrixBase)
 
 
 @dataclass(frozen=True)
