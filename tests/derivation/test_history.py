@@ -1,0 +1,107 @@
+"""Histories of lines that are written by hand: what comes from what, and what becomes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pytest
+import sympy as sp
+
+from deltaq.derivation import formula as f
+from deltaq.derivation.history import History, with_names
+from deltaq.derivation.normal_algebra import NormalAlgebra
+from deltaq.derivation.step import Line, Relation, Step
+
+a, b, c, x, y = sp.symbols("a b c x y", real=True)
+
+
+def line(*terms: sp.Expr, owners: Sequence[tuple[str, ...]] = ()) -> f.Plus:
+    """A sum of such terms; a term may belong to bodies and loads."""
+    of = owners or ((),) * len(terms)
+    return f.Plus(tuple(f.Term(f.Explicit(term), sources) for term, sources in zip(terms, of, strict=True)))
+
+
+def told(*members: f.Formula) -> tuple[Line, ...]:
+    """The lines of a step that says that these are equal."""
+    step = Step("energy", "", (Relation(members),))
+    (lines,) = History(NormalAlgebra(("x", "y"))).lines(step)
+    return lines
+
+
+def origins(*members: f.Formula) -> list[list[tuple[str, str]]]:
+    """Of each term of the last member: where it comes from (member.term), and what became of it."""
+    last = told(*members)[-1]
+    return [[(one.term.rpartition("/")[2], one.change) for one in term.origins] for term in last.terms]
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "found"),
+    [
+        ((a * x, b), (b, a * x), [[("0.0.1", "kept")], [("0.0.0", "kept")]]),
+        ((a * x, b), (-a * x, -b), [[("0.0.0", "sign-turned")], [("0.0.1", "sign-turned")]]),
+        ((a * (x + y), c), (a * x, a * y, c), [[("0.0.0", "expanded")], [("0.0.0", "expanded")], [("0.0.1", "kept")]]),
+        ((a * x, a * y, c), (a * (x + y), c), [[("0.0.0", "merged"), ("0.0.1", "merged")], [("0.0.2", "kept")]]),
+        ((2 * a, 3 * a, b), (5 * a, b), [[("0.0.0", "merged"), ("0.0.1", "merged")], [("0.0.2", "kept")]]),
+    ],
+)
+def test_terms_come_from_terms_that_share_their_products(
+    before: tuple[sp.Expr, ...], after: tuple[sp.Expr, ...], found: list[list[tuple[str, str]]]
+) -> None:
+    assert origins(line(*before), line(*after)) == found
+
+
+def test_what_two_terms_have_with_opposite_signs_is_in_neither_and_cancelled() -> None:
+    lines = told(line(a * x + b, -a * x, c * y), line(b, c * y))
+    assert [[one.term for one in term.origins] for term in lines[-1].terms] == [["energy/0.0.0"], ["energy/0.0.2"]]
+    assert lines[-1].cancelled == ("energy/0.0.1",)
+
+
+@pytest.mark.parametrize("rest", [sp.Integer(1), c, c * y])
+@pytest.mark.parametrize("power", [1, 2, 3])
+def test_summands_of_a_bracket_have_the_sources_of_the_terms_they_come_from(power: int, rest: sp.Expr) -> None:
+    """(a + b)ⁿ, where a is of one body and b of another, gathered from the terms of its expansion."""
+    expanded = sp.expand(rest * (a + b) ** power).args
+    of = {a: "body:one", b: "body:two"}
+    owners = [tuple(of[each] for each in (a, b) if term.has(each)) for term in expanded]
+    (term,) = told(line(*expanded, owners=owners), line(rest * (a + b) ** power))[-1].terms
+    assert term.sources == ("body:one", "body:two")
+    ((bracket, parts),) = term.inside
+    assert (bracket, dict(parts)) == (a + b, {a: ("body:one",), b: ("body:two",)})
+
+
+def test_a_matrix_has_the_terms_of_its_entries() -> None:
+    matrix = sp.ImmutableMatrix([a * x + b, c])
+    lines = told(f.Explicit(matrix), f.Explicit(sp.ImmutableMatrix([b - a * x, c])))
+    assert [[one.term for one in term.origins] for term in lines[-1].terms] == [
+        ["energy/0.0.0"],
+        ["energy/0.0.1"],
+        ["energy/0.0.2"],
+    ]
+
+
+@pytest.mark.parametrize(
+    ("formula", "classes"),
+    [
+        (f.Explicit(a + b), ["A", "B"]),
+        (f.Explicit(a * b), []),  # one term needs no class within
+        (line(a, b), ["A", "B"]),
+        (f.Equation(f.Explicit(a + b), f.Explicit(sp.Integer(0))), ["A", "B"]),
+        (f.Equation(f.Explicit(sp.Integer(0)), f.Explicit(a + b)), ["A", "B"]),
+        (f.Equation(f.Explicit(a + b), f.Explicit(c + x)), ["A", "B", "C", "D"]),
+        (f.Equation(f.Explicit(a * b), f.Explicit(c + x)), ["B", "C"]),
+        (f.Explicit(sp.ImmutableMatrix([a + b, c])), ["A", "B"]),
+    ],
+)
+def test_classes_are_given_in_the_order_of_the_terms(formula: f.Formula, classes: list[str]) -> None:
+    assert list(_classes(with_names(formula, iter("ABCDEFG")))) == classes
+
+
+def _classes(formula: f.Formula) -> list[str]:
+    match formula:
+        case f.Plus(terms):
+            return [term.role for term in terms if term.role]
+        case f.Equation(left, right):
+            return [*_classes(left), *_classes(right)]
+        case f.Explicit(_, owners):
+            return [name for _, parts in owners for _, (name,) in parts]
+    return []
