@@ -46,6 +46,26 @@ def test_a_wrong_matrix_is_caught(wrong: str, step: str, monkeypatch: pytest.Mon
     assert steps["matrix-form"].verified
 
 
+@pytest.mark.parametrize(
+    ("energy", "outcome", "count", "shown"),
+    [
+        pytest.param("cosh(x-50)", "none-in-range", 0, 0, id="beyond the range"),
+        pytest.param("cosh(x)", "in-range", 1, 1, id="one"),
+        pytest.param("sin(x)*x", "in-range", 7, 4, id="tan x = −x has seven roots within ±10"),
+        pytest.param("(x^2-1)^2+(y^2-1)^2", "everywhere", 9, 4, id="polynomial"),
+        pytest.param("cosh(x)+sin(20*x)", "many-in-range", 47, 4, id="more than are looked at"),
+        pytest.param("exp(x)*y+sin(x*y)+x", "budget", 9, 4, id="cut"),
+    ],
+)
+def test_what_the_search_for_equilibria_says_of_itself(energy: str, outcome: str, count: int, shown: int) -> None:
+    names = ["x", "y"] if "y" in energy else ["x"]
+    load = {"kind": "potential", "energy": f"c*({energy})"}
+    steps = model_steps(particle(names, {"c": 1.0}, [*names, "0"][:2], load))
+    about = steps["equilibrium-search"].about
+    assert (about["outcome"], int(about["shown"])) == (outcome, shown)
+    assert int(about["count"]) == count or outcome == "budget"
+
+
 def test_a_wrong_jacobi_energy_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     right = System.momentum
     monkeypatch.setattr(System, "momentum", lambda self, q: right(self, q) / 2)

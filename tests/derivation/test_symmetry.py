@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import random
-from dataclasses import replace
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from tests.derivation.textbook_integrals import SYSTEMS, Published, mass, plane,
 
 from deltaq.derivation import symmetry
 from deltaq.derivation.elimination import kernel
+from deltaq.derivation.formula import Explicit, Plus
 from deltaq.derivation.matrix_form import forcing, mass_matrix
 from deltaq.derivation.model_chapter import canonical
 from deltaq.derivation.result import result_of
@@ -124,6 +126,56 @@ def test_brackets_with_hamilton_s_function_vanish(name: str) -> None:
     assert [step.id for step in steps if not step.verified] == []
     brackets = [step for step in steps if step.rule == "poisson-bracket"]
     assert len(brackets) == len(result_of(system).conserved)
+
+
+@pytest.mark.parametrize(
+    ("name", "outcomes"),
+    [
+        ("Kepler, plane", ["invariant"]),
+        ("projectile", ["impulse", "invariant", "gauge"]),  # m ż + m g t; turned about z; m ẋ t − m x
+        ("driven particle", ["impulse", "gauge"]),  # a force of time alone: its impulse; and moved on evenly
+        ("magnetic field, plane", ["gauge", "gauge"]),
+        ("linear drag", ["gauge", "gauge"]),  # −c x depends on where the particle is
+        ("Atwood's machine", ["impulse"]),
+        ("inverse cube force", ["invariant", "time"]),  # scaling
+        ("oscillator, κ = 1", ["invariant-special"]),
+    ],
+)
+def test_what_a_change_does_to_the_lagrangian(name: str, outcomes: list[str]) -> None:
+    system = System(SYSTEMS[name].scene)
+    steps = [noether.apply(system, each, number) for number, each in enumerate(symmetries(system), 1)]
+    assert [step.about["outcome"] for step in steps] == outcomes
+
+
+@pytest.mark.parametrize("name", ["Kepler, plane", "free in the plane", "magnetic field, plane", "projectile"])
+def test_no_sum_of_the_law_has_a_term_that_is_zero(name: str) -> None:
+    system = System(SYSTEMS[name].scene)
+    steps = [noether.apply(system, each, number) for number, each in enumerate(symmetries(system), 1)]
+    for step in (one for whole in (*steps, *canonical(system)) for one in whole.walk()):
+        sums = [part for relation in step.relations for member in relation.members for part in _sums(member)]
+        assert not any(isinstance(t.formula, Explicit) and t.formula.value == 0 for one in sums for t in one.terms)
+
+
+def _sums(formula: object) -> Iterator[Plus]:
+    """The sums of several terms in a formula, those in brackets first."""
+    if isinstance(formula, tuple):
+        for part in formula:
+            yield from _sums(part)
+    elif is_dataclass(formula) and not isinstance(formula, type):
+        for each in fields(formula):
+            yield from _sums(getattr(formula, each.name))
+        if isinstance(formula, Plus) and len(formula.terms) > 1:
+            yield formula
+
+
+def test_a_bracket_shows_what_is_not_zero_at_sight() -> None:
+    """{p_ψ, H} = −∂H/∂ψ where ψ is cyclic; in {h, H} no derivative by ψ, of which neither depends on it."""
+    answer = derive_request({"scene": "spherical-pendulum", "canonical": True})
+    steps = {step["id"]: step["latex"] for chapter in answer["chapters"] for step in chapter["steps"]}  # type: ignore[attr-defined]
+    assert r"\frac{\partial H}{\partial \psi} &= 0" in steps["poisson-bracket:1"]
+    assert r"\\" not in steps["poisson-bracket:1"]
+    assert r"\partial \psi" not in steps["poisson-bracket:2"]
+    assert steps["poisson-bracket:2"].count(r"\frac{\partial H}") == 2
 
 
 def test_a_wrong_integral_is_no_verified_step() -> None:

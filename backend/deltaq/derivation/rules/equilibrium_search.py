@@ -32,7 +32,7 @@ def _outcome(search: Search) -> str:
     if not search.found:
         return "none-in-range"
     if search.count > len(search.found):
-        return "many"
+        return "many-in-range" if search.ranges else "many"
     return "in-range" if search.ranges else "everywhere"
 
 
