@@ -286,6 +286,31 @@ def test_what_is_zero_only_where_it_is_multiplied_out_is_zero() -> None:
     assert display(hidden, SYMBOLS) == 0
 
 
+ANGLES = ("phi", "theta", "acos(g/(R*Omega^2))", "asin(a/b)", "atan(a/b)", "Omega*t", "pi/3", "acos(a/b)/2")
+
+
+def waves(generator: random.Random) -> str:
+    """A sum of products of waves, some of angles whose cosine is known: cos(2 acos(a/b) + φ)."""
+    kinds = ("sin", "cos")
+    angles = [
+        f"{generator.choice(kinds)}({generator.randint(1, 3)}*{generator.choice(ANGLES)}"
+        f"{generator.choice(('', ' + phi', ' - ' + generator.choice(ANGLES)))})"
+        for _ in range(4)
+    ]
+    first, second, *rest = (f"{wave}^{generator.randint(1, 2)}" for wave in angles)
+    return f"m*a*{first}*{second} + m*b*{'*'.join(rest)} + m*a*sin(phi)^2"
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_waves_of_angles_with_a_known_cosine_are_shown_as_what_they_are(seed: int) -> None:
+    generator = random.Random(seed)
+    raw = read(waves(generator))
+    shown = display(raw, SYMBOLS)
+    point = {symbol: sympy.Float(generator.uniform(0.2, 0.9), 30) for symbol in raw.free_symbols | shown.free_symbols}
+    point |= {symbol: 1 + value for symbol, value in point.items() if symbol.name in ("b", "R", "Omega")}
+    assert abs(raw.subs(point).n(25) - shown.subs(point).n(25)) < sympy.Float("1e-20")
+
+
 def test_inertia_is_written_apart() -> None:
     """One term for each acceleration and product of rates, though they share m l²."""
     reader = KernelReader()

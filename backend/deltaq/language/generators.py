@@ -99,16 +99,20 @@ class Generators:
         """cos(phase) or sin(phase) in SymPy."""
         if not phase:
             return sympy.S.One
-        angle = sympy.Add(*(rational(c) * self.monomial(mono) for mono, c in phase))
-        return sympy.sin(angle) if sine else sympy.cos(angle)
+        return sympy.sin(self.angle(phase)) if sine else sympy.cos(self.angle(phase))
 
     @cached_method
     def wave_name(self, phase: Phase, *, sine: bool) -> str:
-        """The name of a wave as a generator: cos(phi)."""
+        """The name of a wave as a generator: cos(phi). Also where SymPy knows its value, as of cos(acos(x))."""
         value = self.wave(phase, sine=sine)
-        name: str = sympy.sstr(value)
+        function = sympy.sin if sine else sympy.cos
+        name: str = sympy.sstr(value if value.has(function) else function(self.angle(phase), evaluate=False))
         self.meaning[name] = value
         return name
+
+    def angle(self, phase: Phase) -> Any:
+        """A phase in SymPy."""
+        return sympy.Add(*(rational(c) * self.monomial(mono) for mono, c in phase))
 
     @cached_method
     def monomial(self, mono: Monomial) -> Any:
