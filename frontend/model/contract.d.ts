@@ -904,9 +904,20 @@ export interface components {
             }) | null;
             /**
              * Individual
-             * @description whether each student has values of their own
+             * @description whether each student has tasks of their own
              */
             individual?: boolean | null;
+            /**
+             * Vary
+             * @description what differs from student to student: values of parameters, axes, how coordinates count, factors
+             * @example [
+             *       "values",
+             *       "axes",
+             *       "coordinates",
+             *       "factors"
+             *     ]
+             */
+            vary?: ("values" | "axes" | "coordinates" | "factors")[] | null;
             /**
              * Follow Through
              * @description share of the points for a right consequence
@@ -972,7 +983,7 @@ export interface components {
             assignment: components["schemas"]["AssignmentDocument"];
             /**
              * Seed
-             * @description draws each student's own parameter values
+             * @description draws what each student gets of their own
              * @example student 7
              */
             seed?: string | null;
@@ -1497,10 +1508,21 @@ export interface components {
             parameters?: components["schemas"]["CheckRequestParameters"];
             /**
              * Seed
-             * @description draws each student's own parameter values
+             * @description draws what each student gets of their own
              * @example student 7
              */
             seed?: string | null;
+            /**
+             * Vary
+             * @description what differs from student to student: values of parameters, axes, how coordinates count, factors
+             * @example [
+             *       "values",
+             *       "axes",
+             *       "coordinates",
+             *       "factors"
+             *     ]
+             */
+            vary?: ("values" | "axes" | "coordinates" | "factors")[];
             /**
              * Task
              * @description a task of the scene by its id
@@ -3673,10 +3695,21 @@ export interface components {
             parameters?: components["schemas"]["LinesRequestParameters"];
             /**
              * Seed
-             * @description draws each student's own parameter values
+             * @description draws what each student gets of their own
              * @example student 7
              */
             seed?: string | null;
+            /**
+             * Vary
+             * @description what differs from student to student: values of parameters, axes, how coordinates count, factors
+             * @example [
+             *       "values",
+             *       "axes",
+             *       "coordinates",
+             *       "factors"
+             *     ]
+             */
+            vary?: ("values" | "axes" | "coordinates" | "factors")[];
             /**
              * Lines
              * @description tasks and answers, one after the other
@@ -4625,10 +4658,21 @@ export interface components {
             parameters?: components["schemas"]["ReadingRequestParameters"];
             /**
              * Seed
-             * @description draws each student's own parameter values
+             * @description draws what each student gets of their own
              * @example student 7
              */
             seed?: string | null;
+            /**
+             * Vary
+             * @description what differs from student to student: values of parameters, axes, how coordinates count, factors
+             * @example [
+             *       "values",
+             *       "axes",
+             *       "coordinates",
+             *       "factors"
+             *     ]
+             */
+            vary?: ("values" | "axes" | "coordinates" | "factors")[];
             /**
              * Task
              * @description a task of the scene by its id
@@ -5600,10 +5644,21 @@ export interface components {
             parameters?: components["schemas"]["SingleCheckParameters"];
             /**
              * Seed
-             * @description draws each student's own parameter values
+             * @description draws what each student gets of their own
              * @example student 7
              */
             seed?: string | null;
+            /**
+             * Vary
+             * @description what differs from student to student: values of parameters, axes, how coordinates count, factors
+             * @example [
+             *       "values",
+             *       "axes",
+             *       "coordinates",
+             *       "factors"
+             *     ]
+             */
+            vary?: ("values" | "axes" | "coordinates" | "factors")[];
             /**
              * Task
              * @description a task of the scene by its id
@@ -5693,10 +5748,21 @@ export interface components {
             parameters?: components["schemas"]["SolutionRequestParameters"];
             /**
              * Seed
-             * @description draws each student's own parameter values
+             * @description draws what each student gets of their own
              * @example student 7
              */
             seed?: string | null;
+            /**
+             * Vary
+             * @description what differs from student to student: values of parameters, axes, how coordinates count, factors
+             * @example [
+             *       "values",
+             *       "axes",
+             *       "coordinates",
+             *       "factors"
+             *     ]
+             */
+            vary?: ("values" | "axes" | "coordinates" | "factors")[];
             /**
              * Task
              * @description a task of the scene by its id
@@ -6054,10 +6120,21 @@ export interface components {
             parameters?: components["schemas"]["StackRequestParameters"];
             /**
              * Seed
-             * @description draws each student's own parameter values
+             * @description draws what each student gets of their own
              * @example student 7
              */
             seed?: string | null;
+            /**
+             * Vary
+             * @description what differs from student to student: values of parameters, axes, how coordinates count, factors
+             * @example [
+             *       "values",
+             *       "axes",
+             *       "coordinates",
+             *       "factors"
+             *     ]
+             */
+            vary?: ("values" | "axes" | "coordinates" | "factors")[];
             /**
              * Tasks
              * @description all if empty
@@ -6504,10 +6581,21 @@ export interface components {
             parameters?: components["schemas"]["TasksRequestParameters"];
             /**
              * Seed
-             * @description draws each student's own parameter values
+             * @description draws what each student gets of their own
              * @example student 7
              */
             seed?: string | null;
+            /**
+             * Vary
+             * @description what differs from student to student: values of parameters, axes, how coordinates count, factors
+             * @example [
+             *       "values",
+             *       "axes",
+             *       "coordinates",
+             *       "factors"
+             *     ]
+             */
+            vary?: ("values" | "axes" | "coordinates" | "factors")[];
             /**
              * Lang
              * @description language of the texts; else Accept-Language decides

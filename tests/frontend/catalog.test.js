@@ -86,6 +86,7 @@ const EXERCISES = [
   ...SIDES.map((side) => `homework.side-${side}`),
   ...ONLY.map((one) => `homework.only-${one || "all"}`),
   ...["up", "down", "remove"].flatMap((way) => [`homework.pick-${way}`, `homework.pick-${way}-task`]),
+  ...["values", "axes", "coordinates", "factors"].map((aspect) => `homework.pick-vary-${aspect}`),
   ...["pick-late", "pick-follow_through", "page-previous", "page-next"].map((key) => `homework.${key}`),
   ...["row", "student", "task", "answer", "outcome", "points"].map((key) => `homework.class-${key}`),
   ...["checking", "check", "solution", "points", "points-one", "hint", "next-hint", "compare", "moving", "mark"].map((key) => `homework.${key}`),

@@ -1,7 +1,7 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
 import { figureOf, KINDS, withDrawing } from "../../frontend/model/drawing/figure.js";
-import { arcFromDown, coil, sliverFromDown, wrapped } from "../../frontend/model/drawing/geometry.js";
+import { arcFrom, coil, sliverFrom, wrapped } from "../../frontend/model/drawing/geometry.js";
 import { forceLatex } from "../../frontend/model/drawing/marks.js";
 import { stageOf, viewOf } from "../../frontend/model/drawing/stage.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
@@ -104,7 +104,7 @@ test("a size that is the name of a parameter is its value, for every kind that h
     for (const kind of having) assert.equal(drawn(kind, size, "size"), drawn(kind, size, 0.37), `${kind} ${size}`);
     found[size] = having.sort();
   }
-  assert.deepEqual(found, { radius: ["disc", "hoop"], width: ["block", "cart", "ground"], height: ["block", "cart"], offset: ["damper", "dimension", "spring"] });
+  assert.deepEqual(found, { radius: ["disc", "hoop"], width: ["block", "cart", "ground"], height: ["block", "cart"], offset: ["angle", "damper", "dimension", "spring"] });
 });
 
 test("the pieces of a trail join, fade with age, and stay as they are while they do", () => {
@@ -137,13 +137,13 @@ test("a spring begins and ends at its places, keeps its coils, and survives leng
 
 test("angles are shown between minus and plus half a turn", () => {
   assert.ok(Math.abs(wrapped(2 * Math.PI + 0.3) - 0.3) < 1e-12);
-  assert.ok(arcFromDown([0, 0], 10, 0.5).includes(" 0 0 0 "));
-  assert.ok(arcFromDown([0, 0], 10, -0.5).includes(" 0 0 1 "));
+  assert.ok(arcFrom(0, [0, 0], 10, 0.5).includes(" 0 0 0 "));
+  assert.ok(arcFrom(0, [0, 0], 10, -0.5).includes(" 0 0 1 "));
 });
 
 test("an arc there and back encloses nothing: it ends where it begins, the other way round", () => {
   for (const angle of [0.5, -0.5, 3.5]) {
-    const [, begin, out, back, end] = /** @type {RegExpMatchArray} */ (sliverFromDown([5, 5], 10, angle).match(/^M(\S+ \S+)A10 10 0 (\d \d) \S+ \S+A10 10 0 (\d \d) (\S+ \S+)$/));
+    const [, begin, out, back, end] = /** @type {RegExpMatchArray} */ (sliverFrom(0, [5, 5], 10, angle).match(/^M(\S+ \S+)A10 10 0 (\d \d) \S+ \S+A10 10 0 (\d \d) (\S+ \S+)$/));
     assert.equal(begin, end);
     assert.deepEqual([out[0], out[2] === back[2]], [back[0], false]);
   }

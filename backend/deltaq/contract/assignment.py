@@ -26,6 +26,17 @@ SIMPLIFIED = 0.5  # share of those where the mistake made it easier
 MOST_TASKS = 64
 MOST_ATTEMPTS = 1000
 LONGEST_TIME = 40  # signs
+# What differs from student to student: parameter values; the axes, and the side it is seen from; from where coordinates
+# count, and in which sense; quantities that are multiples of their letters.
+Aspect = Literal["values", "axes", "coordinates", "factors"]
+USUAL: tuple[Aspect, ...] = ("values",)
+VARY = Field(
+    USUAL,
+    strict=False,
+    max_length=4,
+    description="what differs from student to student: values of parameters, axes, how coordinates count, factors",
+    examples=[["values", "axes", "coordinates", "factors"]],
+)
 NEEDED = ("scene", "task")
 
 
@@ -122,7 +133,8 @@ class AssignmentDocument(_NullIsNothing):
     title: Annotated[dict[str, str], BeforeValidator(_by_language, json_schema_input_type=Text | None)] = Field(
         {}, description="what the assignment is called"
     )
-    individual: bool = Field(default=False, description="whether each student has values of their own")
+    individual: bool = Field(default=False, description="whether each student has tasks of their own")
+    vary: tuple[Aspect, ...] = VARY
     follow_through: Annotated[float, Field(ge=0, le=1), _told_as("assignment-share")] = Field(
         FOLLOW_THROUGH, description="share of the points for a right consequence"
     )

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from .assignment import FOLLOW_THROUGH, SIMPLIFIED, AssignmentDocument
+from .assignment import FOLLOW_THROUGH, SIMPLIFIED, VARY, Aspect, AssignmentDocument
 from .base import AskedLanguage, Request, SceneWithChanges, Syntax, examples, items
 from .document import SceneReference
 from .task import TASK, SceneAskedAbout, TaskId
@@ -32,6 +32,7 @@ class RowQuestion(SceneWithChanges):
     """A row of a table, as a worker is asked about it: `standing` are the wrong lines that it may follow from."""
 
     seed: str | None = None
+    vary: tuple[Aspect, ...] = VARY
     task: str
     answer: WrittenAnswer
     standing: Annotated[tuple[WrittenLine, ...], items()] = ()

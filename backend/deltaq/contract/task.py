@@ -6,12 +6,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from .assignment import AssignmentDocument
+from .assignment import VARY, Aspect, AssignmentDocument
 from .base import Answer, AskedLanguage, Request, SceneWithChanges, examples, items
 from .document import GivenScene
 
 Seed = Annotated[str, Field(max_length=64)]
-SEED = Field(None, description="draws each student's own parameter values", examples=["student 7"])
+SEED = Field(None, description="draws what each student gets of their own", examples=["student 7"])
 TaskId = Annotated[str, Field(min_length=1, max_length=80, examples=["equation:phi"])]
 TASK = Field(description="a task of the scene by its id", examples=["equation:phi"])
 
@@ -20,6 +20,7 @@ class SceneAskedAbout(SceneWithChanges):
     """A scene, and whose values it has."""
 
     seed: Seed | None = SEED
+    vary: tuple[Aspect, ...] = VARY
 
 
 class TasksRequest(SceneAskedAbout):

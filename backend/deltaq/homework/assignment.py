@@ -2,7 +2,8 @@
 
 format = 1
 title = { de = "Blatt 3", en = "Sheet 3" }
-individual = true            # values drawn from the student's name
+individual = true            # each student's own, drawn from their name
+vary = ["values", "axes", "coordinates", "factors"]  # what differs; values alone if it is left out
 follow_through = 0.5         # share of the points for a right consequence of a wrong line
 
 [[tasks]]
@@ -17,7 +18,7 @@ import json
 import tomllib
 from pathlib import Path
 
-from ..contract.assignment import AssignedTaskDocument, AssignmentDocument
+from ..contract.assignment import USUAL, Aspect, AssignedTaskDocument, AssignmentDocument
 from ..contract.base import SceneWithChanges
 from ..contract.reading import made_of
 from ..errors import InputError, Problem, RequestError
@@ -53,12 +54,14 @@ def look_up(sheet: AssignmentDocument) -> None:
             raise type(error)(*(problem.below(f"/tasks/{number}") for problem in error.problems)) from None
 
 
-def resolved(assigned: AssignedTaskDocument, seed: str | None) -> tuple[Workbook, Task]:
-    """The workbook of a task's scene, with the values that belong to a seed (its own ones without), and the task in it.
+def resolved(
+    assigned: AssignedTaskDocument, seed: str | None, vary: tuple[Aspect, ...] = USUAL
+) -> tuple[Workbook, Task]:
+    """The workbook of a task's scene as the student of a seed gets it (as it is without one), and the task in it.
 
     Raises UnknownNameError if the scene has no such task.
     """
-    workbook = workbook_asked_about(assigned, seed)
+    workbook = workbook_asked_about(assigned, seed, vary)
     return workbook, workbook.task(assigned.task)
 
 

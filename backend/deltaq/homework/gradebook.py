@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
 
-from ..contract.assignment import FOLLOW_THROUGH, SIMPLIFIED
+from ..contract.assignment import FOLLOW_THROUGH, SIMPLIFIED, USUAL, Aspect
 from ..contract.base import SceneWithChanges
 from ..contract.check import RowQuestion, WrittenAnswer, WrittenLine
 from ..contract.reading import made_of, plain_data
@@ -128,8 +128,9 @@ class Refused:
 class Plan:
     """A table that has been read: its tasks, its rows, the share for what follows from a wrong line, and how it was
     written. `of` is what all tasks of the assignment count together, None where there is no assignment; `simplified` is
-    how much of the share is earned where the mistake made it easier. `dated` says whether it matters when and how often
-    something was handed in, `title` what the assignment is called, `refused` which files could not be taken.
+    how much of the share is earned where the mistake made it easier; `vary` is what differs from student to student.
+    `dated` says whether it matters when and how often something was handed in, `title` what the assignment is called,
+    `refused` which files could not be taken.
     """
 
     targets: tuple[Target, ...]
@@ -141,6 +142,7 @@ class Plan:
     dated: bool = False
     title: str = ""
     refused: tuple[Refused, ...] = ()
+    vary: tuple[Aspect, ...] = USUAL
 
     @classmethod
     def read(cls, document: Mapping[str, Any]) -> Plan:
@@ -190,6 +192,7 @@ class Gradebook:
         return RowQuestion(
             **dict(target.reference),
             seed=row.seed or None,
+            vary=self._plan.vary,
             task=line.task,
             answer=line.answer,
             standing=tuple(standing.values())[-MOST_STANDING:],

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast
 
-from ..contract.assignment import LONGEST_TIME, AssignedTaskDocument, AssignmentDocument, instant
+from ..contract.assignment import LONGEST_TIME, USUAL, AssignedTaskDocument, AssignmentDocument, instant
 from ..contract.base import SceneWithChanges
 from ..contract.check import RowQuestion
 from ..contract.reading import read as read_request
@@ -31,7 +31,7 @@ from .results import Graded, named
 from .statement import task_document
 from .table import BEYOND, Table, read_table
 from .verdict import Verdict
-from .workbook import Workbook, workbook_asked_about
+from .workbook import Workbook, workbook_asked_about, workbook_asked_by
 from .working import check_following, line_of, parts_of
 
 SYNTAXES: Mapping[str, Syntax] = {"": "plain", "plain": "plain", "latex": "latex"}
@@ -126,6 +126,7 @@ def plan_of(table: Table, sheet: Sheet, language: str, refused: tuple[Refused, .
         tasks.points,
         table.style,
         shares.simplified,
+        vary=USUAL if asked is None else asked.vary,
         dated=bool(HANDED_IN & set(table.header)) or (asked is not None and bool(asked.deadline or asked.attempts)),
         title=in_language(translated(asked.title), language).line if asked else "",
         refused=refused,
@@ -290,7 +291,7 @@ def row_verdict(question: Mapping[str, object]) -> Document:
     language = language_of(asked.lang)
     line = line_of(asked, language)
     try:
-        workbook = workbook_asked_about(asked, asked.seed)
+        workbook = workbook_asked_by(asked)
         standing = [line_of(one, language) for one in asked.standing]
         wrong = {one.task: parts_of(workbook, one) for one in standing}
         verdict = check_following(workbook, workbook.task(line.task), line, wrong)

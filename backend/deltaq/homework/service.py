@@ -5,7 +5,7 @@ from __future__ import annotations
 from base64 import b64decode
 from collections.abc import Mapping
 
-from ..contract.assignment import AssignedTaskDocument
+from ..contract.assignment import Aspect, AssignedTaskDocument
 from ..contract.check import CheckRequest, LinesRequest, ReadingRequest, TableRequest
 from ..contract.reading import read as read_request
 from ..contract.task import AssignmentRequest, SolutionRequest, StackRequest, TasksRequest
@@ -22,14 +22,14 @@ from .handins import code_of
 from .motion import moved_scene
 from .stack.question import quiz
 from .statement import model_answer, task_document
-from .workbook import Workbook, workbook_asked_about, workbook_of
+from .workbook import Workbook, workbook_asked_by, workbook_of
 from .working import Scheme, check_following, line_of, mark, shown_line, wrong_among
 
 
 def tasks_request(document: Mapping[str, object]) -> Document:
     """The fields of a TasksRequest → {scene, symbols, tasks}."""
     asked = read_request(TasksRequest, document)
-    workbook, language = workbook_asked_about(asked, asked.seed), language_of(asked.lang)
+    workbook, language = workbook_asked_by(asked), language_of(asked.lang)
     return {
         "scene": write_scene(workbook.scene),
         "symbols": _symbols(workbook),
@@ -51,7 +51,7 @@ def _symbols(workbook: Workbook) -> list[Document]:
 def check_request(document: Mapping[str, object]) -> Document:
     """The fields of a CheckRequest → the verdict. Raises InputError for what is not an answer."""
     asked = read_request(CheckRequest, document)
-    workbook, language = workbook_asked_about(asked, asked.seed), language_of(asked.lang)
+    workbook, language = workbook_asked_by(asked), language_of(asked.lang)
     line = line_of(asked, language)
     wrong = wrong_among(workbook, [line_of(one, language) for one in asked.previous])
     verdict = check_following(workbook, workbook.task(line.task), line, wrong)
@@ -61,7 +61,7 @@ def check_request(document: Mapping[str, object]) -> Document:
 def reading_request(document: Mapping[str, object]) -> Document:
     """The fields of a ReadingRequest → what the answer is understood as, LaTeX and plain; no verdict."""
     asked = read_request(ReadingRequest, document)
-    workbook, language = workbook_asked_about(asked, asked.seed), language_of(asked.lang)
+    workbook, language = workbook_asked_by(asked), language_of(asked.lang)
     line = line_of(asked, language)
     try:
         shown = shown_line(workbook, line)
@@ -74,21 +74,21 @@ def reading_request(document: Mapping[str, object]) -> Document:
 def solution_request(document: Mapping[str, object]) -> Document:
     """The fields of a SolutionRequest → the right answer, one text for each part, plain and LaTeX."""
     asked = read_request(SolutionRequest, document)
-    workbook = workbook_asked_about(asked, asked.seed)
+    workbook = workbook_asked_by(asked)
     return model_answer(workbook.task(asked.task), workbook, language_of(asked.lang))
 
 
 def motion_request(document: Mapping[str, object]) -> Document:
     """The fields of a ReadingRequest → the scene that moves as the answer says. Raises InputError where none does."""
     asked = read_request(ReadingRequest, document)
-    workbook, line = workbook_asked_about(asked, asked.seed), line_of(asked, language_of(asked.lang))
+    workbook, line = workbook_asked_by(asked), line_of(asked, language_of(asked.lang))
     return {"scene": moved_scene(workbook, workbook.task(line.task), line.text, line.syntax)}
 
 
 def lines_request(document: Mapping[str, object]) -> Document:
     """The fields of a LinesRequest → the verdict and the points of every line, and where the first mistake is."""
     asked = read_request(LinesRequest, document)
-    workbook, language = workbook_asked_about(asked, asked.seed), language_of(asked.lang)
+    workbook, language = workbook_asked_by(asked), language_of(asked.lang)
     lines = [line_of(one, language) for one in asked.lines]
     marked = mark(
         workbook, lines, Scheme(asked.scheme.points, Shares(asked.scheme.follow_through, asked.scheme.simplified))
@@ -121,12 +121,14 @@ def assignment_request(document: Mapping[str, object]) -> Document:
         "follow_through": sheet.follow_through,
         "simplified": sheet.simplified,
         "code": code_of(sheet),
-        "tasks": [_assigned_document(assigned, seed, language) for assigned in sheet.tasks],
+        "tasks": [_assigned_document(assigned, seed, sheet.vary, language) for assigned in sheet.tasks],
     }
 
 
-def _assigned_document(assigned: AssignedTaskDocument, seed: str | None, language: str) -> Document:
-    workbook, task = resolved(assigned, seed)
+def _assigned_document(
+    assigned: AssignedTaskDocument, seed: str | None, vary: tuple[Aspect, ...], language: str
+) -> Document:
+    workbook, task = resolved(assigned, seed, vary)
     told = task_document(task, workbook, language)
     points = task.quantity.points if assigned.points is None else assigned.points
     return {"scene": write_scene(workbook.scene), "symbols": _symbols(workbook), "task": told | {"points": points}}
@@ -162,6 +164,6 @@ def _bytes(table: str, encoding: str) -> bytes:
 def stack_request(document: Mapping[str, object]) -> Document:
     """The fields of a StackRequest → {xml}: questions for STACK, of all tasks if none is named."""
     asked = read_request(StackRequest, document)
-    workbook = workbook_asked_about(asked, asked.seed)
+    workbook = workbook_asked_by(asked)
     tasks = [workbook.task(identifier) for identifier in asked.tasks] or workbook.tasks
     return {"xml": quiz(workbook, tasks, language_of(asked.lang))}

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from ..narration.catalog import text
+from ..narration.prose import joined
 from .axes import axes_text
 from .checking import judge_of
 from .feedback import Document, label
 from .task import Task
+from .telling import variant_sentences
 from .told import asked_about
 from .workbook import Workbook
 
@@ -15,12 +17,13 @@ def task_document(task: Task, workbook: Workbook, language: str) -> Document:
     """A task with its statement, the form wanted, three hints, and where the derivation answers it."""
     key = f"homework.tasks.{task.quantity.kind}"
     values = _subject(task, workbook, language)
+    told_otherwise = variant_sentences(workbook, language)
     return {
         "id": task.id,
         "kind": task.quantity.kind,
         "subject": task.subject,
         "title": text(language, f"{key}.title", **values),
-        "statement": text(language, f"{key}.statement", **values),
+        "statement": joined(" ", [text(language, f"{key}.statement", **values), *told_otherwise]),
         "form": task.quantity.form,
         "form_text": text(language, f"homework.forms.{task.quantity.form}"),
         "components": workbook.scene.dimension if task.quantity.form == "vector" else None,

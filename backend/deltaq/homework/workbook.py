@@ -7,7 +7,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
+from ..contract.assignment import USUAL, Aspect
 from ..contract.base import SceneWithChanges
+from ..contract.check import RowQuestion
 from ..contract.reading import read
 from ..contract.task import SceneAskedAbout
 from ..errors import InputError
@@ -20,9 +22,9 @@ from .equality import Fingerprint, Parts
 from .faulty_solution import FaultySolution, misconceptions
 from .gradebook import content_of
 from .sampling import Sampler, close
-from .seeds import seeded
 from .solution import Solution
 from .task import Task, task_of, tasks_of
+from .variants import DRAWS, Variant, individual
 
 CACHED = 48
 MOST_OPERATIONS = 6000  # of a right answer: beyond it the wrong ones take seconds each
@@ -39,9 +41,10 @@ class Candidate:
 
 @dataclass(frozen=True, eq=False)
 class Workbook:
-    """What is computed once for a scene, and serves every answer to it."""
+    """What is computed once for a scene, and serves every answer to it. `variant` is what is told otherwise in it."""
 
     scene: Scene
+    variant: Variant = Variant()
 
     @cached_property
     def solution(self) -> Solution:
@@ -118,15 +121,35 @@ def _attempt(task: Task, solution: FaultySolution) -> Parts:
 def workbook_of(document: Mapping[str, object]) -> Workbook:
     """The workbook of a document with the fields of SceneAskedAbout. Raises InputError for what cannot be read."""
     asked = read(SceneAskedAbout, document)
-    return workbook_asked_about(asked, asked.seed)
+    return workbook_asked_by(asked)
 
 
-def workbook_asked_about(asked: SceneWithChanges, seed: str | None = None) -> Workbook:
-    """The workbook of a scene with its changes and the values of a seed; the same content has the same one."""
-    return _cached_workbook(content_of(asked), seed)
+def workbook_asked_by(asked: SceneAskedAbout | RowQuestion) -> Workbook:
+    """The workbook of a request: its scene as the student of its seed gets it."""
+    return workbook_asked_about(asked, asked.seed, asked.vary)
+
+
+def workbook_asked_about(
+    asked: SceneWithChanges, seed: str | None = None, vary: tuple[Aspect, ...] = USUAL
+) -> Workbook:
+    """The workbook of a scene with its changes, as the student of a seed gets it; the same content has the same."""
+    return _cached_workbook(content_of(asked), seed, tuple(sorted(set(vary))))
 
 
 @lru_cache(maxsize=CACHED)
-def _cached_workbook(content: str, seed: str | None) -> Workbook:
+def _cached_workbook(content: str, seed: str | None, vary: tuple[Aspect, ...]) -> Workbook:
     scene = changed_scene(SceneWithChanges.model_validate(json.loads(content)))
-    return Workbook(scene if seed is None else seeded(scene, seed))
+    return Workbook(scene) if seed is None else _own_workbook(Workbook(scene), seed, vary)
+
+
+def _own_workbook(common: Workbook, seed: str, vary: tuple[Aspect, ...]) -> Workbook:
+    """What the student of a seed gets: of its draws the first in which the same things can be asked.
+
+    With other values a rest may be unstable, with other factors it may have no closed form; a later draw changes less.
+    """
+    asked = [task.id for task in common.tasks]
+    for draw in range(DRAWS):
+        own = Workbook(*individual(common.scene, seed, vary, draw))
+        if [task.id for task in own.tasks] == asked:
+            return own
+    return common

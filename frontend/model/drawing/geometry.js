@@ -38,24 +38,25 @@ export function circle(radius, centre = [0, 0]) {
 }
 
 /**
- * Arc from the downward vertical by an angle, positive towards the right of the screen.
- * @param {Pixel} centre @param {number} radius @param {number} angle
+ * Arc from a direction, given by its angle from the downward vertical, by an angle that is positive counterclockwise.
+ * @param {number} start @param {Pixel} centre @param {number} radius @param {number} angle
  */
-export function arcFromDown(centre, radius, angle) {
-  const end = add(centre, scaled(fromDown(angle), radius));
+export function arcFrom(start, centre, radius, angle) {
+  const [begin, end] = [start, start + angle].map((turn) => add(centre, scaled(fromDown(turn), radius)));
   const large = Math.abs(angle) > Math.PI ? 1 : 0;
   const sweep = angle > 0 ? 0 : 1;
-  return `M${at(add(centre, [0, radius]))}A${digits(radius)} ${digits(radius)} 0 ${large} ${sweep} ${at(end)}`;
+  return `M${at(begin)}A${digits(radius)} ${digits(radius)} 0 ${large} ${sweep} ${at(end)}`;
 }
 
 /**
  * The same arc there and back: it encloses nothing, so a path that is filled shows no more of it than its line.
- * @param {Pixel} centre @param {number} radius @param {number} angle
+ * @param {number} start @param {Pixel} centre @param {number} radius @param {number} angle
  */
-export function sliverFromDown(centre, radius, angle) {
+export function sliverFrom(start, centre, radius, angle) {
   const large = Math.abs(angle) > Math.PI ? 1 : 0;
   const back = angle > 0 ? 1 : 0;
-  return `${arcFromDown(centre, radius, angle)}A${digits(radius)} ${digits(radius)} 0 ${large} ${back} ${at(add(centre, [0, radius]))}`;
+  const begin = add(centre, scaled(fromDown(start), radius));
+  return `${arcFrom(start, centre, radius, angle)}A${digits(radius)} ${digits(radius)} 0 ${large} ${back} ${at(begin)}`;
 }
 
 /** Unit vector at an angle from the downward vertical. @param {number} angle @returns {Pixel} */

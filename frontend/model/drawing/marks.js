@@ -9,7 +9,7 @@ import {
   line,
   normal,
   scaled,
-  sliverFromDown,
+  sliverFrom,
   subtract,
   unit,
   wrapped,
@@ -160,27 +160,34 @@ export function moment(element, stage, now, key) {
 }
 
 /**
- * The arc from the vertical to the rod; turns of more than half a circle show their remainder.
+ * The arc from the vertical to the rod, or from the direction that the element says; turns of more than half a circle
+ * show their remainder.
  * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
  * @returns {Figure}
  */
 export function angle(element, stage, now, key) {
   const centre = placeOf(stage, now, element.at ?? "");
-  const turn = wrapped(now.coordinates[element.coordinate ?? ""] ?? 0);
+  const zero = sizeOf(element.offset, stage);
+  const sense = element.direction === "clockwise" ? -1 : 1;
+  const turn = sense * wrapped(now.coordinates[element.coordinate ?? ""] ?? 0);
   const radius = stage.unit * 4.8;
   const className = coordinateClass(stage.scene, element.coordinate);
-  const reference = { key: `${key}-axis`, d: line(centre, add(centre, [0, radius * 1.08])), className: "reference" };
+  const reference = {
+    key: `${key}-axis`,
+    d: line(centre, add(centre, scaled(fromDown(zero), radius * 1.08))),
+    className: "reference",
+  };
   if (Math.abs(turn) < 0.02) return { shapes: [reference], labels: [] };
   const size = Math.min(stage.unit * 0.8, Math.abs(turn) * radius * 0.5);
-  const end = add(centre, scaled(fromDown(turn), radius));
-  const along = scaled(normal(fromDown(turn)), -Math.sign(turn));
+  const end = add(centre, scaled(fromDown(zero + turn), radius));
+  const along = scaled(normal(fromDown(zero + turn)), -Math.sign(turn));
   const short = turn - Math.sign(turn) * (size / radius) * 0.7;
   return {
     shapes: [
       reference,
       {
         key: `${key}-arc`,
-        d: sliverFromDown(centre, radius, short) + arrowHead(end, along, LINED * size),
+        d: sliverFrom(zero, centre, radius, short) + arrowHead(end, along, LINED * size),
         className: `pointed mark ${className}`,
       },
     ],
@@ -188,7 +195,7 @@ export function angle(element, stage, now, key) {
       {
         key,
         latex: latexOf(stage.scene, element.coordinate),
-        at: add(centre, scaled(fromDown(turn / 2), radius + stage.unit * 1.15)),
+        at: add(centre, scaled(fromDown(zero + turn / 2), radius + stage.unit * 1.15)),
         className,
         opacity: Math.min(1, Math.max(0, (Math.abs(turn) - NARROW) / NARROW)),
       },

@@ -149,7 +149,7 @@ export function createClassroom({ send, state, questions }) {
     async stack() {
       const { entry } = state();
       if (!entry) return null;
-      const { seed: _, ...reference } = entry.reference;
+      const { seed: _, vary: __, ...reference } = entry.reference;
       const file = await questions(reference);
       set({ notice: file ? "" : "homework.class-no-questions" });
       return file;

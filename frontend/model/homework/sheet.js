@@ -6,7 +6,7 @@ import { asWritten } from "../own.js";
 /** @typedef {import("../types.js").Contract} Contract */
 /** @typedef {Contract["TaskSymbol"]} TaskSymbol */
 /** @typedef {Contract["TaskEntry"]} Task */
-/** @typedef {Pick<Contract["TasksRequest"], "scene" | "guides" | "freeze" | "parameters" | "seed">} Reference  what requests say of the scene */
+/** @typedef {Pick<Contract["TasksRequest"], "scene" | "guides" | "freeze" | "parameters" | "seed" | "vary">} Reference  what requests say of the scene */
 /** @typedef {{id: string, key: string, group: string, reference: Reference, scene: Scene, symbols: TaskSymbol[], task: Task}} Entry  a task with its scene; `id` stands in addresses, `group` names the scene with its changes */
 /** @typedef {{title: Record<string, string> | null, followThrough: number, simplified: number, code: string, entries: Entry[]}} Sheet  `code` is that of an assignment */
 /** @typedef {Contract["AssignmentDocument"]} Assignment */
@@ -69,11 +69,12 @@ export function referenceIn(assignment, index, seed) {
   const own = /** @type {Reference} */ (
     Object.fromEntries(CHANGES.filter((name) => given[name] != null).map((name) => [name, given[name]]))
   );
-  return assignment.individual && seed ? { ...own, seed } : own;
+  if (!assignment.individual || !seed) return own;
+  return assignment.vary ? { ...own, seed, vary: assignment.vary } : { ...own, seed };
 }
 
 /** Whether it is the library's scene as it is, so that its own page shows the same. @param {Reference} reference */
-export const isPlain = ({ scene, guides, freeze }) => typeof scene === "string" && !guides && !freeze;
+export const isPlain = ({ scene, guides, freeze, vary }) => typeof scene === "string" && !guides && !freeze && !vary;
 
 /** @param {Scene} scene */
 export const freedomsOf = (scene) => scene.coordinates.length - (scene.guides ?? []).length;

@@ -21,7 +21,8 @@ export function createSolution(store, api, answering) {
     const { entry } = get();
     if (!entry) return;
     const { lang } = get().asked.place;
-    const { seed: _, ...scene } = entry.reference;
+    const { seed: _, vary, ...common } = entry.reference;
+    const scene = vary ? { scene: entry.scene } : common;
     await attempt(store, "trouble", "solving", async () => {
       const [answer, derivation] = await Promise.all([
         api.post("/tasks/solution", { ...entry.reference, task: entry.task.id, lang }),

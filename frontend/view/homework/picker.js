@@ -2,6 +2,7 @@
 
 import { generate } from "lean-qr";
 import { html, nothing, svg } from "lit-html";
+import { live } from "lit-html/directives/live.js";
 import { inLanguage } from "../../model/catalog.js";
 import { fileName } from "../../model/homework/handin.js";
 import { bounded, instantOf, listKey, localOf, sceneIn } from "../../model/homework/picker.js";
@@ -18,11 +19,14 @@ import { icon } from "../icons.js";
 /** @typedef {import("../../model/homework/picker.js").Picker} Picker */
 /** @typedef {import("../../model/homework/sheet.js").Task} Task */
 /** @typedef {import("../../model/homework/picker.js").Assigned} Assigned */
+/** @typedef {NonNullable<import("../../model/homework/picker.js").Assignment["vary"]>[number]} Aspect */
 
 /** Empty modules around a code, so that phones find it. */
 const QUIET = 4;
 /** More does not fit a code that a phone reads from a wall. */
 const LONGEST = 1200;
+/** What may differ from student to student; without a choice the first. @type {readonly Aspect[]} */
+const ASPECTS = ["values", "axes", "coordinates", "factors"];
 const MOST_POINTS = 1000;
 const MOST_ATTEMPTS = 1000;
 
@@ -132,7 +136,24 @@ function rules({ state, t }, session) {
     <div class="field"><label for="pick-attempts">${t("homework.pick-attempts")}</label><input id="pick-attempts" type="text" inputmode="numeric" placeholder=${t("homework.pick-any")} .value=${made.attempts ?? ""} @change=${(/** @type {Event} */ event) => session.change({ attempts: whole(bounded(typed(event), 1, MOST_ATTEMPTS)) })}></div>
     ${share("follow_through", 0.5)}</div>
     <label class="check"><input type="checkbox" .checked=${made.individual === true} @change=${(/** @type {Event} */ event) => session.change({ individual: /** @type {HTMLInputElement} */ (event.target).checked })}> ${t("homework.pick-individual")}</label>
+    ${made.individual ? aspects(t, made.vary ?? [ASPECTS[0]], session) : nothing}
     </fieldset>`;
+}
+
+/**
+ * What differs from student to student; with nothing chosen it is the values.
+ * @param {HomeworkView["t"]} t @param {readonly Aspect[]} chosen @param {Picker} session
+ */
+function aspects(t, chosen, session) {
+  const turn = (/** @type {Aspect} */ aspect, /** @type {Event} */ { target }) => {
+    const { checked } = /** @type {HTMLInputElement} */ (target);
+    const vary = ASPECTS.filter((one) => (one === aspect ? checked : chosen.includes(one)));
+    session.change({ vary: vary.length ? vary : null });
+  };
+  return html`<div class="aspects" role="group" aria-label=${t("homework.pick-vary")}><span class="so">${t("homework.pick-vary")}</span>${ASPECTS.map(
+    (one) =>
+      html`<label class="check"><input type="checkbox" .checked=${live(chosen.includes(one))} @change=${(/** @type {Event} */ event) => turn(one, event)}> ${t(`homework.pick-vary-${one}`)}</label>`,
+  )}</div>`;
 }
 
 /** @param {number | null} value */
