@@ -90,7 +90,11 @@ def test_every_task_is_a_question_with_the_documented_elements(exported: tuple[W
     ]
     for question in questions:
         assert question.attrib == {"type": "stack"}
-        assert tags(question) == QUESTION
+        tests = question.findall("qtest")
+        assert tags(question) == QUESTION + ["qtest"] * len(tests)
+        tried = {content(test, "expected/expectedanswernote") for test in tests}
+        nodes = [node for node in question.findall("prt/node") if content(node, "description") != "partly"]
+        assert tried >= {content(node, "trueanswernote") for node in nodes}
         assert tags(question.find("input")) == INPUT
         assert {"[[input:ans1]]", "[[validation:ans1]]"} <= set(
             re.findall(r"\[\[\w+:\w+\]\]", content(question, "questiontext/text"))

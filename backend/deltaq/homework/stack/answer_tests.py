@@ -1,32 +1,32 @@
-"""How STACK decides whether two answers are equal: Maxima expressions that are zero exactly then.
+"""What a question for STACK computes of an answer: whether it is readable, right, a known mistake, or right in part.
 
-Trigonometric identities are decided by trigsimp(trigexpand(…)); what STACK cannot see stays wrong there, while the
-checker of δq decides it.
+All is decided in Maxima by values at fixed states, as the checker does before it proves anything: values are not at the
+mercy of how a computer algebra happens to simplify. The functions stand in `grading.mac`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from types import MappingProxyType
+
 import sympy as sp
 
-from ..solution import Solution
+from ...language.latex_printer import Typography
+from ..equality import Parts, conserved, lagrangian, up_to_constant
 from ..task import Task
+from ..workbook import Workbook
 from .maxima import maxima, maxima_name
+from .states import States
 
 ANSWER = "ans1"
-RESIDUALS = "sres"
+OWN = "dq_own"
+READABLE, EMPTY, RIGHT, SHARE = "dq_is_readable", "dq_is_empty", "dq_is_right", "dq_share"
 
 
-def preparation(task: Task) -> str:
-    """Feedback variables: equations become residuals."""
-    residual = "if equationp(ex) then lhs(ex)-rhs(ex) else ex"
-    if task.quantity.form == "equation":
-        return f"{RESIDUALS}: block([ex: {ANSWER}], [{residual}]);"
-    if task.quantity.form == "equations":
-        return f"{RESIDUALS}: map(lambda([ex], {residual}), {ANSWER});"
-    return ""
-
-
-def value(task: Task, parts: tuple[sp.Expr, ...]) -> str:
+def value(task: Task, parts: Iterable[sp.Expr]) -> str:
     """An answer as it is typed: an expression, a list, an equation `… = 0`, or a set of values."""
     texts = [maxima(part) for part in parts]
     match task.quantity.form:
@@ -42,65 +42,169 @@ def value(task: Task, parts: tuple[sp.Expr, ...]) -> str:
             return texts[0]
 
 
-def difference(task: Task, parts: tuple[sp.Expr, ...], solution: Solution) -> tuple[str, str]:
-    """What is compared with what by the test AlgEquiv."""
-    texts = [maxima(part) for part in parts]
+# --- the variables of a question --------------------------------------------------------------------------------------
+
+
+def question_variables(workbook: Workbook, task: Task) -> str:
+    """The right answer, the states, the functions, and how symbols are typeset."""
+    return "\n".join(
+        (
+            f"ta1: {value(task, workbook.shown(task))};",
+            *_typeset(workbook, task),
+            *_states(workbook, task),
+            _functions(),
+        )
+    )
+
+
+def _typeset(workbook: Workbook, task: Task) -> Iterable[str]:
+    typography = Typography(workbook.scene.names)
+    for symbol in States(workbook, task).symbols:
+        shown = typography.symbol(symbol.name).replace("\\", "\\\\").replace('"', "")
+        yield f'texput({maxima_name(symbol.name)}, "{shown}");'
+
+
+def _states(workbook: Workbook, task: Task) -> Iterable[str]:
+    states, solution = States(workbook, task), workbook.solution
+    jets = (solution.q, solution.rate, solution.acceleration)
+    yield f"dq_names: {_listed(maxima_name(s.name) for s in states.symbols)};"
+    groups = (_listed(_listed(f"{x:g}" for x in point) for point in group) for group in states.groups)
+    yield f"dq_values: {_listed(groups)};"
+    yield f"dq_scene: {_listed(f'{name} = {number!r}' for name, number in states.scene_values)};"
+    for name, coordinates in (("dq_free", solution.free), ("dq_all", solution.coordinates)):
+        yield f"{name}: {_listed(_listed(maxima_name(kind(q).name) for kind in jets) for q in coordinates)};"
+    yield f"dq_special: {_listed(f'{maxima_name(s.name)} = {number!r}' for s, number in states.special)};"
+
+
+@cache
+def _functions() -> str:
+    return files(__package__).joinpath("grading.mac").read_text(encoding="utf-8").strip()
+
+
+def _listed(texts: Iterable[str]) -> str:
+    return f"[{','.join(texts)}]"
+
+
+def _list_of(parts: Parts) -> str:
+    return _listed(map(maxima, parts))
+
+
+# --- when answers are equal -------------------------------------------------------------------------------------------
+
+
+def same(task: Task, parts: Parts) -> str:
+    """Whether the answer equals this one, in the sense of its quantity."""
+    right = _list_of(parts)
     match task.quantity.form:
+        case "equation" | "equations":
+            return f"dq_combined({OWN},{right})"
         case "set":
-            return ANSWER, "{" + ",".join(texts) + "}"
-        case "equation":
-            return _zero(_cross(parts[0], solution)), "0"
-        case "equations":
-            return _zero(_inserted(texts, solution)), _zeros(len(texts))
+            return f"dq_frequencies({OWN},{right})"
         case _:
-            given = ANSWER if task.quantity.form == "expression" else f"({ANSWER})"
-            right = texts[0] if task.quantity.form == "expression" else f"[{','.join(texts)}]"
-            return _of_expression(task, f"{given}-({right})", solution), _target(task, solution, len(parts))
+            shared = _shared(task)
+            return f"dq_near({shared}({OWN}),{shared}({right}))"
 
 
-def _of_expression(task: Task, text: str, solution: Solution) -> str:
-    """The difference, or for potentials and Lagrange functions its derivatives, so that a constant does not count."""
-    if task.quantity.kind not in ("potential-energy", "lagrangian"):
-        return _zero(text)
-    moving = [maxima_name(s.name) for q in solution.free for s in (solution.q(q), solution.rate(q))]
-    return _zero("[" + ",".join(f"diff({text},{name})" for name in moving) + "]")
+def _shared(task: Task) -> str:
+    named = {up_to_constant: "dq_differences_of", lagrangian: "dq_motions_of", conserved: "dq_ratios_of"}
+    return next((f for module, f in named.items() if task.quantity.equality is module), "dq_values_of")
 
 
-def _target(task: Task, solution: Solution, size: int) -> str:
-    if task.quantity.kind in ("potential-energy", "lagrangian"):
-        return _zeros(2 * len(solution.free))
-    return _zeros(size) if task.quantity.form == "vector" else "0"
+def right(workbook: Workbook, task: Task) -> str:
+    """Whether the answer is right in any of the ways in which one can be."""
+    exact = same(task, workbook.shown(task))
+    if task.quantity.form in ("equation", "equations"):
+        columns = _listed(map(str, _columns(workbook, task)))
+        exact = f"({exact} and dq_undivided({OWN},{_list_of(workbook.shown(task))},{columns}))"
+    return " or ".join((exact, *_alternatives(workbook, task), *_solved(workbook, task)))
 
 
-def _zeros(size: int) -> str:
-    return "[" + ",".join(["0"] * size) + "]"
+def _columns(workbook: Workbook, task: Task) -> list[int]:
+    """The numbers of the accelerations by which the equations are told apart."""
+    accelerations = [workbook.solution.acceleration(q) for q in workbook.solution.free]
+    parts = workbook.right(task)
+    if len(parts) == len(accelerations):
+        return list(range(1, len(parts) + 1))
+    return [next(k for k, a in enumerate(accelerations, 1) if sp.expand(parts[0]).has(a))]
 
 
-def _zero(text: str) -> str:
-    return f"trigsimp(trigexpand({text}))"
+def _alternatives(workbook: Workbook, task: Task) -> Iterable[str]:
+    """Answers that keep a constant force out of the potential, and so do not speak of it."""
+    for parts, _ in workbook.alternatives(task):
+        unspoken = workbook.right(task)[0].free_symbols - parts[0].free_symbols
+        names = "".join(f"{maxima_name(symbol.name)}," for symbol in sorted(unspoken, key=str))
+        yield f"(freeof({names}{OWN}) and {same(task, workbook.short(parts))})"
 
 
-def _cross(right: sp.Expr, solution: Solution) -> str:
-    """g ∂r/∂q̈ − r ∂g/∂q̈: zero if the equations g = 0 and r = 0 differ by a factor."""
-    by = next((solution.acceleration(q) for q in solution.free if right.diff(solution.acceleration(q)) != 0), None)
-    if by is None:
-        return f"{RESIDUALS}[1]-({maxima(right)})"
-    name = maxima_name(by.name)
-    return f"{RESIDUALS}[1]*({maxima(right.diff(by))})-({maxima(right)})*diff({RESIDUALS}[1],{name})"
+def _solved(workbook: Workbook, task: Task) -> Iterable[str]:
+    """An equation solved for its own acceleration is a combination of all of them."""
+    solution = workbook.solution
+    if task.quantity.kind == "equation" and len(solution.free) > 1:
+        others = ",".join(maxima_name(solution.acceleration(q).name) for q in solution.free if q != task.subject)
+        whole = _list_of(workbook.short(tuple(map(solution.equation, solution.free))))
+        yield f"(freeof({others},{OWN}) and every(lambda([x_], dq_implied(x_,{whole})), {OWN}))"
 
 
-def _inserted(texts: list[str], solution: Solution) -> str:
-    """The residuals with the accelerations of the right equations put in."""
-    accelerations = ",".join(maxima_name(solution.acceleration(q).name) for q in solution.free)
-    return f"subst(linsolve([{','.join(texts)}],[{accelerations}]),{RESIDUALS})"
+# --- the variables of the feedback ------------------------------------------------------------------------------------
 
 
-def degenerate(task: Task, solution: Solution) -> tuple[str, str] | None:
-    """What is zero if equations do not determine the accelerations; None for other tasks."""
-    accelerations = [maxima_name(solution.acceleration(q).name) for q in solution.free]
-    if task.quantity.form == "equations":
-        rows = ",".join(f"map(lambda([ex], diff(ex,{a})), {RESIDUALS})" for a in accelerations)
-        return _zero(f"determinant(matrix({rows}))"), "0"
-    if task.quantity.form == "equation":
-        return _zero("+".join(f"diff({RESIDUALS}[1],{a})^2" for a in accelerations)), "0"
-    return None
+@dataclass(frozen=True)
+class Form:
+    """How an answer of a form is taken apart, how many parts it has (None: any number), and what is empty."""
+
+    read: str
+    size: Callable[[Workbook, Task], int | None]
+    empty: Callable[[Task], str]
+    share: Callable[[Workbook, Task], str]
+
+
+def feedback_variables(workbook: Workbook, task: Task) -> str:
+    """What the nodes ask for. What cannot be read is not evaluated."""
+    form = FORMS[task.quantity.form]
+    size = form.size(workbook, task)
+    counted = f"is(length({OWN}) > 0)" if size is None else f"is(length({OWN}) = {size})"
+    lines = (
+        f"{OWN}: map({form.read}, dq_parts({ANSWER}));",
+        f"{READABLE}: {counted} and dq_readable({OWN});",
+        f"{EMPTY}: {READABLE} and {form.empty(task)};",
+        f"{RIGHT}: {READABLE} and not {EMPTY} and ({right(workbook, task)});",
+        f"{SHARE}: if {READABLE} and not {EMPTY} then {form.share(workbook, task)} else 0;",
+    )
+    return "\n".join(lines)
+
+
+def _none(_workbook: Workbook, _task: Task) -> str:
+    return "0"
+
+
+def _components(workbook: Workbook, task: Task) -> str:
+    """Of the components other than zero."""
+    parts = workbook.shown(task)
+    asked = [k for k, part in enumerate(parts) if any(workbook.sampler.values(part))]
+    tests = (f"dq_near(dq_all_points({OWN}[{k + 1}]),dq_all_points({maxima(parts[k])}))" for k in asked)
+    return f"dq_count({_listed(tests)})/{max(1, len(asked))}"
+
+
+def _equations(workbook: Workbook, task: Task) -> str:
+    """Independent ones of the set; one too many that is wrong takes one away."""
+    parts = workbook.shown(task)
+    return f"dq_share_of_equations({OWN},{_list_of(parts)})"
+
+
+def _frequencies(workbook: Workbook, task: Task) -> str:
+    return f"dq_share_of_frequencies({OWN},{_list_of(workbook.shown(task))})"
+
+
+def _steady(task: Task) -> str:
+    return f"is(dq_ratios_of({OWN}) = [])" if task.quantity.kind == "conserved" else "false"
+
+
+FORMS: Mapping[str, Form] = MappingProxyType(
+    {
+        "expression": Form("dq_named", lambda _w, _t: 1, _steady, _none),
+        "vector": Form("dq_named", lambda workbook, task: len(workbook.right(task)), lambda _: "false", _components),
+        "equation": Form("dq_residual", lambda _w, _t: 1, lambda _: f"dq_dependent({OWN})", _none),
+        "equations": Form("dq_residual", lambda _w, _t: None, lambda _: f"dq_dependent({OWN})", _equations),
+        "set": Form("dq_named", lambda _w, _t: None, lambda _: "false", _frequencies),
+    }
+)

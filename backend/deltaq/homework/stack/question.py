@@ -19,15 +19,30 @@ from ...mechanics.user_text import UserText
 from ...narration.catalog import text
 from ...narration.prose import CatalogText, joined, pieces, plain, words
 from ..equality import symmetry
+from ..equality.frequencies import number_of
 from ..feedback import about_texts
+from ..partwise import DECIDED, part_share
+from ..sampling import close
 from ..statement import task_document
 from ..task import Task
 from ..workbook import Candidate, Workbook
-from .answer_tests import ANSWER, degenerate, difference, preparation, value
+from .answer_tests import (
+    ANSWER,
+    EMPTY,
+    READABLE,
+    RIGHT,
+    SHARE,
+    feedback_variables,
+    question_variables,
+    same,
+    value,
+)
 from .maxima import maxima_name
+from .states import States
 
 VERSION = "2025030700"
 MOST_MISCONCEPTIONS = 8
+PENALTY = "0.1"
 _MARKUP = re.compile(r"[\[\]{}@#$<>&\"'`|~]")
 _TYPESET = str.maketrans(
     {"$": "＄", "\\": "＼"}
@@ -65,13 +80,15 @@ INPUT = {
 
 @dataclass(frozen=True)
 class Node:
-    """One node of a potential response tree: a test, what it tells, the score if it holds, and where to go else."""
+    """One node of a potential response tree: what must be true, what it tells then, which score it gives, and answers
+    that come to it with the score of each.
+    """
 
-    sans: str
-    tans: str
+    test: str
     note: str
     feedback: str
     score: str = "0"
+    tried: tuple[tuple[str, float], ...] = ()
 
 
 def quiz(workbook: Workbook, tasks: Sequence[Task], language: str) -> str:
@@ -100,23 +117,25 @@ def left_out(tasks: Iterable[Task]) -> list[str]:
 def question(workbook: Workbook, task: Task, language: str) -> Element:
     """One task as a question of type stack."""
     told = task_document(task, workbook, language)
-    right = workbook.shown(task)
+    nodes = list(_nodes(workbook, task, language))
     element = Element("question", type="stack")
     _text(element, "name", _name(workbook.scene, words(told["title"]), language))
     _text(element, "questiontext", _statement(workbook, task, words(told["statement"]), language), "html")
     _text(element, "generalfeedback", _solution(workbook, task), "html")
-    for name, content in (("defaultgrade", f"{task.quantity.points:g}"), ("penalty", "0.1"), ("hidden", "0")):
+    for name, content in (("defaultgrade", f"{task.quantity.points:g}"), ("penalty", PENALTY), ("hidden", "0")):
         SubElement(element, name).text = content
     SubElement(element, "idnumber").text = ""
     _text(element, "stackversion", VERSION)
-    _text(element, "questionvariables", f"ta1: {value(task, right)};")
+    _text(element, "questionvariables", question_variables(workbook, task))
     _text(element, "specificfeedback", "<p>[[feedback:prt1]]</p>", "html")
     _text(element, "questionnote", f"{workbook.scene.id}, {task.id}", "html")
     _text(element, "questiondescription", "", "html")
-    for name, content in SETTINGS.items():
+    for name, content in {**SETTINGS, "decimals": "," if language == "de" else "."}.items():
         SubElement(element, name).text = content
-    _input(element)
-    _tree(element, preparation(task), list(_nodes(workbook, task, language)))
+    _input(element, [maxima_name(symbol.name) for symbol in States(workbook, task).symbols])
+    _tree(element, feedback_variables(workbook, task), nodes)
+    for number, (tried, index) in enumerate(_tried(nodes), 1):
+        element.append(_test(number, tried, index, nodes))
     return element
 
 
@@ -144,12 +163,12 @@ def _name(scene: Scene, title: CatalogText, language: str) -> str:
 def _statement(workbook: Workbook, task: Task, statement: CatalogText, language: str) -> str:
     """What is asked, how its symbols are typed, and the field."""
     typography = Typography(workbook.scene.names)
-    used = {s for part in workbook.shown(task) for s in part.free_symbols}
-    names = sorted((maxima_name(s.name), typography.symbol(s.name)) for s in used)
+    symbols = States(workbook, task).symbols
+    names = [(maxima_name(s.name), typography.symbol(s.name)) for s in symbols]
     spelling = ", ".join(rf"<code>{escape(name)}</code> \({escape(shown)}\)" for name, shown in names)
     summary = inert(workbook.scene.summary.get(language, UserText("")).line)
-    form = text(language, f"homework.forms.{'list' if task.quantity.form == 'equations' else task.quantity.form}")
-    write = text(language, "homework.stack.write", form=form if task.quantity.form != "set" else "{a, b}")
+    form = text(language, f"homework.stack.forms.{task.quantity.form}")
+    write = text(language, "homework.stack.write", form=form)
     return (
         f"<p>{summary}</p>\n<p>{_html(statement)}</p>\n<p>{_html(write)} {spelling}</p>\n"
         f"<p>[[input:{ANSWER}]]</p>\n<div>[[validation:{ANSWER}]]</div>"
@@ -162,33 +181,64 @@ def _solution(workbook: Workbook, task: Task) -> str:
     return "\n".join(rf"<p>\[{escape(latex(part, typography))}{ending}\]</p>" for part in workbook.shown(task))
 
 
-def _input(parent: Element) -> None:
+def _input(parent: Element, names: Sequence[str]) -> None:
+    """The field; what is longer than two letters and not named here cannot be typed."""
     element = SubElement(parent, "input")
-    for name, content in {"name": ANSWER, "type": "algebraic", "tans": "ta1", **INPUT}.items():
+    allowed = {"allowwords": ",".join(name for name in names if len(name) > 2)}
+    for name, content in {"name": ANSWER, "type": "algebraic", "tans": "ta1", **INPUT, **allowed}.items():
         SubElement(element, name).text = content
 
 
 def _nodes(workbook: Workbook, task: Task, language: str) -> Iterable[Node]:
-    """What says nothing, what is right, then one misconception after the other."""
-    empty = degenerate(task, workbook.solution)
-    if empty is not None:
-        yield Node(*empty, "degenerate", _html(text(language, "homework.remarks.degenerate")))
-    right = difference(task, workbook.shown(task), workbook.solution)
-    yield Node(*right, "correct", _html(text(language, "homework.outcomes.correct")), "1")
+    """What cannot be read, says nothing, is right, is one misconception after the other, or is right in part."""
+    unreadable = _html(text(language, "homework.stack.unreadable"))
+    yield Node(f"not {READABLE}", "unreadable", unreadable, tried=(("[]", 0.0),))
+    if task.quantity.form in ("equation", "equations") or task.quantity.kind == "conserved":
+        empty = ", ".join(["0 = 0"] * len(workbook.right(task)))
+        nothing = {"equations": f"[{empty}]", "equation": empty}.get(task.quantity.form, "1")
+        yield Node(EMPTY, "degenerate", _html(text(language, "homework.remarks.degenerate")), tried=((nothing, 0.0),))
+    right = value(task, workbook.shown(task))
+    yield Node(RIGHT, "correct", _html(text(language, "homework.outcomes.correct")), "1", ((right, 1.0),))
     for candidate in islice(_different(workbook, task), MOST_MISCONCEPTIONS):
-        wrong = difference(task, workbook.short(candidate.parts), workbook.solution)
+        wrong = workbook.short(candidate.parts)
         about = about_texts(candidate.solution.about, workbook.scene, language)
-        hint = text(language, f"homework.misconceptions.{candidate.solution.id}.hint", **about)
-        yield Node(*wrong, candidate.solution.id, _html(hint))
+        hint = _html(text(language, f"homework.misconceptions.{candidate.solution.id}.hint", **about))
+        tried = ((value(task, wrong), part_share(workbook, task, wrong)),)
+        yield Node(same(task, wrong), candidate.solution.id, hint, SHARE, tried)
+    partly = _html(text(language, "homework.stack.partly"))
+    yield Node(f"is({SHARE} > 0)", "partly", partly, SHARE, tuple(_partly_right(workbook, task)))
+
+
+def _partly_right(workbook: Workbook, task: Task) -> Iterable[tuple[str, float]]:
+    """An answer of which one part is right, if it has several."""
+    parts = workbook.shown(task)
+    if task.quantity.form in DECIDED:
+        changed = (parts[0], *(part + 7 for part in parts[1:])) if task.quantity.form == "vector" else parts[:1]
+        share = part_share(workbook, task, changed) if len(parts) > 1 else 0.0
+        if 0 < share < 1:
+            yield value(task, changed), share
 
 
 def _different(workbook: Workbook, task: Task) -> Iterable[Candidate]:
-    """The candidates whose misconception was not there before."""
-    seen: set[str] = set()
+    """The candidates whose misconception and whose answer were not there before."""
+    seen: list[Candidate] = []
     for candidate in workbook.candidates(task):
-        if candidate.solution.id not in seen:
-            seen.add(candidate.solution.id)
+        if _can_be_typed(workbook, task, candidate) and not any(_is_alike(candidate, other) for other in seen):
+            seen.append(candidate)
             yield candidate
+
+
+def _can_be_typed(workbook: Workbook, task: Task, candidate: Candidate) -> bool:
+    """A set holds no value twice, and zero is no frequency."""
+    if task.quantity.form != "set":
+        return True
+    numbers = {f"{number_of(part, workbook.solution):.6g}" for part in candidate.parts}
+    return len(numbers) == len(candidate.parts) and not numbers & {"0", "nan"}
+
+
+def _is_alike(one: Candidate, other: Candidate) -> bool:
+    same_answer = len(one.fingerprint) == len(other.fingerprint) and close(one.fingerprint, other.fingerprint)
+    return one.solution.id == other.solution.id or same_answer
 
 
 def _tree(parent: Element, variables: str, nodes: Sequence[Node]) -> None:
@@ -203,14 +253,42 @@ def _tree(parent: Element, variables: str, nodes: Sequence[Node]) -> None:
 
 def _node(number: int, node: Node, following: int) -> Element:
     element = Element("node")
-    head = {"name": str(number), "description": node.note, "answertest": "AlgEquiv", "sans": node.sans}
-    for name, content in {**head, "tans": node.tans, "testoptions": "", "quiet": "1"}.items():
+    head = {"name": str(number), "description": node.note, "answertest": "AlgEquiv", "sans": node.test}
+    for name, content in {**head, "tans": "true", "testoptions": "", "quiet": "1"}.items():
         SubElement(element, name).text = content
     branches = (("true", node.score, -1, node.feedback), ("false", "0", following, ""))
     for branch, score, goes, told in branches:
-        mark = f"prt1-{number}-{'T' if branch == 'true' else 'F'}"
-        values = {"scoremode": "=", "score": score, "penalty": "", "nextnode": str(goes), "answernote": mark}
-        for name, content in values.items():
+        penalty = "0" if node.note == "correct" and branch == "true" else ""
+        values = {"scoremode": "=", "score": score, "penalty": penalty, "nextnode": str(goes)}
+        for name, content in {**values, "answernote": _mark(number, branch)}.items():
             SubElement(element, branch + name).text = content
         _text(element, f"{branch}feedback", told, "html")
+    return element
+
+
+def _mark(number: int, branch: str) -> str:
+    return f"prt1-{number + 1}-{branch[0].upper()}"
+
+
+def _tried(nodes: Sequence[Node]) -> Iterable[tuple[tuple[str, float], int]]:
+    """The answers that the question is tested with, and the node each comes to."""
+    for index, node in enumerate(nodes):
+        for tried in node.tried:
+            yield tried, index
+
+
+def _test(number: int, tried: tuple[str, float], index: int, nodes: Sequence[Node]) -> Element:
+    """A test of the question, as STACK runs it: an answer, its score, and the note of the branch that it leaves by."""
+    typed, score = tried
+    element = Element("qtest")
+    SubElement(element, "testcase").text = str(number)
+    SubElement(element, "description").text = nodes[index].note
+    given, expected = SubElement(element, "testinput"), SubElement(element, "expected")
+    for name, content in (("name", ANSWER), ("value", typed)):
+        SubElement(given, name).text = content
+    note, penalty = _mark(index, "true"), "0" if score == 1 else PENALTY
+    told = {"score": f"{score:.3f}", "penalty": penalty, "answernote": note}
+    SubElement(expected, "name").text = "prt1"
+    for name, content in told.items():
+        SubElement(expected, f"expected{name}").text = content
     return element
