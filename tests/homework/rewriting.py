@@ -59,6 +59,17 @@ def samples(count: int, seed: int = 1) -> Iterator[Sample]:
 
 
 def _sample(scene: str, book: Workbook, task: Task, source: random.Random, *, right: bool) -> Sample | None:
+    found = changed(book, task, source, right=right)
+    if found is None:
+        return None
+    parts, how = found
+    syntax = source.choice(("plain", "latex"))
+    text = _typed(parts, task, syntax, book, source)
+    return Sample(scene, task.id, syntax, text, right, how) if len(text) <= LONGEST else None
+
+
+def changed(book: Workbook, task: Task, source: random.Random, *, right: bool) -> tuple[Parts, str] | None:
+    """The parts of a right answer in another form, or of a wrong one, and how they were made; None where they are not."""
     parts, names = book.shown(task), []
     for _ in range(source.randint(1, 3)):
         name, rewrite = source.choice(REWRITES)
@@ -68,13 +79,11 @@ def _sample(scene: str, book: Workbook, task: Task, source: random.Random, *, ri
         name, recombine = source.choice(COMBINATIONS)
         parts, names = recombine(parts, source, book), [*names, name]
     if not right:
-        changed = _mutated(parts, task, source, book)
-        if changed is None:
+        mutated = _mutated(parts, task, source, book)
+        if mutated is None:
             return None
-        parts, names = changed[0], [*names, changed[1]]
-    syntax = source.choice(("plain", "latex"))
-    text = _typed(parts, task, syntax, book, source)
-    return Sample(scene, task.id, syntax, text, right, " + ".join(names)) if len(text) <= LONGEST else None
+        parts, names = mutated[0], [*names, mutated[1]]
+    return parts, " + ".join(names)
 
 
 def _typed(parts: Parts, task: Task, syntax: str, book: Workbook, source: random.Random) -> str:

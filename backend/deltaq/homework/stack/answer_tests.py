@@ -168,7 +168,7 @@ def feedback_variables(workbook: Workbook, task: Task) -> str:
         f"{READABLE}: {counted} and dq_readable({OWN});",
         f"{EMPTY}: {READABLE} and {form.empty(task)};",
         f"{RIGHT}: {READABLE} and not {EMPTY} and ({right(workbook, task)});",
-        f"{SHARE}: if {READABLE} and not {EMPTY} then {form.share(workbook, task)} else 0;",
+        f"{SHARE}: if {READABLE} then {form.share(workbook, task)} else 0;",
     )
     return "\n".join(lines)
 

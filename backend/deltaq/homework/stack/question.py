@@ -196,7 +196,7 @@ def _nodes(workbook: Workbook, task: Task, language: str) -> Iterable[Node]:
     if task.quantity.form in ("equation", "equations") or task.quantity.kind == "conserved":
         empty = ", ".join(["0 = 0"] * len(workbook.right(task)))
         nothing = {"equations": f"[{empty}]", "equation": empty}.get(task.quantity.form, "1")
-        yield Node(EMPTY, "degenerate", _html(text(language, "homework.remarks.degenerate")), tried=((nothing, 0.0),))
+        yield Node(EMPTY, "degenerate", _html(text(language, "homework.remarks.degenerate")), SHARE, ((nothing, 0.0),))
     right = value(task, workbook.shown(task))
     yield Node(RIGHT, "correct", _html(text(language, "homework.outcomes.correct")), "1", ((right, 1.0),))
     for candidate in islice(_different(workbook, task), MOST_MISCONCEPTIONS):
