@@ -69,7 +69,7 @@ def _sample(scene: str, book: Workbook, task: Task, source: random.Random, *, ri
 
 
 def changed(book: Workbook, task: Task, source: random.Random, *, right: bool) -> tuple[Parts, str] | None:
-    """The parts of a right answer in another form, or of a wrong one, and how they were made; None where they are not."""
+    """The parts of a right answer in another form, or of a wrong one, and how they were made; None where none are."""
     parts, names = book.shown(task), []
     for _ in range(source.randint(1, 3)):
         name, rewrite = source.choice(REWRITES)

@@ -17,6 +17,8 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import sympy as sp
+from tests.homework.maxima_runner import Graded, run
+from tests.homework.rewriting import changed
 
 import deltaq
 from deltaq.homework.service import check_request
@@ -25,8 +27,6 @@ from deltaq.homework.stack.maxima import RENAMED, maxima
 from deltaq.homework.stack.question import quiz
 from deltaq.homework.task import Task
 from deltaq.homework.workbook import Workbook, workbook_of
-from tests.homework.maxima_runner import Graded, run
-from tests.homework.rewriting import changed
 
 RIGHT, WRONG, LONGEST = 10, 5, 1500
 Parts = tuple[sp.Expr, ...]
@@ -128,7 +128,9 @@ def _vectors(book: Workbook, task: Task) -> Iterator[Form]:
     parts = book.shown(task)
     yield _form(task, parts[:-1], "a component missing")
     yield _form(task, (*parts, sp.Integer(0)), "a component too many")
-    yield _form(task, (parts[0], *(part + book.solution.q(book.solution.free[0]) for part in parts[1:])), "partly right")
+    yield _form(
+        task, (parts[0], *(part + book.solution.q(book.solution.free[0]) for part in parts[1:])), "partly right"
+    )
     yield _form(task, tuple(reversed(parts)), "reversed")
 
 
@@ -152,7 +154,9 @@ def _systems(book: Workbook, task: Task) -> Iterator[Form]:
     yield _form(task, parts[:-1], "an equation missing")
     yield _form(task, (*parts, parts[0]), "an equation twice")
     yield _form(task, (parts[0],) * len(parts), "the same equation")
-    yield _form(task, (parts[0], *(part + book.solution.q(book.solution.free[0]) for part in parts[1:])), "partly right")
+    yield _form(
+        task, (parts[0], *(part + book.solution.q(book.solution.free[0]) for part in parts[1:])), "partly right"
+    )
     yield _form(task, (parts[0] * sp.sin(book.solution.q(book.solution.free[0])), *parts[1:]), "times a sine")
 
 

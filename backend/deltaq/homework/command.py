@@ -7,13 +7,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TextIO, TypeVar
 
+from ..contract.assignment import AssignmentDocument
 from ..narration.catalog import text
 from .gradebook import Plan
 from .grading import Sheet, grade, plan_of, read_class
 from .handins import LARGEST, HandIns, handed_in
 from .platforms import canvas_csv, moodle_csv
 from .results import Graded, results_csv, summary, totals
-from .stack.question import left_out, quiz
+from .stack.question import asked_in, left_out, quiz, sheet_quiz
 from .workbook import workbook_of
 
 WIDTH = 30
@@ -73,6 +74,13 @@ def _with_progress(graded: Iterable[T], total: int, screen: TextIO) -> Iterator[
         yield each
     if shown and total:
         screen.write("\n")
+
+
+def stack_sheet(sheet: AssignmentDocument, output: Path, language: str) -> tuple[int, list[str]]:
+    """Write the questions of an assignment for STACK as one file; how many, and the names of those it cannot judge."""
+    output.write_text(sheet_quiz(sheet, language), encoding="utf-8")
+    told = left_out(one.task for one in asked_in(sheet))
+    return len(sheet.tasks) - len(told), told
 
 
 def stack_file(scene: str, tasks: Sequence[str], output: Path, language: str) -> tuple[int, list[str]]:

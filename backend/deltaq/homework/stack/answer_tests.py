@@ -115,8 +115,9 @@ def right(workbook: Workbook, task: Task) -> str:
     exact = same(task, workbook.shown(task))
     if task.quantity.form in ("equation", "equations"):
         columns = _listed(map(str, _columns(workbook, task)))
-        exact = f"({exact} and dq_undivided({OWN},{_list_of(workbook.shown(task))},{columns}))"
-    return " or ".join((exact, *_alternatives(workbook, task), *_solved(workbook, task)))
+        undivided = f"dq_undivided({OWN},{_list_of(workbook.shown(task))},{columns})"
+        return f"if {exact} then {undivided} else {_solved(workbook, task)}"
+    return " or ".join((exact, *_alternatives(workbook, task)))
 
 
 def _columns(workbook: Workbook, task: Task) -> list[int]:
@@ -136,13 +137,14 @@ def _alternatives(workbook: Workbook, task: Task) -> Iterable[str]:
         yield f"(freeof({names}{OWN}) and {same(task, workbook.short(parts))})"
 
 
-def _solved(workbook: Workbook, task: Task) -> Iterable[str]:
+def _solved(workbook: Workbook, task: Task) -> str:
     """An equation solved for its own acceleration is a combination of all of them."""
     solution = workbook.solution
-    if task.quantity.kind == "equation" and len(solution.free) > 1:
-        others = ",".join(maxima_name(solution.acceleration(q).name) for q in solution.free if q != task.subject)
-        whole = _list_of(workbook.short(tuple(map(solution.equation, solution.free))))
-        yield f"(freeof({others},{OWN}) and every(lambda([x_], dq_implied(x_,{whole})), {OWN}))"
+    if task.quantity.kind != "equation" or len(solution.free) < 2:
+        return "false"
+    others = ",".join(maxima_name(solution.acceleration(q).name) for q in solution.free if q != task.subject)
+    whole = _list_of(workbook.short(tuple(map(solution.equation, solution.free))))
+    return f"freeof({others},{OWN}) and dq_implied({OWN}[1],{whole})"
 
 
 # --- the variables of the feedback ------------------------------------------------------------------------------------

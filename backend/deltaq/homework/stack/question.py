@@ -12,12 +12,15 @@ from html import escape
 from itertools import islice
 from xml.etree.ElementTree import Comment, Element, SubElement, indent, tostring
 
+from ...contract.assignment import AssignmentDocument
 from ...errors import Problem, RequestError
 from ...language.latex_printer import Typography, latex
+from ...language.spelling import in_unicode
 from ...mechanics.scene import Scene
-from ...mechanics.user_text import UserText
+from ...mechanics.user_text import UserText, in_language, translated
 from ...narration.catalog import text
-from ...narration.prose import CatalogText, joined, pieces, plain, words
+from ...narration.prose import CatalogText, joined, pieces, words
+from ..assignment import resolved
 from ..equality import symmetry
 from ..equality.frequencies import number_of
 from ..feedback import about_texts
@@ -71,7 +74,7 @@ INPUT = {
     "allowwords": "",
     "forbidfloat": "0",
     "requirelowestterms": "0",
-    "checkanswertype": "1",
+    "checkanswertype": "0",
     "mustverify": "1",
     "showvalidation": "1",
     "options": "",
@@ -91,20 +94,41 @@ class Node:
     tried: tuple[tuple[str, float], ...] = ()
 
 
-def quiz(workbook: Workbook, tasks: Sequence[Task], language: str) -> str:
-    """The XML document of several questions. Those that STACK cannot judge are named in a comment.
+@dataclass(frozen=True)
+class Asked:
+    """A task to be exported, and what it counts if not what its quantity does."""
 
-    Raises RequestError where it can judge none.
-    """
-    told = left_out(tasks)
-    if told and len(told) == len(tasks):
+    workbook: Workbook
+    task: Task
+    points: float | None = None
+
+
+def quiz(workbook: Workbook, tasks: Iterable[Task], language: str) -> str:
+    """The XML document of several questions about one scene; see `left_out`."""
+    return _document([Asked(workbook, task) for task in tasks], language)
+
+
+def sheet_quiz(sheet: AssignmentDocument, language: str) -> str:
+    """The XML document of a whole assignment: its tasks in their order, in a category of its title; see `left_out`."""
+    title = in_language(translated(sheet.title), language)
+    return _document(asked_in(sheet), language, [_category(title)] if title else [])
+
+
+def asked_in(sheet: AssignmentDocument) -> list[Asked]:
+    """The tasks of an assignment."""
+    return [Asked(*resolved(assigned, None), assigned.points) for assigned in sheet.tasks]
+
+
+def _document(asked: Sequence[Asked], language: str, first: Iterable[Element] = ()) -> str:
+    """What STACK cannot judge is named in a comment. Raises RequestError where it can judge nothing."""
+    told = left_out(one.task for one in asked)
+    if told and len(told) == len(asked):
         raise RequestError(Problem("stack-none", "/tasks", parameters={"tasks": ", ".join(told)}))
     root = Element("quiz")
     if told:
         root.append(Comment(f" {text(language, 'homework.stack.left-out', tasks=', '.join(told))} "))
-    for task in tasks:
-        if task.id not in told:
-            root.append(question(workbook, task, language))
+    root.extend(first)
+    root.extend(question(one, language) for one in asked if one.task.id not in told)
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 
@@ -114,15 +138,24 @@ def left_out(tasks: Iterable[Task]) -> list[str]:
     return [task.id for task in tasks if task.quantity.judge is not None or task.quantity.equality is symmetry]
 
 
-def question(workbook: Workbook, task: Task, language: str) -> Element:
+def _category(title: UserText) -> Element:
+    """Where Moodle puts the questions that follow; a slash would open another category."""
+    element = Element("question", type="category")
+    _text(element, "category", f"$course$/top/{_in_a_name(words(title)).replace('/', '//')}")
+    return element
+
+
+def question(asked: Asked, language: str) -> Element:
     """One task as a question of type stack."""
+    workbook, task = asked.workbook, asked.task
+    points = task.quantity.points if asked.points is None else asked.points
     told = task_document(task, workbook, language)
     nodes = list(_nodes(workbook, task, language))
     element = Element("question", type="stack")
     _text(element, "name", _name(workbook.scene, words(told["title"]), language))
     _text(element, "questiontext", _statement(workbook, task, words(told["statement"]), language), "html")
     _text(element, "generalfeedback", _solution(workbook, task), "html")
-    for name, content in (("defaultgrade", f"{task.quantity.points:g}"), ("penalty", PENALTY), ("hidden", "0")):
+    for name, content in (("defaultgrade", f"{points:g}"), ("penalty", PENALTY), ("hidden", "0")):
         SubElement(element, name).text = content
     SubElement(element, "idnumber").text = ""
     _text(element, "stackversion", VERSION)
@@ -155,9 +188,15 @@ def inert(text: str) -> str:
 
 
 def _name(scene: Scene, title: CatalogText, language: str) -> str:
-    """The name of a question, in which Moodle knows no way to quote."""
+    """The name of a question, in which Moodle knows no way to quote, and typesets nothing."""
     told = scene.title.get(language) or UserText(scene.id)
-    return _MARKUP.sub("", joined(": ", [told, plain(title)]).replace("＄", "").replace("\\", ""))
+    return _in_a_name(joined(": ", [told, title]))
+
+
+def _in_a_name(sentence: CatalogText) -> str:
+    """Words and formulas as one line of signs that mean nothing to Moodle: φ₁ for \\varphi_{1}."""
+    told = "".join(in_unicode(each.text) if each.is_formula else each.text for each in pieces(sentence))
+    return _MARKUP.sub("", told.replace("＄", "").replace("\\", ""))
 
 
 def _statement(workbook: Workbook, task: Task, statement: CatalogText, language: str) -> str:

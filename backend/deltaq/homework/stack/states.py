@@ -11,6 +11,7 @@ import random
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import islice
 
 import sympy as sp
 
@@ -61,20 +62,20 @@ class States:
     def groups(self) -> tuple[tuple[Point, ...], ...]:
         """Values of the symbols, four figures each. Raises ValueError where the right answer is nowhere real."""
         source = random.Random(20_061)
-        return tuple(tuple(self._group(source)) for _ in range(GROUPS))
+        drawn = (tuple(islice(self._group(source), STATES)) for _ in range(MOST_TRIALS))
+        found = tuple(islice((group for group in drawn if len(group) == STATES), GROUPS))
+        if len(found) < GROUPS:
+            raise ValueError(f"the right answer to {self.task.id} has no real values")
+        return found
 
     def _group(self, source: random.Random) -> Iterator[Point]:
+        """States with one choice of the parameters; few or none where the answer is not real for it."""
         held = tuple(_rounded(source.uniform(0.55, 1.65)) for _ in self.constant)
-        found = 0
-        for _ in range(MOST_TRIALS):
+        for _ in range(4 * STATES):
             moving = (_rounded(source.uniform(0.3, 1.4)) for _ in self.symbols[len(held) :])
             point = (*held, *moving)
             if self._is_defined(point):
-                found += 1
                 yield point
-            if found == STATES:
-                return
-        raise ValueError(f"the right answer to {self.task.id} has no real values")
 
     def _is_defined(self, point: Point) -> bool:
         return all(math.isfinite(function(point)) for function in self._functions)
