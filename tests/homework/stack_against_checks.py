@@ -193,14 +193,15 @@ def compared(scene: str, tasks: Sequence[Task] | None = None, language: str = "e
     asked = [task for task in given if task.id not in left_out(given)]
     found = [list(forms(book, task)) for task in asked]
     questions = ET.fromstring(quiz(book, asked, language)).findall("question")
-    typed = [[_in_language(form.stack, language) for form in each] for each in found]
+    typed = [[in_language(form.stack, language) for form in each] for each in found]
     graded = run(list(zip(questions, typed, strict=True)))
     for task, each, scores in zip(asked, found, graded, strict=True):
         for form, score in zip(each, scores, strict=True):
             yield _compared(scene, task, form, score)
 
 
-def _in_language(text: str, language: str) -> str:
+def in_language(text: str, language: str) -> str:
+    """Maxima's text as it is typed where numbers have a comma."""
     return text if language == "en" else text.replace(",", ";").replace(".", ",")
 
 

@@ -34,8 +34,8 @@ def same(given: Parts, right: Parts, solution: Solution) -> Match:
 
 
 def number_of(part: sp.Expr, solution: Solution) -> float:
-    """The value at the scene's parameters; NaN if it is not real."""
-    value = sp.N(part.xreplace(dict(solution.parameter_values)))
+    """The value at the scene's parameters; NaN if it is not real, or depends on where the system is."""
+    value = sp.N(_simple(part, solution).xreplace(dict(solution.parameter_values)))
     return float(value) if value.is_Float or value.is_Rational else float("nan")
 
 

@@ -244,8 +244,8 @@ def _nodes(workbook: Workbook, task: Task, language: str) -> Iterable[Node]:
         hint = _html(text(language, f"homework.misconceptions.{candidate.solution.id}.hint", **about))
         tried = ((value(task, wrong), part_share(workbook, task, wrong)),)
         yield Node(same(task, wrong), candidate.solution.id, hint, SHARE, tried)
-    partly = _html(text(language, "homework.stack.partly"))
-    yield Node(f"is({SHARE} > 0)", "partly", partly, SHARE, tuple(_partly_right(workbook, task)))
+    if parts := tuple(_partly_right(workbook, task)):
+        yield Node(f"is({SHARE} > 0)", "partly", _html(text(language, "homework.stack.partly")), SHARE, parts)
 
 
 def _partly_right(workbook: Workbook, task: Task) -> Iterable[tuple[str, float]]:
