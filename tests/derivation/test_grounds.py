@@ -79,6 +79,23 @@ def test_a_step_rests_on_steps_before_it(scene: str, road: str) -> None:
             check(step)
 
 
+@pytest.mark.parametrize(("scene", "road"), ROADS)
+def test_an_equation_rests_on_all_bodies_and_loads(scene: str, road: str) -> None:
+    """Going back from step to step meets what each load does, and the position of each body."""
+    system, derivation = told(scene, road)
+    known = {step.id: step for step in derivation.steps()}
+    for equation in [step for step in known.values() if step.rule == "equation"]:
+        seen: dict[str, Step] = {}
+        left = [equation.id]
+        while left:
+            step = known[left.pop()]
+            left += [premise for premise in step.premises if premise not in seen]
+            seen[step.id] = step
+        works = {source for step in seen.values() if step.rule.startswith("work-of-") for source in step.sources}
+        assert {f"load:{load}" for load in system.load_names} <= works
+        assert {f"position:{body.name}" for body in system.scene.bodies} <= seen.keys()
+
+
 @pytest.mark.parametrize("scene", ["double-pendulum", "elastic-pendulum", "foucault", "heavy-top", "quarter-car"])
 def test_no_false_relation_is_proved(scene: str) -> None:
     """Each member that is written out is changed in one term, by the sign or by a factor."""

@@ -9,6 +9,7 @@ from ..dissipation import dissipation_function, dissipative_loads, remaining_loa
 from ..formula import Explicit, Named, Partial, Plus, Quantity, Term, minus
 from ..step import Relation, Step
 from ..system import System
+from . import generalized_force, potential
 
 RULE = "decomposition"
 
@@ -20,16 +21,22 @@ def apply(system: System) -> Step:
         Term(Named(Quantity("potential-energy", load), system.load_potential(load)), (f"load:{load}",))
         for load in loads
     )
-    potential = Named(Quantity("potential-energy"), system.potential_energy)
+    energy = Named(Quantity("potential-energy"), system.potential_energy)
     sums = (Plus(parts),) if len(parts) > 1 else ()
-    lines = [Relation((potential, *sums, Explicit(system.potential_energy)))]
-    lines += [_split(system, q, potential) for q in system.free]
+    lines = [Relation((energy, *sums, Explicit(system.potential_energy)))]
+    lines += [_split(system, q, energy) for q in system.free]
     if dissipative_loads(system):
         lines += [_rest(system, q) for q in system.free]
     else:
         lines += [_no_rest(system, q) for q in system.free if system.nonconservative_force(q) == 0]
     about = {"outcome": _outcome(system), "load": ", ".join(remaining_loads(system))}
-    return Step(RULE, "", tuple(lines), tuple(f"load:{load}" for load in system.load_names), about)
+    sources = tuple(f"load:{load}" for load in system.load_names)
+    return Step(RULE, "", tuple(lines), sources, about, premises=_premises(loads))
+
+
+def _premises(conservative: list[str]) -> tuple[str, ...]:
+    """The forces that are split, and the potentials, though V of a single load is written out at once."""
+    return (generalized_force.RULE, *(f"{potential.RULE}:{load}" for load in conservative))
 
 
 def _outcome(system: System) -> str:
