@@ -3926,6 +3926,12 @@ export interface components {
              * @default []
              */
             readings: components["schemas"]["PossibleReading"][];
+            /**
+             * Blocks
+             * @description of an order: letters of the block where it goes wrong, and of the one that this needs before it
+             * @default []
+             */
+            blocks: string[];
             /** Points */
             points: number;
             /** Of */
@@ -6430,6 +6436,43 @@ export interface components {
             lang?: ("de" | "en") | null;
         };
         /**
+         * TaskBlock
+         * @description A step of the derivation, or a wrong one, that is to be put in its place.
+         */
+        TaskBlock: {
+            /**
+             * Id
+             * @description its letter: an answer is a list of them
+             * @example c
+             */
+            id: string;
+            /**
+             * Title
+             * @example Kinetic energy of the system
+             */
+            title: string;
+            /**
+             * Announced
+             * @description the title as it is read aloud, without mathematics between signs
+             */
+            announced: string;
+            /**
+             * Latex
+             * @description what the step says
+             */
+            latex: string;
+            /**
+             * Marked
+             * @description the same with \htmlClass hooks that tell which symbol is what
+             */
+            marked: string;
+            /**
+             * Spoken
+             * @description the same in words of the language of the answer
+             */
+            spoken: string;
+        };
+        /**
          * TaskEntry
          * @description One task: what to answer, in which form, with hints in three levels.
          */
@@ -6451,7 +6494,7 @@ export interface components {
              * Form
              * @enum {string}
              */
-            form: "expression" | "vector" | "equation" | "equations" | "set" | "positions" | "stability" | "rate";
+            form: "expression" | "vector" | "equation" | "equations" | "set" | "positions" | "stability" | "rate" | "order";
             /** Form Text */
             form_text: string;
             /**
@@ -6468,6 +6511,12 @@ export interface components {
             needs: string[];
             /** Hints */
             hints: string[];
+            /**
+             * Blocks
+             * @description what is to be put in order where `form` is `order`, as it is shown; the answer: `c; a; b`
+             * @default []
+             */
+            blocks: components["schemas"]["TaskBlock"][];
             /** @description the chapter of the derivation that answers it */
             solution: components["schemas"]["TaskSolution"];
         };
@@ -7026,6 +7075,12 @@ export interface components {
              * @default []
              */
             readings: components["schemas"]["PossibleReading"][];
+            /**
+             * Blocks
+             * @description of an order: letters of the block where it goes wrong, and of the one that this needs before it
+             * @default []
+             */
+            blocks: string[];
         };
         /**
          * VerdictProblem

@@ -63,7 +63,8 @@ BRANCH = ["scoremode", "score", "penalty", "nextnode", "answernote", "feedback"]
 NODE = ["name", "description", "answertest", "sans", "tans", "testoptions", "quiet"]
 NODE += [f"{branch}{name}" for branch in ("true", "false") for name in BRANCH]
 TREE = ["name", "value", "autosimplify", "feedbackstyle", "feedbackvariables"]
-NOT_COMPARED = ("equilibria", "stability", "symmetry", "steady-motion")  # words, sets of positions, other integrals
+# Words, sets of positions, other integrals, orders.
+NOT_COMPARED = ("equilibria", "stability", "symmetry", "steady-motion", "order-lagrangian", "order-equation")
 SCENES = ["pendulum", "elastic-pendulum", "guided-pendulum"]
 
 
@@ -156,7 +157,8 @@ def test_what_stack_cannot_judge_is_named_in_the_export() -> None:
     text = quiz(workbook, workbook.tasks, "en")
     (comment,) = re.findall("<!--(.*?)-->", text)
     left_out = [task.id for task in workbook.tasks if task.quantity.kind in NOT_COMPARED]
-    assert left_out == ["equilibria", "stability:1", "stability:2", "steady-motion:psi"]
+    orders = ["order-lagrangian", "order-equation:theta"]
+    assert left_out == ["equilibria", "stability:1", "stability:2", "steady-motion:psi", *orders]
     assert all(task in comment for task in left_out)
     assert text.count("<question ") == len(workbook.tasks) - len(left_out)
 

@@ -57,6 +57,17 @@ class TaskSolution(Answer):
     steps: tuple[str, ...] = Field(description="ids of the steps that may show the answer, the likeliest first")
 
 
+class TaskBlock(Answer):
+    """A step of the derivation, or a wrong one, that is to be put in its place."""
+
+    id: str = Field(description="its letter: an answer is a list of them", examples=["c"])
+    title: str = Field(examples=["Kinetic energy of the system"])
+    announced: str = Field(description="the title as it is read aloud, without mathematics between signs")
+    latex: str = Field(description="what the step says")
+    marked: str = Field(description="the same with \\htmlClass hooks that tell which symbol is what")
+    spoken: str = Field(description="the same in words of the language of the answer")
+
+
 class TaskEntry(Answer):
     """One task: what to answer, in which form, with hints in three levels."""
 
@@ -65,12 +76,15 @@ class TaskEntry(Answer):
     subject: str
     title: str
     statement: str
-    form: Literal["expression", "vector", "equation", "equations", "set", "positions", "stability", "rate"]
+    form: Literal["expression", "vector", "equation", "equations", "set", "positions", "stability", "rate", "order"]
     form_text: str
     components: int | None = Field(description="of a vector")
     points: float
     needs: tuple[str, ...] = Field(description="the tasks whose answers this one is derived from")
     hints: tuple[str, ...]
+    blocks: tuple[TaskBlock, ...] = Field(
+        (), description="what is to be put in order where `form` is `order`, as it is shown; the answer: `c; a; b`"
+    )
     solution: TaskSolution = Field(description="the chapter of the derivation that answers it")
 
 

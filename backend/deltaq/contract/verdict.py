@@ -80,6 +80,10 @@ class VerdictAnswer(Answer):
     offset: int | None
     counterexample: CounterexampleAnswer | None
     readings: tuple[PossibleReading, ...] = READINGS
+    blocks: tuple[str, ...] = Field(
+        (),
+        description="of an order: letters of the block where it goes wrong, and of the one that this needs before it",
+    )
 
 
 class ReadingAnswer(Answer):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from ..errors import ExpressionError, Problem
 from ..language.latex_printer import Typography, latex
@@ -14,7 +14,7 @@ from ..narration.catalog import message, sentence, text
 from ..narration.prose import CatalogText, formula, joined
 from ..narration.things import called
 from .counterexamples import rounded_text
-from .verdict import Counterexample, ShownReading, Slip, Verdict
+from .verdict import BlockTold, Counterexample, ShownReading, Slip, Verdict
 
 AXES = "xyz"
 Document = dict[str, object]
@@ -39,6 +39,7 @@ def verdict_document(verdict: Verdict, scene: Scene, language: str) -> Document:
         "offset": problems[0]["offset"] if problems else None,
         "counterexample": _example(verdict.counterexample, scene),
         "readings": reading_documents(verdict.readings),
+        "blocks": [block.id for block in verdict.blocks],
     }
     return document
 
@@ -101,8 +102,28 @@ def _remark(verdict: Verdict, scene: Scene, language: str) -> CatalogText:
         return text(language, "homework.remarks.divided-by", factors=factors)
     if "member" in verdict.parameters:
         return text(language, key, member=formula(verdict.parameters["member"]))
+    if verdict.blocks:
+        return text(language, key, **_blocks(verdict.blocks, scene, language))
     lines = joined(", ", (_title(task, scene, language) for task in verdict.source))
     return text(language, key, **_about(verdict, scene, language), lines=lines)
+
+
+def _blocks(blocks: tuple[BlockTold, ...], scene: Scene, language: str) -> dict[str, CatalogText]:
+    """The block that is wrong, and the one that it needs, by their titles and letters."""
+    called = (step_title(block.rule, block.about, scene, language) for block in blocks)
+    named = (
+        text(language, "homework.ordering.block", title=title, letter=block.id)
+        for title, block in zip(called, blocks, strict=True)
+    )
+    return dict(zip(("block", "needed"), named, strict=False))
+
+
+def step_title(rule: str, about: Mapping[str, str], scene: Scene, language: str) -> CatalogText:
+    """The title of a step of the derivation."""
+    names = {
+        key: joined(", ", (label(one, scene, language) for one in value.split(", "))) for key, value in about.items()
+    }
+    return text(language, f"rules.steps.{rule}.title", **names)
 
 
 def _title(task: str, scene: Scene, language: str) -> CatalogText:

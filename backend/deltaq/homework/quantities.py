@@ -20,7 +20,9 @@ from .equality import (
     up_to_constant,
 )
 from .model_questions import positions, stability, steady
-from .quantity import Quantity
+from .ordering import judge as ordering
+from .ordering.blocks import EQUATION, LAGRANGIAN, is_short
+from .quantity import Quantity, Subjects
 from .solution import Solution
 from .subjects import (
     bodies,
@@ -67,6 +69,22 @@ EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED = (
         stated,
     )
 )
+
+
+def _ordering(goal: str, step: str, subjects: Subjects) -> Quantity:
+    """The steps of the derivation that lead to a goal, to be put in order."""
+    return Quantity(
+        f"order-{goal}",
+        "order",
+        STATED,
+        lambda solution, subject: ordering.value(_true(solution), goal, subject),
+        lambda solution: subjects(solution) if is_short(_true(solution)) else (),
+        "lagrange",
+        points=2.0,
+        steps=(step,),
+        judge=ordering.Ordering(goal),
+    )
+
 
 QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
@@ -264,6 +282,8 @@ QUANTITIES: tuple[Quantity, ...] = (
         steps=("relative-equilibrium:1", "routh-function"),
         judge=steady.Steady(),
     ),
+    _ordering(LAGRANGIAN, "lagrangian", whole),
+    _ordering(EQUATION, "equation:{subject}", lambda solution: solution.free[:1]),
 )
 
 

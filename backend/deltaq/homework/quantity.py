@@ -10,7 +10,7 @@ from .equality import Equality, Parts, conserved, lagrangian, symmetry, up_to_co
 from .model_questions import QuestionJudge
 from .solution import Solution
 
-Form = Literal["expression", "vector", "equation", "equations", "set", "positions", "stability", "rate"]
+Form = Literal["expression", "vector", "equation", "equations", "set", "positions", "stability", "rate", "order"]
 Subjects = Callable[[Solution], Iterable[str]]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import sympy as sp
@@ -20,7 +20,12 @@ from ..language.memory import cached_method
 
 @dataclass(frozen=True, eq=False)
 class Solution(System):
-    """A system whose expressions stay as they fall out: they are compared, not shown, so no form is the best one."""
+    """A system whose expressions stay as they fall out: they are compared, not shown, so no form is the best one.
+
+    `seed` is whose task it is: what is drawn besides the scene is drawn from it as well.
+    """
+
+    seed: str = field(default="", kw_only=True)
 
     def display(self, value: V) -> V:
         return value

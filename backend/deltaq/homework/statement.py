@@ -7,6 +7,8 @@ from ..narration.prose import joined
 from .axes import axes_text
 from .checking import judge_of
 from .feedback import Document, label
+from .ordering.judge import Ordering
+from .ordering.telling import block_documents
 from .task import Task
 from .telling import variant_sentences
 from .told import asked_about
@@ -30,8 +32,15 @@ def task_document(task: Task, workbook: Workbook, language: str) -> Document:
         "points": task.quantity.points,
         "needs": _needs(task, workbook),
         "hints": [text(language, f"{key}.hints.{level}", **values) for level in (1, 2, 3)],
+        "blocks": _blocks(task, workbook, language),
         "solution": {"chapter": task.quantity.chapter, "steps": _steps(task, workbook)},
     }
+
+
+def _blocks(task: Task, workbook: Workbook, language: str) -> list[Document]:
+    """What is to be put in order."""
+    own = task.quantity.judge
+    return block_documents(workbook.solution, own.goal, task.subject, language) if isinstance(own, Ordering) else []
 
 
 def _steps(task: Task, workbook: Workbook) -> list[str]:

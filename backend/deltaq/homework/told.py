@@ -14,6 +14,8 @@ from ..narration.catalog import text
 from ..narration.prose import CatalogText, formula, joined
 from .feedback import label
 from .model_questions import positions, steady
+from .ordering.blocks import EQUATION, LAGRANGIAN
+from .ordering.telling import wrong_block
 from .task import Task
 from .workbook import Workbook
 
@@ -89,6 +91,13 @@ def _steady(task: Task, workbook: Workbook, language: str) -> Texts:
     return {"resting": label(motion.coordinate, workbook.scene, language), "rate": formula(rate)}
 
 
+def _ordering(goal: str) -> Callable[[Task, Workbook, str], Texts]:
+    """Whether there is a block that does not belong."""
+    return lambda task, workbook, language: {
+        "wrong_block": wrong_block(workbook.solution, goal, task.subject, language)
+    }
+
+
 TOLD: Mapping[str, Callable[[Task, Workbook, str], Texts]] = MappingProxyType(
     {
         "linearized": _rest,
@@ -98,5 +107,6 @@ TOLD: Mapping[str, Callable[[Task, Workbook, str], Texts]] = MappingProxyType(
         "stability": _stability,
         "symmetry": _symmetry,
         "steady-motion": _steady,
+        **{f"order-{goal}": _ordering(goal) for goal in (LAGRANGIAN, EQUATION)},
     }
 )

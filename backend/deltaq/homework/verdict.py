@@ -48,6 +48,15 @@ class ShownReading:
 
 
 @dataclass(frozen=True)
+class BlockTold:
+    """A block of an ordering: its letter, and what the title of its step is made of."""
+
+    id: str
+    rule: str
+    about: Mapping[str, str]
+
+
+@dataclass(frozen=True)
 class Verdict:
     """The outcome, what was understood, and what can be said about it.
 
@@ -58,7 +67,8 @@ class Verdict:
     wrong answer; `nonzero` is what must not be zero for a right answer to be so; `marked` is the answer as it was
     written, in LaTeX, with the terms marked that are wrong; `source` are the tasks
     of the lines that a following one has been made easier by; `readings` are all that make
-    sense, where there is more than one.
+    sense, where there is more than one; `blocks` are those of an ordering that the remark speaks of, the first one
+    being where it goes wrong.
     """
 
     outcome: Outcome
@@ -76,6 +86,7 @@ class Verdict:
     source: tuple[str, ...] = ()
     parameters: Mapping[str, str] = field(default_factory=dict)
     readings: tuple[ShownReading, ...] = ()
+    blocks: tuple[BlockTold, ...] = ()
 
     @property
     def slip(self) -> Slip | None:

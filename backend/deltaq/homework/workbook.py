@@ -41,15 +41,19 @@ class Candidate:
 
 @dataclass(frozen=True, eq=False)
 class Workbook:
-    """What is computed once for a scene, and serves every answer to it. `variant` is what is told otherwise in it."""
+    """What is computed once for a scene, and serves every answer to it.
+
+    `variant` is what is told otherwise in it, and `seed` whose it is.
+    """
 
     scene: Scene
     variant: Variant = Variant()
+    seed: str = ""
 
     @cached_property
     def solution(self) -> Solution:
         """The way from the scene to every right answer."""
-        return Solution(self.scene)
+        return Solution(self.scene, seed=self.seed)
 
     @cached_property
     def sampler(self) -> Sampler:
@@ -138,8 +142,9 @@ def workbook_asked_about(
 
 @lru_cache(maxsize=CACHED)
 def _cached_workbook(content: str, seed: str | None, vary: tuple[Aspect, ...]) -> Workbook:
-    scene = changed_scene(SceneWithChanges.model_validate(json.loads(content)))
-    return Workbook(scene) if seed is None else _own_workbook(Workbook(scene), seed, vary)
+    if seed is None:
+        return Workbook(changed_scene(SceneWithChanges.model_validate(json.loads(content))))
+    return _own_workbook(_cached_workbook(content, None, ()), seed, vary)
 
 
 def _own_workbook(common: Workbook, seed: str, vary: tuple[Aspect, ...]) -> Workbook:
@@ -149,7 +154,7 @@ def _own_workbook(common: Workbook, seed: str, vary: tuple[Aspect, ...]) -> Work
     """
     asked = [task.id for task in common.tasks]
     for draw in range(DRAWS):
-        own = Workbook(*individual(common.scene, seed, vary, draw))
+        own = Workbook(*individual(common.scene, seed, vary, draw), seed)
         if [task.id for task in own.tasks] == asked:
             return own
-    return common
+    return Workbook(common.scene, seed=seed)

@@ -135,7 +135,9 @@ def check_following(workbook: Workbook, task: Task, line: Line, wrong: Mapping[s
         return verdict
     given = parts_of(workbook, line)
     if task.id in wrong and task.quantity.equality.same(given, wrong[task.id], workbook.solution).equal:
-        return replace(verdict, outcome="follow_through", remark="repeated", misconceptions=(), slips=(), marked="")
+        return replace(
+            verdict, outcome="follow_through", remark="repeated", misconceptions=(), slips=(), marked="", blocks=()
+        )
     ways = [way for way in _ways_from_wrong_lines(workbook, task, wrong) if _follows(task, given, way)]
     if not ways:
         return verdict
