@@ -70,7 +70,7 @@ def test_wrong_diagnosed_corrected_correct(lecture: Lecture) -> None:
     expect(page.locator(".verdict-card")).to_contain_text("changed since")
     _check(page, "correct")
     expect(page.locator(".task[aria-current]")).to_have_attribute("data-status", "solved")
-    expect(page.locator(".total")).to_contain_text("3 of 22 points")
+    expect(page.locator(".total")).to_contain_text("3 of 26 points")
 
 
 @pytest.mark.parametrize(
@@ -470,3 +470,68 @@ def test_a_long_answer_and_its_verdict_fit_on_a_phone(lecture: Lecture) -> None:
     expect(page.locator(".marked .slip").first).to_be_visible()
     wide = "all => all.filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.className)"
     assert page.locator("main, .question, .answering, .verdict-card, .keypad").evaluate_all(wide) == []
+
+
+def _orders(page: Page) -> str:
+    """The letters of the blocks in order, and those left out."""
+    return "".join(one.get_attribute("data-block") or "" for one in page.locator(".ordering .block").all())
+
+
+def _marked_block(page: Page, mark: str) -> str | None:
+    return page.locator(f".ordering .block[data-mark={mark}]").get_attribute("data-block")
+
+
+def test_blocks_are_put_in_order_by_keys_by_buttons_and_by_hand(lecture: Lecture) -> None:
+    page = _open(lecture, "scene=pendulum&task=order-lagrangian&lang=en")
+    _check_untouched(page)
+    before = _orders(page)
+    page.get_by_role("button", name=re.compile("^Move down – a:")).click()
+    page.keyboard.press("Alt+ArrowDown")
+    expect(page.locator("#announcer")).to_have_text(re.compile(r"^a: .*: now number 3 of 9$"))
+    expect(page.get_by_role("button", name=re.compile("^Move down – a:"))).to_be_focused()
+    assert _orders(page) == before[1:3] + before[0] + before[3:]
+    _check(page, "wrong")
+    assert page.locator(".verdict-card").inner_text().count(f"({_marked_block(page, 'wrong')})") == 1
+    page.reload()
+    page.locator(".ordering .block").first.wait_for()
+    assert _orders(page)[:3] == before[1:3] + before[0]
+    _drag(page, before[0], before[1])
+    assert _orders(page) == before
+    _put_right(page, lecture.address)
+    _check(page, "correct")
+    expect(page.locator(".ordering[data-outcome=correct]")).to_be_visible()
+
+
+def _check_untouched(page: Page) -> None:
+    page.locator(".answering button.main").click()
+    expect(page.locator(".notice-line").first).to_contain_text("Nothing has been moved yet")
+
+
+def _drag(page: Page, block: str, onto: str) -> None:
+    """By its grip to the upper edge of another one."""
+    grip = page.locator(f"[data-block={block}] .grip")
+    grip.scroll_into_view_if_needed()
+    grip.hover()
+    page.mouse.down()
+    target = page.locator(f"[data-block={onto}]")
+    for _ in range(3):  # what is hidden comes into view on the way
+        box = target.bounding_box()
+        assert box
+        page.mouse.move(box["x"] + 20, box["y"] + 4, steps=3)
+    expect(target).to_have_attribute("data-drop", "before")
+    page.mouse.up()
+
+
+def _put_right(page: Page, address: str) -> None:
+    """As the server would have it: what does not belong is left out, and each block moved up to its place."""
+    answer = page.request.post(
+        f"{address}api/v1/tasks/solution", data={"scene": "pendulum", "task": "order-lagrangian"}
+    )
+    right = "".join(answer.json()["plain"])
+    (wrong,) = set(_orders(page)) - set(right)
+    for _ in range(len(right) + 1 - _orders(page).index(wrong)):
+        page.locator(f"[data-block={wrong}] [data-move=down]").click()
+    for place, letter in enumerate(right):
+        for _ in range(_orders(page).index(letter) - place):
+            page.locator(f"[data-block={letter}] [data-move=up]").click()
+    assert _orders(page) == right + wrong

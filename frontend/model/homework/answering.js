@@ -3,6 +3,7 @@
 import { latestOnly } from "../latest.js";
 import { isComplete, isEmpty, joined, partsOf } from "./answer.js";
 import { attempt } from "./attempt.js";
+import { isOrdering } from "./ordering.js";
 import { freedomsOf } from "./sheet.js";
 
 /** @typedef {import("./answer.js").Syntax} Syntax */
@@ -42,6 +43,12 @@ export function isCurrent(entry, draft) {
   );
 }
 
+/** Why there is nothing to be checked. @param {Entry} entry @param {string[]} parts */
+function missing({ task }, parts) {
+  if (isOrdering(task)) return "homework.block-none-moved";
+  return isEmpty(parts) ? "homework.empty" : "homework.incomplete";
+}
+
 /** What the server understands of what is typed, asked for when the hand rests. @param {import("./state.js").Store} store @param {import("./state.js").Api} api */
 function createReading({ get, set }, api) {
   const readings = latestOnly(read, PAUSE);
@@ -57,7 +64,7 @@ function createReading({ get, set }, api) {
 
   function ask() {
     const { entry, draft } = get();
-    if (!entry) return;
+    if (!entry || isOrdering(entry.task)) return;
     const parts = partsIn(entry, draft);
     if (isEmpty(parts)) set({ reading: null });
     else if (isComplete(parts, entry.task.form))
@@ -153,8 +160,7 @@ export function createAnswering(store, api, progress) {
       const { entry, draft } = get();
       if (!entry) return;
       const parts = partsIn(entry, draft);
-      if (!isComplete(parts, entry.task.form))
-        return set({ notice: isEmpty(parts) ? "homework.empty" : "homework.incomplete" });
+      if (!isComplete(parts, entry.task.form)) return set({ notice: missing(entry, parts) });
       set({ notice: "", answered: null });
       await verdict(entry, draft.syntax, valueOf(entry, draft), 1);
     },

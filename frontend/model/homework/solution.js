@@ -29,7 +29,13 @@ export function createSolution(store, api, answering) {
         api.derive({ ...scene, lang }).catch(() => null),
       ]);
       if (get().entry?.key !== entry.key) return;
-      set({ solution: { latex: answer.latex, step: stepOf(derivation?.chapters ?? [], entry.task.solution) } });
+      set({
+        solution: {
+          plain: answer.plain,
+          latex: answer.latex,
+          step: stepOf(derivation?.chapters ?? [], entry.task.solution),
+        },
+      });
       answering.keep(entry, (draft) => ({ shown: draft.shown || !draft.solved }));
     });
   };

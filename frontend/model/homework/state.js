@@ -5,7 +5,7 @@ import { BLANK } from "./progress.js";
 /** @typedef {import("../types.js").Failure} Failure */
 /** @typedef {import("../types.js").Trajectory} Trajectory */
 /** @typedef {{of: string, latex: string, plain: string, problems: import("./progress.js").AnswerProblem[], readings: import("./progress.js").PossibleReading[]}} Reading  what the text `of` is understood as */
-/** @typedef {{latex: string[], step: import("../types.js").Step | null}} Solution */
+/** @typedef {{plain: string[], latex: string[], step: import("../types.js").Step | null}} Solution */
 /** @typedef {import("../types.js").Contract["MarkedLine"]} Mark */
 /** @typedef {{of: string, lines: Mark[], first_wrong: number | null, points: number, total: number}} Marked  `of` is the working that was marked */
 /**

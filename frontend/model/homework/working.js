@@ -2,6 +2,7 @@
 
 import { attempt } from "./attempt.js";
 import { valueOf } from "./answering.js";
+import { isOrdering } from "./ordering.js";
 
 /** @typedef {import("./progress.js").Line} Line */
 
@@ -16,7 +17,9 @@ export const fingerprint = (lines) => JSON.stringify(lines);
  */
 export function createWorking(store, api, progress, exercise) {
   const { get, set } = store;
-  const entries = () => (get().sheet?.entries ?? []).filter(({ group }) => group === get().entry?.group);
+  /** An order of blocks is no line. */
+  const entries = () =>
+    (get().sheet?.entries ?? []).filter(({ group, task }) => group === get().entry?.group && !isOrdering(task));
 
   /** The task after the last one that was answered. */
   function nextTask() {

@@ -5,6 +5,8 @@ import { displayed, inline } from "../formula.js";
 import { marked } from "../../model/editor/problems.js";
 import { isCurrent, partsIn, valueOf } from "../../model/homework/answering.js";
 import { placeIn } from "../../model/homework/answer.js";
+import { isOrdering } from "../../model/homework/ordering.js";
+import { ordering } from "./ordering.js";
 import { failureLine } from "./trouble.js";
 import { icon } from "../icons.js";
 import { entryField, keyboard, remember } from "./entry.js";
@@ -33,10 +35,7 @@ export function answer(view) {
   };
   return html`
     <form class="answering" aria-label=${t("homework.answer")} @submit=${check} @focusin=${remember}>
-      <div class="answer-head"><h3>${t("homework.answer")}</h3>${wanted(view, entry)}${syntaxes(view)}</div>
-      ${fields(view, entry)}
-      ${understood(view, entry)}
-      ${keyboard(view.keys, t)}
+      ${isOrdering(entry.task) ? ordering(view, entry) : written(view, entry)}
       <div class="acts">
         <button class="main" ?disabled=${state.busy === "checking"}>${t(state.busy === "checking" ? "homework.checking" : "homework.check")}</button>
         ${hinting(view, entry)}
@@ -45,6 +44,13 @@ export function answer(view) {
       ${failureLine(view)}
     </form>`;
 }
+
+/** What is written in fields. @param {HomeworkView} view @param {Entry} entry */
+const written = (view, entry) => html`
+      <div class="answer-head"><h3>${view.t("homework.answer")}</h3>${wanted(view, entry)}${syntaxes(view)}</div>
+      ${fields(view, entry)}
+      ${understood(view, entry)}
+      ${keyboard(view.keys, view.t)}`;
 
 /** What to write, where the fields do not say so: components have a field each. @param {HomeworkView} view @param {Entry} entry */
 function wanted({ state }, entry) {
@@ -99,7 +105,7 @@ function placeholderOf({ task, symbols }) {
   const positions = `${name} = …; ${name} = …`;
   const rate = `dot(${name})^2 = …`;
   const forms = { equation, equations: equation, set: "omega = …", expression: "…", vector: "…" };
-  return { ...forms, positions, rate, stability: "…" }[task.form];
+  return { ...forms, positions, rate, stability: "…", order: "c; a; b" }[task.form];
 }
 
 /** @param {AnswerProblem} problem @param {string[]} parts @param {{part: number, offset: number} | null} place */

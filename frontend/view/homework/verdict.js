@@ -5,8 +5,10 @@ import { displayed, inline, prose } from "../formula.js";
 import { icon } from "../icons.js";
 import { significant } from "../../model/numbers.js";
 import { isCurrent } from "../../model/homework/answering.js";
+import { isOrdering } from "../../model/homework/ordering.js";
 import { isPlain } from "../../model/homework/sheet.js";
 import { stepAddress } from "../../model/homework/place.js";
+import { inOrder } from "./ordering.js";
 
 /** @typedef {import("./page.js").HomeworkView} HomeworkView */
 /** @typedef {import("../../model/homework/progress.js").Verdict} Verdict */
@@ -127,7 +129,7 @@ export function solution(view) {
   if (!state.solution)
     return html`<p class="acts solving"><button type="button" class="quiet framed" ?disabled=${state.busy === "solving"} @click=${exercise.solve}>${t("homework.solution")}</button>
     ${draft.solved ? nothing : html`<span class="so">${t("homework.solution-costs")}</span>`}</p>`;
-  const { latex, step } = state.solution;
+  const { plain, latex, step } = state.solution;
   const address =
     step &&
     (isPlain(entry.reference)
@@ -135,7 +137,7 @@ export function solution(view) {
       : view.ownStep(step.id));
   return html`<section class="worked" aria-label=${t("homework.solution")}>
     <h3>${t("homework.worked")}</h3>
-    <div class="model-answer">${latex.map((one) => displayed(one))}</div>
+    <div class="model-answer">${isOrdering(entry.task) ? inOrder(entry, plain) : latex.map((one) => displayed(one))}</div>
     ${
       step
         ? html`<div class="shown-step"><h4>${prose(step.title)}</h4>${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
