@@ -446,6 +446,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/practice": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * An exercise drawn at random
+         * @description An exercise drawn at random: a system and a task about it, answered by `/checks` with the scene document.
+         */
+        post: operations["practise"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/checks": {
         parameters: {
             query?: never;
@@ -4451,6 +4471,75 @@ export interface components {
             misfit: number;
         };
         /**
+         * PracticeAnswer
+         * @description A system drawn at random, and a task about it. Its answers are checked with the scene document.
+         */
+        PracticeAnswer: {
+            scene: components["schemas"]["SceneDocument"];
+            /** Symbols */
+            symbols: components["schemas"]["TaskSymbol"][];
+            task: components["schemas"]["TaskEntry"];
+            /**
+             * Level
+             * @description of the exercise: with `recall` perhaps another one than was asked for
+             */
+            level: number;
+            /**
+             * Recalled
+             * @description the misconception, if there is a system on which it can be made
+             */
+            recalled?: string | null;
+        };
+        /**
+         * PracticeRequest
+         * @description Which exercise: the same seed, level and number draw the same one.
+         * @example {
+         *       "level": 2,
+         *       "number": 3,
+         *       "seed": "ada"
+         *     }
+         * @example {
+         *       "kind": "potential-energy",
+         *       "recall": "gravity-sign",
+         *       "seed": "ada"
+         *     }
+         */
+        PracticeRequest: {
+            /**
+             * Seed
+             * @description of a row of exercises
+             * @example ada
+             */
+            seed: string;
+            /**
+             * Level
+             * @description from one degree of freedom to positions of rest and stability
+             */
+            level?: number;
+            /**
+             * Number
+             * @description which one of the row; neighbours are of different families
+             */
+            number?: number;
+            /**
+             * Recall
+             * @description id of a misconception that the exercise can be got wrong by
+             * @example gravity-sign
+             */
+            recall?: string | null;
+            /**
+             * Kind
+             * @description the kind of task wanted with `recall`
+             * @example potential-energy
+             */
+            kind?: string | null;
+            /**
+             * Lang
+             * @description language of the texts; else Accept-Language decides
+             */
+            lang?: ("de" | "en") | null;
+        };
+        /**
          * PredictedSpan
          * @description How long a tolerance predicts the motion.
          */
@@ -8133,6 +8222,30 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["AssignmentAnswer"];
+                };
+            };
+        };
+    };
+    practise: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PracticeRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PracticeAnswer"];
                 };
             };
         };

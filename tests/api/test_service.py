@@ -143,6 +143,7 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
         "POST /tasks/solution",
         "POST /tasks/stack",
         "POST /assignments",
+        "POST /practice",
         "POST /exports/{form}",
         *(f"POST /experiments/{name}" for name in experiment_ids()),
     }

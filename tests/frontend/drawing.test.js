@@ -194,3 +194,24 @@ for (const [theta, psi] of [[0.9, 0.7], [2.4, -2], [1.2, 3]])
 test("where an angle of space is zero there is no arc", () => {
   assert.deepEqual(spherical(0, 0).figure.labels, []);
 });
+
+test("a wire is where its place can be, and follows what holds it", () => {
+  const wired = { ...scene, drawing: { ...scene.drawing, elements: [{ kind: "wire", at: "bob", coordinate: "phi" }] } };
+  const rising = { ...trajectory, coordinates: { ...trajectory.coordinates, y: trajectory.t.map((t) => t / 10) } };
+  const stage = stageOf(wired, rising, square(400));
+  const corners = (/** @type {number} */ t) =>
+    (shape(figureOf(stage, snapshotAt(rising, t)), "wire0")?.d ?? "").slice(1).split("L").map((pair) => pair.split(/[ ,]/).map(Number));
+  for (const t of [0, 1]) {
+    const { y } = snapshotAt(rising, t).coordinates;
+    const centre = stage.project([0, y]);
+    const far = corners(t).map(([x, z]) => Math.hypot(x - centre[0], z - centre[1]) / stage.scale);
+    assert.ok(far.length > 20 && far.every((one) => Math.abs(one - 1) < 0.01), `${t}: ${far}`);
+  }
+  assert.notDeepEqual(corners(0), corners(1));
+});
+
+test("a wire that only the server can read is left out", () => {
+  const bodies = [{ ...scene.bodies[0], position: ["2 sin phi", "y"] }];
+  const { shapes } = figureAt(0, { ...scene, bodies, drawing: { ...scene.drawing, elements: [{ kind: "wire", at: "bob", coordinate: "phi" }] } });
+  assert.deepEqual(shapes, []);
+});

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from .assignment import VARY, Aspect, AssignmentDocument
-from .base import Answer, AskedLanguage, Request, SceneWithChanges, examples, items
+from .base import Answer, AskedLanguage, Name, Request, SceneWithChanges, examples, items
 from .document import GivenScene
 
 Seed = Annotated[str, Field(max_length=64)]
@@ -146,3 +146,32 @@ class AssignmentAnswer(Answer):
     simplified: float
     code: str = Field("", description="by which what is handed in says which assignment it answers")
     tasks: tuple[AssignedTaskEntry, ...]
+
+
+class PracticeRequest(Request):
+    """Which exercise: the same seed, level and number draw the same one."""
+
+    seed: Annotated[str, Field(min_length=1, max_length=64)] = Field(
+        description="of a row of exercises", examples=["ada"]
+    )
+    level: int = Field(1, ge=1, le=6, description="from one degree of freedom to positions of rest and stability")
+    number: int = Field(1, ge=1, le=1_000_000, description="which one of the row; neighbours are of different families")
+    recall: Name | None = Field(
+        None, description="id of a misconception that the exercise can be got wrong by", examples=["gravity-sign"]
+    )
+    kind: Name | None = Field(None, description="the kind of task wanted with `recall`", examples=["potential-energy"])
+    lang: AskedLanguage = None
+
+    model_config = examples(
+        {"seed": "ada", "level": 2, "number": 3}, {"seed": "ada", "recall": "gravity-sign", "kind": "potential-energy"}
+    )
+
+
+class PracticeAnswer(Answer):
+    """A system drawn at random, and a task about it. Its answers are checked with the scene document."""
+
+    scene: GivenScene
+    symbols: tuple[TaskSymbol, ...]
+    task: TaskEntry
+    level: int = Field(description="of the exercise: with `recall` perhaps another one than was asked for")
+    recalled: str | None = Field(None, description="the misconception, if there is a system on which it can be made")

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from ..contract.assignment import Aspect, AssignedTaskDocument
 from ..contract.check import CheckRequest, LinesRequest, ReadingRequest, TableRequest
 from ..contract.reading import read as read_request
-from ..contract.task import AssignmentRequest, SolutionRequest, StackRequest, TasksRequest
+from ..contract.task import AssignmentRequest, PracticeRequest, SolutionRequest, StackRequest, TasksRequest
 from ..errors import ExpressionError, Problem, RequestError
 from ..mechanics.requests import inside
 from ..mechanics.user_text import plainly, translated
@@ -20,6 +20,8 @@ from .gradebook import Shares
 from .grading import Sheet, plan_of, read_class
 from .handins import code_of
 from .motion import moved_scene
+from .practice.exercise import exercise_of
+from .practice.levels import LEVELS
 from .stack.question import quiz
 from .statement import model_answer, task_document
 from .workbook import Workbook, workbook_asked_by, workbook_of
@@ -132,6 +134,20 @@ def _assigned_document(
     told = task_document(task, workbook, language)
     points = task.quantity.points if assigned.points is None else assigned.points
     return {"scene": write_scene(workbook.scene), "symbols": _symbols(workbook), "task": told | {"points": points}}
+
+
+def practice_request(document: Mapping[str, object]) -> Document:
+    """The fields of a PracticeRequest → {scene, symbols, task, level, recalled}. Raises UnknownNameError."""
+    asked = read_request(PracticeRequest, document)
+    found = exercise_of(LEVELS[asked.level - 1], asked.seed, asked.number, asked.recall or "", asked.kind or "")
+    workbook = found.workbook
+    return {
+        "scene": write_scene(workbook.scene),
+        "symbols": _symbols(workbook),
+        "task": task_document(found.task, workbook, language_of(asked.lang)),
+        "level": found.level.number,
+        "recalled": found.recalled or None,
+    }
 
 
 def table_request(document: Mapping[str, object]) -> Document:

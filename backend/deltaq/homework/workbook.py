@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -103,11 +103,12 @@ class Workbook:
     def candidates(self, task: Task) -> tuple[Candidate, ...]:
         """The wrong answers to a task, each solution that changes the answer once, the likely ones first."""
         size = sum(part.count_ops() for part in self.right(task))
-        return tuple(self._candidates(task)) if size <= MOST_OPERATIONS else ()
+        return tuple(self.candidates_by(task, self.faulty_solutions)) if size <= MOST_OPERATIONS else ()
 
-    def _candidates(self, task: Task) -> Iterator[Candidate]:
+    def candidates_by(self, task: Task, solutions: Iterable[FaultySolution]) -> Iterator[Candidate]:
+        """The wrong answers that these solutions lead to."""
         right = self.fingerprint(task)
-        for solution in self.faulty_solutions:
+        for solution in solutions:
             parts = _attempt(task, solution)
             found = task.quantity.equality.fingerprint(parts, self.sampler) if parts else None
             if found and (right is None or len(found) != len(right) or not close(found, right)):

@@ -34,6 +34,7 @@ ELEMENTS: dict[str, tuple[str, ...]] = {
     "trail": ("at",),
     "wall": ("from", "to"),
     "weight": ("at",),
+    "wire": ("at",),
 }
 TEXTS = ("load", "coordinate", "direction", "label")
 SIZES = ("radius", "width", "height", "offset")  # a number, or the name of a parameter

@@ -1,7 +1,7 @@
 /** The whole drawing at a moment: every element of the scene, in the order in which it lies on the paper. */
 
 import { circle } from "./geometry.js";
-import { ground, guide, pivot, wall } from "./supports.js";
+import { ground, guide, pivot, wall, wire } from "./supports.js";
 import { bob, cart, damper, disc, hoop, rod, spring, trail } from "./members.js";
 import { angle, dimension, force, moment, weight } from "./marks.js";
 import { sketchOf, verticalOf } from "./sketch.js";
@@ -15,6 +15,7 @@ import { azimuth, polar } from "./space.js";
 export const KINDS = {
   ground,
   wall,
+  wire,
   trail,
   dimension,
   angle,

@@ -1,6 +1,9 @@
-/** What holds a system: ground, pivot, guide. */
+/** What holds a system: ground, pivot, guide, wire. */
 
-import { add, at, circle, hatching, lengthOf, line, normal, polygon, scaled, subtract } from "./geometry.js";
+import { traced } from "../curve.js";
+import { evaluator } from "../kinematics/expression.js";
+import { coordinateRange } from "../values.js";
+import { add, at, circle, hatching, lengthOf, line, normal, polygon, polyline, scaled, subtract } from "./geometry.js";
 import { placeOf, sizeOf, unlessMoved } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
@@ -137,4 +140,42 @@ function box(along, across, half, wide) {
   const a = scaled(along, half);
   const b = scaled(across, wide);
   return polygon([add(a, b), subtract(a, b), subtract(scaled(a, -1), b), add(scaled(a, -1), b)]);
+}
+
+/** Pieces that a wire is looked at in before it is bent. */
+const PIECES = 32;
+
+/**
+ * Where a place can be: the curve that it runs through while one coordinate takes all its values and the others stay.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function wire(element, stage, now, key) {
+  const coordinate = stage.scene.coordinates.find(({ name }) => name === element.coordinate);
+  const field = stage.once(`field ${key}`, () => fieldOf(stage, element.at ?? ""));
+  if (!coordinate || !field) return { shapes: [], labels: [] };
+  /** @type {import("../kinematics/expression.js").Values} */
+  const held = { ...now.coordinates, t: now.t };
+  const on = field.names.map((name) => (name === coordinate.name ? "" : held[name])).join();
+  return unlessMoved(stage, key, on, () => {
+    const given = { ...field.given, ...held };
+    const place = (/** @type {number} */ q) =>
+      stage.project(field.parts.map((part) => part({ ...given, [coordinate.name]: q })));
+    const [low, high] = coordinateRange(coordinate);
+    const knots = Array.from({ length: PIECES + 1 }, (_, i) => low + ((high - low) * i) / PIECES);
+    return { shapes: [{ key, d: polyline(traced(place, knots).points), className: "ink wire" }], labels: [] };
+  });
+}
+
+/** The position of a place as functions, and which coordinates it depends on; null where it is written in a way that only the server reads. @param {Stage} stage @param {string} at */
+function fieldOf({ scene }, at) {
+  const position = [...scene.bodies, ...scene.points].find(({ name }) => name === at)?.position ?? [];
+  const moving = [...scene.coordinates.map(({ name }) => name), "t"];
+  const names = moving.filter((name) => position.some((text) => new RegExp(`\\b${name}\\b`).test(text)));
+  try {
+    const parts = position.map(evaluator);
+    return { parts, names, given: Object.fromEntries(scene.parameters.map(({ name, value }) => [name, value])) };
+  } catch {
+    return null;
+  }
 }

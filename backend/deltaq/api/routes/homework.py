@@ -23,6 +23,8 @@ from ...contract.check import (
 from ...contract.task import (
     AssignmentAnswer,
     AssignmentRequest,
+    PracticeAnswer,
+    PracticeRequest,
     SolutionAnswer,
     SolutionRequest,
     StackRequest,
@@ -68,6 +70,7 @@ READING = Job("deltaq.homework.service:reading_request", deadline=4.0)
 SOLUTION = Job("deltaq.homework.service:solution_request", deadline=8.0)
 MOTION = Job("deltaq.homework.service:motion_request", deadline=8.0)
 ASSIGNMENT = Job("deltaq.homework.service:assignment_request", deadline=30.0, pace="slow", processor=15.0)
+PRACTICE = Job("deltaq.homework.service:practice_request", deadline=15.0)
 STACK = Job("deltaq.homework.service:stack_request", deadline=60.0, pace="slow", processor=30.0)
 PLAN = Job("deltaq.homework.service:table_request", deadline=30.0, processor=15.0)
 ROW = Job("deltaq.homework.grading:row_verdict", deadline=15.0).within(5.0)
@@ -108,6 +111,12 @@ async def export_stack(request: Request, body: StackRequest) -> Response:
 async def open_assignment(request: Request, body: AssignmentRequest) -> Response:
     """The tasks of an assignment; with `individual` the seed draws the student's own values."""
     return await _cached(request, ASSIGNMENT, body.model_dump() | {"lang": language_of(request)})
+
+
+@router.post("/practice", response_model=PracticeAnswer, responses=COMPUTING)
+async def practise(request: Request, body: PracticeRequest) -> Response:
+    """An exercise drawn at random: a system and a task about it, answered by `/checks` with the scene document."""
+    return await _cached(request, PRACTICE, body.model_dump() | {"lang": language_of(request)})
 
 
 @router.post("/checks", response_model=VerdictAnswer, responses=COMPUTING)

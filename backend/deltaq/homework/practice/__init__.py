@@ -1,0 +1,1 @@
+"""Practice without end: systems drawn at random, and what can be asked about them."""
