@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
-from itertools import islice
+from itertools import islice, product
 
 from ...errors import Problem, UnknownNameError
 from ..faulty_solution import FaultySolution, misconceptions
@@ -16,7 +16,8 @@ from .draw import Draw
 from .levels import LEVELS, Level, system_of
 
 LONGEST = 120  # operations of an answer that is still written by hand
-TRIALS = 24  # systems that are looked at
+TRIALS = 24  # systems that are looked at for a misconception
+VARIANTS = 6  # of a family, looked at for a task
 SHARE = 0.5  # of the operations of the longest answer: what is shorter is too easy a subject of a task
 
 
@@ -53,9 +54,10 @@ def _misconception(identifier: str) -> type[FaultySolution]:
 
 
 def _fresh(level: Level, seed: str, number: int) -> Iterator[Exercise]:
-    for trial in range(TRIALS):
-        workbook = _workbook(level, seed, number, trial)
-        draw = Draw(seed, level.number, number, trial, "task")
+    """Of a family that has no such task in several variants, as of one that is always driven, the next is taken."""
+    for place, trial in product(range(number, number + len(level.families)), range(VARIANTS)):
+        workbook = _workbook(level, seed, place, trial)
+        draw = Draw(seed, level.number, place, trial, "task")
         for kind in draw.shuffled(level.kinds):
             tasks = worthwhile(workbook, kind)
             if tasks:

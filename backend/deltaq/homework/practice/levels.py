@@ -22,6 +22,7 @@ FOUNDATIONS = (
 EQUATIONS = ("lagrangian", "momentum", "equation", "equations")
 MODEL = ("linearized", "eigenfrequencies", "conserved", "equilibria", "stability", "symmetry", "steady-motion")
 TWO = (*two_degrees.FAMILIES, *one_particle.FAMILIES)
+FREE = tuple(family for family in moving.FAMILIES if family not in moving.DRIVEN)
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ LEVELS = (
     Level(3, TWO, FOUNDATIONS),
     Level(4, TWO, EQUATIONS),
     Level(5, moving.FAMILIES, (*FOUNDATIONS, *EQUATIONS)),
-    Level(6, (*one_degree.FAMILIES, *TWO, *moving.FAMILIES), MODEL),
+    Level(6, (*one_degree.FAMILIES, *TWO, *FREE), MODEL),
 )
 
 

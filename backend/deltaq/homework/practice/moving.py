@@ -12,6 +12,7 @@ from .parts import (
     below,
     dissipation,
     element,
+    ending,
     length,
     particle,
     point,
@@ -24,6 +25,7 @@ from .parts import (
 from .symbols import CURVATURE, RADIUS, STEEPNESS, Kind
 from .two_degrees import hung_at, wedge, wedge_spring
 
+SLOW = Kind("rad/s", (1.5, 2.0, 2.5))  # the bead stays near the lowest point
 # J = factor m R² of what rolls.
 ROUND = (("ring", "m*R^2"), ("disc", "m*R^2/2"), ("ball", "2*m*R^2/5"))
 
@@ -46,7 +48,8 @@ def pendulum_on_guided_pivot(draw: Draw) -> Part:
         elements=_support(kind),
     )
     hung = hung_at(vertical, phi, "pivot", across=across, down=down, as_rod=as_rod)
-    return sum(draw.some_of(pivot_extras(phi), 1), pivot + hung + weight(vertical))
+    way = ending("pivot", "2 + y") if kind == "lift" else Part()
+    return sum(draw.some_of(pivot_extras(phi), 1), pivot + hung + way + weight(vertical))
 
 
 _MOTIONS = {
@@ -90,7 +93,7 @@ def bead_on_turning_wire(draw: Draw) -> Part:
     wire = Part(
         title=f"turning-{curve}",
         told=told("turning-wire", mass="m", curve=f"z({x}) = {height}", Omega="Omega", x=x),
-        kinds=kinds,
+        kinds={**kinds, "Omega": SLOW, "k": Kind("N/m", (20.0, 25.0, 30.0))},
         coordinates=(length(x, 0.5, 1.1, least=0.0 if curve == "line" else None),),
         called={"origin": "axis-start"},
         points=(point("origin", "0", "0", "0"),),
@@ -103,7 +106,9 @@ def bead_on_turning_wire(draw: Draw) -> Part:
         ),
     )
     spring = Part(told=told("axis-spring", k="k", r=x), adds=("spring",), loads=(potential("spring", f"k*{x}^2/2"),))
-    return sum(draw.some_of((spring, line_damper(x)), 1), wire + weight("up", 3))
+    options = (line_damper(x),) if curve == "line" else (spring, line_damper(x))
+    held = wire + spring if curve == "line" else wire  # nothing else draws the bead back on a straight wire
+    return sum(draw.some_of(options, 1), held + weight("up", 3))
 
 
 def bead_on_turning_hoop(draw: Draw) -> Part:
@@ -157,11 +162,11 @@ def bead_on_turning_rod(draw: Draw) -> Part:
         told=told("hub-spring", k="k", l0="l0", r=r),
         adds=("spring",),
         loads=(potential("spring", f"k*({r} - l0)^2/2"),),
-        kinds={"k": Kind("N/m", (30.0, 40.0, 50.0))},
+        kinds={"k": Kind("N/m", (40.0, 50.0, 60.0))},
         elements=(element("spring", start="origin", to="bead", load="spring"),),
     )
-    held = rod + spring if level or draw.chance(0.6) else rod
-    return sum(draw.some_of((line_damper(r),), 1), held if level else held + weight("up"))
+    held = rod + spring if level else rod + spring + weight("up")
+    return sum(draw.some_of((line_damper(r),), 1), held)
 
 
 def driven_support(draw: Draw) -> Part:
@@ -224,7 +229,8 @@ def rolling_on_incline(draw: Draw) -> Part:
         loads=(potential("spring", f"k*{s}^2/2"),),
         elements=(element("spring", start="anchor", to="wheel", load="spring"),),
     )
-    return sum(draw.some_of((spring, line_damper(s)), 2), wheel + weight(vertical))
+    whole = wheel + ending("wheel", f"2 - {s}") + weight(vertical)
+    return sum(draw.some_of((spring, line_damper(s)), 2), whole)
 
 
 def rolling_in_trough(draw: Draw) -> Part:
@@ -271,7 +277,7 @@ def heavy_pulley(draw: Draw) -> Part:
                 element("dimension", start="origin", to="leaving", coordinate=x),
                 element("force", load="weight"),
             ),
-        ) + weight(vertical)
+        ) + (ending("wheel", f"2 - {x}") + weight(vertical))
     on_table = draw.chance(0.5)
     title = "table-and-heavy-pulley" if on_table else "atwood-heavy-pulley"
     first = ("-l1 + " + x, "0") if on_table else ("-R", below(vertical, x))
@@ -304,7 +310,7 @@ def heavy_pulley(draw: Draw) -> Part:
             element("block", at="first", width=0.24, height=0.16),
             element("block", at="second", width=0.16, height=0.2),
         ),
-    ) + weight(vertical)
+    ) + (ending("first", x, f"l1 - {x}") + weight(vertical))
 
 
 def block_on_pushed_wedge(draw: Draw) -> Part:
@@ -318,7 +324,8 @@ def block_on_pushed_wedge(draw: Draw) -> Part:
         guides=({"coordinate": "x", "value": motion},),
         elements=(element("force", load="weight"),),
     )
-    return whole + wedge_spring(s) + weight(vertical)
+    way = ending("block", "2 - x") if motion.startswith("a0") else Part()
+    return whole + way + wedge_spring(s) + weight(vertical)
 
 
 def drawn_in_pendulum(draw: Draw) -> Part:
@@ -388,3 +395,5 @@ FAMILIES = (
     drawn_in_pendulum,
     pendulum_on_wheel,
 )
+# Always driven: they never rest.
+DRIVEN = (pendulum_on_guided_pivot, driven_support, drawn_in_pendulum)

@@ -15,6 +15,7 @@ from .parts import (
     below,
     dissipation,
     element,
+    ending,
     force,
     length,
     particle,
@@ -387,7 +388,8 @@ def rope(draw: Draw) -> Part:
         bodies=(particle("first", "m1", *first), particle("second", "m2", *second)),
         elements=_ropes(kind),
     )
-    return pulley + weight(vertical)
+    rope_length = "l2" if kind == "atwood" else "l1"
+    return pulley + ending("first", x, f"{rope_length} - {x}") + weight(vertical)
 
 
 def _pulley(kind: str) -> tuple[Document, ...]:

@@ -10,6 +10,7 @@ from .parts import (
     angle,
     below,
     element,
+    ending,
     force,
     length,
     particle,
@@ -110,7 +111,7 @@ def hole_in_table(draw: Draw) -> Part:
             element("bob", at="bob"),
             element("block", at="hanging", width=0.2, height=0.2),
         ),
-    ) + weight(vertical)
+    ) + (ending("bob", r, f"l - {r}") + weight(vertical))
 
 
 def particle_on_surface(draw: Draw) -> Part:

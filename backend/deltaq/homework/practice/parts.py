@@ -34,6 +34,7 @@ class Part:
     bodies: tuple[Document, ...] = ()
     loads: tuple[Document, ...] = ()
     guides: tuple[Document, ...] = ()
+    events: tuple[Document, ...] = ()
     elements: tuple[Document, ...] = ()
 
     def __add__(self, other: Part) -> Part:
@@ -49,6 +50,7 @@ class Part:
             bodies=self.bodies + other.bodies,
             loads=self.loads + other.loads,
             guides=self.guides + other.guides,
+            events=self.events + other.events,
             elements=self.elements + other.elements,
         )
 
@@ -152,6 +154,14 @@ def weight(vertical: Vertical, dimension: int = 2) -> Part:
     return Part(loads=(gravity(*["0"] * (dimension - 1), below(vertical, "g")),))
 
 
+def ending(at: str, *values: str) -> Part:
+    """The motion ends where one of these values falls to zero: a rope or a way is at its end."""
+    title = _in_each("practice.end")
+    return Part(
+        events=tuple({"name": f"end{n}", "value": value, "title": title, "at": at} for n, value in enumerate(values, 1))
+    )
+
+
 def document_of(whole: Part, draw: Draw, identifier: str) -> Document:
     """The scene document of a system, its values drawn."""
     labels = {thing["name"]: thing["name"] for thing in (*whole.points, *whole.bodies, *whole.loads)}
@@ -168,6 +178,7 @@ def document_of(whole: Part, draw: Draw, identifier: str) -> Document:
         "bodies": list(whole.bodies),
         "loads": list(whole.loads),
         "guides": list(whole.guides),
+        "events": list(whole.events),
         "labels": {name: _in_each(f"practice.labels.{key}") for name, key in sorted(labels.items())},
         "drawing": {"vertical": whole.vertical, "elements": list(whole.elements)},
     }
@@ -177,11 +188,15 @@ def _constants(whole: Part) -> Iterator[str]:
     """The parameters in the order in which they first occur."""
     moving = {each["name"] for each in whole.coordinates}
     known = {*USUAL, *whole.kinds} - moving
-    texts = (text for thing in (*whole.bodies, *whole.loads, *whole.guides, *whole.points) for text in _texts(thing))
+    texts = (
+        text
+        for thing in (*whole.bodies, *whole.loads, *whole.guides, *whole.points, *whole.events)
+        for text in _texts(thing)
+    )
     yield from dict.fromkeys(name for text in texts for name in names_in(text) if name in known)
 
 
-NOT_EXPRESSIONS = ("name", "kind", "at", "coordinate", "from", "to")
+NOT_EXPRESSIONS = ("name", "title", "kind", "at", "coordinate", "from", "to")
 
 
 def _texts(thing: Document) -> Iterator[str]:

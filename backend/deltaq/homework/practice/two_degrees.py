@@ -13,6 +13,7 @@ from .parts import (
     below,
     dissipation,
     element,
+    ending,
     force,
     length,
     particle,
@@ -295,7 +296,7 @@ def ropes_on_pulleys(draw: Draw) -> Part:
     x, y = draw.one_of((("x", "y"), ("x1", "x2"), ("s1", "s2")))
     vertical = upright(draw)
     third = ("3*a/2", below(vertical, "2*l1", f"-{x}", f"-{y}"))
-    return Part(
+    whole = Part(
         title="double-atwood",
         vertical=vertical,
         told=told("double-atwood", first="m1", second="m2", third="m3", a="a", l1="l1", x=x, y=y),
@@ -321,7 +322,9 @@ def ropes_on_pulleys(draw: Draw) -> Part:
             element("disc", at="pulley", radius=0.15),
             *(element("block", at=name, width=0.16, height=0.16) for name in ("first", "second", "third")),
         ),
-    ) + weight(vertical)
+    )
+    ends = ending("first", x, y, f"l1 - {x}", f"l1 - {y}")
+    return whole + ends + weight(vertical)
 
 
 FAMILIES = (
