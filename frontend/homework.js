@@ -10,7 +10,7 @@ import { createExercise } from "./model/homework/exercise.js";
 import { keyboardOf, shortcutsOf } from "./model/homework/keys.js";
 import { patient } from "./model/homework/patience.js";
 import { readAsked, stepAddress, writeAsked } from "./model/homework/place.js";
-import { createProgress } from "./model/homework/progress.js";
+import { apart, createProgress } from "./model/homework/progress.js";
 import { createTrail, retrace } from "./model/homework/trail.js";
 import { begin } from "./model/homework/state.js";
 import { createWorking } from "./model/homework/working.js";
@@ -26,7 +26,7 @@ import { offer } from "./view/files.js";
 import { fetchMathLive, low, offerKeys } from "./view/homework/mathfield.js";
 import { page } from "./view/homework/page.js";
 import { createReach, createStaging } from "./view/homework/staging.js";
-import { keeper } from "./view/keeper.js";
+import { keeper, windowKeeper } from "./view/keeper.js";
 
 /** Milliseconds after which the field for formulas has waited long enough. */
 const PATIENCE = 500;
@@ -44,7 +44,7 @@ const { get, set } = store;
 const { post, simulate, ...rest } = server;
 const api = { ...rest, post: patient(post), simulate: patient(simulate) };
 const clock = createClock();
-const progress = createProgress(keeper());
+const progress = createProgress(apart(keeper(), windowKeeper()));
 const answering = createAnswering(store, api, progress);
 const exercise = createExercise(store, api, progress, answering);
 const working = createWorking(store, api, progress, exercise);
@@ -56,6 +56,8 @@ let fragment = "";
 let classroom = null;
 /** @type {import("./view/homework/page.js").HomeworkView["picker"]} */
 let picker = null;
+/** @type {import("./view/homework/page.js").HomeworkView["practice"]} */
+let practice = null;
 const staging = createStaging(root, clock);
 const reach = createReach(root);
 
@@ -150,6 +152,8 @@ function view() {
     formulas,
     classroom,
     picker,
+    practice,
+    practise,
     progress,
     notice: (key) => set({ notice: key, asked: { ...get().asked } }),
     opened,
@@ -191,6 +195,21 @@ async function openPicker() {
   update();
 }
 
+/** @type {Promise<typeof import("./view/homework/open-practice.js")> | null} */
+let fetching = null;
+async function openPractice() {
+  fetching ??= import("./view/homework/open-practice.js");
+  const { open: opening } = await fetching;
+  practice ??= opening({ api, keeper: keeper(), changed: update });
+  return practice;
+}
+
+/** On to the exercise at hand, or to the next one. */
+async function practise() {
+  const opened = await openPractice();
+  await exercise.drill(opened.session.resumed());
+}
+
 async function fetchFormulas() {
   formulas = await fetchMathLive();
   offerKeys(offered.keys, "δq");
@@ -214,6 +233,7 @@ function update() {
   trail(current.link({}), entry?.key ?? "");
   if (side === "class") void openClassroom();
   if (side === "sheet") void openPicker();
+  if (side === "practice") void openPractice().then(({ session }) => session.observe(get()));
   if (!entry || wanted) return;
   wanted = true;
   whenIdle(() => void fetchFormulas(), PATIENCE);
@@ -239,10 +259,12 @@ async function start() {
   ]);
   const own = sent ?? (asked.place.scene === OWN && !assignment ? (readDraft(keeper())?.document ?? null) : null);
   fragment = own ? await fragmentOf(own) : location.hash;
+  const { side, drill } = asked;
+  const chosen = side === "practice" && !drill.number ? (await openPractice()).session.resumed() : drill;
   const scene = own ? OWN : asked.place.scene === OWN ? "" : asked.place.scene;
   await Promise.all([
     speak(asked.place.lang),
-    exercise.start({ ...asked, place: { ...asked.place, scene } }, assignment, own),
+    exercise.start({ ...asked, drill: chosen, place: { ...asked.place, scene } }, assignment, own),
   ]);
 }
 void start();

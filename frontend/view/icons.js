@@ -27,6 +27,7 @@ const PATHS = {
   add: "M10 4v12M4 10h12",
   up: "M5 12l5-5 5 5",
   close: "M5 5l10 10M15 5L5 15",
+  again: "M4.2 8A6.2 6.2 0 1 1 4 12M4 4v4h4",
 };
 const SOLID = new Set(["play", "pause"]);
 

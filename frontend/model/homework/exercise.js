@@ -3,8 +3,8 @@
 import { asTyped } from "../own.js";
 import { attempt } from "./attempt.js";
 import { createComparison } from "./comparison.js";
-import { FIRST_SCENE } from "./place.js";
-import { referenceOf, sheetOfAssignment, sheetOfScene } from "./sheet.js";
+import { drillName, FIRST_SCENE } from "./place.js";
+import { referenceOf, sheetOfAssignment, sheetOfExercise, sheetOfScene } from "./sheet.js";
 import { createSolution } from "./solution.js";
 import { FRESH } from "./state.js";
 
@@ -13,8 +13,12 @@ import { FRESH } from "./state.js";
 /** @typedef {import("./sheet.js").Entry} Entry */
 /** @typedef {import("./sheet.js").Assignment} Assignment */
 
+/** What tells sheets apart: an exercise is its own, whatever scene one comes from. @param {import("./place.js").Address} asked */
+const sheetName = ({ side, drill, seed, place }) =>
+  side === "practice" ? drillName(drill) : ["sheet", seed, place.scene].join("~");
+
 /** Whether both ask for the same sheet. @param {import("./place.js").Address} a @param {Asked} b */
-export const isSame = (a, b) => a.seed === b.seed && a.place.scene === b.place.scene && a.place.lang === b.place.lang;
+export const isSame = (a, b) => sheetName(a) === sheetName(b) && a.place.lang === b.place.lang;
 /** And for that of the same assignment, or of the same scene that was brought along. @param {State} a @param {State} b */
 const isStill = (a, b) => a.assignment === b.assignment && a.own === b.own && isSame(a.asked, b.asked);
 
@@ -23,6 +27,8 @@ async function fetchSheet(
   api,
   {
     asked: {
+      side,
+      drill,
       seed,
       place: { scene, lang },
     },
@@ -30,6 +36,8 @@ async function fetchSheet(
     own,
   },
 ) {
+  if (side === "practice")
+    return sheetOfExercise(drillName(drill), await api.post("/practice", { ...questionOf(drill), lang }));
   if (assignment)
     return sheetOfAssignment(
       assignment,
@@ -39,6 +47,12 @@ async function fetchSheet(
   const reference = referenceOf(own ? asTyped(own) : scene || FIRST_SCENE, seed);
   return sheetOfScene(reference, await api.post("/tasks", { ...reference, lang }));
 }
+
+/** @param {import("./place.js").Drill} drill */
+const questionOf = ({ series: seed, level, number, recall, kind }) => ({
+  ...{ seed, level, number },
+  ...(recall ? { recall, ...(kind ? { kind } : {}) } : {}),
+});
 
 /**
  * @param {import("./state.js").Store} store @param {import("./state.js").Api} api @param {import("./progress.js").Progress} progress
@@ -117,8 +131,20 @@ export function createExercise(store, api, progress, answering) {
     },
     /** @param {Partial<Asked["place"]>} patch */
     move: (patch) => ask({ place: { ...get().asked.place, ...patch } }),
-    /** @param {Asked["side"]} side */
-    turn: (side) => ask({ side }),
+    /** Another side of the page; who leaves practice comes back to the tasks. @param {Asked["side"]} side */
+    turn(side) {
+      const leaves = get().asked.side === "practice" && side !== "practice";
+      ask({ side, ...(leaves ? { task: "" } : {}) });
+      if (!leaves) return;
+      set({ sheet: null, entry: null });
+      void load();
+    },
+    /** An exercise drawn at random. @param {import("./place.js").Drill} drill */
+    drill(drill) {
+      ask({ side: "practice", drill, task: "" });
+      set({ sheet: null, entry: null });
+      return load();
+    },
     /** @param {import("./progress.js").Line[]} lines */
     write(lines) {
       set({ lines, kept: progress.write(workingKey(), lines) });

@@ -68,6 +68,22 @@ export const linesOf = (value) =>
       })
     : [];
 
+/**
+ * What is written to exercises without end lasts as long as the window; all else is kept, and is what there is to save.
+ * @param {Keeper} lasting @param {Keeper} window @returns {Keeper}
+ */
+export const apart = (lasting, window) => {
+  const of = (/** @type {string} */ key) => (key.startsWith(`${PREFIX}practice~`) ? window : lasting);
+  return {
+    get length() {
+      return lasting.length;
+    },
+    key: (index) => lasting.key(index),
+    getItem: (key) => of(key).getItem(key),
+    setItem: (key, value) => of(key).setItem(key, value),
+  };
+};
+
 /** @param {Keeper} keeper */
 export function createProgress(keeper) {
   /** @param {string} key @returns {unknown} */

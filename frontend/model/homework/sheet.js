@@ -8,7 +8,7 @@ import { asWritten } from "../own.js";
 /** @typedef {Contract["TaskEntry"]} Task */
 /** @typedef {Pick<Contract["TasksRequest"], "scene" | "guides" | "freeze" | "parameters" | "seed" | "vary">} Reference  what requests say of the scene */
 /** @typedef {{id: string, key: string, group: string, reference: Reference, scene: Scene, symbols: TaskSymbol[], task: Task}} Entry  a task with its scene; `id` stands in addresses, `group` names the scene with its changes */
-/** @typedef {{title: Record<string, string> | null, followThrough: number, simplified: number, code: string, entries: Entry[]}} Sheet  `code` is that of an assignment */
+/** @typedef {{title: Record<string, string> | null, followThrough: number, simplified: number, code: string, entries: Entry[], recalled?: string | null}} Sheet  `code` is that of an assignment, `recalled` the misconception that an exercise brings back */
 /** @typedef {Contract["AssignmentDocument"]} Assignment */
 
 const CHANGES = /** @type {const} */ (["scene", "guides", "freeze", "parameters"]);
@@ -61,6 +61,13 @@ export function sheetOfAssignment(assignment, seed, answer) {
   });
   const { title, follow_through: followThrough, simplified, code } = answer;
   return { title, followThrough, simplified, code, entries };
+}
+
+/** An exercise drawn at random: one task about a system that is in no menu. @param {string} group @param {Contract["PracticeAnswer"]} answer @returns {Sheet} */
+export function sheetOfExercise(group, { scene: document, symbols, task, recalled }) {
+  const [key, scene, reference] = [`${group}/${task.id}`, asWritten(document), referenceOf(document, "")];
+  const entry = { id: task.id, key, group, reference, scene, symbols, task };
+  return { title: null, followThrough: 0.5, simplified: 0.5, code: "", entries: [entry], recalled };
 }
 
 /** What requests say of the scene of an assignment's task. @param {Assignment} assignment @param {number} index @param {string} seed @returns {Reference} */

@@ -38,6 +38,8 @@ import { working } from "./working.js";
  * @property {(file: File) => Promise<void>} upload  such a file, or an assignment
  * @property {((view: HomeworkView) => unknown) | null} classroom  once it has been opened
  * @property {((view: HomeworkView) => unknown) | null} picker  once it has been opened
+ * @property {ReturnType<typeof import("./open-practice.js").open> | null} practice  once it has been opened
+ * @property {() => Promise<void>} practise  on to an exercise
  * @property {import("../../model/homework/progress.js").Progress} progress
  * @property {(key: string) => void} notice  says a sentence
  * @property {(file: File) => Promise<boolean>} opened  opens a file that is an assignment where none is open
@@ -60,7 +62,7 @@ export function page(view) {
   return html`
     ${top(shown, { main: "work", skip: t("homework.skip"), here: "homework", heading: heading(view), menu: appearance(shown) })}
     <main class="homework" data-side=${side}>
-      ${tasks(view)}
+      ${side === "practice" ? (view.practice?.panel(view) ?? html`<nav class="tasks"></nav>`) : tasks(view)}
       <div class="work" id="work" tabindex="-1">
         ${sides(view)}
         ${BESIDE[side]?.(view) ?? single(view)}
@@ -74,6 +76,8 @@ function heading({ state, t, exercise }) {
   const { place } = state.asked;
   const { lang } = place;
   const { scenes, sheet, assignment, entry } = state;
+  if (state.asked.side === "practice")
+    return html`<div class="scene"><h1 style=${lettersOf(t("practice.title"))}>${t("practice.title")}</h1><p class="summary">${t("practice.summary")}</p></div>`;
   const chosen = state.own ? "" : (entry?.scene.id ?? place.scene);
   if (assignment) {
     const title = inLanguage(sheet?.title ?? assignment.title, lang) || t("homework.assignment");
@@ -93,12 +97,14 @@ function heading({ state, t, exercise }) {
 }
 
 /** @param {HomeworkView} view */
-function sides({ state, t, exercise }) {
+function sides({ state, t, exercise, practise }) {
+  const turn = (/** @type {import("../../model/homework/place.js").Side} */ side) =>
+    side !== "practice" ? exercise.turn(side) : state.asked.side !== side ? void practise() : undefined;
   return html`<div class="work-head"><div class="segments" role="group" aria-label=${t("homework.side")}>${SIDES.filter(
     (side) => side !== "handin" || state.assignment || state.asked.side === side,
   ).map(
     (side) => html`
-    <button aria-pressed=${String(side === state.asked.side)} @click=${() => exercise.turn(side)}>${t(`homework.side-${side}`)}</button>`,
+    <button aria-pressed=${String(side === state.asked.side)} @click=${() => turn(side)}>${t(`homework.side-${side}`)}</button>`,
   )}</div></div>`;
 }
 
@@ -109,11 +115,13 @@ function single(view) {
   if (state.failure) return failure(state.failure, t("homework.no-tasks"), () => void exercise.load(), t);
   if (!entry) return html`<p class="patience" role="status">${t("homework.loading")}</p>`;
   return html`<article class="question" aria-label=${t("homework.task")}>
+    ${state.asked.side === "practice" ? view.practice?.problem(view) : nothing}
     <h2><span>${prose(entry.task.title)}</span><span class="worth">${t(entry.task.points === 1 ? "homework.points-one" : "homework.points", { points: entry.task.points.toLocaleString(state.asked.place.lang) })}</span></h2>
     <p class="prose">${prose(entry.task.statement)}</p>
     ${answer(view)}
     ${verdict(view)}
     ${hints(view)}
     ${solution(view)}
+    ${state.asked.side === "practice" ? view.practice?.onward(view) : nothing}
   </article>`;
 }

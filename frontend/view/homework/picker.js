@@ -6,7 +6,7 @@ import { live } from "lit-html/directives/live.js";
 import { inLanguage } from "../../model/catalog.js";
 import { fileName } from "../../model/homework/handin.js";
 import { bounded, instantOf, listKey, localOf, sceneIn } from "../../model/homework/picker.js";
-import { writeAsked } from "../../model/homework/place.js";
+import { NO_DRILL, writeAsked } from "../../model/homework/place.js";
 import { OWN } from "../../model/own.js";
 import { pathOf } from "../../model/share.js";
 import { HOME } from "../../model/url.js";
@@ -169,7 +169,10 @@ function ready(view, session) {
   const place = { ...HOME, lang };
   const address =
     fragment &&
-    location.origin + location.pathname + writeAsked({ task: "", seed: "", side: "task", place }) + fragment;
+    location.origin +
+      location.pathname +
+      writeAsked({ task: "", seed: "", side: "task", drill: NO_DRILL, place }) +
+      fragment;
   return html`
     ${wrong ? html`<ul class="wrong-sheet" role="alert">${(wrong.problems.length ? wrong.problems.map(({ message }) => message) : [wrong.detail || wrong.title || t("failure.unreachable")]).map((one) => html`<li>${one}</li>`)}</ul>` : nothing}
     <p class="acts"><button type="button" class="main" ?disabled=${!fragment} @click=${() => open(session.made())}>${t("homework.pick-try")}</button>

@@ -124,7 +124,7 @@ export function solution(view) {
   const { state, t, exercise } = view;
   const { entry, draft } = state;
   if (!entry || !(draft.solved || draft.tries)) return nothing;
-  const { deadline } = state.assignment ?? {};
+  const { deadline } = (state.asked.side !== "practice" && state.assignment) || {};
   if (deadline && new Date(deadline) > new Date()) return html`<p class="so">${t("homework.solution-later")}</p>`;
   if (!state.solution)
     return html`<p class="acts solving"><button type="button" class="quiet framed" ?disabled=${state.busy === "solving"} @click=${exercise.solve}>${t("homework.solution")}</button>

@@ -22,7 +22,7 @@ from .parts import (
     upright,
     weight,
 )
-from .symbols import CURVATURE, RADIUS, STEEPNESS, Kind
+from .symbols import CURVATURE, INCLINATION, RADIUS, Kind
 from .two_degrees import hung_at, wedge, wedge_spring
 
 SLOW = Kind("rad/s", (1.5, 2.0, 2.5))  # the bead stays near the lowest point
@@ -86,7 +86,7 @@ def bead_on_turning_wire(draw: Draw) -> Part:
         (
             ("parabola", f"a*{x}^2", {"a": CURVATURE}),
             ("catenary", f"a*cosh({x}/a)", {}),
-            ("line", f"b*{x}", {"b": STEEPNESS}),
+            ("line", f"{x}*tan(beta)", {"beta": INCLINATION}),
             ("cosine", f"-a*cos({x}/b)", {}),
         )
     )

@@ -21,7 +21,7 @@ from .parts import (
     upright,
     weight,
 )
-from .symbols import CURVATURE, LARGE_MASS, STEEPNESS, Kind
+from .symbols import CURVATURE, INCLINATION, LARGE_MASS, Kind
 
 
 def spring_pendulum(draw: Draw) -> Part:
@@ -119,7 +119,7 @@ def particle_on_surface(draw: Draw) -> Part:
     psi, r = draw.one_of(("psi", "phi")), draw.one_of(("r", "s"))
     surface, height, kinds = draw.one_of(
         (
-            ("cone", f"b*{r}", {"b": STEEPNESS}),
+            ("cone", f"{r}*tan(beta)", {"beta": INCLINATION}),
             ("paraboloid", f"a*{r}^2", {"a": CURVATURE}),
             ("gutter", f"a*{r}^3", {"a": Kind("1/m^2", (0.5, 0.8, 1.0))}),
         )

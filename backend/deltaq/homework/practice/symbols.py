@@ -17,6 +17,7 @@ GREEK = {
 }
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 POWERS = {"^2": "²", "^3": "³", "^4": "⁴"}
+NO_BREAK = "\u00a0"
 NAME = re.compile(r"[A-Za-z]+\d*")
 PARTS = re.compile(r"([A-Za-z]+)(\d*)")
 
@@ -42,7 +43,6 @@ AMPLITUDE = Kind("m", (0.05, 0.1, 0.15))
 CURVATURE = Kind("1/m", (0.5, 0.8, 1.0))
 QUARTIC = Kind("1/m^3", (0.5, 0.8, 1.0))
 INCLINATION = Kind("rad", (0.3, 0.4, 0.5, 0.6))
-STEEPNESS = Kind("1", (0.5, 0.8, 1.0))
 STIFFNESS = Kind("N/m", (10.0, 15.0, 20.0, 30.0))
 TORSION = Kind("N m", (2.0, 3.0, 5.0))
 DAMPING = Kind("N s/m", (0.2, 0.4, 0.6))
@@ -89,7 +89,7 @@ def shown(expression: str) -> str:
     for power, sign in POWERS.items():
         expression = expression.replace(power, sign)
     spelled = NAME.sub(lambda found: _letter(found[0]), expression)
-    return spelled.replace("*", " ").replace("-", "−")
+    return spelled.replace("*", NO_BREAK).replace("-", "−")
 
 
 def names_in(expression: str) -> tuple[str, ...]:
