@@ -8,7 +8,7 @@ import { COURSE } from "../../frontend/model/start/course.js";
 import { FORMS, SHOWN } from "../../frontend/model/share.js";
 import { PAGES } from "../../frontend/model/url.js";
 import { KNOWN } from "../../frontend/model/labs/experiments.js";
-import { SIDES } from "../../frontend/model/homework/place.js";
+import { LEVELS, SIDES } from "../../frontend/model/homework/place.js";
 import { ONLY } from "../../frontend/model/homework/roster.js";
 import { EXAMPLES, GROUPS } from "../../frontend/model/variations/examples.js";
 import { HOLDS, KINDS } from "../../frontend/model/variations/question.js";
@@ -84,6 +84,7 @@ const EXERCISES = [
   ...["keys-motion", "keys-parameters", "keys-operations", "status-solved", "status-begun"].map((key) => `homework.${key}`),
   ...["latex", "plain"].flatMap((syntax) => ["syntax", "to", "kept"].map((key) => `homework.${key}-${syntax}`)),
   ...SIDES.map((side) => `homework.side-${side}`),
+  ...LEVELS.map((level) => `practice.level-${level}`),
   ...ONLY.map((one) => `homework.only-${one || "all"}`),
   ...["up", "down", "remove"].flatMap((way) => [`homework.pick-${way}`, `homework.pick-${way}-task`]),
   ...["values", "axes", "coordinates", "factors"].map((aspect) => `homework.pick-vary-${aspect}`),

@@ -21,7 +21,7 @@ from deltaq.homework.practice.parts import document_of
 from deltaq.homework.practice.symbols import shown
 from deltaq.homework.service import check_request, practice_request, solution_request
 from deltaq.mechanics.document import examine
-from deltaq.narration.catalog import LANGUAGES
+from deltaq.narration.catalog import LANGUAGES, keys
 
 Document = dict[str, Any]
 FAMILIES = tuple({family.__name__: family for level in LEVELS for family in level.families}.values())
@@ -65,6 +65,19 @@ def test_the_problem_tells_of_every_symbol(family: Family, language: str) -> Non
         missing = [name for name in symbols if not re.search(rf"(?<!\w){shown(name)}(?!\w)", text)]
         assert set(missing) <= set(UNTOLD), text
         assert not re.search(r"[{}*^]", text + document["title"][language])
+
+
+def test_every_text_is_used() -> None:
+    """Each title, sentence, addition and label of the catalog stands in some system."""
+    found: dict[str, set[str]] = {"titles": set(), "told": set(), "adds": set(), "labels": set()}
+    for part in (family(Draw("texts", seed)) for family in FAMILIES for seed in range(150)):
+        found["titles"].add(part.title)
+        found["told"] |= {key for key, _ in part.told}
+        found["adds"] |= set(part.adds)
+        names = {thing["name"] for thing in (*part.points, *part.bodies, *part.loads)}
+        found["labels"] |= {part.called.get(name, name) for name in names}
+    for section, used in found.items():
+        assert set(keys("en", f"practice.{section}")) == used - {"origin"}, section
 
 
 def test_the_drawing_shows_every_body(family_documents: list[Document]) -> None:
