@@ -29,6 +29,7 @@ export const GUIDE = [
       { id: "write", to: "homework" },
       { id: "wrong" },
       { id: "lines" },
+      { id: "practise", to: "homework" },
       { id: "own" },
     ],
   },

@@ -132,6 +132,11 @@ test("what is written is what is read", () => {
     assert.deepEqual(readMemory(written(memory), half), JSON.parse(JSON.stringify(memory), (key, value) => (["due", "last_review"].includes(key) ? new Date(value) : value)));
 });
 
+test("what a later version wrote is not taken for this one's", () => {
+  const later = JSON.stringify({ ...JSON.parse(written({ ...mistaken(), level: 5 })), format: 2 });
+  assert.deepEqual(readMemory(later, half), blank(half));
+});
+
 /** Every value of a document, one by one, in the place of which anything else may stand. @param {unknown} value @param {unknown} other @returns {unknown[]} */
 function spoilt(value, other) {
   if (typeof value !== "object" || value === null) return [other];
@@ -231,6 +236,8 @@ test("an exercise has an address", () => {
   const asked = { ...readAsked(""), task: "potential-energy", seed: "", side: /** @type {const} */ ("practice"), drill };
   const query = writeAsked(/** @type {any} */ (asked));
   assert.match(query, /side=practice/);
+  const turned = Object.fromEntries(Object.entries(drill).reverse());
+  assert.equal(writeAsked(/** @type {any} */ ({ ...asked, drill: turned })), query, "and only one");
   assert.deepEqual([readAsked(query).drill, readAsked(query).side], [drill, "practice"]);
   assert.deepEqual([readAsked("?practice").side, readAsked("?practice").drill], ["practice", NO_DRILL]);
   for (const query of ["?practice&level=9&number=1e9&series=", "?practice&level=-1&number=x&series=a", `?practice&series=${"x".repeat(999)}&number=2&level=2`]) {

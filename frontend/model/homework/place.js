@@ -42,9 +42,12 @@ function readDrill(given, text) {
 /** The query; what is as usual is left out. @param {Asked} asked */
 export function writeAsked({ task, seed, side, drill, place }) {
   const { scene, lang, theme } = place;
+  const { series, level, number, recall, kind } = drill;
   const start = writePlace({ ...HOME, scene, lang, theme });
   const open =
-    side === "practice" ? { side, ...(drill.number ? drill : {}) } : { task, seed, side: side === "task" ? "" : side };
+    side === "practice"
+      ? { side, ...(drill.number ? { series, level, number, recall, kind } : {}) }
+      : { task, seed, side: side === "task" ? "" : side };
   const rest = Object.entries(open).filter(([, value]) => value);
   const own = rest.map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%3A", ":")}`).join("&");
   return own ? `${start}${start ? "&" : "?"}${own}` : start;
