@@ -82,7 +82,7 @@ def test_every_text_is_used() -> None:
 
 
 def test_every_particle_is_drawn_where_it_is() -> None:
-    for document in [drawn(family, seed) for family in FAMILIES for seed in range(5)]:
+    for document in [drawn(family, seed) for family in FAMILIES for seed in range(25)]:
         drawn_at = {each["at"] for each in document["drawing"]["elements"] if each["kind"] in MASSES}
         particles = {body["name"] for body in document["bodies"] if body["kind"] == "particle"}
         assert particles - {"wedge"} <= drawn_at, document["id"]
