@@ -8,6 +8,7 @@ from .parts import (
     ORIGIN,
     Document,
     Part,
+    Vertical,
     angle,
     below,
     dissipation,
@@ -113,13 +114,15 @@ def bead_on_turning_wire(draw: Draw) -> Part:
 
 def bead_on_turning_hoop(draw: Draw) -> Part:
     """A bead on a hoop that is turned evenly about its vertical diameter."""
-    theta, vertical = draw.one_of(("theta", "phi")), upright(draw)
+    theta = draw.one_of(("theta", "phi"))
+    vertical: Vertical = "down"  # from which the drawing counts the angle
     place = (f"R*sin({theta})*cos(Omega*t)", f"R*sin({theta})*sin(Omega*t)", below(vertical, f"R*cos({theta})"))
     hoop = Part(
         title="turning-hoop",
         vertical=vertical,
         told=told("turning-hoop", mass="m", R="R", Omega="Omega", theta=theta),
         coordinates=(angle(theta, 0.8),),
+        view=(-1.5, 1.5, -1.5, 1.6),
         called={"origin": "hoop-centre"},
         points=(point("origin", "0", "0", "0"),),
         bodies=(particle("bead", "m", *place),),
@@ -217,7 +220,6 @@ def rolling_on_incline(draw: Draw) -> Part:
         elements=(
             element("wire", at="contact", coordinate=s),
             element("disc", at="wheel", radius="R"),
-            element("dimension", start="origin", to="contact", coordinate=s),
             element("force", load="weight"),
         ),
     )
@@ -245,6 +247,7 @@ def rolling_in_trough(draw: Draw) -> Part:
         told=told(f"trough-{shape}", mass="m", a="a", R="R", phi=phi),
         kinds={"a": RADIUS},
         coordinates=(angle(phi, 0.8),),
+        view=(-1.5, 1.5, -1.5, 1.5),
         called={"origin": "trough-centre"},
         points=(ORIGIN,),
         bodies=(rigid("wheel", "m", inertia, f"(R - a)*{phi}/a", *centre),),

@@ -57,13 +57,13 @@ def bead_on_curve(draw: Draw) -> Part:
         told=told("bead-on-curve", mass="m", curve=f"y({x}) = {height}", x=x),
         kinds=dict(curve.kinds),
         coordinates=(length(x, 0.7, 1.2),),
-        points=(ORIGIN,),
+        points=(ORIGIN, point("axis", "0", height)),
         bodies=(particle("bead", "m", x, height),),
         elements=(
             element("wire", at="bead", coordinate=x),
             element("force", load="weight"),
             element("bob", at="bead"),
-            element("dimension", start="origin", to="bead", coordinate=x),
+            element("dimension", start="axis", to="bead", coordinate=x),
         ),
     )
     drag = Part(
@@ -124,6 +124,7 @@ def bead_on_helix(draw: Draw) -> Part:
         title="bead-on-helix",
         told=told("bead-on-helix", mass="m", R="R", height=f"a*{phi}", phi=phi),
         coordinates=(angle(phi, 1.0),),
+        view=(-1.6, 1.6, -1.8, 1.9),
         points=(point("origin", "0", "0", "0"),),
         bodies=(particle("bead", "m", f"R*cos({phi})", f"R*sin({phi})", f"a*{phi}"),),
         elements=(
@@ -285,7 +286,6 @@ def on_incline(title: str, vertical: Vertical, mass: str, s: str, start: float) 
         elements=(
             element("wire", at="block", coordinate=s),
             element("block", at="block", width=0.2, height=0.14),
-            element("dimension", start="origin", to="block", coordinate=s),
             element("force", load="weight"),
         ),
     )
@@ -386,7 +386,7 @@ def rope(draw: Draw) -> Part:
         coordinates=(length(x, 0.5, 1.4, least=0.0),),
         points=_pulley(kind),
         bodies=(particle("first", "m1", *first), particle("second", "m2", *second)),
-        elements=_ropes(kind),
+        elements=_ropes(kind, x),
     )
     rope_length = "l2" if kind == "atwood" else "l1"
     return pulley + ending("first", x, f"{rope_length} - {x}") + weight(vertical)
@@ -398,9 +398,10 @@ def _pulley(kind: str) -> tuple[Document, ...]:
     return (point("pulley", "0", "0"),)
 
 
-def _ropes(kind: str) -> tuple[Document, ...]:
+def _ropes(kind: str, x: str) -> tuple[Document, ...]:
     left, right = ("left", "right") if kind == "atwood" else ("pulley", "pulley")
     return (
+        *(() if kind == "atwood" else (element("wire", at="first", coordinate=x),)),
         element("rod", start="first", to=left),
         element("rod", start=right, to="second"),
         element("disc", at="pulley", radius="a" if kind == "atwood" else 0.06),

@@ -133,6 +133,7 @@ def particle_on_surface(draw: Draw) -> Part:
         bodies=(particle("bead", "m", f"{r}*cos({psi})", f"{r}*sin({psi})", height),),
         elements=(
             element("wire", at="bead", coordinate=r),
+            element("wire", at="bead", coordinate=psi),
             element("azimuth", at="origin", to="bead", coordinate=psi),
             element("bob", at="bead"),
             element("trail", at="bead"),
@@ -151,7 +152,7 @@ def particle_on_round_wall(draw: Draw) -> Part:
     """A particle on a sphere or a cylinder, by angles or by height and angle."""
     psi = draw.one_of(("psi", "phi"))
     if draw.chance(0.5):
-        vertical: Vertical = upright(draw)
+        vertical: Vertical = "down"  # from which the drawing counts the angle
         place = (f"l*sin(theta)*cos({psi})", f"l*sin(theta)*sin({psi})", below(vertical, "l*cos(theta)"))
         return Part(
             title="spherical-pendulum",

@@ -36,6 +36,7 @@ class Part:
     guides: tuple[Document, ...] = ()
     events: tuple[Document, ...] = ()
     elements: tuple[Document, ...] = ()
+    view: tuple[float, ...] = ()  # what is shown where the motion does not tell
 
     def __add__(self, other: Part) -> Part:
         return Part(
@@ -52,6 +53,7 @@ class Part:
             guides=self.guides + other.guides,
             events=self.events + other.events,
             elements=self.elements + other.elements,
+            view=self.view or other.view,
         )
 
 
@@ -180,8 +182,13 @@ def document_of(whole: Part, draw: Draw, identifier: str) -> Document:
         "guides": list(whole.guides),
         "events": list(whole.events),
         "labels": {name: _in_each(f"practice.labels.{key}") for name, key in sorted(labels.items())},
-        "drawing": {"vertical": whole.vertical, "elements": list(whole.elements)},
+        "drawing": _drawing(whole),
     }
+
+
+def _drawing(whole: Part) -> Document:
+    view = {"view": list(whole.view)} if whole.view else {}
+    return {"vertical": whole.vertical, **view, "elements": list(whole.elements)}
 
 
 def _constants(whole: Part) -> Iterator[str]:

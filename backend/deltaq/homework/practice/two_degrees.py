@@ -28,6 +28,7 @@ from .parts import (
 from .symbols import LARGE_MASS, Kind
 
 SMALL_ANGLE = 0.6
+STIFF = Part(kinds={"k": Kind("N/m", (40.0, 50.0, 60.0))})
 
 
 def hung_at(
@@ -83,7 +84,8 @@ def cart_with_pendulum(draw: Draw) -> Part:
         loads=(force("F", "cart", "F", "0"),),
         elements=(element("force", load="F"),),
     )
-    return sum(draw.some_of((spring, line_damper(x, "damper-at-cart"), pushed), 2), cart + hung + weight(vertical))
+    options = draw.one_of(((), (spring,), (spring, pushed), (spring, line_damper(x, "damper-at-cart"))))
+    return sum(options, cart + hung + weight(vertical))
 
 
 def block_with_pendulum(draw: Draw) -> Part:
@@ -108,7 +110,7 @@ def block_with_pendulum(draw: Draw) -> Part:
         hung = hung_at(vertical, phi, "block", across=(), down=(y,), as_rod=draw.chance(0.4))
         return block + hung + weight(vertical)
     s = draw.one_of(("s", "u"))
-    block = on_incline("incline-pendulum", vertical, "M", s, -0.6) + slope_spring(vertical, s)
+    block = on_incline("incline-pendulum", vertical, "M", s, 0.2) + slope_spring(vertical, s) + STIFF
     hung = hung_at(vertical, phi, "block", across=(f"{s}*cos(alpha)",), down=(f"{s}*sin(alpha)",), as_rod=False)
     return block + hung + weight(vertical)
 
@@ -281,14 +283,8 @@ def wedge_with_block(draw: Draw) -> Part:
         coordinates=(length(x, 0.0), length(s, 0.3, 1.2)),
         bodies=(particle("wedge", "M", x, "0"),),
     )
-    pushed = Part(
-        told=told("force-at-wedge", F="F"),
-        adds=("force",),
-        loads=(force("F", "wedge", "F", "0"),),
-        elements=(element("force", load="F"),),
-    )
-    options = (wedge_spring(s), pushed, line_damper(x, "damper-at-wedge"))
-    return sum(draw.some_of(options, 2), whole + weight(vertical))
+    held = whole + wedge_spring(s) + weight(vertical)
+    return sum(draw.some_of((line_damper(x, "damper-at-wedge"),), 1), held)
 
 
 def ropes_on_pulleys(draw: Draw) -> Part:
@@ -300,9 +296,10 @@ def ropes_on_pulleys(draw: Draw) -> Part:
         title="double-atwood",
         vertical=vertical,
         told=told("double-atwood", first="m1", second="m2", third="m3", a="a", l1="l1", x=x, y=y),
-        kinds={"a": Kind("m", (0.3, 0.4)), "l1": Kind("m", (1.0, 1.2)), "m1": LARGE_MASS},
+        kinds={"a": Kind("m", (0.3,)), "l1": Kind("m", (1.0, 1.2)), "m1": LARGE_MASS},
         coordinates=(length(x, 0.5, 1.0, least=0.0), length(y, 0.5, 1.0, least=0.0)),
         points=(
+            point("fixed", "0", "0"),
             point("left", "-a", "0"),
             point("right", "a", "0"),
             point("pulley", "a", below(vertical, "l1", f"-{x}")),
@@ -319,6 +316,7 @@ def ropes_on_pulleys(draw: Draw) -> Part:
             element("rod", start="right", to="pulley"),
             element("rod", start="left_rim", to="second"),
             element("rod", start="right_rim", to="third"),
+            element("disc", at="fixed", radius="a"),
             element("disc", at="pulley", radius=0.15),
             *(element("block", at=name, width=0.16, height=0.16) for name in ("first", "second", "third")),
         ),
