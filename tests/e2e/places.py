@@ -178,6 +178,7 @@ PRACTICE = (
     Place("homework-right", EQUATION, QUESTION, answer("l*ddot(phi) + g*sin(phi) = 0"), full=True),
     Place("homework-wrong", EQUATION, QUESTION, answer_and_watch, full=True),
     Place("homework-invalid", EQUATION, QUESTION, answer("l*ddot(psi) + = 0"), full=True, seldom=True),
+    Place("homework-practice", "homework?side=practice&series=ada&level=1&number=3", QUESTION, full=True),
     Place("homework-class", "homework?scene=pendulum&side=class", ".classroom .pick"),
     Place("homework-results", "homework?scene=pendulum&side=class", ".classroom .pick", grade, full=True),
     Place("homework-broken", "homework?scene=pendulum", QUESTION, broken, seldom=True),

@@ -260,27 +260,31 @@ def rolling_in_trough(draw: Draw) -> Part:
     ) + weight(vertical)
 
 
-def heavy_pulley(draw: Draw) -> Part:
-    """Masses on a rope over a pulley with inertia, or a disc that unrolls from its rope."""
+def unrolling_disc(draw: Draw) -> Part:
+    """A disc that unrolls from its rope."""
     x, vertical = draw.one_of(("x", "s", "y")), upright(draw)
-    if draw.chance(0.35):
-        return Part(
-            title="unrolling-disc",
-            vertical=vertical,
-            told=told("unrolling-disc", mass="m", R="R", x=x),
-            kinds={"R": RADIUS},
-            coordinates=(length(x, 0.3, 2.0, least=0.0),),
-            called={"origin": "rope-end"},
-            points=(ORIGIN, point("leaving", "0", below(vertical, x))),
-            bodies=(rigid("wheel", "m", "m*R^2/2", f"{x}/R", "R", below(vertical, x)),),
-            elements=(
-                element("ground", at="origin"),
-                element("rod", start="origin", to="leaving"),
-                element("disc", at="wheel", radius="R"),
-                element("dimension", start="origin", to="leaving", coordinate=x),
-                element("force", load="weight"),
-            ),
-        ) + (ending("wheel", f"2 - {x}") + weight(vertical))
+    return Part(
+        title="unrolling-disc",
+        vertical=vertical,
+        told=told("unrolling-disc", mass="m", R="R", x=x),
+        kinds={"R": RADIUS},
+        coordinates=(length(x, 0.3, 2.0, least=0.0),),
+        called={"origin": "rope-end"},
+        points=(ORIGIN, point("leaving", "0", below(vertical, x))),
+        bodies=(rigid("wheel", "m", "m*R^2/2", f"{x}/R", "R", below(vertical, x)),),
+        elements=(
+            element("ground", at="origin"),
+            element("rod", start="origin", to="leaving"),
+            element("disc", at="wheel", radius="R"),
+            element("dimension", start="origin", to="leaving", coordinate=x),
+            element("force", load="weight"),
+        ),
+    ) + (ending("wheel", f"2 - {x}") + weight(vertical))
+
+
+def heavy_pulley(draw: Draw) -> Part:
+    """Masses on a rope over a pulley with inertia."""
+    x, vertical = draw.one_of(("x", "s", "y")), upright(draw)
     on_table = draw.chance(0.5)
     title = "table-and-heavy-pulley" if on_table else "atwood-heavy-pulley"
     first = ("-l1 + " + x, "0") if on_table else ("-R", below(vertical, x))
@@ -393,6 +397,7 @@ FAMILIES = (
     driven_support,
     rolling_on_incline,
     rolling_in_trough,
+    unrolling_disc,
     heavy_pulley,
     block_on_pushed_wedge,
     drawn_in_pendulum,

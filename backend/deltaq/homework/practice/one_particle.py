@@ -65,30 +65,33 @@ def spring_pendulum(draw: Draw) -> Part:
 
 
 def hole_in_table(draw: Draw) -> Part:
-    """A particle on a table, on a rope through a hole from which a mass hangs; or a swinging Atwood machine."""
+    """A particle on a table, on a rope through a hole from which a mass hangs."""
+    r, phi = draw.one_of(("r", "s")), draw.one_of(("phi", "psi"))
+    return Part(
+        title="hole-in-table",
+        told=told("hole-in-table", first="m", second="M", l="l", r=r, phi=phi),
+        coordinates=(length(r, 0.7, 1.2, least=0.1), angle(phi, 0.0, rate=3.0)),
+        kinds={"l": Kind("m", (1.5, 1.8))},
+        called={"origin": "hole"},
+        points=(point("origin", "0", "0", "0"),),
+        bodies=(
+            particle("bead", "m", f"{r}*cos({phi})", f"{r}*sin({phi})", "0"),
+            particle("hanging", "M", "0", "0", f"{r} - l"),
+        ),
+        elements=(
+            element("rod", start="origin", to="bead"),
+            element("rod", start="origin", to="hanging"),
+            element("bob", at="bead"),
+            element("bob", at="hanging"),
+            element("trail", at="bead"),
+            element("weight", at="hanging"),
+        ),
+    ) + weight("up", 3)
+
+
+def swinging_atwood(draw: Draw) -> Part:
+    """A mass and a pendulum at the two ends of a rope."""
     r = draw.one_of(("r", "s"))
-    if draw.chance(0.5):
-        phi = draw.one_of(("phi", "psi"))
-        return Part(
-            title="hole-in-table",
-            told=told("hole-in-table", first="m", second="M", l="l", r=r, phi=phi),
-            coordinates=(length(r, 0.7, 1.2, least=0.1), angle(phi, 0.0, rate=3.0)),
-            kinds={"l": Kind("m", (1.5, 1.8))},
-            called={"origin": "hole"},
-            points=(point("origin", "0", "0", "0"),),
-            bodies=(
-                particle("bead", "m", f"{r}*cos({phi})", f"{r}*sin({phi})", "0"),
-                particle("hanging", "M", "0", "0", f"{r} - l"),
-            ),
-            elements=(
-                element("rod", start="origin", to="bead"),
-                element("rod", start="origin", to="hanging"),
-                element("bob", at="bead"),
-                element("bob", at="hanging"),
-                element("trail", at="bead"),
-                element("weight", at="hanging"),
-            ),
-        ) + weight("up", 3)
     phi, vertical = draw.one_of(("phi", "theta")), upright(draw)
     return Part(
         title="swinging-atwood",
@@ -224,6 +227,7 @@ def two_springs_in_plane(draw: Draw) -> Part:
 FAMILIES = (
     spring_pendulum,
     hole_in_table,
+    swinging_atwood,
     particle_on_surface,
     particle_on_round_wall,
     two_springs_in_plane,

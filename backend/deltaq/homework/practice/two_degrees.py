@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from .draw import Draw
 from .one_degree import line_damper, on_incline, slope_spring
 from .parts import (
@@ -119,35 +121,18 @@ def chain_of_masses(draw: Draw) -> Part:
     """Two masses in a row with two or three springs, level or hanging, perhaps damped or driven."""
     first, second = draw.one_of((("x1", "x2"), ("s1", "s2"), ("u1", "u2")))
     hanging, third = draw.chance(0.4), draw.chance(0.5)
-    vertical: Vertical = "down" if hanging else "up"
-    place = (lambda way: ("0", way)) if hanging else (lambda way: (way, "0"))
-    springs: list[Document] = [potential("first_spring", f"k1*{first}^2/2")]
-    springs.append(potential("second_spring", f"k2*({second} - {first})^2/2"))
-    if third:
-        springs.append(potential("third_spring", f"k3*{second}^2/2"))
-    ends = ("begin", "first", "second", "end")
-    names = ("first_spring", "second_spring", "third_spring")
+    place: Placing = (lambda way: ("0", way)) if hanging else (lambda way: (way, "0"))
+    kind = "hanging" if hanging else "level"
     whole = Part(
-        title=f"{'hanging' if hanging else 'level'}-chain",
-        vertical=vertical,
-        told=told("chain-hanging" if hanging else "chain-level", first="m1", second="m2", x1=first, x2=second, l1="l1")
-        + told("three-springs" if third else "two-springs", k1="k1", k2="k2", k3="k3"),
+        title=f"{kind}-chain",
+        vertical="down" if hanging else "up",
+        told=told(f"chain-{kind}", first="m1", second="m2", x1=first, x2=second, l1="l1"),
         coordinates=(length(first, 0.25, 0.4), length(second, -0.1, 0.4)),
-        points=(
-            point("begin", *place("-l1")),
-            point("end", *place("2*l1")),
-            point("rest1", *place("0")),
-            point("rest2", *place("l1")),
-        ),
+        points=(point("rest1", *place("0")), point("rest2", *place("l1"))),
         kinds={"l1": Kind("m", (0.8, 0.9, 1.0))},
         bodies=(particle("first", "m1", *place(first)), particle("second", "m2", *place(f"l1 + {second}"))),
-        loads=tuple(springs),
-        elements=tuple(
-            element("spring", start=ends[index], to=ends[index + 1], load=names[index]) for index in range(2 + third)
-        )
-        + tuple(element("block", at=name, width=0.2, height=0.2) for name in ("first", "second"))
-        + tuple(element("ground", at=name, width=0.4) for name in (("begin", "end") if third else ("begin",)))
-        + (
+        elements=(
+            *(element("block", at=name, width=0.2, height=0.2) for name in ("first", "second")),
             element("dimension", start="rest1", to="first", coordinate=first),
             element("dimension", start="rest2", to="second", coordinate=second),
         ),
@@ -163,8 +148,29 @@ def chain_of_masses(draw: Draw) -> Part:
         loads=(force("F", "second", *place("F0*cos(Omega*t)")),),
         elements=(element("force", load="F"),),
     )
-    heavy = whole + weight(vertical) if hanging else whole
+    held = whole + chain_springs(place, first, second, third=third)
+    heavy = held + weight("down") if hanging else held
     return sum(draw.some_of((damper, driven), 1), heavy)
+
+
+Placing = Callable[[str], tuple[str, str]]
+
+
+def chain_springs(place: Placing, first: str, second: str, *, third: bool) -> Part:
+    """The springs of a chain; without the third its end is free."""
+    ends = ("begin", "first", "second", "end")
+    energies = (f"k1*{first}^2/2", f"k2*({second} - {first})^2/2", f"k3*{second}^2/2")[: 2 + third]
+    names = ("first_spring", "second_spring", "third_spring")[: 2 + third]
+    walls = (("begin", "-l1"), ("end", "2*l1"))[: 1 + third]
+    return Part(
+        told=told("three-springs" if third else "two-springs", k1="k1", k2="k2", k3="k3"),
+        points=tuple(point(name, *place(way)) for name, way in walls),
+        loads=tuple(map(potential, names, energies)),
+        elements=(
+            *(element("spring", start=ends[n], to=ends[n + 1], load=name) for n, name in enumerate(names)),
+            *(element("ground", at=name, width=0.4) for name, _ in walls),
+        ),
+    )
 
 
 def double_pendulum(draw: Draw) -> Part:
