@@ -1,7 +1,7 @@
 """One small fault in one module: an operator swapped, a condition settled, a part lost, a number off by one.
 
-They are made in the syntax tree. Left out is what never runs (annotations) and what is no law of the module's own
-(decorators, texts).
+They are made in the syntax tree. Left out is what never runs or has no effect (annotations, names of types) and what
+is no law of the module's own (decorators, texts).
 """
 
 from __future__ import annotations
@@ -40,6 +40,10 @@ SWAPPED: dict[type[ast.AST], tuple[type[ast.AST], ...]] = {
 }
 OTHER_FUNCTION = {"any": "all", "all": "any", "min": "max", "max": "min", "sorted": "list", "abs": "float"}
 NEVER_RUN = {"annotation", "returns", "decorator_list", "type_params"}
+GENERIC = {
+    *("Callable", "Iterable", "Iterator", "Literal", "Mapping", "Sequence"),
+    *("dict", "frozenset", "list", "set", "tuple", "type"),
+}
 NEVER = ast.Constant(value=False)
 ALWAYS = ast.Constant(value=True)
 T = TypeVar("T")
@@ -122,8 +126,14 @@ def _is_no_law(node: ast.AST) -> bool:
     match node:
         case ast.Expr(ast.Constant()) | ast.Import() | ast.ImportFrom() | ast.keyword(arg="strict"):
             return True
-        case ast.Assign([ast.Name("__all__")]) | ast.If(ast.Name("TYPE_CHECKING")):
+        case ast.Assign([ast.Name("__all__")]) | ast.AnnAssign(annotation=ast.Name("TypeAlias")):
             return True
+        case ast.If(ast.Name("TYPE_CHECKING") | ast.Attribute(attr="TYPE_CHECKING")):
+            return True
+        case ast.Assign([ast.Name()], ast.Call(ast.Name("TypeVar"))):
+            return True
+        case ast.Assign([ast.Name()], ast.Subscript(ast.Name(name))):
+            return name in GENERIC
     return False
 
 
@@ -178,7 +188,7 @@ def _faults(node: ast.AST) -> Iterator[ast.AST]:  # one case for each kind of no
             yield from (
                 ast.Call(function, given, _without(named, k)) for k, one in enumerate(named) if one.arg != "strict"
             )
-        case ast.Return(ast.expr()):
+        case ast.Return(ast.expr() as value) if not (isinstance(value, ast.Constant) and value.value is None):
             yield ast.Return(ast.Constant(None))
         case ast.Expr() | ast.Assign() | ast.AugAssign() | ast.Raise() | ast.Break() | ast.Continue():
             yield ast.Pass()

@@ -57,6 +57,30 @@ def test_faults_of_a_function(module: Path) -> None:
     assert not any("__all__" in before or before == "None" for before, _ in found)
 
 
+@pytest.mark.parametrize(
+    ("text", "behaviour"),
+    [
+        ("Law = Callable[[int], int]", False),
+        ("Row = tuple[int, ...]", False),
+        ("Law: TypeAlias = Mapping[str, Literal[1, 2]]", False),
+        ("T = TypeVar('T', bound=int)", False),
+        ("__all__ = ['law', *others[1:]]", False),
+        ("if TYPE_CHECKING:\n    laws = 3", False),
+        ("if typing.TYPE_CHECKING:\n    laws = 3", False),
+        ("def law() -> None:\n    'Says 3.'\n    return None", False),
+        ("law = laws[3]", True),
+        ("law = laws['first']", True),
+        ("law = tuple(laws)", True),
+        ("if CHECKING:\n    laws = 3", True),
+        ("def law() -> int:\n    return one", True),
+    ],
+)
+def test_what_has_no_behaviour_has_no_faults(text: str, behaviour: bool, tmp_path: Path) -> None:
+    file = tmp_path / "text.py"
+    file.write_text(text, encoding="utf-8")
+    assert any(mutants_of(file)) is behaviour
+
+
 def test_each_mutant_runs_and_has_one_fault(module: Path) -> None:
     answers = set()
     for mutant in mutants_of(module):
