@@ -27,6 +27,13 @@ def test_value(value: float, error: float, expected: float) -> None:
     assert not np.signbit(found[0]) or expected < 0
 
 
+@pytest.mark.parametrize("error", [0.0, 1e-12, 1.0])
+def test_doubles_that_are_whole_numbers_by_their_size_stay(error: float) -> None:
+    draw = np.random.default_rng(5)
+    values = np.floor(2.0 ** draw.uniform(52.0, 62.0, 1000))
+    assert rounded(values, np.full(1000, error)).tolist() == values.tolist()
+
+
 def test_vectors_are_rounded_by_their_sample() -> None:
     values, errors = np.array([[1.23456789, 2.0], [1.23456789, 2.0]]), np.array([1e-1, 1e-4])
     assert rounded(values, errors).tolist() == [[1.2346, 2.0], [1.2345679, 2.0]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -78,7 +79,7 @@ def _together(arrays: list[Floats], errors: Floats) -> list[Floats]:
     if not arrays:
         return []
     table = rounded(np.column_stack(arrays), errors)
-    ends = np.cumsum([each[0].size if len(each) else 1 for each in arrays])
+    ends = np.cumsum([math.prod(each.shape[1:]) for each in arrays])
     pieces = np.split(table, ends[:-1], axis=1)
     return [piece.reshape(each.shape) for piece, each in zip(pieces, arrays, strict=True)]
 
