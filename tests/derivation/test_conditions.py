@@ -74,6 +74,27 @@ def test_conditions_in_the_parameters(scene: Scene, expected: list[tuple[str, li
     assert found == [(verdict, *[[ordered(line) for line in lines] for lines in two]) for verdict, *two in expected]
 
 
+@pytest.mark.parametrize(
+    ("coordinates", "energy", "expected"),
+    [
+        pytest.param("x y", "(c-k)*y^2", [("stable", [], ["k < c"])], id="x is free"),
+        pytest.param("y x", "(c-k)*y^2", [("stable", [], ["k < c"])], id="x is free and last"),
+        pytest.param("y x", "(k-c)*y^2", [("unstable", [], ["k < c"])], id="unstable"),
+        pytest.param("y x", "(c-k)^2*y^2", [("stable", [], [])], id="a square has its sign by itself"),
+        pytest.param("y x", "(c-k)^3*y^2", [("stable", [], ["k < c"])], id="a cube has not"),
+        pytest.param("y x", "(c+k*x)*y^2", [], id="the stiffness is another one for each free x"),
+        pytest.param("z y x", "c*z^2+(c+k*x)*y^2", [], id="stable for z only by itself"),
+        pytest.param("z y x", "c*z^2-(c+k*x)*y^2", [], id="unstable for some free x"),
+    ],
+)
+def test_conditions_beside_coordinates_that_are_free(
+    coordinates: str, energy: str, expected: list[tuple[str, list[str], list[str]]]
+) -> None:
+    names = coordinates.split()
+    scene = particle(names, {"c": 3.0, "k": 1.0}, names, {"kind": "potential", "energy": energy})
+    assert told(scene) == expected
+
+
 def written(line: Mapping[str, Mapping[str, str]]) -> str:
     return f"{line['smaller']['plain']} < {line['larger']['plain']}"
 

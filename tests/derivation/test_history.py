@@ -69,6 +69,115 @@ def test_summands_of_a_bracket_have_the_sources_of_the_terms_they_come_from(powe
     assert (bracket, dict(parts)) == (a + b, {a: ("body:one",), b: ("body:two",)})
 
 
+def test_a_bracket_is_told_apart_only_where_its_summands_have_different_sources() -> None:
+    both = ("body:one", "body:two")
+    (term,) = told(line(a * c, b * c, owners=[both, both]), line(c * (a + b)))[-1].terms
+    assert (term.sources, term.inside) == (both, ())
+
+
+def test_a_bracket_of_what_has_no_normal_form_is_not_told_apart() -> None:
+    body = f.MassIntegral(f.Explicit(x), "B", "dm", f.Bounds(y, sp.Integer(0), a), b)
+    before = f.Plus((f.Term(body, ("body:one",)), f.Term(f.Explicit(c), ("body:two",))))
+    (term,) = told(before, line(x * (a + b)))[-1].terms
+    assert [one.change for one in term.origins] == ["integrated", "merged"]
+    assert (term.sources, term.inside) == (("body:one", "body:two"), ())
+
+
+def test_of_terms_alike_each_comes_from_those_of_its_own_body() -> None:
+    owners = [("body:one",), ("body:two", "load:weight"), ("body:two", "load:drag")]
+    terms = (a * x, 2 * a * x, 3 * a * x)
+    last = told(line(*terms, owners=owners), line(*reversed(terms), owners=owners[::-1]))[-1]
+    assert [[one.term for one in term.origins] for term in last.terms] == [
+        ["energy/0.0.2"],
+        ["energy/0.0.1"],
+        ["energy/0.0.0"],
+    ]
+
+
+V, W = f.Named(f.Quantity("velocity"), a * x + b * y), f.Named(f.Quantity("work"), c)
+XD, YD = (sp.Symbol(f"dot({name})", real=True) for name in "xy")
+
+
+def from_known(*members: f.Formula) -> list[list[tuple[int, str]]]:
+    """Of each term of the last member: which terms of v = a x + b y it comes from, and what became of them."""
+    history = History(NormalAlgebra(("x", "y")))
+    first = Step("first", "", (Relation((V, line(a * x, b * y, owners=[("body:one",), ("body:two",)]))),))
+    history.lines(first)
+    ((*_, last),) = history.lines(Step("next", "", (Relation(members),)))
+    known = {"first/0.1.0": 0, "first/0.1.1": 1}
+    return [[(known[one.term], one.change) for one in term.origins if one.term in known] for term in last.terms]
+
+
+def column(*entries: sp.Expr) -> f.Explicit:
+    return f.Explicit(sp.ImmutableMatrix(entries))
+
+
+@pytest.mark.parametrize(
+    ("formula", "value", "found"),
+    [
+        pytest.param(V, line(b * y, a * x), [(1, "kept"), (0, "kept")], id="itself"),
+        pytest.param(f.Rate(V), line(a * XD, b * YD), [(0, "differentiated"), (1, "differentiated")], id="rate"),
+        pytest.param(f.Partial(V, y), line(b), [(1, "differentiated")], id="slope"),
+        pytest.param(
+            f.Times((f.Explicit(c), V)), line(b * c * y, a * c * x), [(1, "expanded"), (0, "expanded")], id="product"
+        ),
+        pytest.param(
+            f.Plus((f.minus(V), f.Term(f.Explicit(c)))),
+            line(c, -a * x, -b * y),
+            [None, (0, "sign-turned"), (1, "sign-turned")],
+            id="difference",
+        ),
+        pytest.param(
+            f.Equation(W, V), f.Equation(line(c, -a * x), line(b * y)),
+            [None, (0, "sign-turned"), (1, "kept")], id="right side of an equation",
+        ),
+        pytest.param(
+            f.Stack((W, V)), column(c, a * x + b * y), [None, (0, "expanded"), (1, "expanded")], id="column"
+        ),
+        pytest.param(
+            f.Dot(f.Stack((V, W)), column(c, a)), line(a * c * x, b * c * y, a * c),
+            [(0, "expanded"), (1, "expanded"), None], id="scalar product from the left",
+        ),
+        pytest.param(
+            f.Dot(column(c, a), f.Stack((V, W))), line(a * c * x, b * c * y, a * c),
+            [(0, "expanded"), (1, "expanded"), None], id="scalar product from the right",
+        ),
+        pytest.param(
+            f.MatrixTimes(f.Explicit(sp.ImmutableMatrix([[c, 0], [0, 1]])), f.Stack((V, W))),
+            column(a * c * x + b * c * y, c), [(0, "expanded"), (1, "expanded"), None], id="vector times matrix",
+        ),
+        pytest.param(f.Called(f.Quantity("action"), V), line(b * y, a * x), [(1, "kept"), (0, "kept")], id="called"),
+        pytest.param(
+            f.Rate(f.Times((f.Explicit(c), V))), line(b * c * YD, a * c * XD),
+            [(1, "differentiated"), (0, "differentiated")], id="rate of a product",
+        ),
+        pytest.param(
+            f.Times((f.Explicit(c), f.Rate(V))), line(b * c * YD, a * c * XD),
+            [(1, "differentiated"), (0, "differentiated")], id="product with a rate",
+        ),
+    ],
+)  # fmt: skip
+def test_terms_come_from_what_an_earlier_step_said_of_a_name(
+    formula: f.Formula, value: f.Formula, found: list[tuple[int, str] | None]
+) -> None:
+    assert from_known(formula, value) == [[one] if one else [] for one in found]
+
+
+def test_sources_of_terms_that_come_from_a_name_are_those_of_its_terms() -> None:
+    """v is of both bodies, a x of one of them."""
+    history = History(NormalAlgebra(("x", "y")))
+    history.lines(Step("first", "", (Relation((V, line(a * x, b * y, owners=[("body:one",), ("body:two",)]))),)))
+    ((whole, last),) = history.lines(Step("next", "", (Relation((V, line(a * x, b * y))),)))
+    assert [term.sources for term in whole.terms] == [("body:one", "body:two")]
+    assert [term.sources for term in last.terms] == [("body:one",), ("body:two",)]
+
+
+def test_what_is_not_equal_comes_from_nothing() -> None:
+    history = History(NormalAlgebra(("x", "y")))
+    ((_, last),) = history.lines(Step("first", "", (Relation((line(a, b), line(a, -b)), "≠"),)))
+    assert [term.origins for term in last.terms] == [(), ()]
+
+
 def test_a_matrix_has_the_terms_of_its_entries() -> None:
     matrix = sp.ImmutableMatrix([a * x + b, c])
     lines = told(f.Explicit(matrix), f.Explicit(sp.ImmutableMatrix([b - a * x, c])))

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import pytest
 from tests.derivation.model_scenes import gravity, heavy_top, particle, spherical_pendulum
 from tests.derivation.textbook_integrals import mass, potential, scene
 
+from deltaq.derivation.rules import relative_equilibrium
 from deltaq.derivation.steady import steady_motions
 from deltaq.derivation.system import System
 from deltaq.mechanics.library import load_scene
@@ -82,3 +84,12 @@ def test_a_slow_top_has_no_regular_precession() -> None:
 def test_uniform_motion_is_no_relative_equilibrium_of_its_own() -> None:
     assert steady_motions(System(load_scene("cart-pendulum"))) == ()
     assert steady_motions(System(load_scene("double-pendulum"))) == ()
+
+
+def test_the_rate_is_told_in_the_unit_of_what_turns() -> None:
+    whole = orbit("-k/r", k=2)
+    r, phi = whole.coordinates
+    whole = replace(whole, coordinates=(replace(r, unit="m"), replace(phi, unit="rad")))
+    (motion,) = steady_motions(System(whole))
+    about = relative_equilibrium.apply(System(whole), motion, 1).about
+    assert (about["coordinate"], about["rate"], about["unit"]) == ("r", "2.669", "rad")  # √(2/(1.3 · 0.6³))

@@ -147,6 +147,15 @@ def test_what_a_change_does_to_the_lagrangian(name: str, outcomes: list[str]) ->
     assert [step.about["outcome"] for step in steps] == outcomes
 
 
+@pytest.mark.parametrize("name", ["Kepler, plane", "projectile", "inverse cube force"])
+def test_a_symmetry_of_all_there_is_names_no_bodies(name: str) -> None:
+    system = System(SYSTEMS[name].scene)
+    steps = [noether.apply(system, each, number) for number, each in enumerate(symmetries(system), 1)]
+    assert [(step.about.get("place"), step.about["symmetry"].endswith("-of")) for step in steps] == [
+        (None, False)
+    ] * len(steps)
+
+
 @pytest.mark.parametrize("name", ["Kepler, plane", "free in the plane", "magnetic field, plane", "projectile"])
 def test_no_sum_of_the_law_has_a_term_that_is_zero(name: str) -> None:
     system = System(SYSTEMS[name].scene)

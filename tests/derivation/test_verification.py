@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 import sympy as sp
+from flint import arb
 
 from deltaq.derivation.engine import derive
 from deltaq.derivation.formula import (
@@ -22,6 +23,7 @@ from deltaq.derivation.formula import (
     Term,
     Times,
 )
+from deltaq.derivation.points import along_motion
 from deltaq.derivation.step import Chapter, Derivation, Relation, Step
 from deltaq.derivation.system import System
 from deltaq.derivation.verification import holds, random_points, verified, verified_step
@@ -163,6 +165,19 @@ def test_a_variation_vanishes_at_both_ends() -> None:
                 assert abs(float(value + slope * s + bend * s * s / 2)) < 1e-12 * float(value)
         assert float(point[start]) < float(point["t"]) < float(point[end])
         assert float(point[end] - point[start]) < 1e-5
+
+
+@pytest.mark.parametrize("later", [sp.Rational(1, 2), sp.Integer(-3)])
+def test_the_motion_goes_on_by_taylor_s_series(later: sp.Rational) -> None:
+    """The last rate that is known stays: q = 2 + 3t + 4t²/2 + 5t³/6 and its derivatives."""
+    h = arb(later.p) / later.q
+    known = {"t": arb(7), "k": arb(9), "q": arb(2), "dot(q)": arb(3), "ddot(q)": arb(4), "dddot(q)": arb(5)}
+    there = along_motion(known, h)
+    time = sp.Symbol("time")
+    path = 2 + 3 * time + 2 * time**2 + sp.Rational(5, 6) * time**3
+    for order, name in enumerate(("q", "dot(q)", "ddot(q)", "dddot(q)")):
+        assert float(there[name]) == pytest.approx(float(path.diff(time, order).subs(time, later)), rel=1e-15)
+    assert (float(there["t"]), float(there["k"])) == (7 + float(later), 9.0)
 
 
 def test_steps_are_found_with_all_below_them_in_reading_order() -> None:
