@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from tests.language.scene_names import read
+from tests.language.test_messages import catalog
 
 from deltaq.errors import ExpressionError
 from deltaq.language.names import Names, Symbol
@@ -59,8 +62,10 @@ CASES = [
 
 
 @pytest.mark.parametrize(("text", "most", "code"), CASES)
-def test_limit(text: Callable[[int], str], most: int, code: str) -> None:
+def test_limit(text: Callable[[int], str], most: int, code: str, root: Path) -> None:
     assert read(text(most), "plain", NAMES) is not None
     with pytest.raises(ExpressionError) as caught:
         read(text(most + 1), "plain", NAMES)
-    assert [problem.code for problem in caught.value.problems] == [code]
+    (problem,) = caught.value.problems
+    assert problem.code == code
+    assert set(re.findall(r"{(\w+)}", catalog(root, "en")[code])) <= problem.parameters.keys()
