@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 
 from deltaq.derivation import formula as f
-from deltaq.derivation.history import History, with_names
+from deltaq.derivation.history import MOST, History, with_names
 from deltaq.derivation.normal_algebra import NormalAlgebra
 from deltaq.derivation.step import Line, Relation, Step
 
@@ -54,6 +54,26 @@ def test_what_two_terms_have_with_opposite_signs_is_in_neither_and_cancelled() -
     lines = told(line(a * x + b, -a * x, c * y), line(b, c * y))
     assert [[one.term for one in term.origins] for term in lines[-1].terms] == [["energy/0.0.0"], ["energy/0.0.2"]]
     assert lines[-1].cancelled == ("energy/0.0.1",)
+
+
+def test_what_cancels_goes_by_pairs() -> None:
+    lines = told(line(a * x, -a * x, a * x, c), line(a * x, c))
+    assert [[one.term for one in term.origins] for term in lines[-1].terms] == [["energy/0.0.2"], ["energy/0.0.3"]]
+    assert lines[-1].cancelled == ("energy/0.0.0", "energy/0.0.1")
+
+
+def test_what_is_opposite_in_one_product_only_is_in_the_sum() -> None:
+    """x (a + b) + x (2b − a) + a x = x (a + 3b)"""
+    assert origins(line(x * (a + b), x * (2 * b - a), a * x), line(x * (a + 3 * b))) == [
+        [("0.0.0", "merged"), ("0.0.1", "merged"), ("0.0.2", "merged")]
+    ]
+
+
+@pytest.mark.parametrize(("number", "is_told"), [(MOST, True), (MOST + 1, False)])
+def test_very_long_lines_are_told_as_a_whole(number: int, is_told: bool) -> None:
+    terms = sp.symbols(f"a:{number}", real=True)
+    last = told(line(*terms), line(*reversed(terms)))[-1]
+    assert {len(term.origins) for term in last.terms} == {int(is_told)}
 
 
 @pytest.mark.parametrize("rest", [sp.Integer(1), c, c * y])

@@ -66,6 +66,30 @@ def test_what_the_search_for_equilibria_says_of_itself(energy: str, outcome: str
     assert int(about["count"]) == count or outcome == "budget"
 
 
+@pytest.mark.parametrize(
+    ("energy", "condition", "equilibria"),
+    [
+        pytest.param("c*x", "none", [], id="a constant force"),
+        pytest.param("c*(x^3/3+x)", "none", [], id="x² + 1 has no root, and that is known"),
+        pytest.param("c*cosh(x-50)", "not-found", [], id="beyond the range"),
+        pytest.param("c*x^2", "text", ["stable"], id="a minimum"),
+        pytest.param("c*(x^3/3-x)", "text", ["stable", "unstable"], id="a minimum and a maximum"),
+        pytest.param("c*x^4", "text", ["stable-by-derivative"], id="a flat minimum"),
+        pytest.param("c*y^2", "free", ["stable-in-the-others"], id="x is free"),
+        pytest.param("-c*y^2", "free", ["unstable"], id="unstable beside x"),
+    ],
+)
+def test_what_is_said_of_equilibria(energy: str, condition: str, equilibria: list[str]) -> None:
+    names = ["x", "y"] if "y" in energy else ["x"]
+    steps = model_steps(particle(names, {"c": 1.0}, [*names, "0"][:2], {"kind": "potential", "energy": energy}))
+    assert steps["equilibrium-condition"].about["outcome"] == condition
+    assert sorted(step.about["outcome"] for step in steps.values() if step.rule == "equilibrium") == equilibria
+
+
+def test_where_no_force_acts_rest_is_everywhere() -> None:
+    assert model_steps(particle(["x"], {}, ["x", "0"]))["equilibrium-condition"].about["outcome"] == "everywhere"
+
+
 def test_a_wrong_jacobi_energy_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     right = System.momentum
     monkeypatch.setattr(System, "momentum", lambda self, q: right(self, q) / 2)
