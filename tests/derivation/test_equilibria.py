@@ -7,10 +7,12 @@ import math
 import pytest
 import sympy as sp
 from tests.derivation.model_scenes import model_steps, particle, rotating_hoop
+from tests.derivation.random_scenes import random_scene
 from tests.derivation.scenes import chain, spring_in_space
 
 from deltaq.derivation.equilibria import search
 from deltaq.derivation.linearization import linearizations
+from deltaq.derivation.result import result_of
 from deltaq.derivation.system import System
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
@@ -178,3 +180,12 @@ def in_a_row(names: str, energy: str) -> Scene:
             "loads": [{"kind": "potential", "energy": energy}],
         }
     )
+
+
+def test_a_pole_of_the_coordinates_is_no_rest_where_a_force_acts_along_the_surface() -> None:
+    """Two rods in space pulled aside, one of them tied to the pivot by a spring: refinement ends beside the poles."""
+    scene = random_scene(9100096)
+    system = System(scene)
+    for found in result_of(system).equilibria:
+        values = [float(value) for value in found.linear.equilibrium.values.values()]
+        assert min(abs(math.sin(values[0])), abs(math.sin(values[2]))) > 1e-6

@@ -18,7 +18,10 @@ TINY = arb(2) ** -260  # keeps the normal equations solvable where roots are not
 
 
 def refined(equations: list[sp.Expr], start: Mapping[sp.Symbol, float]) -> dict[sp.Symbol, sp.Expr] | None:
-    """The root as exact binary fractions that are right to more than 400 bits; None if it does not converge."""
+    """The root as exact binary fractions that are right to more than 400 bits; None if it does not converge.
+
+    What is smaller than its error is 0: beside a pole of coordinates a mass matrix would seem to have an inverse.
+    """
     slopes = [[diff(equation, q) for q in start] for equation in equations]
     with ctx.workprec(BITS):
         point = {q.name: arb(value) for q, value in start.items()}
@@ -28,7 +31,7 @@ def refined(equations: list[sp.Expr], start: Mapping[sp.Symbol, float]) -> dict[
                 return None
             point = {name: (value + d).mid() for (name, value), d in zip(point.items(), step, strict=True)}
             if all(abs(d) < SMALL for d in step):
-                return {q: rational(point[q.name]) for q in start}
+                return {q: rational(point[q.name] if abs(point[q.name]) > SMALL else arb(0)) for q in start}
     return None
 
 

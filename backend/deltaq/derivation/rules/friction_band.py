@@ -18,14 +18,15 @@ RULE = "friction-band"
 
 
 def apply(system: System, linear: Linearization, band: Band, number: int) -> Step:
-    """Both ends, at which the force in one direction vanishes."""
+    """Both ends, at each of which the force in one direction vanishes: the same one, where friction wins in between."""
     (name,) = system.free
     q = system.q(name)
     here = Inserted(Named(Quantity("coordinate", name), q), {**numbers(system), **at_rest(system, linear)})
     low, high = (_written(system, band, end) for end in (band.low, band.high))
     lines = [Relation((low, Inserted(here, numbers(system)), high), "≤")]
-    for force in directions(system) or ():
-        end = min((band.low, band.high), key=lambda value: _gap(system, force, value))
+    forces = directions(system) or ()
+    ends = [(min(forces, key=lambda force: _gap(system, force, end)), end) for end in (band.low, band.high)]
+    for force, end in sorted(ends, key=lambda each: forces.index(each[0])):
         there = (Substituted if band.exact else AtEquilibrium)(Explicit(force), {q: end})
         lines.append(Relation((there if band.exact else Inserted(there, numbers(system)), zero(system))))
     return Step(RULE, str(number), tuple(lines), (), {"number": str(number)}, premises=(f"equilibrium:{number}",))
