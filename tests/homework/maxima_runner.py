@@ -1,7 +1,7 @@
 """Exported questions run in Maxima as STACK runs them: question variables, an answer, feedback variables, the tree.
 
-One process serves any number of questions and answers. Of STACK itself only what the export uses is stood in for: the
-constants pi and e, the answer test AlgEquiv of booleans, and the field's reading of a decimal comma.
+One process serves any number of questions and answers, which stand in Maxima's own syntax as STACK's tests of questions
+do. Of STACK itself only what the export uses is stood in for: the constants pi and e, and AlgEquiv of booleans.
 """
 
 from __future__ import annotations
@@ -50,16 +50,9 @@ def _program(questions: Sequence[tuple[ET.Element, Sequence[str]]]) -> Iterable[
         yield question.findtext("questionvariables/text") or ""
         local = "[score: 0, penalty: 0, note: none]"
         yield f"grade_{number}(ans1) := block({local}, {_tree(question)}, [score, note, penalty])$"
-        comma = question.findtext("decimals") == ","
         for index, answer in enumerate(answers):
-            typed = re.sub(r'(["\\])', r"\\\1", as_read(answer) if comma else answer)
+            typed = re.sub(r'(["\\])', r"\\\1", answer)
             yield f'told("{number} {index}", errcatch(grade_{number}(eval_string("{typed}"))))$'
-
-
-def as_read(answer: str) -> str:
-    """What is typed with decimal commas and semicolons between the parts."""
-    assert "," not in re.sub(r"\d,\d", "", answer), answer
-    return answer.replace(",", ".").replace(";", ",")
 
 
 def _tree(question: ET.Element) -> str:

@@ -66,11 +66,13 @@ def scenes() -> list[str]:
 # --- forms ------------------------------------------------------------------------------------------------------------
 
 
-def forms(book: Workbook, task: Task) -> Iterator[Form]:
+def forms(book: Workbook, task: Task, right_ones: int = RIGHT, wrong_ones: int = WRONG) -> Iterator[Form]:
     """Rewrites and mutations, the wrong answers of misconceptions, and what is peculiar to a form."""
     source = random.Random(f"{book.scene.id}/{task.id}")
-    for right, count in ((True, RIGHT), (False, WRONG)):
+    for right, count in ((True, right_ones), (False, wrong_ones)):
         yield from islice(_random_forms(book, task, source, right=right), count)
+    if not any(book.shown(task)):
+        yield from _beside_zero(book, task)
     for candidate in book.candidates(task)[:: max(1, len(book.candidates(task)) // 3)]:
         yield _form(task, book.short(candidate.parts), candidate.solution.id)
     yield from PECULIAR[task.quantity.form](book, task)
@@ -84,13 +86,21 @@ def _random_forms(book: Workbook, task: Task, source: random.Random, *, right: b
             yield form
 
 
+def _beside_zero(book: Workbook, task: Task) -> Iterator[Form]:
+    """Wrong answers where nothing is right, and so no term of it can be changed."""
+    parts, symbol = book.shown(task), book.solution.q(book.scene.parameters[0].name)
+    for number in range(1, WRONG + 1):
+        yield _form(task, (parts[0] + symbol**number, *parts[1:]), "not zero")
+
+
 def _form(task: Task, parts: Parts, how: str, source: random.Random | None = None) -> Form:
     if task.quantity.form in ("equation", "equations"):
         texts = [_equation(part, source) for part in parts]
         stack = texts[0] if task.quantity.form == "equation" else f"[{', '.join(texts)}]"
         return Form(stack, _own("; ".join(texts)), how)
     stack = value(task, parts)
-    return Form(stack, _own(stack.strip("{}").replace(",", ";") if task.quantity.form == "set" else stack), how)
+    separator = "; " if task.quantity.form == "set" else ", "
+    return Form(stack, _own(stack.strip("{}").replace(",", separator)), how)
 
 
 def _equation(part: sp.Expr, source: random.Random | None) -> str:
@@ -186,23 +196,19 @@ PECULIAR = {
 # --- both grades ------------------------------------------------------------------------------------------------------
 
 
-def compared(scene: str, tasks: Sequence[Task] | None = None, language: str = "en") -> Iterator[Compared]:
-    """Every form of the tasks of a scene, graded twice."""
+def compared(
+    scene: str, tasks: Sequence[Task] = (), right_ones: int = RIGHT, wrong_ones: int = WRONG
+) -> Iterator[Compared]:
+    """Forms of the tasks of a scene (all if none is named), graded twice."""
     book = workbook_of({"scene": scene})
-    given = list(tasks or book.tasks)
-    asked = [task for task in given if task.id not in left_out(given)]
-    found = [list(forms(book, task)) for task in asked]
-    questions = ET.fromstring(quiz(book, asked, language)).findall("question")
-    typed = [[in_language(form.stack, language) for form in each] for each in found]
-    graded = run(list(zip(questions, typed, strict=True)))
+    unasked = left_out(book.tasks)
+    asked = [task for task in tasks or book.tasks if task.id not in unasked]
+    found = [list(forms(book, task, right_ones, wrong_ones)) for task in asked]
+    typed = [[form.stack for form in each] for each in found]
+    graded = run(list(zip(ET.fromstring(quiz(book, asked, "en")), typed, strict=True)))
     for task, each, scores in zip(asked, found, graded, strict=True):
         for form, score in zip(each, scores, strict=True):
             yield _compared(scene, task, form, score)
-
-
-def in_language(text: str, language: str) -> str:
-    """Maxima's text as it is typed where numbers have a comma."""
-    return text if language == "en" else text.replace(",", ";").replace(".", ",")
 
 
 def _compared(scene: str, task: Task, form: Form, score: Graded) -> Compared:
@@ -215,17 +221,30 @@ def main(names: Iterable[str]) -> None:
     """Print every difference, and how many there are."""
     whole: Counter[str] = Counter()
     for scene in names:
-        started, seen = time.perf_counter(), Counter[str]()
-        for each in compared(scene):
-            seen["alike" if each.alike else "different"] += 1
-            seen[each.outcome] += 1
+        started, found = time.perf_counter(), list(compared(scene))
+        for each in found:
             if not each.alike:
-                form = each.form
-                grade = f"{each.outcome} {each.share:.3f}, STACK {each.stack.score:.3f} {each.stack.note}"
-                print(f"{scene} {each.task} [{form.how}] {grade}: {form.stack[:160]}", flush=True)
+                print(_difference(each), flush=True)
+        seen = counted(found)
         whole += seen
         print(f"{scene}: {dict(seen)} in {time.perf_counter() - started:.0f} s", flush=True)
-    print(f"{whole['alike']} of {whole['alike'] + whole['different']} alike; {dict(whole)}")
+    print(f"all: {dict(whole)}")
+
+
+def _difference(each: Compared) -> str:
+    grade = f"{each.outcome} {each.share:.3f}, STACK {each.stack.score:.3f} {each.stack.note}"
+    return f"{each.scene} {each.task} [{each.form.how}] {grade}: {each.form.stack[:200]}"
+
+
+def counted(found: Sequence[Compared]) -> Counter[str]:
+    """How many answers are alike and different, right and not; how many tasks, and how many have few of either."""
+    right = Counter(each.task for each in found if each.outcome == "correct")
+    every = Counter(each.task for each in found)
+    few = sum(right[task] < RIGHT or every[task] - right[task] < WRONG for task in every)
+    alike = sum(each.alike for each in found)
+    right_ones = right.total()
+    figures = {"alike": alike, "different": len(found) - alike, "right": right_ones, "other": len(found) - right_ones}
+    return Counter({**figures, "tasks": len(every), "tasks of few": few})
 
 
 if __name__ == "__main__":

@@ -47,3 +47,25 @@ def test_a_frequency_that_is_right_for_a_length_of_one_metre_only_earns_nothing(
     """The pendulum of the library is 1 m long."""
     asked = {"scene": "pendulum", "task": "eigenfrequencies", "answer": {"value": answer}, "lang": "en"}
     assert check_request(asked)["share"] == share
+
+
+@pytest.mark.parametrize(
+    ("scene", "answer", "share"),
+    [
+        pytest.param(
+            "pendulum-with-moment", "((m*g*l)^2 - M^2)^(1/4)/(l*sqrt(m)); 1", 0.5, id="not real where m g l < M"
+        ),
+        pytest.param("pendulum-with-moment", "2*((m*g*l)^2 - M^2)^(1/4)/(l*sqrt(m)); 1", 0.0, id="nor is its double"),
+        pytest.param("two-mass-oscillator", "sqrt(k/m)*(sin(x1)^2 + cos(x1)^2); 1", 0.5, id="motion that cancels"),
+        pytest.param("two-mass-oscillator", "sqrt(k/m)*sin(x1)^2; 1", 0.0, id="motion that stays"),
+    ],
+)
+def test_a_frequency_is_right_in_any_form_that_the_whole_answer_may_have(scene: str, answer: str, share: float) -> None:
+    asked = {"scene": scene, "task": "eigenfrequencies", "answer": {"value": answer}, "lang": "en"}
+    assert check_request(asked)["share"] == share
+
+
+@pytest.mark.parametrize(("answer", "share"), [("[x, 0]", 1.0), ("[x, 1]", 0.0), ("[2*x, 0]", 0.0)])
+def test_a_component_that_should_be_zero_and_is_not_costs_what_another_earns(answer: str, share: float) -> None:
+    asked = {"scene": "cart-pendulum", "task": "position:cart", "answer": {"value": answer}, "lang": "en"}
+    assert check_request(asked)["share"] == share

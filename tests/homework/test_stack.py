@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import re
+from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
 
+from deltaq.cli import main
 from deltaq.errors import RequestError
 from deltaq.homework.stack.maxima import maxima, maxima_name
 from deltaq.homework.stack.question import quiz
@@ -170,3 +173,60 @@ def test_an_export_of_nothing_that_stack_can_judge_is_refused() -> None:
     (problem,) = caught.value.problems
     assert (problem.code, problem.pointer) == ("stack-none", "/tasks")
     assert problem.parameters["tasks"] == "equilibria, stability:1"
+
+
+def test_names_hold_no_tex(exported: tuple[Workbook, list]) -> None:
+    for question in exported[1]:
+        assert not re.search(r"[\\${}^_]", content(question, "name/text"))
+    assert set("φ₂") & set("".join(content(question, "name/text") for question in exported[1]))
+
+
+def test_what_can_be_typed_says_nothing_of_the_answer(exported: tuple[Workbook, list]) -> None:
+    """All questions about a scene name the same coordinates, rates, accelerations and parameters."""
+    workbook, questions = exported
+    solution = workbook.solution
+    kinds = (solution.q, solution.rate, solution.acceleration)
+    named = {maxima_name(kind(q).name) for kind in kinds for q in solution.coordinates}
+    named |= {maxima_name(parameter.name) for parameter in workbook.scene.parameters}
+    for question in questions:
+        told = content(question, "questiontext/text")
+        listed = set(re.findall(r"<code>(\w+)</code>", told))
+        assert listed >= named
+        allowed = content(question, "input/allowwords").split(",")
+        assert set(allowed) == {name for name in listed if len(name) > 2}
+        for name in listed:
+            assert f"texput({name}, " in content(question, "questionvariables/text")
+        assert r"\dot{" in told
+
+
+def test_the_decimal_sign_is_that_of_the_language() -> None:
+    workbook = workbook_of({"scene": "two-mass-oscillator"})
+    for language, sign, example in (("de", ",", "{a; b}"), ("en", ".", "{a, b}")):
+        (question,) = ET.fromstring(quiz(workbook, [workbook.task("eigenfrequencies")], language))
+        assert content(question, "decimals") == sign
+        shown = re.sub(r"&#(\d+);", lambda found: chr(int(found[1])), content(question, "questiontext/text"))
+        assert example in shown
+
+
+SHEET = {
+    "format": 1,
+    "title": "Blatt 3/4: $x$",
+    "tasks": [
+        {"scene": "pendulum", "task": "equation:phi", "points": 5},
+        {"scene": "pendulum", "task": "stability:1"},
+        {"scene": "two-mass-oscillator", "task": "eigenfrequencies"},
+    ],
+}
+
+
+def test_a_whole_assignment_is_one_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source, output = tmp_path / "sheet.json", tmp_path / "sheet.xml"
+    source.write_text(json.dumps(SHEET), encoding="utf-8")
+    main(["export-stack", "--assignment", str(source), "--output", str(output), "--lang", "de"])
+    category, *questions = ET.parse(output).getroot()
+    assert (category.attrib, content(category, "category/text")) == ({"type": "category"}, "$course$/top/Blatt 3//4: x")
+    told = [(content(question, "questionnote/text"), content(question, "defaultgrade")) for question in questions]
+    assert told == [("pendulum, equation:phi", "5"), ("two-mass-oscillator, eigenfrequencies", "2")]
+    first, second = capsys.readouterr().out.splitlines()
+    assert first == f"2 → {output}"
+    assert second.endswith(": stability:1")

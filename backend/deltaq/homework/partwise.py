@@ -11,7 +11,7 @@ from types import MappingProxyType
 import sympy as sp
 
 from ..vocabulary import PartOutcome
-from .equality import Parts
+from .equality import Parts, frequencies
 from .equality.frequencies import ROUNDED, number_of
 from .sampling import close, defined, echelon
 from .task import Task
@@ -31,13 +31,15 @@ def part_share(workbook: Workbook, task: Task, given: Parts) -> float:
 
 
 def _share_of_components(workbook: Workbook, task: Task, given: Parts) -> float:
-    """What is zero is no work; it earns nothing."""
+    """What is zero is no work and earns nothing; what should be and is not takes one away."""
     right = workbook.right(task)
     if len(given) != len(right):
         return 0.0
     asked = [k for k, true in enumerate(right) if any(workbook.sampler.values(true))]
     outcomes = _components(workbook, task, given)
-    return sum(outcomes[k] == "correct" for k in asked) / max(1, len(asked))
+    found = sum(outcomes[k] == "correct" for k in asked)
+    wrong = sum(told != "correct" for k, told in enumerate(outcomes) if k not in asked)
+    return max(0, found - wrong) / max(1, len(asked))
 
 
 def _share_of_equations(workbook: Workbook, task: Task, given: Parts) -> float:
@@ -94,13 +96,16 @@ def _frequencies(workbook: Workbook, task: Task, given: Parts) -> tuple[PartOutc
 
 
 def _same_frequency(workbook: Workbook, own: sp.Expr, right: sp.Expr) -> bool:
+    """By numbers, and exactly where the right one is not real at the sampling point."""
     a, b = (number_of(part, workbook.solution) for part in (own, right))
     if not abs(a - b) <= ROUNDED * abs(b):
         return False
     if not own.free_symbols:
         return True
     mine, theirs = (workbook.sampler.values(part) for part in (own, right))
-    return defined(mine) and defined(theirs) and close(mine, theirs)
+    if not defined(theirs):
+        return frequencies.same((own,), (right,), workbook.solution).equal is True
+    return defined(mine) and close(mine, theirs)
 
 
 DECIDED: Mapping[str, Callable[[Workbook, Task, Parts], tuple[PartOutcome, ...]]] = MappingProxyType(

@@ -180,11 +180,13 @@ def _none(_workbook: Workbook, _task: Task) -> str:
 
 
 def _components(workbook: Workbook, task: Task) -> str:
-    """Of the components other than zero."""
+    """Of the components other than zero; one that should be zero and is not takes one away."""
     parts = workbook.shown(task)
-    asked = [k for k, part in enumerate(parts) if any(workbook.sampler.values(part))]
-    tests = (f"dq_near(dq_all_points({OWN}[{k + 1}]),dq_all_points({maxima(parts[k])}))" for k in asked)
-    return f"dq_count({_listed(tests)})/{max(1, len(asked))}"
+    near = [f"dq_near(dq_all_points({OWN}[{k}]),dq_all_points({maxima(part)}))" for k, part in enumerate(parts, 1)]
+    is_asked = [any(workbook.sampler.values(part)) for part in parts]
+    asked = [test for test, counts in zip(near, is_asked, strict=True) if counts]
+    zero = [f"not {test}" for test, counts in zip(near, is_asked, strict=True) if not counts]
+    return f"max(0,dq_count({_listed(asked)})-dq_count({_listed(zero)}))/{max(1, len(asked))}"
 
 
 def _equations(workbook: Workbook, task: Task) -> str:

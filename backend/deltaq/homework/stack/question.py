@@ -21,7 +21,7 @@ from ...mechanics.user_text import UserText, in_language, translated
 from ...narration.catalog import text
 from ...narration.prose import CatalogText, joined, pieces, words
 from ..assignment import resolved
-from ..equality import symmetry
+from ..equality import Parts, symmetry
 from ..equality.frequencies import number_of
 from ..feedback import about_texts
 from ..partwise import DECIDED, part_share
@@ -249,13 +249,21 @@ def _nodes(workbook: Workbook, task: Task, language: str) -> Iterable[Node]:
 
 
 def _partly_right(workbook: Workbook, task: Task) -> Iterable[tuple[str, float]]:
-    """An answer of which one part is right, if it has several."""
-    parts = workbook.shown(task)
-    if task.quantity.form in DECIDED:
-        changed = (parts[0], *(part + 7 for part in parts[1:])) if task.quantity.form == "vector" else parts[:1]
-        share = part_share(workbook, task, changed) if len(parts) > 1 else 0.0
+    """An answer of which one part is right, if there is one."""
+    for changed in _one_right(task, workbook.shown(task)):
+        share = part_share(workbook, task, changed)
         if 0 < share < 1:
             yield value(task, changed), share
+            return
+
+
+def _one_right(task: Task, parts: Parts) -> Iterable[Parts]:
+    """Answers that keep one part: the others are changed, missing, or, where there are none, one too many."""
+    if task.quantity.form == "vector":
+        for kept in parts:
+            yield tuple(part if part in (0, kept) else part + 7 for part in parts)
+    elif task.quantity.form in DECIDED:
+        yield parts[:1] if len(parts) > 1 else (*parts, 2 * parts[0])
 
 
 def _different(workbook: Workbook, task: Task) -> Iterable[Candidate]:
