@@ -85,6 +85,14 @@ def mark_class(page: Page) -> None:
     expect(page.locator(".all-results tbody tr")).to_have_count(1)
 
 
+def miss(page: Page) -> None:
+    """A mistake, which will come back: the list of what does has an entry."""
+    page.locator(".answer-head .segments button").last.click()
+    page.locator("textarea.entry").fill("m*s'^2")
+    page.locator(".answering button.main").click()
+    page.locator(".lessons li").wait_for()
+
+
 def hand_in(page: Page) -> None:
     """What is there to be handed in on a sheet with a deadline."""
     sheet = {"format": 1, "deadline": "2099-01-01", "tasks": [{"scene": "pendulum", "task": "equation:phi"}]}
@@ -124,6 +132,9 @@ PLACES = [
     pytest.param("homework?scene=pendulum&side=class", ".classroom .pick", mark_class, id="homework of a class"),
     pytest.param("homework?scene=pendulum&side=sheet", ".catalogue .katex", pick, id="homework, a sheet in the making"),
     pytest.param("homework?scene=pendulum&side=handin", ".files-of-work input", hand_in, id="homework, handed in"),
+    pytest.param(
+        "homework?side=practice&series=ada&level=1&number=3", ".question .of-system", miss, id="homework, practice"
+    ),
     pytest.param("docs?", ".calls article", nothing, id="reference"),
     pytest.param("help?", ".guide article", nothing, id="help"),
     pytest.param("docs/try?", ".trial textarea", send, id="trial of the API"),

@@ -34,7 +34,7 @@ RECALLED = [
     ("gravity-sign", "potential-energy", 1),
     ("half-in-kinetic-energy", "kinetic-energy", 3),
     ("force-components-swapped", "virtual-work", 1),
-    ("energy-slope-dropped", "equation", 2),
+    ("energy-slope-dropped", "equation", 4),
     ("guide-velocity-missing", "kinetic-energy", 5),
     ("time-term-kept", "virtual-displacement", 5),
     ("mixed-term-missing", "kinetic-energy", 3),

@@ -62,8 +62,8 @@ function deskOf(view, entry) {
       answering.type(0, textOf(next));
       const root = from.closest(".ordering");
       const button = from.closest("[data-move]")?.getAttribute("data-move") ?? "";
-      // Where the block stands now is drawn in the next turn.
-      requestAnimationFrame(() => focus(root, block.id, button));
+      // After the page is drawn anew, which is due first, and before the next key could come.
+      queueMicrotask(() => focus(root, block.id, button));
       announce(told(next, block, t));
     },
   };

@@ -41,12 +41,14 @@ function level({ state, t, exercise }, session) {
 function lessons({ state, t }, session, nameOf) {
   const { memory } = session.get();
   const now = session.now();
-  const waiting = due(memory, now).length;
+  const at = state.sheet?.recalled;
+  const waiting = due(memory, now).filter(({ id }) => id !== at).length;
+  const none = due(memory, now).length ? "practice.at-hand" : "practice.none-due";
   const { lang } = state.asked.place;
   return html`<div class="lessons"><h2>${t("practice.back")}</h2>
     ${
       memory.lessons.length
-        ? html`<p class="so">${waiting ? t(waiting === 1 ? "practice.due-one" : "practice.due", { count: waiting }) : t("practice.none-due")}</p>
+        ? html`<p class="so">${waiting ? t(waiting === 1 ? "practice.due-one" : "practice.due", { count: waiting }) : t(none)}</p>
       <ul>${ahead(memory).map(({ id, card }) => html`<li data-due=${String(card.due <= now)}><span>${prose(nameOf(id))}</span><time datetime=${card.due.toISOString()}>${card.due <= now ? t("practice.now") : moment(card.due, now, lang)}</time></li>`)}</ul>`
         : html`<p class="so">${t("practice.nothing-back")}</p>`
     }</div>`;

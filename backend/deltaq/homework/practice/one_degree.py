@@ -138,7 +138,7 @@ def bead_on_helix(draw: Draw) -> Part:
         adds=("spring",),
         loads=(potential("spring", f"k*(a*{phi})^2/2"),),
     )
-    return sum(draw.some_of((spring,), 1), bead + weight("up", 3))
+    return sum(draw.some_of((spring,), 1), bead + ending("bead", f"{phi} + 3") + weight("up", 3))
 
 
 @dataclass(frozen=True)
