@@ -10,7 +10,9 @@ from pathlib import Path
 
 import pytest
 from tests.bundling import bundle_of
-from tests.order import durations, in_order, needs_kernels
+from tests.order import ByFile, durations, in_order, needs_kernels
+from xdist.remote import Producer
+from xdist.scheduler import LoadFileScheduling
 
 from deltaq.api.workers.kernels import are_compiled, folder
 
@@ -36,6 +38,10 @@ def kernels() -> None:
 def pytest_xdist_auto_num_workers() -> int:
     """Two more than there are cores: some always wait, for a browser, a service or a deadline."""
     return (os.cpu_count() or 1) + 2
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> LoadFileScheduling:
+    return ByFile(config, log)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -6,13 +6,20 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+from xdist.scheduler import LoadFileScheduling
+
+ROOT = Path(__file__).parents[1]
 DURATIONS = Path(__file__).with_name("durations.json")
+SHARING = re.compile(r"^from tests(\.derived import | import derived)", re.MULTILINE)
+SHARED = "tests of shared derivations"
 SHORT = 3.0  # seconds: a file below is not worth naming
 # Whatever stands here moves scenes by compiled kernels, or has a service do so.
 MOVING = (
@@ -29,6 +36,20 @@ MOVING = (
 
 def needs_kernels(file: str) -> bool:
     return file.startswith(MOVING)
+
+
+@cache
+def reads_shared_derivations(file: str) -> bool:
+    """Whether tests of a file read the derivations that `tests/derived.py` makes once for each process."""
+    return bool(SHARING.search((ROOT / file).read_text(encoding="utf-8")))
+
+
+class ByFile(LoadFileScheduling):
+    """Each worker gets whole files, and one of them all those that share what is derived."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file: str = super()._split_scope(nodeid)
+        return SHARED if reads_shared_derivations(file) else file
 
 
 def in_order(files: Iterable[str], seconds: Mapping[str, float]) -> list[str]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from tests.order import SHORT, durations, in_order, measured, needs_kernels
+from tests.order import SHORT, durations, in_order, measured, needs_kernels, reads_shared_derivations
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -40,3 +40,15 @@ def test_what_is_known_of_the_files_has_not_grown_old(root: Path) -> None:
     there = [file for file in known if (root / file).is_file()]
     assert len(there) >= 0.8 * len(known) > 0
     assert list(known.values()) == sorted(known.values(), reverse=True)
+
+
+@pytest.mark.parametrize(
+    ("file", "shares"),
+    [
+        ("tests/narration/test_derive.py", True),
+        ("tests/narration/test_shown_forms.py", True),
+        ("tests/derivation/test_symmetry.py", False),
+    ],
+)
+def test_files_that_read_shared_derivations_go_to_one_worker(file: str, shares: bool) -> None:
+    assert reads_shared_derivations(file) is shares

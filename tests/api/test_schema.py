@@ -17,7 +17,7 @@ def service() -> Iterator[Served]:
 
 
 DOCUMENTS = ("SceneDocument", "AssignmentDocument")  # one reader for all operations: it is enough to be asked once
-READING = "/(scenes/validate|expressions|tasks|assignments)$"
+READING = "/(scenes/validate|assignments)$"
 
 
 @pytest.mark.slow

@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import cache
 
 import pytest
 import sympy as sp
+from tests.derived import derived
 
-from deltaq.derivation.engine import derive, formulation_names
+from deltaq.derivation.engine import formulation_names
 from deltaq.derivation.formula import Explicit, Named, Partial, Plus, Quantity, Rate, Term, minus
 from deltaq.derivation.normal_algebra import NormalAlgebra
 from deltaq.derivation.proof import prove
 from deltaq.derivation.result import result_of
 from deltaq.derivation.result_history import result_origins
-from deltaq.derivation.step import Derivation, Relation, Step, Summand
+from deltaq.derivation.step import Relation, Step, Summand
 from deltaq.derivation.system import System
-from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.library import scene_ids
 
 ROADS = [(scene, road) for scene in scene_ids() for road in formulation_names()]
 # What restates the scene, or a law of its own, rests on nothing that is said before.
@@ -26,11 +26,6 @@ FIRST = {
     "position", "guide", "work-of-potential", "work-of-dissipation", "work-of-moment", "exchange-of-variation",
     "generalized-force",  # where nothing acts on the coordinate
 }  # fmt: skip
-
-
-@cache
-def told(scene: str, road: str) -> tuple[System, Derivation]:
-    return derive(load_scene(scene), road)
 
 
 def terms(step: Step) -> Iterator[Summand]:
@@ -45,7 +40,7 @@ def algebra_of(system: System) -> NormalAlgebra:
 def test_nine_of_ten_steps_are_proved_and_nearly_all_terms_have_a_history() -> None:
     kinds, with_history, all_terms = Counter[str](), 0, 0
     for scene, road in ROADS:
-        for step in told(scene, road)[1].steps():
+        for step in derived(scene, road)[1].steps():
             kinds[step.evidence.kind] += 1
             later = [term for members in step.lines for line in members[1:] for term in line.terms]
             counting = [term for term in later if getattr(term.shown, "value", None) != 0]
@@ -74,7 +69,7 @@ def test_a_step_rests_on_steps_before_it(scene: str, road: str) -> None:
         assert {origin.term.rpartition("/")[0] for term in terms(step) for origin in term.origins} <= seen | {step.id}
         seen.add(step.id)
 
-    for chapter in told(scene, road)[1].chapters:
+    for chapter in derived(scene, road)[1].chapters:
         for step in chapter.steps:
             check(step)
 
@@ -82,7 +77,7 @@ def test_a_step_rests_on_steps_before_it(scene: str, road: str) -> None:
 @pytest.mark.parametrize(("scene", "road"), ROADS)
 def test_an_equation_rests_on_all_bodies_and_loads(scene: str, road: str) -> None:
     """Going back from step to step meets what each load does, and the position of each body."""
-    system, derivation = told(scene, road)
+    system, derivation = derived(scene, road)
     known = {step.id: step for step in derivation.steps()}
     for equation in [step for step in known.values() if step.rule == "equation"]:
         seen: dict[str, Step] = {}
@@ -99,7 +94,7 @@ def test_an_equation_rests_on_all_bodies_and_loads(scene: str, road: str) -> Non
 @pytest.mark.parametrize("scene", ["double-pendulum", "elastic-pendulum", "foucault", "heavy-top", "quarter-car"])
 def test_no_false_relation_is_proved(scene: str) -> None:
     """Each member that is written out is changed in one term, by the sign or by a factor."""
-    system, derivation = told(scene, "hamilton")
+    system, derivation = derived(scene, "hamilton")
     algebra = algebra_of(system)
     tried = 0
     for step in derivation.steps():
@@ -129,7 +124,7 @@ def test_the_sign_of_an_unequal_relation_is_proved_only_if_it_is_true() -> None:
 @pytest.mark.parametrize(("scene", "road"), ROADS)
 def test_histories_lead_to_where_bodies_and_loads_come_in(scene: str, road: str) -> None:
     """The sources of terms are found on another way: each is met alone, at a step or at a term, on the way back."""
-    _, derivation = told(scene, road)
+    _, derivation = derived(scene, road)
     known = {term.id: (step, term) for step in derivation.steps() for term in terms(step)}
 
     def back(name: str, seen: set[str]) -> Iterator[tuple[str, ...]]:
@@ -149,7 +144,7 @@ def test_histories_lead_to_where_bodies_and_loads_come_in(scene: str, road: str)
 
 def test_what_became_of_each_term_of_the_pendulum() -> None:
     """m l² φ̈ + m g l sin φ = 0 from d/dt p = m l² φ̈ and ∂L/∂φ = −m g l sin φ."""
-    _, derivation = told("pendulum", "dalembert-lagrange")
+    _, derivation = derived("pendulum", "dalembert-lagrange")
     (step,) = (step for step in derivation.steps() if step.rule == "equation")
     inertia, weight = step.lines[0][-1].terms
     assert [(o.term, o.change) for o in inertia.origins if not o.term.startswith("equation")] == [
@@ -161,9 +156,9 @@ def test_what_became_of_each_term_of_the_pendulum() -> None:
     assert step.premises[:2] == ("momentum-rate:phi", "lagrangian-slope:phi")
 
 
-def test_what_cancels_between_two_parts_is_told() -> None:
+def test_what_cancels_between_two_parts_is_derived() -> None:
     """φ̇₁ φ̇₂ sin(φ₁ − φ₂) stands in d/dt p₁ and in ∂L/∂φ₁, and not in the equation."""
-    _, derivation = told("double-pendulum", "dalembert-lagrange")
+    _, derivation = derived("double-pendulum", "dalembert-lagrange")
     steps = {step.id: step for step in derivation.steps()}
     cancelled = [name for line in steps["equation:phi1"].lines[0] for name in line.cancelled]
     found = {term.id: term for step in steps.values() for term in terms(step)}
@@ -190,7 +185,7 @@ def test_nearly_all_terms_of_results_have_a_history_in_the_steps() -> None:
     """The terms they come from are there, and have the bodies and loads of the term among theirs."""
     with_history = all_terms = 0
     for scene in scene_ids():
-        system, derivation = told(scene, "dalembert-lagrange")
+        system, derivation = derived(scene, "dalembert-lagrange")
         known = {term.id: term for step in derivation.steps() for term in terms(step)}
         sums = result_of(system).terms
         found = result_origins(derivation, system, sums)
@@ -205,7 +200,7 @@ def test_nearly_all_terms_of_results_have_a_history_in_the_steps() -> None:
 
 
 def test_what_became_of_terms_in_results() -> None:
-    system, derivation = told("double-pendulum", "dalembert-lagrange")
+    system, derivation = derived("double-pendulum", "dalembert-lagrange")
     sums = result_of(system).terms
     found = result_origins(derivation, system, sums)
 

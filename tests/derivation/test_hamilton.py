@@ -6,6 +6,7 @@ import dataclasses
 
 import pytest
 from tests.derivation.scenes import spring_in_space
+from tests.derived import derived as library
 
 from deltaq.derivation.action import action
 from deltaq.derivation.engine import derive, formulation_names
@@ -16,19 +17,17 @@ from deltaq.derivation.step import Derivation, Relation, Step
 from deltaq.derivation.system import System
 from deltaq.derivation.verification import random_points, verified_step
 from deltaq.mechanics.library import load_scene, scene_ids
-from deltaq.mechanics.scene import Scene
 
 OWN = {"spring in space": spring_in_space()}
-
-
-def scene_of(name: str) -> Scene:
-    return OWN[name] if name in OWN else load_scene(name)
 
 
 @pytest.fixture(scope="module", params=[*scene_ids(), *OWN])
 def derived(request: pytest.FixtureRequest) -> dict[str, tuple[System, Derivation]]:
     """A scene by each formulation; its tests follow each other."""
-    return {formulation: derive(scene_of(request.param), formulation) for formulation in formulation_names()}
+    return {
+        formulation: derive(OWN[scene], formulation) if (scene := request.param) in OWN else library(scene, formulation)
+        for formulation in formulation_names()
+    }
 
 
 def test_it_leads_to_the_same_equations(derived: dict[str, tuple[System, Derivation]]) -> None:
@@ -61,7 +60,7 @@ CHAPTERS = {
 
 @pytest.mark.parametrize("formulation", formulation_names())
 def test_chapters(formulation: str) -> None:
-    _, derivation = derive(load_scene("elastic-pendulum"), formulation)
+    _, derivation = library("elastic-pendulum", formulation)
     assert " ".join(chapter.id for chapter in derivation.chapters) == CHAPTERS[formulation]
 
 

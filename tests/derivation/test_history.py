@@ -56,6 +56,23 @@ def test_what_two_terms_have_with_opposite_signs_is_in_neither_and_cancelled() -
     assert lines[-1].cancelled == ("energy/0.0.1",)
 
 
+@pytest.mark.parametrize(
+    ("left", "right", "found"),
+    [
+        pytest.param([a * x], [c, -b * y], ["kept 0", "kept 2", "sign-turned 1"], id="to the right"),
+        pytest.param([a * x, b * y, -c], [0], ["kept 0", "kept 1", "sign-turned 2"], id="to the left"),
+        pytest.param([-a * x, -b * y], [-c], ["sign-turned 0", "sign-turned 1", "sign-turned 2"], id="times −1"),
+        pytest.param([c], [a * x, b * y], ["kept 2", "kept 0", "kept 1"], id="the other way round"),
+    ],
+)
+def test_terms_of_an_equation_turn_their_signs_as_they_are_written(
+    left: list[sp.Expr], right: list[sp.Expr], found: list[str]
+) -> None:
+    """a x + b y = c in other words."""
+    last = origins(f.Equation(line(a * x, b * y), line(c)), f.Equation(line(*left), line(*map(sp.sympify, right))))
+    assert [[f"{change} {name[-1]}" for name, change in term] for term in last] == [[one] for one in found]
+
+
 def test_what_cancels_goes_by_pairs() -> None:
     lines = told(line(a * x, -a * x, a * x, c), line(a * x, c))
     assert [[one.term for one in term.origins] for term in lines[-1].terms] == [["energy/0.0.2"], ["energy/0.0.3"]]

@@ -86,6 +86,12 @@ def test_what_is_said_of_equilibria(energy: str, condition: str, equilibria: lis
     assert sorted(step.about["outcome"] for step in steps.values() if step.rule == "equilibrium") == equilibria
 
 
+@pytest.mark.parametrize(("power", "degree"), [(2, None), (4, "4"), (6, "6")])
+def test_a_degree_is_told_where_the_second_derivatives_do_not_decide(power: int, degree: str | None) -> None:
+    steps = model_steps(particle(["x"], {"c": 1.0}, ["x", "0"], {"kind": "potential", "energy": f"c*x^{power}"}))
+    assert steps["equilibrium:1"].about.get("degree") == degree
+
+
 def test_where_no_force_acts_rest_is_everywhere() -> None:
     assert model_steps(particle(["x"], {}, ["x", "0"]))["equilibrium-condition"].about["outcome"] == "everywhere"
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 from flint import arb
+from tests.derived import derived
 
 from deltaq.derivation.engine import derive
 from deltaq.derivation.formula import (
@@ -229,7 +230,7 @@ def test_a_wrong_rule_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_every_step_of_every_scene_is_verified(identifier: str) -> None:
-    _, derivation = derive(load_scene(identifier))
+    _, derivation = derived(identifier)
     steps = list(derivation.steps())
     assert [step.id for step in steps if not step.verified] == []
     assert len({step.id for step in steps}) == len(steps) >= 15

@@ -9,9 +9,10 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from tests.derived import derived
 
 from deltaq.handout import latex, markdown
-from deltaq.handout.document import Handout, handout_of
+from deltaq.handout.document import Handout, handout_of, written_down
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.narration.prose import CatalogText, words
 
@@ -37,7 +38,7 @@ ROADS = ("dalembert-lagrange", "hamilton")
 
 @cache
 def written(identifier: str, language: str) -> Handout:
-    return handout_of(load_scene(identifier), language, ROADS[language == "en"])
+    return written_down(*derived(identifier, ROADS[language == "en"]), language)
 
 
 def opened_and_closed(text: str) -> bool:

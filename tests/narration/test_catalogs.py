@@ -10,12 +10,12 @@ from pathlib import Path
 from string import Formatter
 
 import pytest
+from tests.derived import derived
 
 from deltaq.derivation.abstract_motion import sample
-from deltaq.derivation.engine import derive
 from deltaq.derivation.proof import CHAPTERS
 from deltaq.errors import Problem
-from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.library import scene_ids
 from deltaq.narration.catalog import LANGUAGES, catalog, filled, language_of, message, template, text
 from deltaq.packages import modules_of
 
@@ -80,7 +80,7 @@ def test_every_problem_has_a_sentence(language: str) -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_every_step_has_its_texts(language: str, identifier: str) -> None:
-    _, derivation = derive(load_scene(identifier))
+    _, derivation = derived(identifier)
     for chapter in derivation.chapters:
         assert text(language, f"rules.chapters.{chapter.id}")
     for step in derivation.steps():
@@ -100,7 +100,7 @@ def test_every_step_has_its_texts(language: str, identifier: str) -> None:
     "identifier", ["elastic-pendulum", "guided-pendulum", "heavy-top", "wind-on-rod", "quarter-car"]
 )
 def test_every_step_has_a_law_and_its_source(identifier: str, formulation: str) -> None:
-    _, derivation = derive(load_scene(identifier), formulation)
+    _, derivation = derived(identifier, formulation)
     rules = {step.rule for chapter in derivation.chapters for step in chapter.steps}
     laws = catalog("en")["laws"]
     assert isinstance(laws, Mapping)

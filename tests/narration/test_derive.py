@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
-from functools import cache
 from typing import Any
 
 import pytest
+from tests import derived
 
 from deltaq.derivation.engine import formulation_names
 from deltaq.errors import InputError, Problem
@@ -53,10 +53,9 @@ def all_steps(answer: dict) -> list[dict]:
     return steps + [substep for step in steps for substep in step["substeps"]]
 
 
-@cache
 def told(scene: str, formulation: str) -> dict[str, Any]:
     """One principle in one language, the other one in the other."""
-    return derive_request({"scene": scene, "formulation": formulation, "lang": LANGUAGE[formulation]})
+    return derived.told(scene, LANGUAGE[formulation], formulation)
 
 
 @pytest.mark.parametrize("formulation", formulation_names())

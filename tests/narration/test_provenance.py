@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 import pytest
 import sympy as sp
+from tests.derived import derived, told
 
 from deltaq.derivation.system import System
 from deltaq.language.parser import parse
-from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.library import scene_ids
 from deltaq.narration.derive import derive_request
 
 
@@ -40,9 +41,9 @@ def value(system: System, text: str) -> sp.Expr:
 
 @pytest.mark.parametrize("scene", scene_ids())
 def test_terms_sum_to_the_expression(scene: str) -> None:
-    system = System(load_scene(scene))
+    system = derived(scene)[0]
     known = {f"body:{body.name}" for body in system.scene.bodies} | {f"load:{load}" for load in system.load_names}
-    found = dict(sums(derive_request({"scene": scene})["result"]))
+    found = dict(sums(told(scene, "de")["result"]))
     assert {
         "/virtual_work",
         "/kinetic_energy",
@@ -61,7 +62,7 @@ def test_terms_sum_to_the_expression(scene: str) -> None:
 
 
 def sources(scene: str, key: str) -> dict[str, list[str]]:
-    return {term["plain"]: term["sources"] for term in derive_request({"scene": scene})["result"][key]["terms"]}
+    return {term["plain"]: term["sources"] for term in told(scene, "de")["result"][key]["terms"]}
 
 
 def test_what_bodies_share_is_told_apart() -> None:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 import sympy as sp
+from tests.derived import told
 
 from deltaq.derivation.engine import derive
 from deltaq.derivation.result import result_of
@@ -27,7 +28,7 @@ SYMBOLS = Symbols(NAMES)
 
 
 def marked(scene: str, step: str) -> str:
-    chapters = derive_request({"scene": scene})["chapters"]
+    chapters = told(scene, "de")["chapters"]
     return next(s["marked"] for chapter in chapters for s in chapter["steps"] if s["id"] == step)
 
 
@@ -38,7 +39,7 @@ def test_each_mass_in_a_bracket_belongs_to_its_own_body() -> None:
 
 
 def test_a_turning_plane_has_its_integral_and_no_time() -> None:
-    result = derive_request({"scene": "foucault"})["result"]
+    result = told("foucault", "de")["result"]
     shown = [result["kinetic_energy"]["plain"], *result["forcing"]["plain"], str(result["mass_matrix"]["plain"])]
     assert not any("Omega*t" in text or "cos(" in text for text in shown)
     assert [each["kind"] for each in result["conserved"]] == ["energy", "symmetry"]
@@ -143,7 +144,7 @@ def test_every_step_of_hard_forms_is_verified() -> None:
 @pytest.mark.parametrize("scene", ["elastic-pendulum", "base-pendulum", "double-pendulum"])
 def test_what_cancels_in_an_equation_is_a_term_by_itself_in_both_parts(scene: str) -> None:
     """d/dt ∂L/∂q̇ and ∂L/∂q: the last of each pair of terms that the equation no longer has, as it is written."""
-    steps = {step["id"]: step for chapter in derive_request({"scene": scene})["chapters"] for step in chapter["steps"]}
+    steps = {step["id"]: step for chapter in told(scene, "de")["chapters"] for step in chapter["steps"]}
     last = "phi2" if scene == "double-pendulum" else "phi"
     _, change, slope = (part["latex"] for part in steps[f"equation:{last}"]["substeps"])
     rates = {"double-pendulum": r"\dot{\varphi}_1 \dot{\varphi}_2"}.get(scene, r"\dot{q}_1 \dot{q}_2")

@@ -11,12 +11,12 @@ from random import Random
 from typing import Any
 
 import pytest
+from tests.derived import derived, told
 from tests.narration.spoken_reader import Reader, UnreadableError
 from tests.narration.spoken_values import Values, members
 
 from deltaq.contract.reading import read
 from deltaq.contract.variation import VariationRequest
-from deltaq.derivation.engine import derive
 from deltaq.derivation.formula import Explicit, Formula
 from deltaq.derivation.proof import prove
 from deltaq.derivation.step import Derivation
@@ -27,8 +27,7 @@ from deltaq.language.spoken_printer import SpokenPrinter
 from deltaq.language.spoken_symbols import SpokenSymbols
 from deltaq.language.symbols import Symbols
 from deltaq.language.sympy_algebra import to_sympy
-from deltaq.mechanics.library import load_scene
-from deltaq.narration.derive import derive_request, notation_of
+from deltaq.narration.derive import notation_of
 from deltaq.narration.expressions import typeset_request
 from deltaq.narration.marks import unmarked
 from deltaq.narration.proof import _notation as notation_of_proof
@@ -137,7 +136,7 @@ def derivations() -> tuple[tuple[str, Derivation, object], ...]:
     """Of some scenes, the general proof, and variations; with what writes them."""
     found: list[tuple[str, Derivation, object]] = []
     for scene in SCENES:
-        system, derivation = derive(load_scene(scene), "dalembert-lagrange")
+        system, derivation = derived(scene)
         found.append((scene, derivation, lambda language, system=system: notation_of(system, language)))
     found.append(("proof", prove(), lambda _: notation_of_proof(unmarked)))
     for name, asked in (("action", ACTION), ("value", VALUE)):
@@ -198,7 +197,7 @@ def test_what_is_said_is_read_back_as_the_same_formula(language: str) -> None:
     ],
 )
 def test_german_nouns_have_their_case_and_letters_stand_side_by_side(step: str, words: str) -> None:
-    answer = derive_request({"scene": "pendulum", "lang": "de"})
+    answer = told("pendulum", "de")
     spoken = {one["id"]: one["spoken"] for chapter in answer["chapters"] for one in _all(chapter["steps"])}  # type: ignore[attr-defined]
     assert words in spoken[step]
     for text in spoken.values():
@@ -240,7 +239,7 @@ def test_nothing_is_said_that_is_not_spoken(language: str) -> None:
 
 def test_a_step_is_cut_into_its_terms() -> None:
     """The places where terms begin lead through all of what is said, each with the sign before it."""
-    answer = derive_request({"scene": "pendulum", "lang": "en"})
+    answer = told("pendulum", "en")
     steps = [step for chapter in answer["chapters"] for step in chapter["steps"]]  # type: ignore[attr-defined]
     for step in filter(lambda step: step["spoken"], steps):
         ends = [*step["spoken_terms"][1:], len(step["spoken"])]
@@ -265,7 +264,7 @@ def test_a_step_is_cut_into_its_terms() -> None:
     ],
 )
 def test_a_step_is_announced_without_mathematics_between_signs(language: str, step: str, words: str) -> None:
-    answer = derive_request({"scene": "elastic-pendulum", "lang": language})
+    answer = told("elastic-pendulum", language)
     steps = {one["id"]: one for chapter in answer["chapters"] for one in _all(chapter["steps"])}  # type: ignore[attr-defined]
     assert words in steps[step]["announced"]
     assert [one["id"] for one in steps.values() if re.search(r"[$\\\\_{}]|[A-Za-z]\d", one["announced"])] == []

@@ -6,11 +6,10 @@ import dataclasses
 from collections.abc import Iterator
 
 import pytest
+from tests.derived import derived
 
-from deltaq.derivation.engine import derive
 from deltaq.derivation.formula import Named, Quantity
-from deltaq.mechanics.library import load_scene, scene_ids
-from deltaq.mechanics.scene import Scene
+from deltaq.mechanics.library import scene_ids
 from deltaq.narration.derive import derive_request, notation_of
 
 
@@ -26,9 +25,10 @@ def named(part: object) -> Iterator[Quantity]:
             yield from named(member)
 
 
-def meanings(scene: Scene) -> dict[str, set[object]]:
+def meanings(identifier: str) -> dict[str, set[object]]:
     """What each symbol stands for: quantities, and names of the scene."""
-    system, derivation = derive(scene)
+    system, derivation = derived(identifier)
+    scene = system.scene
     symbols = dataclasses.replace(notation_of(system, "en").symbols, wrap=lambda _, latex: latex)  # type: ignore[type-var]
     found: dict[str, set[object]] = {symbol.typeset: {symbol.name} for symbol in scene.names.symbols}
     for quantity in (each for step in derivation.steps() for each in named(step.relations)):
@@ -39,7 +39,7 @@ def meanings(scene: Scene) -> dict[str, set[object]]:
 
 @pytest.mark.parametrize("name", scene_ids())
 def test_a_symbol_means_one_thing(name: str) -> None:
-    assert {symbol: of for symbol, of in meanings(load_scene(name)).items() if len(of) > 1} == {}
+    assert {symbol: of for symbol, of in meanings(name).items() if len(of) > 1} == {}
 
 
 PENDULUM = {

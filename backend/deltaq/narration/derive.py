@@ -49,6 +49,13 @@ def derive_parts(document: Mapping[str, object]) -> Generator[Document, None, Do
         return told.whole()
 
 
+def narrated(system: System, derivation: Derivation, language: str) -> Document:
+    """The answer of a derivation that has been made."""
+    told = _Told(system, derivation.formulation, language, iter(derivation.chapters))
+    told.tell_equations()
+    return told.whole()
+
+
 def _read(document: Mapping[str, object]) -> _Told:
     asked = read(DerivationRequest, document)
     system = System(changed_scene(asked))
