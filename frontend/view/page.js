@@ -1,7 +1,7 @@
 /** The page as a whole: derivation beside drawing, plots and values. */
 
 import { html, nothing } from "lit-html";
-import { chapters, pager, steps } from "./steps.js";
+import { chapters, isAtEnd, missing, pager, steps } from "./steps.js";
 import { failure } from "./failure.js";
 import { header } from "./header.js";
 import { player } from "./player.js";
@@ -9,9 +9,8 @@ import { caveats, report } from "./report.js";
 import { values } from "./values.js";
 import { icon } from "./icons.js";
 import { inLanguage } from "../model/catalog.js";
-import { missingIn } from "../model/derivations.js";
+import { isUnderWay, missingIn } from "../model/derivations.js";
 import { OWN } from "../model/own.js";
-import { indexOf } from "../model/reveal.js";
 import { FORMULATIONS, oneOf } from "../model/url.js";
 
 /**
@@ -71,23 +70,13 @@ const isLost = ({ scene, failures, place }) => !scene && !place.edit && Boolean(
 function reading(view) {
   const { t } = view;
   return html`
-    <section class="derivation" id="derivation" aria-label=${t("derivation")}>
+    <section class="derivation" id="derivation" aria-label=${t("derivation")} aria-busy=${isUnderWay(view.state.derivation)}>
       <div class="contents">${formulation(view)}${chapters(view)}</div>
       <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
-        ${trouble(view) ?? steps(view)} ${missing(view)} ${canonical(view)}
+        ${trouble(view) ?? steps(view)} ${missing(view.state)} ${canonical(view)}
       </div>
       ${pager(view)}
     </section>`;
-}
-
-/** Whether all steps that there are have been shown. @param {View["state"]} state */
-const isAtEnd = ({ derivation, lines, place }) =>
-  derivation && lines.length && lines.at(-1) === lines[indexOf(lines, place.step)];
-
-/** Behind the last step: that the last chapter follows, or why there is none. @param {View} view */
-function missing({ state }) {
-  const left = isAtEnd(state) && missingIn(state.derivation);
-  return left ? html`<p class="notice missing" role="status" data-reason=${left.reason}>${left.text}</p>` : nothing;
 }
 
 /** Behind the last step: opens the chapter of Hamilton's canonical equations. @param {View} view */

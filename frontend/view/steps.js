@@ -4,6 +4,7 @@ import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
 import { displayed, fitSeen, prose, typesetWithin } from "./formula.js";
 import { icon } from "./icons.js";
+import { missingIn } from "../model/derivations.js";
 import { indexOf } from "../model/reveal.js";
 
 /** @typedef {import("../model/types.js").Step} Step */
@@ -145,4 +146,14 @@ export function pager(view) {
       <button class="main" ?disabled=${last} @click=${() => session.go(1)}><span>${t("step.next")}</span>${icon("next")}</button>
     </footer>
   `;
+}
+
+/** Whether all steps that there are have been shown. @param {Pick<import("../model/session.js").State, "derivation" | "lines" | "place">} state */
+export const isAtEnd = ({ derivation, lines, place }) =>
+  Boolean(derivation && lines.length) && lines.at(-1) === lines[indexOf(lines, place.step)];
+
+/** Behind the last step: that the last chapter follows, or why there is none. @param {Pick<import("../model/session.js").State, "derivation" | "lines" | "place">} state */
+export function missing(state) {
+  const left = isAtEnd(state) && missingIn(state.derivation);
+  return left ? html`<p class="notice missing" role="status" data-reason=${left.reason}>${left.text}</p>` : nothing;
 }

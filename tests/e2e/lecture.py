@@ -32,10 +32,15 @@ class Lecture:
             self.complaints.append(f"{message.type}: {message.text}")
 
     def open(self, query: str = "?scene=elastic-pendulum&lang=de") -> None:
-        """Load a place and wait for its first step and its drawing."""
+        """Load a place and wait for its first step, its drawing and the chapter that comes last."""
         self.page.goto(f"{self.address}scene{query}")
         self.steps.first.wait_for(state="attached")
         self.bob.wait_for(state="attached")
+        self.await_last_chapter()
+
+    def await_last_chapter(self) -> None:
+        """The equations are shown first: before the chapter behind them has come, the last step is another one."""
+        self.page.locator("#derivation[aria-busy=false]").wait_for(state="attached")
 
     @contextmanager
     def asked(self) -> Iterator[list[str]]:

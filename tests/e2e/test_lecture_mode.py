@@ -19,6 +19,7 @@ def hall(lecture: Lecture) -> Lecture:
     """The elastic pendulum in lecture mode, at a step with three substeps."""
     lecture.page.goto(f"{lecture.address}scene{PLACE}")
     expect(lecture.page.locator(".slide .formula .katex").first).to_be_visible()
+    lecture.await_last_chapter()
     return lecture
 
 

@@ -53,11 +53,13 @@ def test_practice_is_entered_left_and_found_again(lecture: Lecture) -> None:
     expect(page.locator(".drawing.right svg path").first).to_be_attached()
     page.get_by_role("button", name="Andere Aufgabe").click()
     expect(page).to_have_url(second)
+    page.evaluate("window.same = true")
     page.go_back()
     expect(page).to_have_url(first)
     page.go_forward()
     page.locator(".question .of-system").wait_for()
     expect(page).to_have_url(second)
+    assert page.evaluate("window.same"), "the way back loads no page"
     page.get_by_role("button", name="Eine Antwort").click()
     expect(page.locator(".tasks .task").first).to_be_visible()
     page.get_by_role("button", name="Üben").click()

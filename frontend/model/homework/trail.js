@@ -21,11 +21,16 @@ export function createTrail(past, here) {
 }
 
 /**
- * Shows the task that the address names again; false if it stands on another sheet.
- * @param {import("./state.js").State} state @param {Pick<import("./exercise.js").Exercise, "show" | "turn">} exercise @param {string} query
+ * Shows the task that the address names again, or draws its exercise again; false if it stands on another sheet.
+ * @param {import("./state.js").State} state @param {Pick<import("./exercise.js").Exercise, "show" | "turn" | "drill">} exercise @param {string} query
  */
 export function retrace({ asked, sheet }, exercise, query) {
   const there = readAsked(query);
+  const inPractice = [there, asked].every(({ side }) => side === "practice") && Boolean(there.drill.number);
+  if (inPractice && !isSame(there, asked) && there.place.lang === asked.place.lang) {
+    void exercise.drill(there.drill);
+    return true;
+  }
   const entry = isSame(there, asked) ? sheet?.entries.find(({ id }) => id === there.task) : null;
   if (!entry) return false;
   exercise.turn(there.side);

@@ -4,6 +4,8 @@ import { html, nothing } from "lit-html";
 import { keyed } from "lit-html/directives/keyed.js";
 import { displayed, prose } from "../formula.js";
 import { icon } from "../icons.js";
+import { missing } from "../steps.js";
+import { isUnderWay } from "../../model/derivations.js";
 import { indexOf } from "../../model/reveal.js";
 import { partsOf, within } from "../../model/lecture/stops.js";
 
@@ -16,7 +18,7 @@ export function slide(view, lecture) {
   const { state, t } = view;
   const line = state.lines[indexOf(state.lines, state.place.step)];
   return html`
-    <section class="derivation slide" id="derivation" aria-label=${t("derivation")}
+    <section class="derivation slide" id="derivation" aria-label=${t("derivation")} aria-busy=${isUnderWay(state.derivation)}
       @touchstart=${lecture.touch.start} @touchend=${lecture.touch.end}>
       ${line ? sheet(line, view) : html`<p class="where"></p><div class="scroll"><p class="notice" role="status">${t("derivation.loading")}</p></div>`}
       ${bar(view, lecture)}
@@ -41,7 +43,7 @@ function sheet({ step, number, chapter, chapterIndex }, view) {
             .map((one, i) => part(one, i, view))}
         </article>`,
       )}
-      ${more(step, shown, view)}
+      ${more(step, shown, view)} ${missing(view.state)}
     </div>`;
 }
 
