@@ -95,19 +95,20 @@ def source_stamp(file: Path) -> str:
         module = left.pop()
         if module not in seen:
             seen.add(module)
-            left += sorted(_imported(module), reverse=True)
+            left += _imported(module)
             digest.update(module.read_bytes())
     return digest.hexdigest()
 
 
-def _imported(file: Path) -> set[Path]:
-    """The modules of the package that a module names in its imports."""
+@cache
+def _imported(file: Path) -> tuple[Path, ...]:
+    """The modules of the package that a module names in its imports; read once, for most kernels rest on the same."""
     found = set()
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.level > 0:
             folder = file.parents[node.level - 1].joinpath(*(node.module or "").split("."))
             found |= {folder.with_suffix(".py"), *(folder / f"{alias.name}.py" for alias in node.names)}
-    return {module for module in found if module.is_file()}
+    return tuple(sorted((module for module in found if module.is_file()), reverse=True))
 
 
 @inline
