@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -11,7 +10,6 @@ from typing import Any
 import httpx
 import pytest
 from fastapi import FastAPI
-from tests.api.slow import PAUSE
 from tests.api.test_derivations import CHAPTERS, DERIVATIONS
 
 from deltaq.api.routes import derivations
@@ -118,10 +116,9 @@ async def test_the_rest_is_computed_once_while_the_equations_are_read(
     client: httpx.AsyncClient, computed_by: BudgetOf, app: FastAPI
 ) -> None:
     computed_by("unhurried", 5.0)
-    misses, begin = app.state.service.cache.misses, time.monotonic()
+    misses = app.state.service.cache.misses
     first = await ask(client, 1.16, chapters="ready")
     assert (names(first), missing(first)) == (EQUATIONS, [("model", "later")])
-    assert time.monotonic() - begin < PAUSE
     await asyncio.sleep(0.7)  # longer than a computation goes on that nobody waits for
     rest = await ask(client, 1.16, chapters="model")
     assert (names(rest), missing(rest)) == (["model"], [])
