@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -61,10 +62,19 @@ def package_of(file: Path) -> str:
     return parts[0] if len(parts) > 1 else ""
 
 
-def imports_of(file: Path) -> Iterator[str]:
+def imports_of(file: Path) -> tuple[str, ...]:
     """Full names of the modules that a file imports, wherever in it; also those imported by name."""
+    return _imports_in(file, file.read_text(encoding="utf-8"))
+
+
+@cache
+def _imports_in(file: Path, source: str) -> tuple[str, ...]:
+    return tuple(_each_import(file, source))
+
+
+def _each_import(file: Path, source: str) -> Iterator[str]:
     here = ("deltaq", *file.relative_to(PACKAGE).with_suffix("").parts)
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    for node in ast.walk(ast.parse(source)):
         match node:
             case ast.Import(names):
                 yield from (name.name for name in names)
