@@ -19,19 +19,26 @@ from tests.serving import PATIENT, served
 
 
 @pytest.fixture(scope="session")
-def server(root: Path) -> Iterator[str]:
-    """The address of a service with the page as packages have it; from its sources if there is no esbuild."""
-    yield from _serving(made(root) or "")
+def answers(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder in which the services of all workers of this run keep their answers: each is computed once."""
+    own = tmp_path_factory.getbasetemp()
+    return (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "answers"
 
 
 @pytest.fixture(scope="session")
-def source_server() -> Iterator[str]:
+def server(root: Path, answers: Path) -> Iterator[str]:
+    """The address of a service with the page as packages have it; from its sources if there is no esbuild."""
+    yield from _serving(made(root) or "", answers)
+
+
+@pytest.fixture(scope="session")
+def source_server(answers: Path) -> Iterator[str]:
     """The address of a service with the page from its sources, as who works on it sees it."""
-    yield from _serving("")
+    yield from _serving("", answers)
 
 
-def _serving(static: Path | str) -> Iterator[str]:
-    with served(static=static, **PATIENT) as service:
+def _serving(static: Path | str, answers: Path) -> Iterator[str]:
+    with served(static=static, cache_folder=answers, **PATIENT) as service:
         _answered(f"{service.address}api/v1/simulations", {"scene": "elastic-pendulum", "t_end": 1.0})
         yield service.address
 
