@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from tests.bundling import bundle_of
-from tests.order import ByFile, durations, in_order, needs_kernels
+from tests.order import ByFile, durations, in_order, left_out, needs_kernels
 from xdist.remote import Producer
 from xdist.scheduler import LoadFileScheduling
 
@@ -44,8 +44,15 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> LoadFil
     return ByFile(config, log)
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Files in the order of `tests/order.py`; those that need the kernels wait for them."""
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--every-case", action="store_true", help="also the cases that tests marked one_in(n) leave out")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Cases and files in the order of `tests/order.py`; those that need the kernels wait for them."""
+    if not config.getoption("--every-case") and (left := left_out(items)):
+        config.hook.pytest_deselected(items=left)
+        items[:] = [item for item in items if item not in set(left)]
     of = {item: item.nodeid.partition("::")[0] for item in items}
     place = {file: index for index, file in enumerate(in_order(set(of.values()), durations()))}
     items.sort(key=lambda item: place[of[item]])

@@ -1,4 +1,4 @@
-"""The order in which the workers get the files of tests, so that none of them is left with a long one at the end.
+"""Which cases a run takes, and the order in which the workers get the files, so that none has a long one at the end.
 
 `python -m tests.order report.xml` writes `durations.json` anew from what `pytest --junit-xml=report.xml` has measured.
 """
@@ -8,12 +8,14 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree as ET
+from zlib import crc32
 
+import pytest
 from xdist.scheduler import LoadFileScheduling
 
 ROOT = Path(__file__).parents[1]
@@ -32,6 +34,24 @@ MOVING = (
     "tests/test_cli.py",
     "tests/test_contributing.py",
 )
+
+
+def left_out(items: Sequence[pytest.Item]) -> list[pytest.Item]:
+    """Of tests marked `one_in(n)`, which try one law on very many scenes, the cases that are not every n-th.
+
+    Different tests begin at different cases, so that each scene is met by some. Cases that are named alone are taken.
+    """
+    cases: defaultdict[str, list[pytest.Item]] = defaultdict(list)
+    for item in items:
+        cases[item.nodeid.partition("[")[0]].append(item)
+    shares = {test: all_of[0].get_closest_marker("one_in") for test, all_of in cases.items()}
+    return [
+        case
+        for test, share in shares.items()
+        if share and len(cases[test]) > share.args[0]
+        for number, case in enumerate(cases[test])
+        if (number + crc32(test.encode())) % share.args[0]
+    ]
 
 
 def needs_kernels(file: str) -> bool:

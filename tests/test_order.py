@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import random
+from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from tests.order import SHORT, durations, in_order, measured, needs_kernels, reads_shared_derivations
+from tests.order import SHORT, durations, in_order, left_out, measured, needs_kernels, reads_shared_derivations
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -52,3 +54,28 @@ def test_what_is_known_of_the_files_has_not_grown_old(root: Path) -> None:
 )
 def test_files_that_read_shared_derivations_go_to_one_worker(file: str, shares: bool) -> None:
     assert reads_shared_derivations(file) is shares
+
+
+@dataclass(frozen=True)
+class Case:
+    """What `left_out` asks of a test's case."""
+
+    nodeid: str
+    share: int | None = None
+
+    def get_closest_marker(self, name: str) -> pytest.Mark | None:
+        return pytest.mark.one_in(self.share).mark if self.share and name == "one_in" else None
+
+
+@pytest.mark.parametrize("share", [2, 3, 5])
+@pytest.mark.parametrize(
+    "test", ["tests/lab/test_a.py::test_b", "tests/lab/test_a.py::test_c", "tests/test_d.py::test_e"]
+)
+def test_every_so_many_cases_are_taken_and_those_named_alone(test: str, share: int) -> None:
+    whole = [Case(f"tests/test_whole.py::test_all[{n}]") for n in range(7)]
+    many = [Case(f"{test}[{n}]", share) for n in range(30)]
+    left = {case.nodeid for case in left_out([*whole, *many])}  # type: ignore[misc, list-item]
+    taken = [n for n, case in enumerate(many) if case.nodeid not in left]
+    assert len(left) == 30 - 30 // share
+    assert {b - a for a, b in pairwise(taken)} == {share}
+    assert left_out(many[:share]) == []  # type: ignore[arg-type]

@@ -140,6 +140,7 @@ def test_drag_in_the_plane_is_nothing_to_first_order() -> None:
     assert [[float(entry) for entry in row] for row in damping.tolist()] == [[0.25, 0.0], [0.0, 0.0]]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_as_many_modes_as_coordinates_at_any_value(identifier: str) -> None:
     """Wherever M, K are symmetric, M is regular and no rate enters: K − ω²M is small there by rounding alone."""

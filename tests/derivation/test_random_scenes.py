@@ -19,6 +19,6 @@ def test_the_tasks_of_a_scene_that_had_a_fault_have_right_answers(seed: int) -> 
     assert wrong_tasks(random_scene(seed), seconds=60) == []
 
 
-@pytest.mark.parametrize("seed", [*range(1000, 1006), 9100403])  # the last: friction wins between both ends of a band
+@pytest.mark.parametrize("seed", [*range(1000, 1003), 9100403])  # the last: friction wins between both ends of a band
 def test_a_random_scene_is_sound(seed: int) -> None:
     assert faults(random_scene(seed)) == []

@@ -12,6 +12,7 @@ from deltaq.narration.catalog import catalog
 SCENES = [*SHORT, "spring-pendulum", "rolling-disc", "coupled-pendulums"]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scene", SHORT)
 def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str) -> None:
     assert_mistakes_are_found(scene)

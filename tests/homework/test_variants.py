@@ -26,7 +26,7 @@ from deltaq.mechanics.writing import write_scene
 
 ALL: tuple[Aspect, ...] = ("values", "axes", "coordinates", "factors")
 TOLD: tuple[Aspect, ...] = ("axes", "coordinates", "factors")
-SCENES = ["pendulum", "cart-pendulum", "elastic-pendulum", "rolling-disc", "two-mass-oscillator", "spring-pendulum"]
+SCENES = ["pendulum", "cart-pendulum", "elastic-pendulum", "rolling-disc", "two-mass-oscillator"]
 NEVER = {"0", "stable", "unstable"}  # what no telling of it changes
 
 

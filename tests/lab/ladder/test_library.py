@@ -22,6 +22,7 @@ def own(identifier: str) -> Climbed:
     return climbed(load_scene(identifier), SPAN, (0.5, 1.0))
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_another_observer_says_the_same(identifier: str) -> None:
     """In other units, from other origins and in a moving frame."""
