@@ -24,7 +24,7 @@ from deltaq.derivation.variation import vary
 from deltaq.language.names import Names, Symbol
 from deltaq.language.parser import parse
 from deltaq.language.spoken_printer import SpokenPrinter
-from deltaq.language.spoken_symbols import SpokenSymbols
+from deltaq.language.spoken_symbols import SpokenSymbols, SymbolReader
 from deltaq.language.symbols import Symbols
 from deltaq.language.sympy_algebra import to_sympy
 from deltaq.narration.derive import notation_of
@@ -217,6 +217,14 @@ def test_each_kind_of_formula_is_said_word_for_word() -> None:
             wanted.add(f"{source}: {line}")
     assert len(wanted) > 40
     assert wanted - said == set()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_numbers_as_indices_are_said_without_a_word_for_index(language: str) -> None:
+    words = vocabulary(language)
+    said = {n: SymbolReader(words).words(f"m_{{{n}}}") for n in range(15)}
+    assert said == {n: f"m {words.whole(n)}" for n in range(15)}
+    assert SymbolReader(words).words("m_{k}") == f"m {words.say('subscript', 'k')}"
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -82,8 +82,8 @@ class LatexLexer:
         return [Token("open", bracket, opening), *self.within(inside), Token("close", close, closing)]
 
     def since(self, start: int) -> Span:
-        """The stretch from `start` to the reading position."""
-        return Span(start, self.source.at - start)
+        """The stretch from `start` to the reading position, without spaces at its end."""
+        return Span(start, len(self.source.text[start : self.source.at].rstrip()))
 
     def after_number(self) -> bool:
         """Whether a number was read last."""
@@ -256,9 +256,12 @@ def read_letters(lexer: LatexLexer) -> None:
     start = lexer.source.at
     match = lexer.source.match(LETTERS)
     run = match[0] if match else ""
-    if len(run) == 1 and lexer.source.rest and lexer.source.text[lexer.source.at] in "\u0307\u0308":
-        read_symbol(lexer, run, start)
-        return
+    if run and lexer.source.rest and lexer.source.text[lexer.source.at] in "\u0307\u0308":
+        if len(run) == 1:
+            read_symbol(lexer, run, start)
+            return
+        lexer.source.at -= 1  # the dot stands over the last letter alone
+        run = run[:-1]
     if run == "e" and lexer.source.next() == "^" and lexer.names.get("e") is None:
         read_exponential_power(lexer, start)
         return
