@@ -100,7 +100,7 @@ export function writePlace(place) {
 }
 
 /** What there is besides the start page, in the order of the navigation. */
-export const PAGES = ["scene", "variations", "proof", "labs", "homework", "docs", "help"];
+export const PAGES = ["scene", "variations", "proof", "labs", "homework", "lecture", "docs", "help"];
 
 /** Pages that show whichever scene one comes from. */
 const ABOUT_A_SCENE = ["scene", "labs", "homework"];

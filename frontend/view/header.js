@@ -3,6 +3,7 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { icon } from "./icons.js";
+import { addEntry, addTool, titleOfPlace } from "./lectures/adding.js";
 import { inLanguage } from "../model/catalog.js";
 import { OWN } from "../model/own.js";
 import { LANGUAGES, PAGES, pageAddress } from "../model/url.js";
@@ -53,12 +54,24 @@ export function brand({ state, t }) {
 const action = (label, press) => html`
   <button class="action" popovertarget="places" popovertargetaction="hide" @click=${press}>${label}</button>`;
 
-/** Above a derivation. @typedef {Pick<View, "enterLecture" | "t"> & {session: Pick<View["session"], "overlay">}} Above */
+/** Above a derivation. @typedef {Pick<View, "enterLecture" | "t"> & {session: Pick<View["session"], "overlay">,
+ *   state: Pick<View["state"], "lines" | "place"> & {scene?: View["state"]["scene"]}}} Above */
+
+/** What a stop at the present step is called. @param {Above} view */
+const stopTitle =
+  ({ state, t }) =>
+  () => {
+    const { lines, place, scene } = state;
+    const subject = scene ? inLanguage(scene.title, place.lang) : t("place.proof");
+    return titleOfPlace(subject, lines.find(({ step }) => step.id === place.step)?.step.title);
+  };
 
 /** @param {Above} view */
-export function buttons({ session, enterLecture, t }) {
+export function buttons(view) {
+  const { session, enterLecture, t } = view;
   return html`
     <button class="tool" title=${t("tool.share")} aria-label=${t("tool.share")} @click=${() => session.overlay("share")}>${icon("share")}</button>
+    ${addTool(stopTitle(view), t)}
     <button class="tool" title=${t("tool.overview")} aria-label=${t("tool.overview")} @click=${() => session.overlay("overview")}>${icon("overview")}</button>
     <button class="tool wide-only" title=${t("tool.lecture")} aria-label=${t("tool.lecture")} @click=${enterLecture}>${icon("lecture")}</button>
     <button class="tool wide-only" title=${t("tool.help")} aria-label=${t("tool.help")} @click=${() => session.overlay("help")}>${icon("help")}</button>`;
@@ -68,11 +81,13 @@ export function buttons({ session, enterLecture, t }) {
  * What the buttons of the header do, where there is no room for them.
  * @param {Above} view
  */
-export function actions({ session, enterLecture, t }) {
+export function actions(view) {
+  const { session, enterLecture, t } = view;
   return [
     action(t("tool.overview"), () => session.overlay("overview")),
     action(t("tool.share"), () => session.overlay("share")),
     action(t("tool.lecture"), enterLecture),
+    addEntry(stopTitle(view), t),
   ];
 }
 

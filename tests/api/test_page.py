@@ -73,7 +73,7 @@ def site(request: pytest.FixtureRequest, root: Path) -> Assets:
 
 
 PAGES = [
-    *("docs", "handout", "help", "homework", "index", "labs"),
+    *("docs", "handout", "help", "homework", "index", "labs", "lecture"),
     *("presenter", "problems", "proof", "scene", "trial", "variations"),
 ]
 

@@ -36,7 +36,7 @@ const source = [...readdirSync(FRONTEND).filter((f) => f.endsWith(".js")), ...["
 /** Nested texts by flat keys. @param {Record<string, any>} texts @param {string} prefix @returns {Record<string, string>} */
 const flat = (texts, prefix) => Object.assign({}, ...Object.entries(texts).map(([key, text]) => (typeof text === "string" ? { [`${prefix}${key}`]: text } : flat(text, `${prefix}${key}.`))));
 const read = (/** @type {string} */ lang, /** @type {string} */ section) => JSON.parse(readFileSync(new URL(`${lang}/${section}.json`, LOCALES), "utf8"));
-const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture", "reference", "guide", "exercises", "figure"].map((section) => read(lang, section)), flat(read(lang, "labs"), "labs."), flat(read(lang, "ladder"), "ladder."))]));
+const catalogs = Object.fromEntries(["de", "en"].map((lang) => [lang, Object.assign({}, ...["page", "editor", "variations", "start", "lecture", "reference", "guide", "exercises", "figure", "lectures"].map((section) => read(lang, section)), flat(read(lang, "labs"), "labs."), flat(read(lang, "ladder"), "ladder."))]));
 
 test("both languages have the same texts with the same parameters", () => {
   const holes = (/** @type {string} */ text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort().join();
@@ -105,13 +105,19 @@ const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.
 /** What sharing asks for by form of file and by what a frame shows. */
 const SHARE = [...FORMS.map((form) => `share.${form}`), ...SHOWN.map((shown) => `share.show-${shown || "both"}`)];
 
-for (const [name, asked] of Object.entries({ labs: LAB, editor: EDITOR, variations: VARIATIONS, start: START, share: SHARE, exercises: EXERCISES, guide: HELP })) {
+/** What own lectures ask for by button and by what may be wrong with a document. */
+const LECTURES = [
+  ...["up", "down", "remove"].map((at) => `lectures.stop-${at}`),
+  ...[...new Set([...source.matchAll(/code: "([a-z]+)"/g)].map(([, code]) => code))].map((code) => `lectures.problem.${code}`),
+];
+
+for (const [name, asked] of Object.entries({ lectures: LECTURES, labs: LAB, editor: EDITOR, variations: VARIATIONS, start: START, share: SHARE, exercises: EXERCISES, guide: HELP })) {
   test(`every text of the part "${name}" is there`, () => assert.deepEqual(asked.filter((key) => !(key in catalogs.en)), []));
 }
 
 test("every text that is there is used", () => {
   const composed = ["theme.", "motion.", "tools.", "why.", "player.", "formulation.", "panel.", "language.", "editor.side.", "editor.dimension.", "editor.flag.", "editor.vertical.", "kinds.", "reference.subject.", "reference.about.", ...CHARTS];
-  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...SHARE, ...LAB, ...EXERCISES, ...HELP].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
+  const unused = Object.keys(catalogs.en).filter((key) => ![...EDITOR, ...VARIATIONS, ...START, ...SHARE, ...LECTURES, ...LAB, ...EXERCISES, ...HELP].includes(key) && !source.includes(`"${key}"`) && !composed.some((prefix) => key.startsWith(prefix)));
   assert.deepEqual(unused, []);
 });
 

@@ -9,7 +9,7 @@
  * @property {Record<string, string>} title  of the scene, by language
  * @property {import("../types.js").Chapter[]} [chapters]  when they are new, or were asked for
  */
-/** @typedef {{kind: "hello"} | {kind: "go", by: number} | {kind: "within", by: number} | {kind: "goTo", step: string} | {kind: "overlay", name: "black"} | {kind: "play"}} Wish */
+/** @typedef {{kind: "hello"} | {kind: "go", by: number} | {kind: "within", by: number} | {kind: "goTo", step: string, part?: number} | {kind: "overlay", name: "black"} | {kind: "play"}} Wish */
 /** @typedef {{postMessage: (message: Here | Wish) => void, onmessage: ((event: MessageEvent<Here | Wish>) => void) | null, close: () => void}} Channel */
 
 /** @param {string} id */

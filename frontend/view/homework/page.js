@@ -7,6 +7,7 @@ import { SIDES } from "../../model/homework/place.js";
 import { failure } from "../failure.js";
 import { prose } from "../formula.js";
 import { appearance, lettersOf, titleMenu } from "../header.js";
+import { addEntry, addTool, titleOfPlace } from "../lectures/adding.js";
 import { top } from "../top.js";
 import { answer } from "./answer.js";
 import { figure } from "./figure.js";
@@ -59,8 +60,11 @@ export function page(view) {
   const { state, t } = view;
   const { place, side } = state.asked;
   const shown = { state: { place }, session: view.session, t };
+  const { entry } = state;
+  const title = () =>
+    titleOfPlace(inLanguage(entry?.scene.title, place.lang) || t("place.homework"), entry?.task.title);
   return html`
-    ${top(shown, { main: "work", skip: t("homework.skip"), here: "homework", heading: heading(view), menu: appearance(shown) })}
+    ${top(shown, { main: "work", skip: t("homework.skip"), here: "homework", heading: heading(view), menu: [appearance(shown), addEntry(title, t)], tools: addTool(title, t) })}
     <main class="homework" data-side=${side}>
       ${side === "practice" ? (view.practice?.panel(view) ?? html`<nav class="tasks"></nav>`) : tasks(view)}
       <div class="work" id="work" tabindex="-1">

@@ -4,6 +4,8 @@ import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
 import { roughly, significant } from "../../model/numbers.js";
 import { failure } from "../failure.js";
+import { inLanguage } from "../../model/catalog.js";
+import { addEntry, addTool, titleOfPlace } from "../lectures/adding.js";
 import { titled, top } from "../top.js";
 import { canvas } from "./cursor.js";
 import { form } from "./form.js";
@@ -33,8 +35,11 @@ const BELOW = { stability: failures, fidelity: rungs };
 /** @param {View} view */
 export function page(view) {
   const { t, bench } = view;
+  const { lab, scene } = bench.question;
+  const subject = () => inLanguage(view.scenes.find(({ id }) => id === scene)?.title, view.state.place.lang);
+  const title = () => titleOfPlace(t(`labs.experiments.${lab}.title`), subject());
   return html`
-    ${top(view, { main: "measured", here: "labs", heading: titled(t("place.labs"), t("labs.lead")) })}
+    ${top(view, { main: "measured", here: "labs", heading: titled(t("place.labs"), t("labs.lead")), menu: addEntry(title, t), tools: addTool(title, t) })}
     <main class="labs">
       <nav class="kinds" aria-label=${t("labs.choose-lab")}>${view.labs.map((lab) => kind(view, lab))}</nav>
       <div class="asking">${form(view)}</div>

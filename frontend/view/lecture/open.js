@@ -23,8 +23,9 @@ const SWIPE = 60;
 const KEY = "deltaq.lecture";
 const BESIDE = /** @type {const} */ (["", "plots", "nothing"]);
 
-/** The name of this lecture's line, the same after a reload where the browser keeps it. */
+/** The name of this lecture's line, the same after a reload where the browser keeps it; a hall gives each of its frames one. */
 function lineId() {
+  if (window.parent !== window && isId(window.name)) return window.name;
   const keeper = windowKeeper();
   const kept = keeper.getItem(KEY);
   if (isId(kept)) return /** @type {string} */ (kept);
@@ -84,7 +85,7 @@ export function open({ root, session, state, about, changed, play }) {
     wish(wish) {
       if (wish.kind === "go") go(wish.by);
       else if (wish.kind === "within") step(wish.by);
-      else if (wish.kind === "goTo") session.goTo(wish.step);
+      else if (wish.kind === "goTo") session.goTo(wish.step, wish.part);
       else if (wish.kind === "overlay") session.overlay("black");
       else if (wish.kind === "play") play();
     },

@@ -31,6 +31,12 @@ export function page(view) {
     </main>`;
 }
 
+/** The lecture that is ready to be given. @param {Pick<import("../../model/types.js").Place, "lang" | "theme">} reader */
+function givenAddress(reader) {
+  const address = pageAddress("lecture", reader);
+  return `${address}${address.includes("?") ? "&" : "?"}shipped=1`;
+}
+
 /** @param {StartView} view */
 function opening({ state, t }) {
   const first = addressOf(COURSE[0].entries[0], state.place);
@@ -40,7 +46,8 @@ function opening({ state, t }) {
       <div class="words">
         <h1>${t("start.heading")}</h1>
         <p>${t("start.lead")}</p>
-        <p class="ways"><a class="way main" href=${first}>${t("start.begin")}${icon("next")}</a><a class="way" href="#scenes">${t("start.choose")}</a></p>
+        <p class="ways"><a class="way main" href=${first}>${t("start.begin")}${icon("next")}</a><a class="way" href="#scenes">${t("start.choose")}</a>
+          <a class="way" href=${givenAddress(state.place)}>${t("start.give")}${icon("lecture")}</a></p>
       </div>
       <div class="hero">
         <div class="drawing waiting" data-scene=${HERO}><svg aria-hidden="true"></svg><div class="labels" aria-hidden="true"></div></div>

@@ -4,6 +4,7 @@ import { html } from "lit-html";
 import { form } from "./form.js";
 import { contents, derivation, summary, understood } from "./result.js";
 import { slider } from "./slider.js";
+import { addEntry, addTool, titleOfPlace } from "../lectures/adding.js";
 import { titled, top } from "../top.js";
 
 /**
@@ -16,8 +17,9 @@ import { titled, top } from "../top.js";
 /** @param {VariationsView} view */
 export function page(view) {
   const { t } = view;
+  const title = () => titleOfPlace(t("place.variations"), view.asking.question.expression);
   return html`
-    ${top(view, { main: "answer", here: "variations", heading: titled(t("place.variations"), t("variations.subtitle")) })}
+    ${top(view, { main: "answer", here: "variations", heading: titled(t("place.variations"), t("variations.subtitle")), menu: addEntry(title, t), tools: addTool(title, t) })}
     <main class="variations">
       <div class="asking">${form(view)}${understood(view)}${summary(view)}</div>
       <div class="answer" id="answer" tabindex="-1">

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from importlib.resources import files
 
 from fastapi import APIRouter, Request, Response
 from fastapi.routing import APIRoute
@@ -23,6 +24,7 @@ from ..service import service_of
 from .common import PREFIX
 
 PROBLEMS = "problems"
+LECTURES = files("deltaq") / "lectures"
 FRAMED = ("styles/embed.css",)  # what a page looks like in a frame of another one
 
 
@@ -63,6 +65,20 @@ def embedded_proof(request: Request) -> Response:
 def trial(request: Request) -> Response:
     """The page where the API is tried, below the one where it is read."""
     return _page(request, "trial")
+
+
+@router.api_route("/lectures/{name}.json", methods=["GET", "HEAD"])
+def lecture(request: Request, name: str) -> Response:
+    """A lecture that is ready to be given, for the page of own lectures; `seed.en` is one."""
+    file = next((one for one in LECTURES.iterdir() if one.name == f"{name}.json"), None)
+    if file is None:
+        raise HTTPException(404)
+    content = file.read_bytes()
+    etag = f'"{hashlib.sha256(content).hexdigest()[:16]}"'
+    headers = {"ETag": etag, "Cache-Control": ASK_AGAIN}
+    if not_modified(request, etag):
+        return Response(status_code=304, headers=headers)
+    return Response(content, headers=headers, media_type="application/json")
 
 
 @router.api_route("/problems", methods=["GET", "HEAD"])
