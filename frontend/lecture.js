@@ -15,6 +15,7 @@ import {
 import { fileNameOf, lectureIn, problemsOf, textOf } from "./model/lectures/lecture.js";
 import { begun, blank, changed, moved, undone, withoutStop, withPatch, withStop } from "./model/lectures/outline.js";
 import { placeOf } from "./model/lectures/place.js";
+import { plainly } from "./model/prose.js";
 import { addressOf, COURSE } from "./model/start/course.js";
 import { createLater } from "./model/later.js";
 import { createStore, mover } from "./model/store.js";
@@ -145,14 +146,16 @@ const acts = {
     const place = lecture.stops.indexOf(outline.lecture.stops[from]);
     change(lecture, [...others.slice(0, place), key, ...others.slice(place)]);
     focus(key, at ?? "title");
-    announce(texts()("lectures.moved", { title: lecture.stops[place].title, number: place + 1, count: keys.length }));
+    announce(
+      texts()("lectures.moved", { title: plainly(lecture.stops[place].title), number: place + 1, count: keys.length }),
+    );
   },
   remove(index) {
     const { outline, keys } = get();
     const { title } = outline.lecture.stops[index];
     const left = keys.filter((_, i) => i !== index);
     change(withoutStop(outline.lecture, index), left);
-    set({ notice: { key: "lectures.removed", parameters: { title: title.replaceAll("$", "") } } });
+    set({ notice: { key: "lectures.removed", parameters: { title: plainly(title) } } });
     if (left.length) focus(left[Math.min(index, left.length - 1)], "remove");
   },
   unfold: (key) => set({ open: get().open === key ? -1 : key }),

@@ -5,6 +5,7 @@ import { translator } from "../model/catalog.js";
 import { fixed } from "../model/numbers.js";
 import { sheet } from "./bring.js";
 import { createDrawing } from "./drawing.js";
+import { isGuest } from "./guest.js";
 import { createTransport } from "./player.js";
 import { createPlots } from "./plots.js";
 import { createReadouts } from "./readouts.js";
@@ -46,7 +47,7 @@ export function createMotion({ root, state, clock, session, still, update }) {
     // Not pointerover: browsers send it for a mouse that rests while the page is laid out under it.
     for (const event of ["pointermove", "pointerdown", "focusin", "keydown"])
       document.addEventListener(event, instruments.want, { once: true });
-    setTimeout(instruments.want, PATIENCE);
+    setTimeout(instruments.want, isGuest() ? 0 : PATIENCE);
     return made;
   }
 

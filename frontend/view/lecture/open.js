@@ -2,6 +2,8 @@
 
 import { createSender, isId, nameOf } from "../../model/lecture/link.js";
 import { allOrNone, onwards, within } from "../../model/lecture/stops.js";
+import { expectLong } from "../formula.js";
+import { isGuest } from "../guest.js";
 import { windowKeeper } from "../keeper.js";
 import { createNewest } from "./newest.js";
 import { slide } from "./slide.js";
@@ -25,7 +27,7 @@ const BESIDE = /** @type {const} */ (["", "plots", "nothing"]);
 
 /** The name of this lecture's line, the same after a reload where the browser keeps it; a hall gives each of its frames one. */
 function lineId() {
-  if (window.parent !== window && isId(window.name)) return window.name;
+  if (isGuest()) return window.name;
   const keeper = windowKeeper();
   const kept = keeper.getItem(KEY);
   if (isId(kept)) return /** @type {string} */ (kept);
@@ -69,6 +71,7 @@ export function open({ root, session, state, about, changed, play }) {
   const id = lineId();
   const spot = createSpot(root);
   const reachNewest = createNewest(root);
+  if (isGuest()) void expectLong();
 
   const stopAt = (/** @type {import("../../model/lecture/stops.js").Stop} */ { step, part }) =>
     session.goTo(step, part);

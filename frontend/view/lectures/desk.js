@@ -4,6 +4,7 @@ import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { prose } from "../formula.js";
 import { icon } from "../icons.js";
+import { plainly } from "../../model/prose.js";
 import { clockText, elapsed } from "../../model/lecture/timer.js";
 import { pointIn } from "../../model/lectures/ink.js";
 import { palette } from "./hall.js";
@@ -56,7 +57,7 @@ function at(shown, acts, t) {
         ${inking({ ink, spot, pen }, acts.ink)}</div></div>
     </section>
     <section class="notes" aria-labelledby="notes" tabindex="0">
-      <h2 id="notes">${t("presenter.notes")}</h2>
+      <h2 id="notes">${t("hall.notes")}</h2>
       ${(stop.notes ?? "").split(/\n+/).map((text) => (text.trim() ? html`<p>${prose(text)}</p>` : nothing))}
       ${stop.poll ? html`<h3>${prose(stop.poll.question)}</h3><ol type="A">${stop.poll.choices.map((choice, i) => html`<li ?data-right=${stop.poll?.right === i + 1}>${prose(choice)}${stop.poll?.right === i + 1 ? html` <span aria-label=${t("hall.right")}>✓</span>` : nothing}</li>`)}</ol>` : nothing}
     </section>
@@ -67,7 +68,7 @@ function at(shown, acts, t) {
       <button class="main" @click=${() => acts.go(1)}>${t("step.next")}${icon("next")}</button>
       <label class="choice"><span class="unseen">${t("hall.stops")}</span>
         <select .value=${live(String(index))} @change=${(/** @type {Event} */ { target }) => acts.to(Number(/** @type {HTMLSelectElement} */ (target).value))}>
-          ${lecture.stops.map((one, i) => html`<option value=${i} ?selected=${i === index}>${i + 1} ${one.title.replaceAll("$", "")}</option>`)}
+          ${lecture.stops.map((one, i) => html`<option value=${i} ?selected=${i === index}>${i + 1} ${plainly(one.title)}</option>`)}
         </select>${icon("chevron")}</label>
       <button class="quiet" aria-pressed=${String(pen !== null)} @click=${acts.takePen}>${icon("pen")}${t("hall.pen-short")}</button>
       ${pen ? palette(pen, acts, t) : nothing}

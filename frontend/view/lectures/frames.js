@@ -10,7 +10,30 @@ import { linesOf } from "../../model/reveal.js";
 /** @typedef {{key: string, place: string, element: HTMLIFrameElement, line: ReturnType<typeof createReceiver> | null, channel: BroadcastChannel | null,
  *   here: Here | null, loaded: boolean, later: Wish | null}} Frame  later: what it is told as soon as it hears */
 
-/** Ten letters and digits that no other frame has. */
+/** Milliseconds between two looks at what a page has fetched, and how many show nothing new when all is there. */
+const [LOOK, QUIET] = [400, 5];
+
+/** Comes true when a page has fetched all that it fetches by itself. @param {Window} page @returns {Promise<void>} */
+const settled = (page) =>
+  new Promise((done) => {
+    let [fetched, quiet] = [-1, 0];
+    const looking = setInterval(() => {
+      const now = page.performance?.getEntriesByType("resource").length ?? fetched;
+      const waits = page.document.querySelector(".waiting") !== null;
+      quiet = now === fetched && !waits ? quiet + 1 : 0;
+      fetched = now;
+      if (quiet < QUIET) return;
+      clearInterval(looking);
+      done();
+    }, LOOK);
+  });
+
+/** All fonts of formulas: a slide to come may need another one. @param {Document} page */
+function fetchFonts(page) {
+  for (const face of page.fonts) void face.load().catch(() => {});
+}
+
+/** Twelve letters and digits that no other frame has. */
 export const newId = () =>
   Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => (byte % 36).toString(36)).join("");
 
@@ -43,9 +66,13 @@ export function createFrames(holder, stops, reader, { heard, opened }) {
       if (!contentDocument || !contentWindow || contentWindow.location.href === "about:blank") return;
       contentDocument.documentElement.dataset.hall = "away";
       opened(contentWindow);
-      frame.loaded = true;
-      heard();
+      fetchFonts(contentDocument);
       next();
+      heard();
+      void settled(contentWindow).then(() => {
+        frame.loaded = true;
+        heard();
+      });
     });
     return frame;
   });
@@ -59,6 +86,7 @@ export function createFrames(holder, stops, reader, { heard, opened }) {
   const find = (/** @type {string} */ place) => frames.find(({ key }) => key === frameOf(place));
 
   next();
+  fetchFonts(document);
   return {
     count: frames.length,
     /** How many have come, with their derivations. */

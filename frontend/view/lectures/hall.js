@@ -109,7 +109,7 @@ function overview({ lecture, given }, { to, overview: close }, t) {
       <div class="heading"><h2>${lecture.title}</h2><button class="tool" aria-label=${t("close")} title=${t("close")} @click=${close}>${icon("close")}</button></div>
       <ol>${lecture.stops.map(
         (stop, i) => html`
-        <li><button aria-current=${i === given.index ? "step" : nothing} @click=${() => to(i)}><span class="number">${i + 1}</span><span>${prose(stop.title)}</span></button></li>`,
+        <li><button ?autofocus=${i === given.index} aria-current=${i === given.index ? "step" : nothing} @click=${() => to(i)}><span class="number">${i + 1}</span><span>${prose(stop.title)}</span></button></li>`,
       )}</ol>
     </dialog>`;
 }

@@ -5,6 +5,7 @@ import { backward, jumped, onward, started, wantedStep } from "../../model/lectu
 import { COLOURS, pointIn } from "../../model/lectures/ink.js";
 import { createHallLine, nameOf } from "../../model/lectures/line.js";
 import { frameOf, hasSteps } from "../../model/lectures/place.js";
+import { plainly } from "../../model/prose.js";
 import { createStore } from "../../model/store.js";
 import { toggleFullscreen } from "../fullscreen.js";
 import { createFrames, newId } from "./frames.js";
@@ -59,7 +60,7 @@ export function openHall({ root, lecture, reader, at, t, moved, left }) {
     if (frameOf(stops[from].place) !== frameOf(stop.place) && document.activeElement instanceof HTMLIFrameElement)
       /** @type {HTMLElement | null} */ (root.querySelector(".stage"))?.focus({ preventScroll: true });
     const announcer = document.getElementById("announcer");
-    if (announcer) announcer.textContent = `${given.index + 1}: ${stop.title.replaceAll("$", "")}`;
+    if (announcer) announcer.textContent = `${given.index + 1}: ${plainly(stop.title)}`;
     moved(given.index);
   }
 
