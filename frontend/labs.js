@@ -22,6 +22,7 @@ import { caveatsOf } from "./model/trajectory.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { api, send } from "./server.js";
 import { offer } from "./view/files.js";
+import { isGuest } from "./view/guest.js";
 import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
 import { keeper } from "./view/keeper.js";
@@ -244,5 +245,7 @@ async function start() {
   );
   const offered = speak(lang()).then(() => labs().includes(bench.get().question.lab) || bench.open(NOTHING.lab));
   await Promise.all([offered, bench.load()]);
+  // In a lecture there may be no network when its turn comes.
+  if (isGuest()) void starting.start();
 }
 void start();

@@ -11,6 +11,7 @@ export const GUIDE = [
       { id: "prepare", to: "scene" },
       { id: "give", to: "scene" },
       { id: "presenter" },
+      { id: "lecture", to: "lecture" },
       { id: "think" },
       { id: "figure", to: "scene" },
       { id: "laboratory", to: "labs" },

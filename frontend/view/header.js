@@ -63,7 +63,7 @@ const stopTitle =
   () => {
     const { lines, place, scene } = state;
     const subject = scene ? inLanguage(scene.title, place.lang) : t("place.proof");
-    return titleOfPlace(subject, lines.find(({ step }) => step.id === place.step)?.step.title);
+    return titleOfPlace(lines.find(({ step }) => step.id === place.step)?.step.title, subject);
   };
 
 /** @param {Above} view */

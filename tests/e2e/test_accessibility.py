@@ -69,6 +69,12 @@ def answer(page: Page) -> None:
     expect(page.locator(".worked")).to_be_visible()
 
 
+def unfold(page: Page) -> None:
+    """A stop with notes and a poll."""
+    page.locator("[data-at=more]").nth(2).click()
+    expect(page.locator(".poll-editor")).to_be_visible()
+
+
 def pick(page: Page) -> None:
     """A sheet of one task, with its address and the code for phones."""
     page.locator(".catalogue button").first.click()
@@ -127,6 +133,8 @@ PLACES = [
     pytest.param(
         "labs?lab=stability&scene=two-mass-oscillator&t=1", "button.main:enabled", measure, id="labs, a table"
     ),
+    pytest.param("lecture?shipped=1", ".stop", unfold, id="outline of a lecture"),
+    pytest.param("lecture?shipped=1&give=9", ".hall .poll", nothing, id="hall"),
     pytest.param("homework?", "main .katex", nothing, id="homework"),
     pytest.param("homework?scene=pendulum&task=equation:phi", ".question h2", answer, id="homework, answered"),
     pytest.param("homework?scene=pendulum&side=class", ".classroom .pick", mark_class, id="homework of a class"),

@@ -22,6 +22,7 @@ PAGES = [
     pytest.param("labs?", ".question button.main:enabled", id="labs"),
     pytest.param(f"homework?{LONG}", ".question h2", id="homework"),
     pytest.param(f"homework?{LONG}&side=sheet", ".catalogue .katex", id="sheet in the making"),
+    pytest.param("lecture?shipped=1", ".stop", id="outline of a lecture"),
     pytest.param("docs?", ".calls article", id="reference"),
     pytest.param("docs/try?", ".trial textarea", id="trial"),
     pytest.param("problems/invalid-request?", ".top ~ .problem pre", id="problem"),

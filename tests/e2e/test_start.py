@@ -144,6 +144,7 @@ def test_old_addresses_of_scenes_lead_to_them(lecture: Lecture, page: Page) -> N
         pytest.param("proof?lang=en", ".steps .katex", id="proof"),
         pytest.param("labs?lang=en", "main", id="labs"),
         pytest.param("homework?lang=en", "main .katex", id="homework"),
+        pytest.param("lecture?lang=en", ".stops, .empty", id="own lectures"),
         pytest.param("docs?lang=en", ".calls article", id="reference"),
         pytest.param("docs/try?lang=en", ".trial textarea", id="trial of the API"),
         pytest.param("help?lang=en", ".guide article", id="help"),

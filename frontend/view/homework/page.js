@@ -62,7 +62,7 @@ export function page(view) {
   const shown = { state: { place }, session: view.session, t };
   const { entry } = state;
   const title = () =>
-    titleOfPlace(inLanguage(entry?.scene.title, place.lang) || t("place.homework"), entry?.task.title);
+    titleOfPlace(entry?.task.title, inLanguage(entry?.scene.title, place.lang) || t("place.homework"));
   return html`
     ${top(shown, { main: "work", skip: t("homework.skip"), here: "homework", heading: heading(view), menu: [appearance(shown), addEntry(title, t)], tools: addTool(title, t) })}
     <main class="homework" data-side=${side}>

@@ -41,5 +41,5 @@ export const addTool = (titleOf, t) => html`
 export const addEntry = (titleOf, t) => html`
   <button class="action" popovertarget="places" popovertargetaction="hide" @click=${() => void add(titleOf(), t)}>${t("adding.add")}</button>`;
 
-/** A scene's step or another part of a page, behind its title. @param {...(string | undefined)} parts */
-export const titleOfPlace = (...parts) => parts.filter(Boolean).join(": ");
+/** What is shown, and of what. @param {...(string | undefined)} parts */
+export const titleOfPlace = (...parts) => parts.filter(Boolean).join(" · ");
