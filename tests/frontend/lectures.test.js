@@ -76,6 +76,10 @@ for (const [name, value, pointer, code] of /** @type {[string, unknown, string, 
   });
 }
 
+test("texts may be as long as they may", () => {
+  assert.deepEqual(problemsOf(with_({ title: long(MOST.title), stops: [{ ...STOP, title: long(MOST.stop), notes: long(MOST.notes) }] })), []);
+});
+
 test("all that is wrong is said at once, and no file breaks the reader", () => {
   assert.equal(problemsOf(stop({ title: "", hide: 1, poll: { ...POLL, right: 9 } })).length, 3);
   assert.deepEqual(lectureIn("{").problems, [{ pointer: "", code: "json" }]);
@@ -88,6 +92,7 @@ test("places are what pages have as their addresses, without what belongs to the
   assert.equal(placeOf("/proof?lang=en", site), "proof");
   assert.equal(placeOf(" labs?lab=chaos&q.phi1=2&t=1e-3 ", site), "labs?lab=chaos&q.phi1=2&t=1e-3");
   assert.equal(placeOf("http://127.0.0.1:8000.example.org/scene", site), null);
+  assert.equal(placeOf(`${site}5scene`, site), null);
   assert.equal(placeOf("https://example.org/scene", site), null);
   assert.ok(isPlace("variations?kind=value&expression=[l*sin(phi),+y]&samples=x:t%5E2;y:1"));
 });
@@ -237,6 +242,7 @@ test("ink is drawn in fractions of the slide, and the eraser takes what it touch
   assert.equal(pathOf(strokes[1]), "M0.1 0.1L0.2 0.1");
   assert.match(pathOf(strokes[0]), /^M0.9 0.9l/);
   assert.deepEqual(erased(strokes, [0.2, 0.11], 0.5).map(({ colour }) => colour), [1]);
+  assert.deepEqual([0.5, 1].map((ratio) => erased(strokes, [0.2, 0.125], ratio).length), [1, 2]);
   assert.equal(erased(strokes, [0.5, 0.5], 0.5).length, 2);
   assert.deepEqual(drawnOn([], [0, 0]), []);
   assert.ok(areStrokes(strokes));
