@@ -23,6 +23,11 @@ export function fitSeen(target, gone = false) {
   else fitting.seen(target);
 }
 
+/** Formulas whose size has been changed fit their places anew. @param {HTMLElement} place */
+export function refit(place) {
+  for (const element of place.querySelectorAll(".formula")) fitting.fitSoon(/** @type {HTMLElement} */ (element));
+}
+
 /** What has come into view is typeset before all others. @param {Node} place */
 export const typesetWithin = (place) => waiting.hurry(place);
 

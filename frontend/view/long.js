@@ -29,8 +29,9 @@ const shrink = (element, part) => resize(element, Math.floor(part * 100) / 100);
 
 export class Long {
   latex = "";
-  /** For which it was planned. */
+  /** For which it was planned: pixels, and em. */
   width = 0;
+  #room = 0;
   #grid = made("div", "rows");
   #said = made("span", "katex");
   /** What is missing yet. @type {Due[]} */
@@ -55,9 +56,12 @@ export class Long {
   plan() {
     const { element } = this;
     const width = element.clientWidth;
-    if (!width || this.width === width) return false;
+    if (!width) return false;
     const style = getComputedStyle(element);
-    const { rows, part } = planned(this.latex, roomOf(element, style), {
+    const room = roomOf(element, style);
+    if (this.width === width && Math.abs(this.#room - room) < 0.01) return false;
+    this.#room = room;
+    const { rows, part } = planned(this.latex, room, {
       bearable: bearableIn(style),
       smallest: SMALLEST,
     });

@@ -7,6 +7,7 @@ import re
 import pytest
 from playwright.sync_api import expect
 from tests.e2e.lecture import Lecture
+from tests.e2e.slides import opened, share, slides
 from tests.e2e.waiting import until_equal
 
 pytestmark = pytest.mark.e2e
@@ -54,10 +55,13 @@ def test_one_step_at_a_time_by_keys_and_remote(hall: Lecture) -> None:
 
 def test_substeps_come_one_by_one_and_have_an_address(hall: Lecture) -> None:
     page = hall.page
-    for shown in (1, 2, 3, 3):
+    for shown, results in ((1, 0), (2, 0), (3, 0), (3, 1), (3, 1)):
         page.keyboard.press("ArrowDown")
         expect(page.locator(".slide .part")).to_have_count(shown)
-    expect(page.locator(".slide .part").last).to_be_in_viewport()
+        expect(page.locator(".slide .result")).to_have_count(results)
+    for part in page.locator(".slide .part, .slide .result").all():  # all of the step is on one screen
+        expect(part).to_be_in_viewport(ratio=0.98)
+    page.keyboard.press("ArrowUp")
     page.keyboard.press("ArrowUp")
     expect(page).to_have_url(re.compile("part=2"))
     page.reload()
@@ -194,6 +198,61 @@ def test_equations_fit_the_width_of_the_screen(hall: Lecture, width: int, height
         page.wait_for_function(fits)
         until_equal(page, lambda: page.evaluate("document.documentElement.scrollWidth"), width)
         page.keyboard.press("PageDown")
+
+
+SAMPLE = {
+    "pendulum": ["position:bob", "virtual-displacement:bob", "total-differential:bob"],
+    "double-pendulum": ["lagrangian", "equation:phi1", "equation:phi2"],
+}
+
+
+@pytest.mark.parametrize(
+    ("width", "height"),
+    [pytest.param(1024, 768, id="old projector"), pytest.param(1366, 768), pytest.param(3840, 2160, id="4K")],
+)
+def test_formulas_fill_the_slide(hall: Lecture, width: int, height: int) -> None:
+    """Read from the last row, and all on one screen; `python -m tests.e2e.slides` looks at every step of every scene."""
+    page = hall.page
+    page.set_viewport_size({"width": width, "height": height})
+    found = []
+    for scene, steps in SAMPLE.items():
+        opened(page, hall.address, scene, steps[0])
+        found += slides(page, steps)
+    assert [slide.step for slide in found if not slide.fits] == []
+    assert share(found) >= 5 / 6
+    assert max(slide.size for slide in found) <= 0.08
+
+
+@pytest.mark.parametrize(("width", "height"), [(1366, 768), (3840, 2160)])
+def test_nothing_is_smaller_in_full_screen(hall: Lecture, width: int, height: int) -> None:
+    page = hall.page
+    page.set_viewport_size({"width": width, "height": height})
+    step = hall.current_step
+    (before,) = slides(page, [step])
+    page.keyboard.press("PageUp")
+    page.keyboard.press("f")
+    page.wait_for_function("() => document.fullscreenElement !== null")
+    (after,) = slides(page, [step])
+    assert after.root >= before.root
+    assert after.size >= 0.99 * before.size
+
+
+def test_what_a_step_rests_on_stands_above_it(hall: Lecture) -> None:
+    page = hall.page
+    page.goto(f"{hall.address}scene?scene=elastic-pendulum&lang=en&view=lecture&step=equation:y")
+    given = page.locator(".given")
+    expect(given.locator(".formula .katex").last).to_be_in_viewport()
+    expect(given.locator(".from")).to_have_text(["6.7", "7.1"])
+    names = [one.get_attribute("aria-label") or "" for one in given.locator(".formula").all()]
+    assert names[1].startswith("capital L equals")
+    expect(page.locator(".slide .legend .term-sign-turned")).to_be_in_viewport()
+    given.locator("summary").click()
+    expect(given.locator(".formula").first).to_be_hidden()
+    page.keyboard.press("w")
+    expect(page.locator(".slide .law .source")).to_be_in_viewport(ratio=0.98)
+    given.locator("summary").click()
+    given.locator(".from").first.click()
+    expect(page.locator(".slide .step")).to_have_attribute("data-step", "decomposition")
 
 
 def test_the_presenter_sees_what_comes_and_leads(hall: Lecture) -> None:

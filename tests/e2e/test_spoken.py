@@ -56,7 +56,7 @@ def test_the_terms_of_a_formula_are_walked_through(lecture: Lecture) -> None:
     """Enter begins, the arrows go on inside the formula and not in the lecture, Escape gives them back."""
     page = lecture.page
     page.goto(f"{lecture.address}scene?scene=pendulum&lang=en&step=equation:phi&view=lecture")
-    formula = page.locator(".slide .formula").first
+    formula = page.locator(".slide .result .formula")
     expect(formula.locator(".katex-html").first).to_be_attached()
     formula.focus()
     page.keyboard.press("Enter")

@@ -2,7 +2,9 @@ import { strict as assert } from "node:assert";
 import { test } from "node:test";
 import { createReceiver, createSender, isId } from "../../frontend/model/lecture/link.js";
 import { keepNotes, noteOf, readNotes, withNote } from "../../frontend/model/lecture/notes.js";
-import { allOrNone, meant, onwards, partsOf, within } from "../../frontend/model/lecture/stops.js";
+import { bounds, filling, laidOut } from "../../frontend/model/lecture/filling.js";
+import { premisesOf, shortForm } from "../../frontend/model/lecture/premises.js";
+import { allOrNone, isConcluded, meant, onwards, partsOf, within } from "../../frontend/model/lecture/stops.js";
 import { clockText, elapsed, STOPPED, toggled } from "../../frontend/model/lecture/timer.js";
 import { linesOf } from "../../frontend/model/reveal.js";
 
@@ -27,8 +29,9 @@ const WAYS = [
   ["to the end at once", { step: "a", part: 0 }, Infinity, "", { step: "c", part: 0 }],
   ["to the beginning at once", { step: "c", part: 0 }, -Infinity, "", { step: "a", part: 0 }],
   ["the first substep", { step: "b", part: 0 }, 1, "substeps", { step: "b", part: 1 }],
-  ["after the last substep the next step", { step: "b", part: 3 }, 1, "substeps", { step: "c", part: 0 }],
-  ["back to a step as it was left", { step: "c", part: 0 }, -1, "substeps", { step: "b", part: 3 }],
+  ["after the last substep the result", { step: "b", part: 3 }, 1, "substeps", { step: "b", part: 4 }],
+  ["after the result the next step, from its first substep", { step: "b", part: 4 }, 1, "substeps", { step: "c", part: 1 }],
+  ["back to a step as it was left", { step: "c", part: 0 }, -1, "substeps", { step: "b", part: 4 }],
   ["an unknown step is the first", { step: "?", part: 0 }, 1, "", { step: "b", part: 0 }],
 ];
 
@@ -38,10 +41,72 @@ test("without steps a lecture stays where it is", () => assert.deepEqual(onwards
 
 test("substeps of one step come and go, all at once if wanted", () => {
   assert.deepEqual(within(lines, { step: "b", part: 1 }, 1), { step: "b", part: 2 });
-  assert.deepEqual(within(lines, { step: "b", part: 99 }, 0), { step: "b", part: 3 });
+  assert.deepEqual(within(lines, { step: "b", part: 99 }, 0), { step: "b", part: 4 });
   assert.deepEqual(within(lines, { step: "a", part: 0 }, 1), { step: "a", part: 0 });
-  assert.deepEqual(allOrNone(lines, { step: "b", part: 1 }), { step: "b", part: 3 });
-  assert.deepEqual(allOrNone(lines, { step: "b", part: 3 }), { step: "b", part: 0 });
+  assert.deepEqual(allOrNone(lines, { step: "b", part: 1 }), { step: "b", part: 4 });
+  assert.deepEqual(allOrNone(lines, { step: "b", part: 4 }), { step: "b", part: 0 });
+});
+
+test("the result of a step is there alone or after its substeps, and never among them", () => {
+  assert.deepEqual([0, 1, 2, 3, 4].map((part) => isConcluded(lines[1].step, part)), [true, false, false, false, true]);
+  assert.equal(isConcluded(lines[0].step, 0), true);
+});
+
+/** @param {string} latex @param {number} [share] */
+const formula = (latex, share = 1) => ({ latex, share });
+const SUM = Array.from({ length: 12 }, (_, i) => `a_{${i}} b_{${i}}`).join(" + ");
+
+test("a short formula grows to seven percent of the screen and no further", () => {
+  for (const [height, width] of [[768, 1366], [2160, 3840]]) {
+    const { size, far } = filling([formula("L = E - V")], { width: 0.6 * width, height: 0.6 * height }, height);
+    assert.ok(Math.abs(size - 0.07 * height) < 1);
+    assert.ok(far);
+  }
+});
+
+test("formulas fill their pane and do not stand over it", () => {
+  for (const [width, height] of [[840, 500], [640, 300], [330, 250], [1700, 900]]) {
+    const formulas = [formula(`x &= ${SUM}`), formula("y = \\frac{a}{b}", 0.7)];
+    const { size } = filling(formulas, { width, height }, height * 1.5);
+    const high = formulas.reduce((sum, one) => sum + laidOut(one, size, width).height, 0);
+    assert.ok(high <= height && high > 0.5 * height, `${high} of ${height}`);
+  }
+});
+
+test("more room hardly ever makes a formula smaller, however its rows are broken", () => {
+  let last = 0;
+  for (let width = 300; width < 1600; width += 50) {
+    const { size } = filling([formula(`x = ${SUM}`)], { width, height: 0.5 * width }, 900);
+    const reached = size * laidOut(formula(`x = ${SUM}`), size, width).part;
+    assert.ok(reached >= 0.88 * last, `${reached} after ${last} at ${width}`);
+    last = reached;
+  }
+});
+
+test("without room formulas stay legible, on a phone, too", () => {
+  const { size, far } = filling([formula(SUM)], { width: 300, height: 10 }, 360);
+  assert.equal(size, bounds(360).least);
+  assert.equal(size, 15);
+  assert.equal(far, false);
+});
+
+/** @type {[string, string, string][]} */
+const SHORT = [
+  ["the end of a chain", "\\begin{aligned}E &= \\frac{m}{2} v^2 \\\\[0.4em] &= 2 m \\end{aligned}", "E & = 2 m"],
+  ["what follows from an equation", "\\begin{aligned}& a = b \\\\ \\;\\Longleftrightarrow\\; & c = 0\\end{aligned}", "c = 0"],
+  ["each of several results", "\\begin{aligned}Q_1 &= a \\\\ Q_2 &= b\\end{aligned}", "Q_1 & = a,\\quad Q_2 & = b"],
+  ["its beginning where its end is long", `\\begin{aligned}L &= E - V \\\\ &= ${SUM} + ${SUM}\\end{aligned}`, "L & = E - V"],
+  ["nothing where all is long", `x = ${SUM} + ${SUM}`, ""],
+  ["nothing of words", "", ""],
+];
+for (const [name, latex, short] of SHORT)
+  test(`the short form of a formula: ${name}`, () => assert.equal(shortForm(latex).replaceAll("&", "").replace(/\s+/g, " ").trim(), short.replaceAll("& ", "")));
+
+test("a step rests on the steps before it, also on those of its substeps, but not on its own", () => {
+  const of = (/** @type {string} */ id, /** @type {string[]} */ premises, /** @type {any[]} */ substeps = []) => ({ id, latex: `${id[0]} = 1`, premises, substeps });
+  const derived = linesOf([{ id: "x", title: "X", steps: /** @type {any[]} */ ([of("a", [], [of("a1", [])]), of("b", []), of("c", ["c1"], [of("c1", ["a1", "later"])]), of("later", [])]) }]);
+  assert.deepEqual(premisesOf(derived, derived[2]).map(({ step, line, latex }) => [step.id, line.number, latex.trim()]), [["a1", "1.1", "a = 1"]]);
+  assert.deepEqual(premisesOf(derived, derived[1]), []);
 });
 
 const MEANT = [["", "abc"], ["1.2", "b"], ["1,2", "b"], ["2", "c"], ["1.", "ab"], ["energy", "c"], ["TITLE OF B", "b"], ["9.9", ""], ["no such", ""]];

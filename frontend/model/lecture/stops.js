@@ -5,7 +5,10 @@ import { indexOf } from "../reveal.js";
 /** @typedef {import("../types.js").Step} Step */
 /** @typedef {import("../reveal.js").Line} Line */
 /** @typedef {import("../types.js").Pace} Pace */
-/** @typedef {{step: string, part: number}} Stop  part: how many substeps are shown */
+/**
+ * part: how many substeps are shown. Without any there is the result alone; with them it comes last, as one part more.
+ * @typedef {{step: string, part: number}} Stop
+ */
 
 /** The substeps of a step in the order in which they are read, with how deep they lie. @param {Step} step @param {number} [depth] @returns {{step: Step, depth: number}[]} */
 export function partsOf(step, depth = 0) {
@@ -23,20 +26,33 @@ export function onwards(lines, at, by, pace) {
   const stops = lines.flatMap((line) => stopsOf(line, pace));
   const index = indexOf(lines, at.step);
   const passed = stops.filter((stop) => stop.index < index || (stop.index === index && stop.part <= at.part)).length;
-  const { step, part } = stops[Math.max(0, Math.min(stops.length - 1, passed - 1 + by))];
+  // Before the first stop of a step one comes back to the one before it.
+  const before = !stops.some((stop) => stop.index === index && stop.part <= at.part);
+  const to = passed - 1 + by + (before && by < 0 ? 1 : 0);
+  const { step, part } = stops[Math.max(0, Math.min(stops.length - 1, to))];
   return { step, part };
 }
 
 /** @param {Line} line @param {Pace} pace */
 function stopsOf({ step, index }, pace) {
-  const count = pace === "substeps" ? partsOf(step).length : 0;
-  return Array.from({ length: count + 1 }, (_, part) => ({ step: step.id, part, index }));
+  const last = pace === "substeps" ? lastPart(step) : 0;
+  if (!last) return [{ step: step.id, part: 0, index }];
+  return Array.from({ length: last }, (_, i) => ({ step: step.id, part: i + 1, index }));
 }
 
-/** One substep more or less of the same step. @param {readonly Line[]} lines @param {Stop} at @param {number} by @returns {Stop} */
+/** The part with which all of a step is shown. @param {Step} step */
+function lastPart(step) {
+  const count = partsOf(step).length;
+  return count && count + 1;
+}
+
+/** Whether the result of a step is shown: its substeps come before. @param {Step} step @param {number} part */
+export const isConcluded = (step, part) => part === 0 || part >= lastPart(step);
+
+/** One substep more or less of the same step, its result after the last. @param {readonly Line[]} lines @param {Stop} at @param {number} by @returns {Stop} */
 export function within(lines, { step, part }, by) {
   const line = lines[indexOf(lines, step)];
-  const most = line ? partsOf(line.step).length : 0;
+  const most = line ? lastPart(line.step) : 0;
   return { step, part: Math.max(0, Math.min(most, Math.min(part, most) + by)) };
 }
 

@@ -41,6 +41,10 @@ export function createWhy(state) {
       const shown = state.place.why === step.id;
       return html`<button class="why quiet small" aria-expanded=${String(shown)} @click=${() => session.move({ why: shown ? "" : step.id })}>${t("why")}</button>`;
     },
+    /** What the marks on its terms mean, for those who do not ask. @param {Step} step */
+    legend(step) {
+      return changes(found.get(step), view.state.lines.find((line) => line.step === step)?.number, view);
+    },
     /** @param {Step} step */
     panel(step) {
       if (view.state.place.why !== step.id) return nothing;

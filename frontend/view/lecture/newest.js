@@ -25,7 +25,7 @@ export function createNewest(root) {
 
   /** However one came to it; only the way from one to another is shown as a motion. */
   return () => {
-    const last = [...root.querySelectorAll(".slide .part")].at(-1) ?? null;
+    const last = root.querySelector(".slide .newest");
     if (last === newest) return;
     const behavior = newest ? "smooth" : "instant";
     [newest, left, height] = [last, false, 0];

@@ -5,8 +5,9 @@ import { allOrNone, onwards, within } from "../../model/lecture/stops.js";
 import { expectLong } from "../formula.js";
 import { isGuest } from "../guest.js";
 import { windowKeeper } from "../keeper.js";
+import { createFilled } from "./filled.js";
 import { createNewest } from "./newest.js";
-import { slide } from "./slide.js";
+import { formulas, slide } from "./slide.js";
 import { createSpot } from "./spot.js";
 
 /** @typedef {import("../page.js").View} View */
@@ -72,6 +73,9 @@ export function open({ root, session, state, about, changed, play }) {
   const spot = createSpot(root);
   const reachNewest = createNewest(root);
   if (isGuest()) void expectLong();
+  const fill = createFilled(root);
+  /** @type {ReturnType<typeof formulas>} */
+  let shownNow = [];
 
   const stopAt = (/** @type {import("../../model/lecture/stops.js").Stop} */ { step, part }) =>
     session.goTo(step, part);
@@ -124,6 +128,7 @@ export function open({ root, session, state, about, changed, play }) {
   const touch = createTouch(go);
   /** What keys mean here besides what they always mean. @type {Record<string, () => void>} */
   const keys = {
+    " ": () => stopAt(onwards(state().lines, state().place, 1, "substeps")),
     ArrowDown: () => step(1),
     ArrowUp: () => step(-1),
     e: () => stopAt(allOrNone(state().lines, state().place)),
@@ -141,11 +146,14 @@ export function open({ root, session, state, about, changed, play }) {
     get keys() {
       return { ...keys, ...(explained() ? { Escape: why } : {}) };
     },
-    slide: (/** @type {import("./slide.js").Shown} */ view) =>
-      slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch }),
+    slide(/** @type {import("./slide.js").Shown} */ view) {
+      shownNow = formulas(view);
+      return slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch });
+    },
     /** Called when anything has changed. */
     update() {
       sender.tell();
+      if (state().place.view) fill(shownNow);
       reachNewest();
       if (!state().place.view) spot.off();
     },

@@ -1,4 +1,4 @@
-/** One step filling the screen, its substeps below it as far as they have been shown. */
+/** One step filling the screen: what it rests on, its substeps as far as they have been shown, and its result below them. */
 
 import { html, nothing } from "lit-html";
 import { keyed } from "lit-html/directives/keyed.js";
@@ -7,11 +7,15 @@ import { icon } from "../icons.js";
 import { missing } from "../steps.js";
 import { isUnderWay } from "../../model/derivations.js";
 import { indexOf } from "../../model/reveal.js";
-import { partsOf, within } from "../../model/lecture/stops.js";
+import { premisesOf } from "../../model/lecture/premises.js";
+import { isConcluded, partsOf, within } from "../../model/lecture/stops.js";
 
 /** @typedef {import("../steps.js").View & {fullscreen: () => void, session: Pick<import("../page.js").View["session"], "goTo" | "move" | "overlay">}} Shown  what a slide needs of a page */
 /** @typedef {import("../../model/types.js").Step} Step */
 /** @typedef {import("./open.js").Lecturing} Lecturing */
+
+/** Of the size of the newest formula that those before it have. */
+const OLDER = 0.7;
 
 /** @param {Shown} view @param {Lecturing} lecture */
 export function slide(view, lecture) {
@@ -20,54 +24,93 @@ export function slide(view, lecture) {
   return html`
     <section class="derivation slide" id="derivation" aria-label=${t("derivation")} aria-busy=${isUnderWay(state.derivation)}
       @touchstart=${lecture.touch.start} @touchend=${lecture.touch.end}>
-      ${line ? sheet(line, view) : html`<p class="where"></p><div class="scroll"><p class="notice" role="status">${t("derivation.loading")}</p></div>`}
+      ${line ? sheet(line, view) : html`<p class="where"></p><div class="given"></div><div class="scroll"><p class="notice" role="status">${t("derivation.loading")}</p></div><div class="reason"></div>`}
       ${bar(view, lecture)}
     </section>`;
 }
 
 /** @param {import("../../model/reveal.js").Line} line @param {Shown} view */
-function sheet({ step, number, chapter, chapterIndex }, view) {
-  const shown = within(view.state.lines, view.state.place, 0).part;
+function sheet(line, view) {
+  const { step, number, chapter, chapterIndex } = line;
+  const stop = within(view.state.lines, view.state.place, 0).part;
+  const parts = partsOf(step).slice(0, stop);
+  const concluded = isConcluded(step, stop);
   return html`
     <p class="where"><span class="ordinal">${chapterIndex + 1}</span>${chapter.title}</p>
+    ${given(line, view)}
     <div class="scroll" tabindex="0" role="region" aria-label=${view.t("derivation")}>
       ${keyed(
         step.id,
         html`
         <article class="step" data-step=${step.id} aria-current="step">
           <h1 class="title"><span class="number">${number}</span><span>${prose(step.title)}${view.why?.button(step)}</span></h1>
-          ${view.why?.panel(step)}
-          ${words(step, view)}
-          ${partsOf(step)
-            .slice(0, shown)
-            .map((one, i) => part(one, i, view))}
+          ${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
+          ${parts.map((one, i) => part(one, i, !concluded && i === parts.length - 1, view))}
+          ${concluded ? html`<section class="result ${stop ? "newest" : ""}">${formulaOf(step, view)}${legend(step, view)}</section>` : nothing}
         </article>`,
       )}
-      ${more(step, shown, view)} ${missing(view.state)}
-    </div>`;
+      ${more(step, stop, view)} ${missing(view.state)}
+    </div>
+    <div class="reason">${view.why?.panel(step)}</div>`;
 }
+
+/** What the step rests on, pinned above it. @param {import("../../model/reveal.js").Line} line @param {Shown} view */
+function given(line, { state, session, link, follow, t }) {
+  const premises = premisesOf(state.lines, line).filter(({ latex }) => latex);
+  if (!premises.length) return html`<div class="given"></div>`;
+  const one = (/** @type {import("../../model/lecture/premises.js").Premise} */ { step, line: from, latex }) => html`
+    <li><a class="from" href=${link({ step: from.step.id })} title=${step.title || from.step.title}
+      @click=${(/** @type {Event} */ event) => follow(event, () => session.goTo(from.step.id))}>${from.number}</a>${displayed(latex, false, step)}</li>`;
+  return html`<details class="given" open><summary>${icon("chevron")}<span>${t("lecture.given")}</span></summary><ul>${premises.map(one)}</ul></details>`;
+}
+
+/** Its terms are marked by what became of them. @param {Step} step @param {Pick<Shown, "why">} view */
+const latexOf = (step, { why }) => why?.formula(step) ?? (step.marked || step.latex);
 
 /** @param {Step} step @param {Pick<Shown, "why">} view */
-function words(step, { why }) {
-  const latex = why?.formula(step) ?? (step.marked || step.latex);
-  return html`${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}${latex ? displayed(latex, false, step) : nothing}`;
+function formulaOf(step, view) {
+  const latex = latexOf(step, view);
+  return latex ? displayed(latex, false, step) : nothing;
 }
 
-/** @param {{step: Step, depth: number}} shown @param {number} place @param {Pick<Shown, "why">} view */
-function part({ step, depth }, place, view) {
+/** What the hatching of terms means stands where they are seen; with the reason open it stands there. @param {Step} step @param {Shown} view */
+const legend = (step, { why, state }) =>
+  why && state.place.why !== step.id ? html`<div class="legend">${why.legend(step)}</div>` : nothing;
+
+/** The formulas that are shown, the one that is talked about first. @param {Shown} view @returns {import("./filled.js").Shown[]} */
+export function formulas(view) {
+  const { state } = view;
+  const line = state.lines[indexOf(state.lines, state.place.step)];
+  if (!line) return [];
+  const stop = within(state.lines, state.place, 0).part;
+  const concluded = isConcluded(line.step, stop);
+  const parts = partsOf(line.step).slice(0, stop);
+  const shown = parts.map(({ step, depth }, i) => ({
+    latex: latexOf(step, view),
+    share: !concluded && i === parts.length - 1 ? 1 : OLDER,
+    depth: depth + 1,
+  }));
+  return [...(concluded ? [{ latex: latexOf(line.step, view), share: 1, depth: 0 }] : []), ...shown.reverse()].filter(
+    ({ latex }) => latex,
+  );
+}
+
+/** @param {{step: Step, depth: number}} shown @param {number} place @param {boolean} newest @param {Pick<Shown, "why">} view */
+function part({ step, depth }, place, newest, view) {
   return html`
-    <section class="part" data-part=${place + 1} style="--depth:${depth}">
+    <section class="part ${newest ? "newest" : ""}" data-part=${place + 1} style="--depth:${depth}">
       ${step.title ? html`<h2>${prose(step.title)}</h2>` : nothing}
-      ${words(step, view)}
+      ${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
+      ${formulaOf(step, view)}
     </section>`;
 }
 
-/** How many substeps there are to see yet. @param {Step} step @param {number} shown @param {Shown} view */
-function more(step, shown, { state, session, t }) {
+/** How many substeps there are to see yet, and the result after them. @param {Step} step @param {number} stop @param {Shown} view */
+function more(step, stop, { state, session, t }) {
   const count = partsOf(step).length;
-  if (shown >= count) return nothing;
+  if (!count || stop > count) return nothing;
   const show = () => session.goTo(step.id, within(state.lines, state.place, 1).part);
-  return html`<button class="quiet more" @click=${show}>${icon("chevron")}${t("lecture.substeps", { shown, count })}</button>`;
+  return html`<button class="quiet more" @click=${show}>${icon("chevron")}${t("lecture.substeps", { shown: stop, count })}</button>`;
 }
 
 /** @param {Shown} view @param {Lecturing} lecture */

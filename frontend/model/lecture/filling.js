@@ -1,0 +1,61 @@
+/**
+ * How large the formulas of a slide may be: as large as its pane has room for, so that they are read from the last row.
+ * Everything is measured by the shorter side of the screen, so that one rule holds for projectors and for phones.
+ */
+
+import { planned } from "../rows.js";
+
+/** Parts of the shorter side of the screen: no formula is larger, and none is made smaller to save room. */
+const LARGEST = 0.07;
+const LEAST = 0.024;
+/** No letters are smaller than this many pixels. */
+const LEGIBLE = 15;
+/** Parts of the height that formulas may fill, and of their size below which rows are broken. */
+const FULL = 0.96;
+const BEARABLE = 0.92;
+const SMALLEST = 0.56;
+/** From one size that is tried to the next. */
+const FINER = 0.96;
+/** Sizes that are as good as the same. */
+const SAME = 0.99;
+/** Part of the shorter side of the screen from which on letters are read from the last row. */
+const FAR = 0.05;
+/** KaTeX sets formulas larger than text, and there is a gap between their rows and around them, in em. */
+const LARGER = 1.08;
+const GAP = 0.3;
+const AROUND = 1.1;
+
+/** @typedef {{latex: string, share: number, indent?: number}} Natural  share: of the size of the result that it has; indent: pixels at its side */
+/** @typedef {{width: number, height: number}} Pane  what is left for formulas, in pixels */
+
+/** @param {number} screen  pixels of the shorter side @returns {{largest: number, least: number}} pixels */
+export const bounds = (screen) => ({ largest: LARGEST * screen, least: Math.max(LEGIBLE, LEAST * screen) });
+
+/**
+ * How high a formula is at a size, and at which part of it all of its rows fit.
+ * @param {Natural} formula @param {number} size @param {number} width
+ */
+export function laidOut({ latex, share, indent = 0 }, size, width) {
+  const own = size * share;
+  const { rows, part } = planned(latex, (width - indent) / (own * LARGER), { bearable: BEARABLE, smallest: SMALLEST });
+  const em = rows.reduce((sum, { above, below }) => sum + above + below + GAP, -GAP);
+  return { part, height: own * part * (LARGER * em + AROUND) };
+}
+
+/**
+ * The size in pixels at which the formulas of a slide fill its pane, and whether that is large enough to be read from
+ * the last row. Where a larger size only breaks more rows, or makes them smaller again, the smaller one stays: a formula
+ * that cannot be broken shrinks no further than it must.
+ * @param {readonly Natural[]} formulas  the first is what it is about @param {Pane} pane @param {number} screen  its shorter side
+ */
+export function filling(formulas, pane, screen) {
+  const { largest, least } = bounds(screen);
+  let best = { size: least, reached: 0 };
+  for (let size = largest; size >= least && size > SAME * best.reached; size *= FINER) {
+    const set = formulas.map((formula) => laidOut(formula, size, pane.width));
+    if (set.reduce((sum, { height }) => sum + height, 0) > FULL * pane.height) continue;
+    const reached = size * (set[0]?.part ?? 1);
+    if (reached >= SAME * best.reached) best = { size, reached: Math.max(reached, best.reached) };
+  }
+  return { size: best.size, far: LARGER * best.reached >= FAR * screen };
+}

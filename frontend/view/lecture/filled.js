@@ -1,0 +1,124 @@
+/** Gives the formulas of a slide the size at which they fill it, and again whenever there is more or less room. */
+
+import { bounds, filling } from "../../model/lecture/filling.js";
+import { refit } from "../formula.js";
+
+/** @typedef {{latex: string, share: number, depth: number}} Shown  depth: of a substep within its step */
+
+/** What is estimated may be a little off: then all of it becomes smaller by this much, so many times. */
+const SMALLER = 0.93;
+const TRIES = 8;
+
+/** Words and premises as they are, smaller, and only the formulas. */
+const DENSER = ["", "words", "formulas"];
+/** Rem at both sides of a formula. */
+const PADDING = 0.5;
+
+const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
+const shorter = () => Math.min(window.innerWidth, window.innerHeight);
+
+/** @param {HTMLElement} root  the page, with a slide or without */
+export function createFilled(root) {
+  let last = "";
+  /** @type {readonly Shown[]} */
+  let shown = [];
+  let asked = 0;
+  /** @type {Element | null} */
+  let watched = null;
+  /** Which step is watched for growing: rows and letters may come late. @type {Element | null} */
+  let step = null;
+  const resized = new ResizeObserver(() => {
+    fill(false);
+    const slide = /** @type {HTMLElement | null} */ (root.querySelector(".slide[data-filled]"));
+    if (slide) check(slide, parseFloat(slide.style.getPropertyValue("--size-formula")), 0);
+  });
+
+  /** @param {HTMLElement} scroll */
+  function measured(scroll) {
+    const formulas = /** @type {HTMLElement[]} */ ([...scroll.querySelectorAll(".formula")]);
+    const { clientWidth, clientHeight } = scroll;
+    const style = getComputedStyle(scroll);
+    const inner = (/** @type {string} */ a, /** @type {string} */ b) => parseFloat(a) + parseFloat(b);
+    const around = inner(style.paddingTop, style.paddingBottom);
+    const taken = formulas.reduce((sum, formula) => sum + formula.offsetHeight, 0);
+    const words = [...scroll.children].reduce((sum, child) => sum + outer(child), 0) - taken;
+    return {
+      width: clientWidth - inner(style.paddingLeft, style.paddingRight) - PADDING * rem(),
+      height: clientHeight - around - words,
+    };
+  }
+
+  /** @param {boolean} anew */
+  function fill(anew) {
+    const slide = /** @type {HTMLElement | null} */ (root.querySelector(".slide"));
+    const scroll = /** @type {HTMLElement | null} */ (slide?.querySelector(".scroll") ?? null);
+    if (!slide || !scroll) return;
+    watch(scroll);
+    const room = () =>
+      [scroll.clientWidth, scroll.clientHeight, innerWidth, ...shown.map(({ latex }) => latex)].join("\n");
+    if ((room() === last && !anew) || !shown.length || !scroll.clientWidth) return;
+    const size = roomiest(slide, scroll);
+    last = room();
+    set(slide, size, 0);
+  }
+
+  /** @param {HTMLElement} scroll */
+  function watch(scroll) {
+    const article = scroll.querySelector(".step");
+    if (scroll === watched && article === step) return;
+    [watched, step] = [scroll, article];
+    resized.disconnect();
+    for (const one of [scroll, article]) if (one) resized.observe(one);
+  }
+
+  /** What is not formula makes room for them, as far as it must. @param {HTMLElement} slide @param {HTMLElement} scroll */
+  function roomiest(slide, scroll) {
+    const natural = shown.map(naturalOf);
+    let size = 0;
+    for (const dense of DENSER) {
+      slide.dataset.dense = dense;
+      const filled = filling(natural, measured(scroll), shorter());
+      size = filled.size;
+      if (filled.far) break;
+    }
+    return size;
+  }
+
+  /** @param {HTMLElement} slide @param {number} size @param {number} tried */
+  function set(slide, size, tried) {
+    delete slide.dataset.filled;
+    slide.style.setProperty("--size-formula", `${size.toFixed(2)}px`);
+    refit(slide);
+    cancelAnimationFrame(asked);
+    asked = requestAnimationFrame(() => (asked = requestAnimationFrame(() => check(slide, size, tried))));
+  }
+
+  /** What came out higher than was estimated becomes smaller. @param {HTMLElement} slide @param {number} size @param {number} tried */
+  function check(slide, size, tried) {
+    const scroll = slide.querySelector(".scroll");
+    const smaller = Math.max(bounds(shorter()).least, size * SMALLER);
+    if (scroll && scroll.scrollHeight > scroll.clientHeight + 1 && tried < TRIES && smaller < size)
+      set(slide, smaller, tried + 1);
+    else slide.dataset.filled = "";
+  }
+
+  document.fonts.addEventListener("loadingdone", () => fill(true));
+  /** Called when anything has changed. @param {readonly Shown[]} formulas */
+  return (formulas) => {
+    shown = formulas;
+    fill(false);
+  };
+}
+
+/** Substeps stand in. @param {Shown} formula */
+function naturalOf({ latex, share, depth }) {
+  return { latex, share, indent: depth && (1.2 + 1.4 * (depth - 1)) * rem() };
+}
+
+/** @param {Element} element  its height with its margins */
+function outer(element) {
+  const style = getComputedStyle(element);
+  return (
+    /** @type {HTMLElement} */ (element).offsetHeight + parseFloat(style.marginTop) + parseFloat(style.marginBottom)
+  );
+}
