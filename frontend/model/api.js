@@ -123,6 +123,8 @@ export function createApi(send, wait = pause, base = "/api/v1") {
       put(`/scenes/validate?lang=${lang}`, "application/json", JSON.stringify(scene), signal),
     /** @param {string} text @param {Lang} lang @returns {Promise<Answered<"/scenes/toml">>} */
     readToml: (text, lang) => put(`/scenes/toml?lang=${lang}`, "application/toml", text),
+    /** @param {Sent<"/tasks/poll">} body @param {AbortSignal} [signal] */
+    poll: (body, signal) => post("/tasks/poll", body, signal),
     /** @param {Sent<"/expressions/batch">} body @param {AbortSignal} [signal] */
     typeset: (body, signal) => post("/expressions/batch", body, signal),
     /** @param {Sent<"/variations">} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Variation>} */

@@ -546,6 +546,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/tasks/poll": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The result of a step among wrong ones that misconceptions lead to
+         * @description The result of a step among wrong ones that misconceptions lead to; nothing is counted here.
+         */
+        post: operations["ask_a_hall"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/checks/lines": {
         parameters: {
             query?: never;
@@ -4443,6 +4463,96 @@ export interface components {
             simplified?: number;
         };
         /**
+         * PollAnswer
+         * @description Two to four results, one of them right; none where no misconception is known to lead to another.
+         */
+        PollAnswer: {
+            /** Choices */
+            choices: components["schemas"]["PollChoice"][];
+        };
+        /**
+         * PollChoice
+         * @description One result to choose.
+         */
+        PollChoice: {
+            /** Latex */
+            latex: string;
+            /** Right */
+            right: boolean;
+            /**
+             * Title
+             * @description of the misconception that leads to it; empty for the right one
+             */
+            title: string;
+            /**
+             * Hint
+             * @description what that forgets
+             */
+            hint: string;
+        };
+        /**
+         * PollRequest
+         * @description Which result to ask a hall for.
+         * @example {
+         *       "scene": "pendulum",
+         *       "step": "lagrangian"
+         *     }
+         */
+        PollRequest: {
+            /**
+             * @description a built-in scene by its id, or a scene document of format 1
+             * @example elastic-pendulum
+             */
+            scene: components["schemas"]["Scene"];
+            /**
+             * Guides
+             * @description coordinates to be made functions of time
+             */
+            guides?: components["schemas"]["GuideChange"][];
+            /**
+             * Freeze
+             * @description coordinates to be held constant
+             * @example []
+             */
+            freeze?: string[];
+            /**
+             * Parameters
+             * @description values of parameters
+             * @example {
+             *       "l": 0.8
+             *     }
+             */
+            parameters?: components["schemas"]["PollRequestParameters"];
+            /**
+             * Seed
+             * @description draws what each student gets of their own
+             * @example student 7
+             */
+            seed?: string | null;
+            /**
+             * Vary
+             * @description what differs from student to student: values of parameters, axes, how coordinates count, factors
+             * @example [
+             *       "values",
+             *       "axes",
+             *       "coordinates",
+             *       "factors"
+             *     ]
+             */
+            vary?: ("values" | "axes" | "coordinates" | "factors")[];
+            /**
+             * Step
+             * @description a step of the derivation by its id
+             * @example lagrangian
+             */
+            step: string;
+            /**
+             * Lang
+             * @description language of the texts; else Accept-Language decides
+             */
+            lang?: ("de" | "en") | null;
+        };
+        /**
          * PossibleReading
          * @description One way to read an answer: either text, sent as the answer, is read so and in no other way.
          */
@@ -7577,6 +7687,13 @@ export interface components {
             [key: string]: number;
         };
         /**
+         * PollRequestParameters
+         * @default {}
+         */
+        PollRequestParameters: {
+            [key: string]: number;
+        };
+        /**
          * LinesRequestParameters
          * @default {}
          */
@@ -8342,6 +8459,30 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SolutionAnswer"];
+                };
+            };
+        };
+    };
+    ask_a_hall: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PollRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PollAnswer"];
                 };
             };
         };

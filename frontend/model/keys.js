@@ -18,6 +18,7 @@ export const KEYS = [
   [["d"], "help.beside"],
   [["w"], "help.why"],
   [["h"], "help.spot"],
+  [["q"], "help.ask"],
   [["Enter"], "help.terms"],
   [["?"], "help.help"],
 ];

@@ -3,6 +3,7 @@
 import { translator } from "../model/catalog.js";
 import { createLater } from "../model/later.js";
 import { keepDraft, OWN, readDraft } from "../model/own.js";
+import { sceneOf } from "../model/request.js";
 import { sheet } from "./bring.js";
 import { keeper } from "./keeper.js";
 
@@ -30,8 +31,14 @@ export function createAside({ root, store, api, session, send, changed, play }) 
   const lecture = createLater(async () => {
     const [{ open }] = await Promise.all([import("./lecture/open.js"), sheet("lecture")]);
     const about = () => ({ scene: get().place.scene, title: get().scene?.title ?? {} });
-    return open({ root, session, state: get, about, changed, play });
+    return open({ root, session, state: get, about, changed, play, poll });
   }, changed);
+  /** @param {string} step */
+  function poll(step) {
+    const { place } = get();
+    const parameters = place.n ? { parameters: { n: place.n } } : {};
+    return api.poll({ scene: sceneOf(get()) ?? OWN, ...parameters, step, lang: place.lang });
+  }
   const sharing = createLater(async () => {
     const [{ share }, { createExports }] = await Promise.all([
       import("./share.js"),

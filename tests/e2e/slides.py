@@ -21,13 +21,16 @@ ENOUGH = 0.05
 MEASURE = """() => {
     const [slide, scroll] = [document.querySelector('.slide'), document.querySelector('.slide .scroll')];
     const formulas = [...slide.querySelectorAll('.result .formula, .newest .formula')];
-    const letters = formulas.flatMap(one => [...one.querySelectorAll('.katex')].map(k => parseFloat(getComputedStyle(k).fontSize)));
+    const letters = formulas.flatMap(one => [...one.querySelectorAll('.katex')])
+        .map(one => parseFloat(getComputedStyle(one).fontSize));
     const size = letters.length ? Math.max(...letters) : 0;
     return {step: slide.querySelector('.step').dataset.step, size: size / innerHeight,
         fits: scroll.scrollHeight <= scroll.clientHeight + 1,
         root: parseFloat(getComputedStyle(document.documentElement).fontSize)};
 }"""
-AT_REST = "step => document.querySelector('.slide[data-filled] .step, .slide .step:not(:has(.formula))')?.dataset.step === step"
+AT_REST = """step =>
+    document.querySelector('.slide[data-filled] .step, .slide .step:not(:has(.formula))')?.dataset.step === step
+"""
 
 
 @dataclass(frozen=True)

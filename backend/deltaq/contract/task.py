@@ -112,6 +112,32 @@ class SolutionAnswer(Answer):
     latex: tuple[str, ...]
 
 
+class PollRequest(SceneAskedAbout):
+    """Which result to ask a hall for."""
+
+    step: Annotated[str, Field(min_length=1, max_length=80)] = Field(
+        description="a step of the derivation by its id", examples=["lagrangian"]
+    )
+    lang: AskedLanguage = None
+
+    model_config = examples({"scene": "pendulum", "step": "lagrangian"})
+
+
+class PollChoice(Answer):
+    """One result to choose."""
+
+    latex: str
+    right: bool
+    title: str = Field(description="of the misconception that leads to it; empty for the right one")
+    hint: str = Field(description="what that forgets")
+
+
+class PollAnswer(Answer):
+    """Two to four results, one of them right; none where no misconception is known to lead to another."""
+
+    choices: tuple[PollChoice, ...]
+
+
 class AssignmentRequest(Request):
     """An assignment, and the student who opens it."""
 

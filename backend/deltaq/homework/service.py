@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from ..contract.assignment import Aspect, AssignedTaskDocument
 from ..contract.check import CheckRequest, LinesRequest, ReadingRequest, TableRequest
 from ..contract.reading import read as read_request
-from ..contract.task import AssignmentRequest, PracticeRequest, SolutionRequest, StackRequest, TasksRequest
+from ..contract.task import AssignmentRequest, PollRequest, PracticeRequest, SolutionRequest, StackRequest, TasksRequest
 from ..errors import ExpressionError, Problem, RequestError
 from ..mechanics.requests import inside
 from ..mechanics.user_text import plainly, translated
@@ -20,6 +20,7 @@ from .gradebook import Shares
 from .grading import Sheet, plan_of, read_class
 from .handins import code_of
 from .motion import moved_scene
+from .poll import poll
 from .practice.exercise import exercise_of
 from .practice.levels import LEVELS
 from .stack.question import quiz
@@ -78,6 +79,12 @@ def solution_request(document: Mapping[str, object]) -> Document:
     asked = read_request(SolutionRequest, document)
     workbook = workbook_asked_by(asked)
     return model_answer(workbook.task(asked.task), workbook, language_of(asked.lang))
+
+
+def poll_request(document: Mapping[str, object]) -> Document:
+    """The fields of a PollRequest → {choices}: results of a step to choose from, one of them right."""
+    asked = read_request(PollRequest, document)
+    return {"choices": poll(workbook_asked_by(asked), asked.step, language_of(asked.lang))}
 
 
 def motion_request(document: Mapping[str, object]) -> Document:

@@ -33,7 +33,7 @@ def task_document(task: Task, workbook: Workbook, language: str) -> Document:
         "needs": _needs(task, workbook),
         "hints": [text(language, f"{key}.hints.{level}", **values) for level in (1, 2, 3)],
         "blocks": _blocks(task, workbook, language),
-        "solution": {"chapter": task.quantity.chapter, "steps": _steps(task, workbook)},
+        "solution": {"chapter": task.quantity.chapter, "steps": steps_of(task, workbook)},
     }
 
 
@@ -43,7 +43,7 @@ def _blocks(task: Task, workbook: Workbook, language: str) -> list[Document]:
     return block_documents(workbook.solution, own.goal, task.subject, language) if isinstance(own, Ordering) else []
 
 
-def _steps(task: Task, workbook: Workbook) -> list[str]:
+def steps_of(task: Task, workbook: Workbook) -> list[str]:
     """Ids of the steps that may show the answer, the likeliest first."""
     conserved = task.quantity.kind == "conserved" and workbook.solution.conserved_of[int(task.subject) - 1]
     return [step.format(subject=task.subject, cyclic=conserved or "") for step in task.quantity.steps]

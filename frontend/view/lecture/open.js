@@ -1,10 +1,12 @@
 /** Lecture mode: its keys, gestures and pointer, and the line to the presenter's window. */
 
 import { createSender, isId, nameOf } from "../../model/lecture/link.js";
-import { allOrNone, onwards, within } from "../../model/lecture/stops.js";
 import { expectLong } from "../formula.js";
 import { isGuest } from "../guest.js";
+import { allOrNone, isConcluded, onwards, within } from "../../model/lecture/stops.js";
+import { indexOf } from "../../model/reveal.js";
 import { windowKeeper } from "../keeper.js";
+import { createAsking } from "./asking.js";
 import { createFilled } from "./filled.js";
 import { createNewest } from "./newest.js";
 import { formulas, slide } from "./slide.js";
@@ -18,6 +20,7 @@ import { createSpot } from "./spot.js";
  * @property {() => void} leave
  * @property {() => void} spot
  * @property {boolean} spotted
+ * @property {import("./asking.js").Asking} asking
  * @property {{start: (event: TouchEvent) => void, end: (event: TouchEvent) => void}} touch
  */
 
@@ -65,10 +68,11 @@ function createTouch(go) {
  * @property {() => {scene: string, title: Record<string, string>}} about  under which name notes are kept, and the title
  * @property {() => void} changed
  * @property {() => void} play
+ * @property {import("./asking.js").Poll} [poll]  what a hall may be asked about a step
  */
 
 /** @param {Lectured} page */
-export function open({ root, session, state, about, changed, play }) {
+export function open({ root, session, state, about, changed, play, poll }) {
   const id = lineId();
   const spot = createSpot(root);
   const reachNewest = createNewest(root);
@@ -79,7 +83,16 @@ export function open({ root, session, state, about, changed, play }) {
 
   const stopAt = (/** @type {import("../../model/lecture/stops.js").Stop} */ { step, part }) =>
     session.goTo(step, part);
-  const go = (/** @type {number} */ by) => stopAt(onwards(state().lines, state().place, by, state().place.pace));
+  const shown = () => state().place.step || state().lines[0]?.step.id;
+  const subject = () => `${about().scene} ${state().place.n} ${state().place.lang}`;
+  const asking = createAsking({ changed, poll, shown, subject });
+  /** What is hidden is revealed before anything else comes. @param {number} by @param {import("../../model/types.js").Pace} [pace] */
+  const go = (by, pace = state().place.pace) => {
+    const { lines, place } = state();
+    const line = lines[indexOf(lines, place.step)];
+    const concludes = line && isConcluded(line.step, place.part);
+    if (!(by === 1 && concludes && asking.reveal())) stopAt(onwards(lines, place, by, pace));
+  };
   const step = (/** @type {number} */ by) => stopAt(within(state().lines, state().place, by));
   const turn = () => session.move({ beside: BESIDE[(BESIDE.indexOf(state().place.beside) + 1) % BESIDE.length] });
 
@@ -117,7 +130,6 @@ export function open({ root, session, state, about, changed, play }) {
     changed();
   }
 
-  const shown = () => state().place.step || state().lines[0]?.step.id;
   const explained = () => state().place.why === shown();
 
   /** The law of the step that is shown, and what it changes. */
@@ -128,7 +140,9 @@ export function open({ root, session, state, about, changed, play }) {
   const touch = createTouch(go);
   /** What keys mean here besides what they always mean. @type {Record<string, () => void>} */
   const keys = {
-    " ": () => stopAt(onwards(state().lines, state().place, 1, "substeps")),
+    " ": () => go(1, "substeps"),
+    q: asking.toggle,
+    ...Object.fromEntries([0, 1, 2, 3].map((i) => [String(i + 1), () => asking.choose(i)])),
     ArrowDown: () => step(1),
     ArrowUp: () => step(-1),
     e: () => stopAt(allOrNone(state().lines, state().place)),
@@ -147,8 +161,8 @@ export function open({ root, session, state, about, changed, play }) {
       return { ...keys, ...(explained() ? { Escape: why } : {}) };
     },
     slide(/** @type {import("./slide.js").Shown} */ view) {
-      shownNow = formulas(view);
-      return slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch });
+      shownNow = formulas(view, asking.veiled());
+      return slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch, asking });
     },
     /** Called when anything has changed. */
     update() {

@@ -5,6 +5,7 @@ import { keyed } from "lit-html/directives/keyed.js";
 import { displayed, prose } from "../formula.js";
 import { icon } from "../icons.js";
 import { missing } from "../steps.js";
+import { question } from "./asking.js";
 import { isUnderWay } from "../../model/derivations.js";
 import { indexOf } from "../../model/reveal.js";
 import { premisesOf } from "../../model/lecture/premises.js";
@@ -24,13 +25,13 @@ export function slide(view, lecture) {
   return html`
     <section class="derivation slide" id="derivation" aria-label=${t("derivation")} aria-busy=${isUnderWay(state.derivation)}
       @touchstart=${lecture.touch.start} @touchend=${lecture.touch.end}>
-      ${line ? sheet(line, view) : html`<p class="where"></p><div class="given"></div><div class="scroll"><p class="notice" role="status">${t("derivation.loading")}</p></div><div class="reason"></div>`}
+      ${line ? sheet(line, view, lecture) : html`<p class="where"></p><div class="given"></div><div class="scroll"><p class="notice" role="status">${t("derivation.loading")}</p></div><div class="reason"></div>`}
       ${bar(view, lecture)}
     </section>`;
 }
 
-/** @param {import("../../model/reveal.js").Line} line @param {Shown} view */
-function sheet(line, view) {
+/** @param {import("../../model/reveal.js").Line} line @param {Shown} view @param {Lecturing} lecture */
+function sheet(line, view, { asking }) {
   const { step, number, chapter, chapterIndex } = line;
   const stop = within(view.state.lines, view.state.place, 0).part;
   const parts = partsOf(step).slice(0, stop);
@@ -46,7 +47,12 @@ function sheet(line, view) {
           <h1 class="title"><span class="number">${number}</span><span>${prose(step.title)}${view.why?.button(step)}</span></h1>
           ${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
           ${parts.map((one, i) => part(one, i, !concluded && i === parts.length - 1, view))}
-          ${concluded ? html`<section class="result ${stop ? "newest" : ""}">${formulaOf(step, view)}${legend(step, view)}</section>` : nothing}
+          ${
+            concluded
+              ? html`<section class="result ${stop ? "newest" : ""}">${question(asking, view.t)}
+            ${asking.veiled() ? nothing : html`${formulaOf(step, view)}${legend(step, view)}`}</section>`
+              : nothing
+          }
         </article>`,
       )}
       ${more(step, stop, view)} ${missing(view.state)}
@@ -77,8 +83,8 @@ function formulaOf(step, view) {
 const legend = (step, { why, state }) =>
   why && state.place.why !== step.id ? html`<div class="legend">${why.legend(step)}</div>` : nothing;
 
-/** The formulas that are shown, the one that is talked about first. @param {Shown} view @returns {import("./filled.js").Shown[]} */
-export function formulas(view) {
+/** The formulas that are shown, the one that is talked about first. @param {Shown} view @param {boolean} veiled  the result is hidden @returns {import("./filled.js").Shown[]} */
+export function formulas(view, veiled) {
   const { state } = view;
   const line = state.lines[indexOf(state.lines, state.place.step)];
   if (!line) return [];
@@ -90,9 +96,10 @@ export function formulas(view) {
     share: !concluded && i === parts.length - 1 ? 1 : OLDER,
     depth: depth + 1,
   }));
-  return [...(concluded ? [{ latex: latexOf(line.step, view), share: 1, depth: 0 }] : []), ...shown.reverse()].filter(
-    ({ latex }) => latex,
-  );
+  return [
+    ...(concluded && !veiled ? [{ latex: latexOf(line.step, view), share: 1, depth: 0 }] : []),
+    ...shown.reverse(),
+  ].filter(({ latex }) => latex);
 }
 
 /** @param {{step: Step, depth: number}} shown @param {number} place @param {boolean} newest @param {Pick<Shown, "why">} view */
@@ -114,7 +121,7 @@ function more(step, stop, { state, session, t }) {
 }
 
 /** @param {Shown} view @param {Lecturing} lecture */
-function bar(view, { go, present, leave, spot, spotted }) {
+function bar(view, { go, present, leave, spot, spotted, asking }) {
   const { state, session, t } = view;
   const { place, lines } = state;
   const total = lines.length;
@@ -135,6 +142,7 @@ function bar(view, { go, present, leave, spot, spotted }) {
         <span class="count">${total ? `${position} / ${total}` : ""}</span>
       </div>
       ${tool("steps", t("lecture.pace"), () => session.move({ pace: place.pace ? "" : "substeps" }), place.pace !== "")}
+      ${tool("help", t("lecture.ask"), asking.toggle, asking.on)}
       ${tool("spot", t("lecture.spot"), spot, spotted)}
       ${tool("overview", t("tool.overview"), () => session.overlay("overview"))}
       ${tool("black", t("lecture.black"), () => session.overlay("black"))}

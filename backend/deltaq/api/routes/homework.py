@@ -23,6 +23,8 @@ from ...contract.check import (
 from ...contract.task import (
     AssignmentAnswer,
     AssignmentRequest,
+    PollAnswer,
+    PollRequest,
     PracticeAnswer,
     PracticeRequest,
     SolutionAnswer,
@@ -68,6 +70,7 @@ CHECK = Job("deltaq.homework.service:check_request", deadline=15.0)
 CHECK_IN_BATCH = CHECK.within(5.0)
 READING = Job("deltaq.homework.service:reading_request", deadline=4.0)
 SOLUTION = Job("deltaq.homework.service:solution_request", deadline=8.0)
+POLL = Job("deltaq.homework.service:poll_request", deadline=15.0)
 MOTION = Job("deltaq.homework.service:motion_request", deadline=8.0)
 ASSIGNMENT = Job("deltaq.homework.service:assignment_request", deadline=30.0, pace="slow", processor=15.0)
 PRACTICE = Job("deltaq.homework.service:practice_request", deadline=15.0)
@@ -141,6 +144,12 @@ async def answered_motion(request: Request, body: ReadingRequest) -> Response:
 async def solve_task(request: Request, body: SolutionRequest) -> Response:
     """The right answer to a task."""
     return await _answered(request, SOLUTION, body)
+
+
+@router.post("/tasks/poll", response_model=PollAnswer, responses=COMPUTING)
+async def ask_a_hall(request: Request, body: PollRequest) -> Response:
+    """The result of a step among wrong ones that misconceptions lead to; nothing is counted here."""
+    return await _answered(request, POLL, body)
 
 
 @router.post("/checks/lines", response_model=LinesAnswer, responses=COMPUTING)

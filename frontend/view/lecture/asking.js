@@ -1,0 +1,94 @@
+/** Predict, then reveal: the result of a step is hidden until the hall has thought, or has chosen among wrong ones. */
+
+import { html, nothing } from "lit-html";
+import { inline, prose } from "../formula.js";
+import { icon } from "../icons.js";
+import { sizeOf } from "../../model/measure.js";
+
+/** @typedef {import("../../model/types.js").Answered<"/tasks/poll">["choices"]} Choices */
+/** @typedef {(step: string) => Promise<{choices: Choices}>} Poll  what a hall may be asked about a step */
+
+/** @param {{changed: () => void, poll?: Poll, shown: () => string, subject: () => string}} page  shown: the step that is shown; subject: of which scene, and in which language */
+export function createAsking({ changed, poll, shown, subject }) {
+  let on = false;
+  /** The steps whose results have been revealed. @type {Set<string>} */
+  const revealed = new Set();
+  /** @type {Map<string, Choices>} */
+  const polls = new Map();
+  /** What was chosen, by step. @type {Map<string, number>} */
+  const chosen = new Map();
+  const key = () => `${subject()} ${shown()}`;
+
+  /** Where nobody answers, the result is only hidden. */
+  async function ask() {
+    const asked = key();
+    if (!poll || polls.has(asked)) return;
+    polls.set(asked, []);
+    const found = await poll(shown()).catch(() => null);
+    polls.set(asked, found?.choices ?? []);
+    if (!found) polls.delete(asked);
+    changed();
+  }
+
+  const veiled = () => on && !revealed.has(key());
+  return {
+    get on() {
+      return on;
+    },
+    veiled,
+    toggle() {
+      on = !on;
+      revealed.clear();
+      chosen.clear();
+      changed();
+    },
+    /** Whether there was something to reveal. */
+    reveal() {
+      if (!veiled()) return false;
+      revealed.add(key());
+      changed();
+      return true;
+    },
+    /** @param {number} index */
+    choose(index) {
+      if (!veiled() || !polls.get(key())?.[index]) return;
+      chosen.set(key(), index);
+      revealed.add(key());
+      changed();
+    },
+    /** The choices of the step that is shown; asked for when it is. */
+    choices() {
+      if (!on) return [];
+      void ask();
+      const choices = polls.get(key()) ?? [];
+      return !veiled() && !chosen.has(key()) ? [] : choices;
+    },
+    chosen: () => chosen.get(key()),
+  };
+}
+
+/** @typedef {ReturnType<typeof createAsking>} Asking */
+
+/** In place of a result: what it might be, and after a choice what the wrong ones forget. @param {Asking} asking @param {import("../../model/catalog.js").Translate} t */
+export function question(asking, t) {
+  const choices = asking.choices();
+  const veiled = asking.veiled();
+  if (!veiled && !choices.length) return nothing;
+  return html`
+    <section class="question" aria-label=${t("lecture.ask")}>
+      ${veiled ? html`<p class="veil"><span aria-hidden="true">?</span> ${t(choices.length ? "lecture.choose" : "lecture.veiled")}</p>` : nothing}
+      ${choices.length ? html`<ol class="choices">${choices.map((choice, i) => html`<li>${one(choice, i, veiled, asking, t)}</li>`)}</ol>` : nothing}
+    </section>`;
+}
+
+/** @param {Choices[number]} choice @param {number} index @param {boolean} veiled @param {Asking} asking @param {import("../../model/catalog.js").Translate} t */
+function one({ latex, right, title, hint }, index, veiled, asking, t) {
+  const wide = `--wide:${Math.max(6, sizeOf(latex).width).toFixed(1)}`;
+  const state = veiled ? "" : right ? "right" : "wrong";
+  return html`
+    <button class="choice-of-hall ${state}" style=${wide} ?disabled=${!veiled} aria-pressed=${String(asking.chosen() === index)} @click=${() => asking.choose(index)}>
+      <span class="letter">${index + 1}</span>${inline(`\\displaystyle ${latex}`)}
+      ${veiled ? nothing : html`<span class="mark">${icon(right ? "verified" : "close")}<span class="unseen">${t(right ? "lecture.right" : "lecture.wrong")}</span></span>`}
+    </button>
+    ${veiled || right ? nothing : html`<p class="hint"><b>${prose(title)}.</b> ${prose(hint)}</p>`}`;
+}
