@@ -208,10 +208,14 @@ SAMPLE = {
 
 @pytest.mark.parametrize(
     ("width", "height"),
-    [pytest.param(1024, 768, id="old projector"), pytest.param(1366, 768), pytest.param(3840, 2160, id="4K")],
+    [
+        pytest.param(1024, 768, id="old projector"),
+        pytest.param(1366, 768, id="projector"),
+        pytest.param(3840, 2160, id="4K"),
+    ],
 )
 def test_formulas_fill_the_slide(hall: Lecture, width: int, height: int) -> None:
-    """Read from the last row, and all on one screen; `python -m tests.e2e.slides` looks at every step of every scene."""
+    """Read from the last row, all on one screen; `python -m tests.e2e.slides` looks at every step of every scene."""
     page = hall.page
     page.set_viewport_size({"width": width, "height": height})
     found = []
@@ -253,6 +257,29 @@ def test_what_a_step_rests_on_stands_above_it(hall: Lecture) -> None:
     given.locator("summary").click()
     given.locator(".from").first.click()
     expect(page.locator(".slide .step")).to_have_attribute("data-step", "decomposition")
+
+
+def test_a_result_is_hidden_until_the_hall_has_chosen(hall: Lecture) -> None:
+    page = hall.page
+    page.goto(f"{hall.address}scene?scene=elastic-pendulum&lang=en&view=lecture&step=kinetic-energy-of-particle:bob")
+    page.keyboard.press("q")
+    expect(page.locator(".choices .katex").first).to_be_visible()
+    expect(page.locator(".slide .result .formula")).to_have_count(0)
+    count = page.locator(".choices li").count()
+    assert 2 <= count <= 4
+    expect(page.locator(".choices .hint")).to_have_count(0)
+    page.keyboard.press("1")
+    expect(page.locator(".choices .right")).to_have_count(1)
+    expect(page.locator(".choices .hint")).to_have_count(count - 1)
+    expect(page.locator(".slide .result .formula")).to_have_count(0)
+    page.keyboard.press("Space")
+    expect(page.locator(".slide .result .formula .katex").first).to_be_visible()
+    assert hall.current_step == "kinetic-energy-of-particle:bob"
+    page.keyboard.press("Space")  # nothing is known to be got wrong here, and it is hidden all the same
+    expect(page.locator(".slide .step")).to_have_attribute("data-step", "cancellation-of-dots:bob")
+    expect(page.locator(".slide .veil")).to_be_visible()
+    page.keyboard.press("q")
+    expect(page.locator(".slide .result .formula .katex").first).to_be_visible()
 
 
 def test_the_presenter_sees_what_comes_and_leads(hall: Lecture) -> None:

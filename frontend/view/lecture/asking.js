@@ -49,19 +49,17 @@ export function createAsking({ changed, poll, shown, subject }) {
       changed();
       return true;
     },
-    /** @param {number} index */
+    /** Which are right is seen at once; the way to it when the result is revealed. @param {number} index */
     choose(index) {
-      if (!veiled() || !polls.get(key())?.[index]) return;
+      if (!veiled() || chosen.has(key()) || !polls.get(key())?.[index]) return;
       chosen.set(key(), index);
-      revealed.add(key());
       changed();
     },
     /** The choices of the step that is shown; asked for when it is. */
     choices() {
-      if (!on) return [];
+      if (!veiled()) return [];
       void ask();
-      const choices = polls.get(key()) ?? [];
-      return !veiled() && !chosen.has(key()) ? [] : choices;
+      return polls.get(key()) ?? [];
     },
     chosen: () => chosen.get(key()),
   };
@@ -71,24 +69,25 @@ export function createAsking({ changed, poll, shown, subject }) {
 
 /** In place of a result: what it might be, and after a choice what the wrong ones forget. @param {Asking} asking @param {import("../../model/catalog.js").Translate} t */
 export function question(asking, t) {
+  if (!asking.veiled()) return nothing;
   const choices = asking.choices();
-  const veiled = asking.veiled();
-  if (!veiled && !choices.length) return nothing;
+  const open = asking.chosen() === undefined;
+  const words = !choices.length ? "lecture.veiled" : open ? "lecture.choose" : "lecture.answered";
   return html`
     <section class="question" aria-label=${t("lecture.ask")}>
-      ${veiled ? html`<p class="veil"><span aria-hidden="true">?</span> ${t(choices.length ? "lecture.choose" : "lecture.veiled")}</p>` : nothing}
-      ${choices.length ? html`<ol class="choices">${choices.map((choice, i) => html`<li>${one(choice, i, veiled, asking, t)}</li>`)}</ol>` : nothing}
+      <p class="veil" role="status"><span aria-hidden="true">?</span> ${t(words)}</p>
+      ${choices.length ? html`<ol class="choices">${choices.map((choice, i) => html`<li>${one(choice, i, open, asking, t)}</li>`)}</ol>` : nothing}
     </section>`;
 }
 
-/** @param {Choices[number]} choice @param {number} index @param {boolean} veiled @param {Asking} asking @param {import("../../model/catalog.js").Translate} t */
-function one({ latex, right, title, hint }, index, veiled, asking, t) {
+/** @param {Choices[number]} choice @param {number} index @param {boolean} open  nothing has been chosen @param {Asking} asking @param {import("../../model/catalog.js").Translate} t */
+function one({ latex, right, title, hint }, index, open, asking, t) {
   const wide = `--wide:${Math.max(6, sizeOf(latex).width).toFixed(1)}`;
-  const state = veiled ? "" : right ? "right" : "wrong";
+  const state = open ? "" : right ? "right" : "wrong";
   return html`
-    <button class="choice-of-hall ${state}" style=${wide} ?disabled=${!veiled} aria-pressed=${String(asking.chosen() === index)} @click=${() => asking.choose(index)}>
+    <button class="choice-of-hall ${state}" style=${wide} ?disabled=${!open} aria-pressed=${String(asking.chosen() === index)} @click=${() => asking.choose(index)}>
       <span class="letter">${index + 1}</span>${inline(`\\displaystyle ${latex}`)}
-      ${veiled ? nothing : html`<span class="mark">${icon(right ? "verified" : "close")}<span class="unseen">${t(right ? "lecture.right" : "lecture.wrong")}</span></span>`}
+      ${open ? nothing : html`<span class="mark">${icon(right ? "verified" : "close")}<span class="unseen">${t(right ? "lecture.right" : "lecture.wrong")}</span></span>`}
     </button>
-    ${veiled || right ? nothing : html`<p class="hint"><b>${prose(title)}.</b> ${prose(hint)}</p>`}`;
+    ${open || right ? nothing : html`<p class="hint"><b>${prose(title)}.</b> ${prose(hint)}</p>`}`;
 }
