@@ -140,6 +140,7 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
         "POST /checks/motion",
         "POST /checks/reading",
         "POST /checks/table",
+        "POST /tasks/poll",
         "POST /tasks/solution",
         "POST /tasks/stack",
         "POST /assignments",

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from typing import Literal
 
 import pytest
 from playwright.sync_api import expect
 from tests.e2e.lecture import Lecture
 from tests.e2e.slides import opened, share, slides
-from tests.e2e.waiting import until_equal
+from tests.e2e.waiting import frames, until, until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -280,6 +281,32 @@ def test_a_result_is_hidden_until_the_hall_has_chosen(hall: Lecture) -> None:
     expect(page.locator(".slide .veil")).to_be_visible()
     page.keyboard.press("q")
     expect(page.locator(".slide .result .formula .katex").first).to_be_visible()
+
+
+WATCH = """() => {
+    window.flown = 0;
+    const note = list => list.forEach(({addedNodes}) =>
+        addedNodes.forEach(node => window.flown += node.matches('.flight')));
+    new MutationObserver(note).observe(document.body, {childList: true});
+}"""
+
+
+@pytest.mark.parametrize("motion", ["no-preference", "reduce"])
+def test_terms_fly_to_what_becomes_of_them(hall: Lecture, motion: Literal["no-preference", "reduce"]) -> None:
+    page = hall.page
+    page.emulate_media(reduced_motion=motion)
+    opened(page, hall.address, "elastic-pendulum", "equation:y&part=3")
+    page.locator(".slide[data-filled]").wait_for()
+    page.evaluate(WATCH)
+    page.keyboard.press("ArrowDown")
+    expect(page.locator(".slide .result .term-sign-turned").first).to_be_visible()
+    if motion == "reduce":
+        frames(page, 20)
+        assert page.evaluate("window.flown") == 0
+    else:
+        until(page, lambda: page.evaluate("window.flown"), lambda count: 0 < count <= 40)
+    page.keyboard.press("ArrowUp")
+    expect(page.locator(".flight")).to_have_count(0)
 
 
 def test_the_presenter_sees_what_comes_and_leads(hall: Lecture) -> None:

@@ -4,10 +4,12 @@ import { createSender, isId, nameOf } from "../../model/lecture/link.js";
 import { expectLong } from "../formula.js";
 import { isGuest } from "../guest.js";
 import { allOrNone, isConcluded, onwards, within } from "../../model/lecture/stops.js";
+import { allOrNone, isConcluded, onwards, partsOf, within } from "../../model/lecture/stops.js";
 import { indexOf } from "../../model/reveal.js";
 import { windowKeeper } from "../keeper.js";
 import { createAsking } from "./asking.js";
 import { createFilled } from "./filled.js";
+import { createFlights } from "./flights.js";
 import { createNewest } from "./newest.js";
 import { formulas, slide } from "./slide.js";
 import { createSpot } from "./spot.js";
@@ -44,6 +46,9 @@ function lineId() {
   return made;
 }
 
+/** A step and its substeps. @param {import("../../model/reveal.js").Line | undefined} line */
+const seenOf = (line) => (line ? [line.step, ...partsOf(line.step).map(({ step }) => step)] : []);
+
 /** @param {(by: number) => void} go */
 function createTouch(go) {
   let from = { x: 0, y: 0 };
@@ -78,6 +83,9 @@ export function open({ root, session, state, about, changed, play, poll }) {
   const reachNewest = createNewest(root);
   if (isGuest()) void expectLong();
   const fill = createFilled(root);
+  const flights = createFlights(root);
+  /** The slide that is shown, or is about to be. */
+  let slideShown = "";
   /** @type {ReturnType<typeof formulas>} */
   let shownNow = [];
 
@@ -161,6 +169,12 @@ export function open({ root, session, state, about, changed, play, poll }) {
       return { ...keys, ...(explained() ? { Escape: why } : {}) };
     },
     slide(/** @type {import("./slide.js").Shown} */ view) {
+      const { place, lines } = view.state;
+      const line = lines[indexOf(lines, place.step)];
+      const next = `${shown()} ${place.part} ${asking.veiled()}`;
+      // What stands there still is what the terms of the next one come from.
+      if (slideShown && next !== slideShown) flights.look(lines.slice(0, (line?.index ?? 0) + 2).flatMap(seenOf));
+      slideShown = next;
       shownNow = formulas(view, asking.veiled());
       return slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch, asking });
     },
@@ -168,6 +182,7 @@ export function open({ root, session, state, about, changed, play, poll }) {
     update() {
       sender.tell();
       if (state().place.view) fill(shownNow);
+      flights.update(slideShown, seenOf(state().lines[indexOf(state().lines, state().place.step)]));
       reachNewest();
       if (!state().place.view) spot.off();
     },

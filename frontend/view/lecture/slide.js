@@ -49,7 +49,7 @@ function sheet(line, view, { asking }) {
           ${parts.map((one, i) => part(one, i, !concluded && i === parts.length - 1, view))}
           ${
             concluded
-              ? html`<section class="result ${stop ? "newest" : ""}">${question(asking, view.t)}
+              ? html`<section class="result ${stop ? "newest" : ""}" data-terms=${step.id}>${question(asking, view.t)}
             ${asking.veiled() ? nothing : html`${formulaOf(step, view)}${legend(step, view)}`}</section>`
               : nothing
           }
@@ -65,7 +65,7 @@ function given(line, { state, session, link, follow, t }) {
   const premises = premisesOf(state.lines, line).filter(({ latex }) => latex);
   if (!premises.length) return html`<div class="given"></div>`;
   const one = (/** @type {import("../../model/lecture/premises.js").Premise} */ { step, line: from, latex }) => html`
-    <li><a class="from" href=${link({ step: from.step.id })} title=${step.title || from.step.title}
+    <li data-terms=${step.id}><a class="from" href=${link({ step: from.step.id })} title=${step.title || from.step.title}
       @click=${(/** @type {Event} */ event) => follow(event, () => session.goTo(from.step.id))}>${from.number}</a>${displayed(latex, false, step)}</li>`;
   return html`<details class="given" open><summary>${icon("chevron")}<span>${t("lecture.given")}</span></summary><ul>${premises.map(one)}</ul></details>`;
 }
@@ -105,7 +105,7 @@ export function formulas(view, veiled) {
 /** @param {{step: Step, depth: number}} shown @param {number} place @param {boolean} newest @param {Pick<Shown, "why">} view */
 function part({ step, depth }, place, newest, view) {
   return html`
-    <section class="part ${newest ? "newest" : ""}" data-part=${place + 1} style="--depth:${depth}">
+    <section class="part ${newest ? "newest" : ""}" data-part=${place + 1} data-terms=${step.id} style="--depth:${depth}">
       ${step.title ? html`<h2>${prose(step.title)}</h2>` : nothing}
       ${step.text ? html`<p class="prose">${prose(step.text)}</p>` : nothing}
       ${formulaOf(step, view)}
