@@ -1,11 +1,10 @@
 /** Lecture mode: its keys, gestures and pointer, and the line to the presenter's window. */
 
 import { createSender, isId, nameOf } from "../../model/lecture/link.js";
-import { expectLong } from "../formula.js";
-import { isGuest } from "../guest.js";
-import { allOrNone, isConcluded, onwards, within } from "../../model/lecture/stops.js";
 import { allOrNone, isConcluded, onwards, partsOf, within } from "../../model/lecture/stops.js";
 import { indexOf } from "../../model/reveal.js";
+import { expectLong } from "../formula.js";
+import { isGuest } from "../guest.js";
 import { windowKeeper } from "../keeper.js";
 import { createAsking } from "./asking.js";
 import { createFilled } from "./filled.js";
