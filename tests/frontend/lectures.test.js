@@ -206,7 +206,7 @@ test("another page, and a step that lies before, are gone to at once; substeps a
   const poll = { ...started(STOPS, 3), phase: /** @type {const} */ ("shown") };
   assert.equal(onward(STOPS, poll, here("b")).given.index, 4);
   assert.deepEqual(onward(STOPS, poll, here("b", 0, "substeps")), { given: poll, go: 1 });
-  assert.equal(onward(STOPS, poll, here("b", 2, "substeps")).given.index, 4);
+  assert.equal(onward(STOPS, poll, here("b", 3, "substeps")).given.index, 4);
   assert.equal(onward(STOPS, started(STOPS, 0), null).given.index, 1);
   const last = started(STOPS, 4);
   assert.deepEqual(onward(STOPS, last, here("a")), { given: last });
