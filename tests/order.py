@@ -37,21 +37,26 @@ MOVING = (
 
 
 def left_out(items: Sequence[pytest.Item]) -> list[pytest.Item]:
-    """Of tests marked `one_in(n)`, which try one law on very many scenes, the cases that are not every n-th.
+    """Of tests marked `one_in(n)`, which try one law on very many scenes, all cases but one of each n that follow.
 
-    Different tests begin at different cases, so that each scene is met by some. Cases that are named alone are taken.
+    Which one varies, so that it is not always the first language of two. Different files begin at different cases, so
+    that each is met by some; tests of one file share what they make of a scene, and begin alike. Cases that are named
+    alone are taken.
     """
     cases: defaultdict[str, list[pytest.Item]] = defaultdict(list)
     for item in items:
         cases[item.nodeid.partition("[")[0]].append(item)
-    shares = {test: all_of[0].get_closest_marker("one_in") for test, all_of in cases.items()}
-    return [
-        case
-        for test, share in shares.items()
-        if share and len(cases[test]) > share.args[0]
-        for number, case in enumerate(cases[test])
-        if (number + crc32(test.encode())) % share.args[0]
-    ]
+    left = []
+    for test, all_of in cases.items():
+        share = all_of[0].get_closest_marker("one_in")
+        if share and len(all_of) > (n := share.args[0]):
+            start = crc32(test.partition("::")[0].encode())
+            left += [case for number, case in enumerate(all_of) if (_digit_sum(number, n) + start) % n]
+    return left
+
+
+def _digit_sum(number: int, base: int) -> int:
+    return number % base + _digit_sum(number // base, base) if number else 0
 
 
 def needs_kernels(file: str) -> bool:

@@ -58,6 +58,7 @@ def told(scene: str, formulation: str) -> dict[str, Any]:
     return derived.told(scene, LANGUAGE[formulation], formulation)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("formulation", formulation_names())
 @pytest.mark.parametrize("scene", scene_ids())
 def test_every_scene_is_told(scene: str, formulation: str) -> None:
@@ -92,6 +93,7 @@ def leaves(part: object) -> Iterator[str]:
         yield part
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("formulation", formulation_names())
 @pytest.mark.parametrize("scene", scene_ids())
 def test_plain_texts_are_read_back_by_the_parser(scene: str, formulation: str) -> None:

@@ -43,8 +43,7 @@ FENCES = (("$$", "$$"), ("$", "$"), (r"\[", r"\]"), (r"\(", r"\)"))
 def latex_tokens(text: str, names: Names) -> Iterator[Token]:
     """Yield the tokens of LaTeX `text`, an "end" token last."""
     stripped = text.strip()
-    start = text.find(stripped) if stripped else 0
-    end = start + len(stripped)
+    end = (start := text.find(stripped)) + len(stripped)
     for opening, closing in FENCES:
         if len(stripped) > 2 * len(opening) and stripped.startswith(opening) and stripped.endswith(closing):
             start, end = start + len(opening), end - len(closing)
@@ -480,8 +479,8 @@ def _read_matrix(lexer: LatexLexer, name: str, inside: Range, span: Span) -> Non
     if len(rows) == 1 or all(len(row) == 1 for row in rows):
         lexer.found += _vector(lexer, [cell for row in rows for cell in row], span)
     else:
-        lines = [(row[0][0], row[-1][1]) for row in rows]
-        lexer.found += vector_tokens([_vector(lexer, row, span) for row in rows], separators(lines), span)
+        between = separators([(row[0][0], row[-1][1]) for row in rows])
+        lexer.found += vector_tokens([_vector(lexer, row, span) for row in rows], between, span)
 
 
 def _vector(lexer: LatexLexer, parts: list[Range], span: Span) -> list[Token]:
