@@ -8,6 +8,7 @@ import { documentIn, OWN, readDraft } from "./model/own.js";
 import { createStore } from "./model/store.js";
 import { translator } from "./model/catalog.js";
 import { readPlace, startLanguage, writePlace } from "./model/url.js";
+import { createVisits } from "./model/visits.js";
 import { api, send } from "./server.js";
 import { expectLong } from "./view/formula.js";
 import { follow } from "./view/links.js";
@@ -32,6 +33,7 @@ const store = createStore(START);
 const clock = createClock();
 const reach = createReach(root);
 const session = createSession(store, api, clock);
+const visits = createVisits(history, () => performance.now(), { embedded: window.parent !== window });
 
 const motion = createMotion({ root, state: store.get, clock, session, still, update });
 
@@ -95,7 +97,7 @@ function update() {
   render(page(current), root);
   aside.update();
   motion.show(theme);
-  history.replaceState(null, "", current.link({}));
+  visits.keep(place, current.link({}));
   if (reach(place.step, still.matches)) announce(state.lines, place.step, current.t);
 }
 
@@ -114,6 +116,17 @@ listen(document, {
   covered: () => store.get().overlay !== "",
   uncover: () => session.overlay(""),
   substeps: () => toggleSubsteps(root, store.get().place.step),
+  undo: visits.undo,
+  redo: visits.redo,
+});
+
+/** Back and forward show a place again without loading the page. */
+window.addEventListener("popstate", () => {
+  const there = readPlace(location.search);
+  const place = { ...there, lang: store.get().place.lang, theme: store.get().place.theme };
+  visits.returned(place);
+  if (place.scene === OWN && location.hash.length > 1 && location.hash !== store.get().fragment) void start();
+  else void session.restore(place);
 });
 
 everyFrame(clock.advance);

@@ -19,6 +19,7 @@ export const KEYS = [
   [["w"], "help.why"],
   [["h"], "help.spot"],
   [["q"], "help.ask"],
+  [["Ctrl+Z", "Ctrl+Y"], "help.undo"],
   [["Enter"], "help.terms"],
   [["?"], "help.help"],
 ];
@@ -37,6 +38,8 @@ const CALLED = /** @type {Record<string, string>} */ ({
   End: "key.end",
   PageUp: "key.page-up",
   PageDown: "key.page-down",
+  "Ctrl+Z": "key.undo",
+  "Ctrl+Y": "key.redo",
 });
 
 /** What stands on a key. @param {string} key @param {import("./catalog.js").Translate} t */

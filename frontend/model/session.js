@@ -12,6 +12,7 @@ import { createSpeech } from "./speech.js";
 import { preferred } from "./state.js";
 import { mover } from "./store.js";
 import { createSubject } from "./subject.js";
+import { readChanges } from "./values.js";
 
 /** @typedef {import("./state.js").State} State */
 /** @typedef {import("./types.js").Place} Place */
@@ -70,6 +71,7 @@ function createStart({ get, set }, api, attempt, { speak, needFor }, choose) {
  * @param {import("./clock.js").Clock} clock
  */
 export function createSession(store, api, clock) {
+  const { get, set } = store;
   const move = mover(store);
   const attempt = createAttempts(store);
   const simulations = createSimulations(store, api, clock, (task) => attempt("simulation", task));
@@ -99,7 +101,7 @@ export function createSession(store, api, clock) {
       move({ more });
       await derive();
       move({
-        step: store.get().derivation?.chapters.find(({ id }) => id === more)?.steps[0]?.id ?? store.get().place.step,
+        step: get().derivation?.chapters.find(({ id }) => id === more)?.steps[0]?.id ?? get().place.step,
       });
     },
     /** @param {Partial<Place>} patch */
@@ -107,15 +109,26 @@ export function createSession(store, api, clock) {
       speech.needFor(patch);
       move(patch);
     },
+    /** A place that was left: only what has changed since is asked for again. @param {Place} there */
+    async restore(there) {
+      const { place } = get();
+      const differs = (/** @type {(keyof Place)[]} */ ...keys) => keys.some((key) => there[key] !== place[key]);
+      speech.needFor(there);
+      set({ place: there, overlay: "" });
+      if (differs("scene", "n")) return subject.choose(there.scene, there.step, there.n, there.set);
+      if (differs("set")) set({ changes: readChanges(there.set), held: null });
+      if (differs("set", "method", "duration")) simulations.ask();
+      if (differs("formulation", "more")) await derive();
+    },
     /** @param {Partial<Place>} patch how to simulate */
     resimulate(patch) {
       move(patch);
       simulations.ask();
     },
     /** A motion beside the present one. @param {import("./types.js").Changes} changes @param {string} method */
-    run: (changes, method) => sampled(api.simulate)(requestOf(store.get(), changes, method)),
+    run: (changes, method) => sampled(api.simulate)(requestOf(get(), changes, method)),
     /** @param {State["runs"]} runs */
-    compare: (runs) => store.set({ runs }),
+    compare: (runs) => set({ runs }),
   };
 }
 

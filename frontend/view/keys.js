@@ -2,6 +2,8 @@
 
 /** Where keys belong to the element itself. */
 const FIELDS = "input, select, textarea, math-field, [contenteditable]";
+/** Where "undo" belongs to the element itself. */
+const TEXTS = "input:not([type=range], [type=checkbox], [type=radio]), textarea, math-field, [contenteditable]";
 /** Where Space and Enter press the element itself. */
 const PRESSED = "button, a, summary";
 
@@ -16,6 +18,8 @@ const PRESSED = "button, a, summary";
  * @property {() => void} substeps
  * @property {() => void} [lecture]
  * @property {() => void} [presenter]
+ * @property {() => void} [undo]  what was changed last, by Ctrl+Z
+ * @property {() => void} [redo]  by Ctrl+Shift+Z or Ctrl+Y
  * @property {() => Record<string, () => void>} [more]  what keys mean at this moment besides
  */
 
@@ -47,12 +51,24 @@ export function table({ go, fullscreen, overlay, play, substeps, lecture = () =>
   };
 }
 
+/** @param {Pick<KeyboardEvent, "key" | "shiftKey">} event @param {Keys} keys */
+export function undoneBy({ key, shiftKey }, { undo, redo }) {
+  const name = key.toLowerCase();
+  if (name === "z") return shiftKey ? redo : undo;
+  return name === "y" ? redo : undefined;
+}
+
 /** @param {EventTarget} target @param {Keys} keys */
 export function listen(target, keys) {
   const actions = table(keys);
   target.addEventListener("keydown", (event) => {
-    const { key, ctrlKey, metaKey, altKey, target: from } = /** @type {KeyboardEvent} */ (event);
+    const { key, shiftKey, ctrlKey, metaKey, altKey, target: from } = /** @type {KeyboardEvent} */ (event);
     const element = from instanceof Element ? from : null;
+    const undoing = (ctrlKey || metaKey) && !altKey && !element?.closest(TEXTS) && undoneBy({ key, shiftKey }, keys);
+    if (undoing) {
+      event.preventDefault();
+      return undoing();
+    }
     if (ctrlKey || metaKey || altKey || element?.closest(FIELDS)) return;
     if (key === " " && element?.closest(PRESSED)) return;
     const name = key.length === 1 ? key.toLowerCase() : key;

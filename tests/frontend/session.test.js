@@ -194,3 +194,21 @@ test("a motion beside the present one has values and a method of its own, is ref
   session.compare(/** @type {any} */ ([{ motion }]));
   assert.deepEqual(get().runs, [{ motion }]);
 });
+
+for (const [there, asked] of /** @type {[any, string[]][]} */ ([
+  [{ step: "b" }, []],
+  [{ set: "m:2" }, ["simulate"]],
+  [{ method: "rk4", duration: 20 }, ["simulate"]],
+  [{ formulation: "hamilton" }, ["derive"]],
+  [{ scene: "top", step: "x", set: "C:3" }, ["derive", "scene", "simulate"]],
+  [{ n: 4 }, ["derive", "scene", "simulate"]],
+])) {
+  test(`going back to ${JSON.stringify(there)} asks for ${asked.join() || "nothing"}`, async () => {
+    const { session, get, asked: questions, pass } = page({ lines, catalog: /** @type {any} */ ({ page: {} }), overlay: "overview", place: at({ step: "a" }) });
+    void session.restore(at({ step: "a", ...there }));
+    await pass(1000);
+    assert.deepEqual(questions().sort(), asked);
+    assert.deepEqual([get().place, get().overlay], [at({ step: "a", ...there }), ""]);
+    assert.deepEqual(get().changes.parameters, there.set ? { [there.set[0]]: Number(there.set.slice(2)) } : {});
+  });
+}
