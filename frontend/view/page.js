@@ -47,7 +47,7 @@ export function page(view) {
     ${header(view)}
     <main class="desk" data-panel=${state.place.panel} data-view=${view.lecture ? "lecture" : nothing} data-beside=${state.place.beside} ?data-lost=${isLost(state)}>
       ${state.place.edit ? writing(view) : view.lecture ? view.lecture.slide(view) : reading(view)}
-      <section class="figure ${failures.simulation ? "failed" : ""}" aria-label=${t("drawing")}>
+      <section class="figure ${failures.simulation && !isKept(state) ? "failed" : ""}" aria-label=${t("drawing")}>
         ${drawing(view)}
         ${player(view)}
         ${(state.place.vary && view.instruments?.panel(view)) || values(view)}
@@ -112,8 +112,18 @@ function trouble(view) {
   const { reload, t } = view;
   if (page) return failure(page, t("failure.page"), reload, t);
   if (scene?.status === 404) return unknownScene(view);
-  if (scene) return failure(scene, t("failure.page"), reload, t);
+  if (scene) return failure(scene, t("failure.page"), reload, t, nearestMember(view));
   return derivation && failure(derivation, t("failure.derivation"), reload, t);
+}
+
+/** The way to the nearest member there is of a family, where the address asks for another. @param {View} view */
+function nearestMember({ state, link, follow, session, t }) {
+  const { scene, n } = state.place;
+  const family = state.scenes.find(({ id }) => id === scene)?.family;
+  if (!family || !n) return nothing;
+  const nearest = Math.min(family.max, Math.max(family.min, n));
+  return html`<a class="main" href=${link({ n: nearest, step: "" })}
+    @click=${(/** @type {Event} */ event) => follow(event, () => session.choose(scene, "", nearest))}>${t("failure.family", { parameter: family.parameter, n: nearest })}</a>`;
 }
 
 /** An unknown scene is answered with those there are. @param {View} view */
@@ -131,7 +141,7 @@ function unknownScene({ state, link, follow, session, t }) {
 
 /** @param {View} view */
 function drawing(view) {
-  const { state, session, t, instruments } = view;
+  const { state, t, instruments } = view;
   const { lang } = state.place;
   const title = inLanguage(state.scene?.title, lang);
   const summary = inLanguage(state.scene?.summary, lang);
@@ -145,9 +155,22 @@ function drawing(view) {
       <p class="unseen" id="motion" role="status"></p>
       ${waiting ? html`<p class="patience" role="status">${patience(view)}</p>` : nothing}
       ${doubt(view)}
-      ${state.failures.simulation && !state.failures.scene ? failure(state.failures.simulation, t("failure.simulation"), () => session.resimulate({}), t) : nothing}
+      ${unmoved(view)}
     </div>
   `;
+}
+
+/** Whether there is a motion to be seen, be it of the values before. @param {Pick<View["state"], "trajectory">} state */
+const isKept = ({ trajectory }) => Boolean(trajectory?.t.length);
+
+/** What went wrong with the motion. The one that was computed before stays in sight, and is said to be that. @param {View} view */
+function unmoved({ state, session, t }) {
+  const { simulation, scene } = state.failures;
+  if (!simulation || scene) return nothing;
+  const kept = isKept(state);
+  const heading = t(kept ? "failure.kept" : "failure.simulation");
+  const told = failure(simulation, heading, () => session.resimulate({}), t);
+  return kept ? html`<div class="kept">${told}</div>` : told;
 }
 
 /** What is to be said of the motion where there is no report below it, or nothing to draw. @param {View} view */

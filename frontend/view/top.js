@@ -14,7 +14,7 @@ export const titled = (title, summary) =>
  */
 export function top(
   view,
-  { main, skip = view.t("skip"), here = "", heading = nothing, menu = nothing, tools = nothing },
+  { main, skip = view.t("skip.content"), here = "", heading = nothing, menu = nothing, tools = nothing },
 ) {
   return html`
     <a class="skip" href=${`#${main}`}>${skip}</a>

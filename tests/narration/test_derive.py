@@ -171,3 +171,21 @@ def test_under_constant_forces_it_is_not_the_momentum_that_is_conserved(scene: s
     chapters = derive_request({"scene": scene, "lang": "en"})["chapters"]
     texts = {one["id"]: one["text"] for chapter in chapters for one in chapter["steps"]}
     assert own in texts[step]
+
+
+@pytest.mark.parametrize("language", ["de", "en"])
+@pytest.mark.parametrize("scene", scene_ids())
+def test_titles_of_a_chapter_tell_its_steps_apart(scene: str, language: str) -> None:
+    for chapter in derived.told(scene, language)["chapters"]:
+        titles = [step["title"] for step in chapter["steps"]]
+        assert sorted(set(titles)) == sorted(titles)
+
+
+def test_steps_that_are_alike_say_whose_they_are_and_others_do_not() -> None:
+    for scene, titles in {
+        "double-pendulum": ["Virtual work: weight (upper bob)", "Virtual work: weight (lower bob)"],
+        "pendulum": ["Virtual work: weight"],
+    }.items():
+        works = [step for chapter in derived.told(scene, "en")["chapters"] for step in chapter["steps"]]
+        assert [step["title"] for step in works if step["rule"] == "work-of-force"] == titles
+        assert all(step["title"] in step["announced"] for step in works if step["rule"] == "work-of-force")

@@ -54,19 +54,26 @@ class Narrator:
         return [teller.chapter(chapter) for chapter in chapters if chapter.steps], roots
 
     def chapter(self, chapter: Chapter) -> Document:
-        """A JSON object with `id`, `title` and `steps`."""
+        """A JSON object with `id`, `title` and `steps`; where titles are alike, each says whose step it is."""
         title = text(self.language, f"rules.chapters.{chapter.id}")
-        return {"id": chapter.id, "title": title, "steps": [self.step(step) for step in chapter.steps]}
+        titles = [self._title(step) for step in chapter.steps]
+        steps = [
+            self.step(step, whose=titles.count(title) > 1) for step, title in zip(chapter.steps, titles, strict=True)
+        ]
+        return {"id": chapter.id, "title": title, "steps": steps}
 
-    def step(self, step: Step) -> Document:
+    def step(self, step: Step, *, whose: bool = False) -> Document:
         """A JSON object: `id`, `rule`, title and sentence in the language, the mathematics, the same of each substep.
 
         `marked` is LaTeX with the classes of the page, `latex` is without. `verified`, `sources` are those of the step.
         """
-        names = self._names(step.about)
-        key = f"rules.steps.{step.rule}"
-        title = text(self.language, f"{key}.title", **names)
-        sentence = self._sentence(f"{key}.{step.about.get('outcome') or 'text'}", names)
+        title = self._title(step)
+        if whose:
+            label = self.notation.symbols.label(step.subject.rpartition(":")[2])
+            title = joined("", (title, words(" ("), label, words(")")))
+        sentence = self._sentence(
+            f"rules.steps.{step.rule}.{step.about.get('outcome') or 'text'}", self._names(step.about)
+        )
         return {
             "id": step.id,
             "rule": step.rule,
@@ -83,6 +90,9 @@ class Narrator:
             ),
             "substeps": [self.step(substep) for substep in step.substeps],
         }
+
+    def _title(self, step: Step) -> CatalogText:
+        return text(self.language, f"rules.steps.{step.rule}.title", **self._names(step.about))
 
     def _mathematics(self, step: Step) -> Document:
         """The lines of a step, its terms, and the roots that have letters in it."""
