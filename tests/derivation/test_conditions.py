@@ -10,11 +10,13 @@ import pytest
 from flint import arb
 from tests.derivation.model_scenes import model_steps, particle, rotating_hoop
 from tests.derivation.textbook_systems import SYSTEMS
+from tests.simulation.scenes import document
 
 from deltaq.derivation.leading_form import leading_form, sign_of
 from deltaq.derivation.linearization import linearizations
 from deltaq.derivation.matrix_form import forces_at_rest
 from deltaq.derivation.system import System
+from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.parameter import Parameter
 from deltaq.mechanics.scene import Scene
@@ -93,6 +95,27 @@ def test_conditions_beside_coordinates_that_are_free(
     names = coordinates.split()
     scene = particle(names, {"c": 3.0, "k": 1.0}, names, {"kind": "potential", "energy": energy})
     assert told(scene) == expected
+
+
+def wells(stiffness: str, names: list[str], parameters: dict[str, float]) -> Scene:
+    """A particle for each coordinate, in wells of one stiffness."""
+    coordinates, bodies = dict.fromkeys(names, (0.0, 0.0)), {f"of_{name}": ("m", [name, "0"]) for name in names}
+    energy = " + ".join(f"({stiffness})*{name}^2" for name in names)
+    load = {"kind": "potential", "energy": energy}
+    return read_scene(document(coordinates, {"m": 1.0, **parameters}, bodies, [load]))
+
+
+@pytest.mark.parametrize(("count", "known"), [(1, True), (6, True), (7, False)])
+def test_conditions_are_told_of_six_minors_at_most(count: int, known: bool) -> None:
+    scene = wells("c-k", [f"x{number}" for number in range(1, count + 1)], {"c": 3.0, "k": 1.0})
+    assert [(verdict, lines[:1]) for verdict, _, lines in told(scene)] == ([("stable", ["k < c"])] if known else [])
+
+
+@pytest.mark.parametrize(("powers", "known"), [(2, True), (40, False)])
+def test_conditions_that_nobody_reads_are_not_told(powers: int, known: bool) -> None:
+    """A stiffness that is a long sum."""
+    stiffness = "c - k" + "".join(f" - k^{n}" for n in range(2, powers))
+    assert bool(told(wells(stiffness, ["x"], {"c": 300.0, "k": 0.5}))) is known
 
 
 def written(line: Mapping[str, Mapping[str, str]]) -> str:

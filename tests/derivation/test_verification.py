@@ -138,6 +138,30 @@ def test_a_difference_counts_by_the_size_of_what_is_compared(size: int, off: flo
     assert holds(Relation((left, right)), POINTS) is same
 
 
+TINY = sp.Rational(1, 10**20)
+
+
+@pytest.mark.parametrize(
+    ("members", "strictly", "at_most"),
+    [
+        ((0, 1), True, True),
+        ((1, 0), False, False),
+        ((1, 1), False, True),
+        ((0, 1, 1), False, True),
+        ((0, 2, 1), False, False),
+        ((2, 0, 1), False, False),
+        ((0, 1, 2), True, True),
+        ((1, 1 + TINY), True, True),
+        ((1, 1 - TINY), False, False),
+        ((-Y, Y), True, True),
+        ((sp.log(-L), 1), False, False),  # nowhere defined
+    ],
+)
+def test_numbers_rise_from_member_to_member(members: tuple[sp.Expr, ...], strictly: bool, at_most: bool) -> None:
+    line = tuple(Explicit(sp.sympify(member)) for member in members)
+    assert [holds(Relation(line, sign), POINTS) for sign in ("<", "≤")] == [strictly, at_most]
+
+
 def test_points_are_the_same_for_every_call_and_apart_from_each_other() -> None:
     again = tuple(random_points(SYSTEM))
     assert [dict(point) for point in again] == [dict(point) for point in POINTS]

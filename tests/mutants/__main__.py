@@ -31,7 +31,16 @@ from .entries import Entries, Recorder, function_around, telling
 from .faults import Mutant, sample
 
 ROOT = Path(__file__).parents[2]
-OPTIONS = ["-n0", "--every-case", "-x", "-q", "-p", "no:cacheprovider", "-W", "ignore::pytest.PytestAssertRewriteWarning"]
+OPTIONS = [
+    "-n0",
+    "--every-case",
+    "-x",
+    "-q",
+    "-p",
+    "no:cacheprovider",
+    "-W",
+    "ignore::pytest.PytestAssertRewriteWarning",
+]
 HEAVY = ("sympy", "numpy", "symengine", "numba", "scipy.integrate", "flint", "hypothesis")
 MEMORY = 8 << 30
 PATIENCE = 5.0

@@ -88,6 +88,13 @@ def test_energies_have_their_digits_however_light_or_heavy_the_body(mass: float)
     assert energy["power"] == energy["work"] == [0.0] * 9
 
 
+def test_energies_have_no_digits_beyond_what_doubles_hold() -> None:
+    """However good the motion is: 10⁻¹⁴ of the energies is left to rounding."""
+    energies = ask(scene="elastic-pendulum", tolerance=1e-12)["energy"]
+    told = [value for name in ("kinetic", "potential", "balance") for value in energies[name]]
+    assert max(len(repr(value).partition(".")[2]) for value in told) <= 15
+
+
 def test_energies_of_a_rough_motion_are_short() -> None:
     """Errors of 1e-5 and more leave no use for fifteen digits; a hundred times heavier, two decimals fewer."""
     rough = {"method": "heun", "step": 0.02, "t_end": 3.0}

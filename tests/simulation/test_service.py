@@ -17,12 +17,13 @@ from deltaq.errors import InputError, Problem, RequestError, SceneError, Unknown
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.writing import write_scene
 from deltaq.narration.catalog import LANGUAGES, message, text
+from deltaq.simulation import service
 from deltaq.simulation.choice import AUTO
 from deltaq.simulation.columns import WRITERS
 from deltaq.simulation.driver import simulate
-from deltaq.simulation.library import get_method, method_ids
+from deltaq.simulation.library import families, get_method, method_ids
 from deltaq.simulation.outcome import codes
-from deltaq.simulation.service import problem_of, run
+from deltaq.simulation.service import problem_of, run, warm
 
 FIELDS = {
     *("status", "reason", "remedy", "event", "method", "choice", "columns", "t"),
@@ -360,3 +361,16 @@ print(seen[0], count())
 """
     told = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
     assert told.splitlines()[-1] == "[1, 0, 0, 0] [1, 1, 1, 1]"
+
+
+@pytest.mark.parametrize("chosen", [(), *((family,) for family in families()), families()[:2]], ids=" ".join)
+def test_methods_of_the_families_that_are_named_are_warmed(
+    monkeypatch: pytest.MonkeyPatch, chosen: tuple[str, ...]
+) -> None:
+    ran: list[str] = []
+    monkeypatch.setattr(service, "simulate", lambda _problem, method, **_options: ran.append(method.id))
+    warm(*chosen)
+    assert {get_method(name).family for name in ran} == set(chosen or families())
+    assert set(method_ids()) - set(ran) == {
+        name for name in method_ids() if chosen and get_method(name).family not in chosen
+    }
