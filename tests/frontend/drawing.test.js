@@ -11,6 +11,15 @@ const stage = stageOf(scene, trajectory, square(400));
 const figureAt = (/** @type {number} */ t, given = scene) => figureOf(stageOf(given, trajectory, square(400)), snapshotAt(trajectory, t));
 const shape = (/** @type {import("../../frontend/model/types.js").Figure} */ figure, /** @type {string} */ key) => figure.shapes.find((s) => s.key === key);
 
+/** The numbers of a path. */
+const numbers = (/** @type {string | undefined} */ d) => (d ?? "").match(/-?[\d.]+/g)?.map(Number) ?? [];
+
+/** What an element draws by itself: without the axes, and the weights that every drawing has. @param {import("../../frontend/model/types.js").Figure} figure */
+const alone = ({ shapes, labels }) => {
+  const is = (/** @type {{key: string, className: string}} */ { key, className }) => key !== "origin" && !/axes|load-weight/.test(className);
+  return { shapes: shapes.filter(is), labels: labels.filter(is) };
+};
+
 test("the origin of a centred view is in the middle, and down is down", () => {
   assert.deepEqual(stage.project([0, 0]), [200, 200]);
   assert.deepEqual(stage.project([1, 1]), [300, 300]);
@@ -24,9 +33,9 @@ test("where the second component grows upwards, it does so on the screen", () =>
 for (const [acceleration, vertical, down] of /** @type {const} */ ([["g", "down", true], ["-g", "up", true], ["-g", "down", false], ["g", "up", false], ["0", "up", true]]))
   test(`weights point where the scene says: ${acceleration} with the last component growing ${vertical}`, () => {
     const given = /** @type {any} */ ({ ...scene, loads: [{ kind: "gravity", name: "weight", acceleration: ["0", acceleration] }], drawing: { ...scene.drawing, vertical, elements: [{ kind: "weight", at: "bob" }] } });
-    const { labels } = figureAt(0, given);
+    const label = figureAt(0, given).labels.find(({ className }) => /load-weight/.test(className));
     const bob = stageOf(given, trajectory, square(400)).project(/** @type {number[]} */ (trajectory.positions.bob[0]));
-    assert.equal(labels[0].at[1] > bob[1], down);
+    assert.equal((label?.at[1] ?? NaN) > bob[1], down);
   });
 
 test("a view that the motion leaves is widened about its centre, and not without end", () => {
@@ -86,7 +95,7 @@ test("the largest force is as long as every other largest force; a vanishing one
 test("every kind of element draws something, with finite numbers", () => {
   for (const kind of Object.keys(KINDS)) {
     const element = { kind, at: "bob", from: "pivot", to: "bob", coordinate: "phi", load: "F", radius: 0.2 };
-    const dimension = ["polar", "azimuth"].includes(kind) ? 3 : 2;
+    const dimension = ["polar", "azimuth", "top"].includes(kind) ? 3 : 2;
     const { shapes } = figureAt(2, { ...scene, dimension, drawing: { ...scene.drawing, elements: [element] } });
     assert.ok(shapes.some((s) => s.d !== ""), kind);
     assert.ok(!shapes.some((s) => /NaN|Infinity/.test(s.d + s.at)), kind);
@@ -120,7 +129,7 @@ test("the pieces of a trail join, fade with age, and stay as they are while they
 });
 
 test("an unknown kind is passed over", () => {
-  assert.deepEqual(figureAt(0, { ...scene, drawing: { elements: [{ kind: "unicorn", at: "bob" }] } }), { shapes: [], labels: [] });
+  assert.deepEqual(alone(figureAt(0, { ...scene, drawing: { elements: [{ kind: "unicorn", at: "bob" }] } })), { shapes: [], labels: [] });
 });
 
 test("a scene without a drawing shows its bodies", () => {
@@ -156,7 +165,6 @@ for (const [name, latex] of FORCES) {
 
 test("a dashpot keeps its cup and moves its piston; beside a spring it stands aside", () => {
   const drawn = (/** @type {number} */ t, offset = 0) => figureAt(t, { ...scene, drawing: { ...scene.drawing, elements: [{ kind: "damper", from: "pivot", to: "bob", offset }] } });
-  const numbers = (/** @type {string | undefined} */ d) => (d ?? "").match(/-?[\d.]+/g)?.map(Number) ?? [];
   const [early, late] = [drawn(0), drawn(4)].map((figure) => numbers(shape(figure, "damper0-cup")?.d));
   assert.deepEqual(early.slice(0, 2), late.slice(0, 2), "it hangs at its first end");
   const [x] = numbers(shape(drawn(0, 0.3), "damper0")?.d);
@@ -165,7 +173,7 @@ test("a dashpot keeps its cup and moves its piston; beside a spring it stands as
 
 test("a moment goes round its place with its symbol, in the colour of its load", () => {
   const turned = { ...scene, parameters: [...scene.parameters, { name: "M", latex: "M_0", unit: "N*m", value: 1 }], loads: [...scene.loads, { kind: "moment", name: "drive", moment: "M" }], drawing: { ...scene.drawing, elements: [{ kind: "moment", at: "pivot", load: "drive" }] } };
-  const { shapes, labels } = figureAt(1, turned);
+  const { shapes, labels } = alone(figureAt(1, turned));
   assert.deepEqual(shapes.map(({ className }) => className), ["arrow load load-drive", "head load load-drive"]);
   assert.equal(labels[0].latex, "M_0");
 });
@@ -188,11 +196,11 @@ for (const [theta, psi] of [[0.9, 0.7], [2.4, -2], [1.2, 3]])
     const seen = space.project(bob);
     for (const [end, from] of /** @type {const} */ ([[ends[0], space.project([0, 0, 0])], [ends[1], space.project([0, 0, bob[2]])]]))
       assert.ok(Math.abs((end[0] - from[0]) * (seen[1] - from[1]) - (end[1] - from[1]) * (seen[0] - from[0])) < 0.02 * 400, "the tip lies on the line");
-    assert.deepEqual(figure.labels.map(({ latex }) => latex), ["q_2", "q_1"]);
+    assert.deepEqual(alone(figure).labels.map(({ latex }) => latex), ["q_2", "q_1"]);
   });
 
 test("where an angle of space is zero there is no arc", () => {
-  assert.deepEqual(spherical(0, 0).figure.labels, []);
+  assert.deepEqual(alone(spherical(0, 0).figure).labels, []);
 });
 
 test("a wire is where its place can be, and follows what holds it", () => {
@@ -212,6 +220,76 @@ test("a wire is where its place can be, and follows what holds it", () => {
 
 test("a wire that only the server can read is left out", () => {
   const bodies = [{ ...scene.bodies[0], position: ["2 sin phi", "y"] }];
-  const { shapes } = figureAt(0, { ...scene, bodies, drawing: { ...scene.drawing, elements: [{ kind: "wire", at: "bob", coordinate: "phi" }] } });
+  const { shapes } = alone(figureAt(0, { ...scene, bodies, drawing: { ...scene.drawing, elements: [{ kind: "wire", at: "bob", coordinate: "phi" }] } }));
   assert.deepEqual(shapes, []);
+});
+
+for (const [dimension, vertical, ways] of /** @type {const} */ ([
+  [2, "down", { x: [1, 0], y: [0, 1] }],
+  [2, "up", { x: [1, 0], y: [0, -1] }],
+  [3, "up", { x: [1, 0], y: [-1, 1], z: [0, -1] }],
+  [3, "down", { x: [1, 0], y: [-1, -1], z: [0, 1] }],
+]))
+  test(`axes point where components grow, in a corner, and the origin is marked: ${dimension}, ${vertical}`, () => {
+    const given = /** @type {any} */ ({ ...scene, dimension, drawing: { ...scene.drawing, vertical, elements: [] } });
+    const place = dimension === 3 ? [0.1, 0.2, 0.3] : [0.1, 0.2];
+    const moving = { ...trajectory, positions: { pivot: [place.map(() => 0)], bob: [place] } };
+    const space = stageOf(given, moving, square(400));
+    const { shapes, labels } = figureOf(space, /** @type {any} */ ({ t: 0, coordinates: {}, positions: { bob: place }, loads: {} }));
+    const seen = Object.fromEntries(
+      labels.filter(({ className }) => className === "axes").map(({ key, latex, at }) => {
+        const from = numbers(shapes.find((each) => each.key === key)?.d).slice(0, 2);
+        assert.equal(latex, `\\mathbf{e}_${key.at(-1)}`);
+        assert.ok(at[0] > 0 && at[0] < 200 && at[1] > 200 && at[1] < 400, "in the corner");
+        return [key.at(-1), at.map((value, c) => Math.sign(Math.round(value - from[c])) + 0)];
+      }),
+    );
+    assert.deepEqual(seen, ways);
+    const cross = numbers(shapes.find(({ key }) => key === "origin")?.d);
+    assert.deepEqual([(cross[0] + cross[2]) / 2, (cross[5] + cross[7]) / 2], space.project(place.map(() => 0)));
+  });
+
+test("all bodies have their weights unless the drawing shows some itself; no continuum has, whose centre nobody says", () => {
+  const weights = (/** @type {any[]} */ elements, /** @type {any} */ more = {}) =>
+    figureAt(0, /** @type {any} */ ({ ...scene, ...more, drawing: { ...scene.drawing, elements } })).labels.filter(({ className }) => /load-weight/.test(className)).length;
+  const gravity = scene.loads.find(({ kind }) => kind === "gravity")?.name;
+  const many = [scene.bodies[0], { ...scene.bodies[0], name: "second" }, { ...scene.bodies[0], name: "rope", kind: "continuum" }];
+  assert.deepEqual(
+    [weights([]), weights([{ kind: "force", load: gravity }]), weights([], { bodies: many }), weights([{ kind: "weight", at: "bob" }], { bodies: many }), weights([], { loads: [] })],
+    [1, 1, 2, 1, 0],
+  );
+});
+
+test("a rod has the letter of its length on the side away from the vertical, and on itself when it hangs", () => {
+  const named = { ...scene, drawing: { ...scene.drawing, elements: [{ kind: "rod", from: "pivot", to: "bob", label: "l" }] } };
+  for (const angle of [-1, -0.5, 0, 0.5, 1]) {
+    const bob = [Math.sin(angle), Math.cos(angle)];
+    const moving = { ...trajectory, positions: { pivot: [[0, 0]], bob: [bob] } };
+    const swung = stageOf(/** @type {any} */ (named), moving, square(400));
+    const { labels } = alone(figureOf(swung, /** @type {any} */ ({ t: 0, coordinates: {}, positions: { pivot: [0, 0], bob }, loads: {} })));
+    const [from, to] = [swung.project([0, 0]), swung.project(bob)];
+    assert.equal(labels[0].latex, scene.parameters.find(({ name }) => name === "l")?.latex || "l");
+    const side = (labels[0].at[0] - from[0]) * (to[1] - from[1]) - (labels[0].at[1] - from[1]) * (to[0] - from[0]);
+    assert.equal(Math.sign(Math.round(side)), Math.sign(angle), `${angle}`);
+  }
+});
+
+test("the spoke of a top turns with its spin, on a rim that is level along the line of nodes", () => {
+  const [theta, psi] = [0.7, 0.4];
+  const along = [Math.sin(theta) * Math.sin(psi), -Math.sin(theta) * Math.cos(psi), Math.cos(theta)];
+  const given = /** @type {any} */ ({ ...scene, dimension: 3, drawing: { ...scene.drawing, elements: [{ kind: "top", from: "pivot", to: "bob", coordinate: "phi", radius: 0.5 }] } });
+  const space = stageOf(given, { ...trajectory, positions: { pivot: [[0, 0, 0]], bob: [along] } }, square(400));
+  const spoke = (/** @type {number} */ spin) =>
+    numbers(figureOf(space, /** @type {any} */ ({ t: 0, coordinates: { phi: spin }, positions: { pivot: [0, 0, 0], bob: along }, loads: {} })).shapes.find(({ key }) => key === "top0-spoke")?.d);
+  // The body's first axis, by the rotation about z, the line of nodes and the body's own axis (Goldstein's angles).
+  for (const spin of [0, 0.3, 2, -1]) {
+    const axis = [
+      Math.cos(psi) * Math.cos(spin) - Math.sin(psi) * Math.cos(theta) * Math.sin(spin),
+      Math.sin(psi) * Math.cos(spin) + Math.cos(psi) * Math.cos(theta) * Math.sin(spin),
+      Math.sin(theta) * Math.sin(spin),
+    ];
+    const [x, y] = space.project(along.map((value, c) => value + 0.5 * axis[c]));
+    const found = spoke(spin);
+    assert.ok(Math.hypot(found[2] - x, found[3] - y) < 0.02, `${spin}: ${found}`);
+  }
 });

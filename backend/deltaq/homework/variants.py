@@ -31,7 +31,7 @@ DRAWS = len(MOST_FACTORS)
 QUARTERS = (0, 1, 2, 3)
 TIMES = (1, -1, 2, -2)  # as many lengths away a coordinate may count from
 COUNTED = {"angle", "dimension"}  # the elements that can show a coordinate counted otherwise
-HANDED = {"moment", "azimuth", "polar"}  # those that would be wrong in a mirror
+HANDED = {"moment", "azimuth", "polar", "top"}  # those that would be wrong in a mirror
 TURNING = {"disc", "hoop"}  # and these, where they show a coordinate
 FLIPPED: Mapping[str, str] = {"up": "down", "down": "up"}
 

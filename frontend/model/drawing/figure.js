@@ -1,11 +1,12 @@
 /** The whole drawing at a moment: every element of the scene, in the order in which it lies on the paper. */
 
+import { axesOf } from "./axes.js";
 import { circle } from "./geometry.js";
 import { ground, guide, pivot, wall, wire } from "./supports.js";
 import { bob, cart, damper, disc, hoop, rod, spring, trail } from "./members.js";
 import { angle, dimension, force, moment, weight } from "./marks.js";
 import { sketchOf, verticalOf } from "./sketch.js";
-import { azimuth, polar } from "./space.js";
+import { azimuth, polar, top } from "./space.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
 /** @typedef {import("../types.js").Snapshot} Snapshot */
@@ -25,6 +26,7 @@ export const KINDS = {
   damper,
   spring,
   hoop,
+  top,
   rod,
   cart,
   block: cart,
@@ -45,7 +47,11 @@ export function figureOf(stage, now) {
   const figures = stage
     .once("elements", () => inOrder(stage))
     .map(({ draw, element, key }) => draw(element, stage, now, key));
-  return { shapes: [...ending(stage), ...figures.flatMap((f) => f.shapes)], labels: figures.flatMap((f) => f.labels) };
+  const axes = stage.once("axes", () => axesOf(stage));
+  return {
+    shapes: [...axes.shapes, ...ending(stage), ...figures.flatMap((f) => f.shapes)],
+    labels: [...axes.labels, ...figures.flatMap((f) => f.labels)],
+  };
 }
 
 /** A ring where an event ends the motion. @param {Stage} stage @returns {Figure["shapes"]} */
@@ -55,9 +61,17 @@ function ending({ scene, trajectory, project, unit }) {
   return place ? [{ key: "event", d: circle(unit * 1.6), className: "reference", at: project(place) }] : [];
 }
 
+/** What a drawing says, and the weights of its bodies unless it shows some itself. @param {Stage} stage */
+function elementsOf({ scene }) {
+  const elements = scene.drawing?.elements ?? [];
+  const gravity = scene.loads.find(({ kind }) => kind === "gravity")?.name;
+  const shown = elements.some(({ kind, load }) => kind === "weight" || (kind === "force" && load === gravity));
+  return gravity && !shown ? [...elements, { kind: "force", load: gravity }] : elements;
+}
+
 /** @param {Stage} stage */
-function inOrder({ scene }) {
-  return (scene.drawing?.elements ?? [])
+function inOrder(stage) {
+  return elementsOf(stage)
     .map((element, index) => ({
       element,
       key: `${element.kind}${index}`,

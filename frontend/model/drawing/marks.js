@@ -52,7 +52,7 @@ export function arrow(from, vector, key, className, size) {
  * @param {Pixel} from @param {Pixel} vector in pixels @param {string} key @param {string} className @param {number} size
  * @returns {import("../types.js").Shape[]}
  */
-function solidArrow(from, vector, key, className, size) {
+export function solidArrow(from, vector, key, className, size) {
   const [shaft, head] = arrow(from, vector, key, className, LINED * size);
   return [{ key, d: shaft.d + head.d, className: `pointed ${shaft.className}` }];
 }
@@ -77,11 +77,10 @@ export function force(element, stage, now, key) {
   };
 }
 
-/** Gravity acts on every body. @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+/** Gravity acts on every body; where a continuum's centre is, nobody says. @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
 function weights(stage, now, key) {
-  const figures = stage.scene.bodies.map((body) =>
-    weight({ kind: "weight", at: body.name }, stage, now, `${key}-${body.name}`),
-  );
+  const bodies = stage.scene.bodies.filter(({ kind }) => kind !== "continuum");
+  const figures = bodies.map((body) => weight({ kind: "weight", at: body.name }, stage, now, `${key}-${body.name}`));
   return { shapes: figures.flatMap((f) => f.shapes), labels: figures.flatMap((f) => f.labels) };
 }
 

@@ -1,7 +1,7 @@
 /** What a system is made of: rod, spring, bob, cart, block, disc, hoop, and the trail a place leaves. */
 
 import { add, circle, coil, lengthOf, line, normal, polygon, polyline, scaled, subtract, unit } from "./geometry.js";
-import { placeOf, sizeOf, unlessMoved } from "./stage.js";
+import { coordinateClass, latexOf, placeOf, sizeOf, unlessMoved } from "./stage.js";
 import { knotsBetween, traced } from "../curve.js";
 import { smoothPath } from "../interpolation.js";
 
@@ -13,8 +13,36 @@ import { smoothPath } from "../interpolation.js";
 
 /** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
 export function rod(element, stage, now, key) {
-  const d = line(placeOf(stage, now, element.from ?? ""), placeOf(stage, now, element.to ?? ""));
-  return { shapes: [{ key, d, className: "ink rod" }], labels: [] };
+  const [from, to] = [placeOf(stage, now, element.from ?? ""), placeOf(stage, now, element.to ?? "")];
+  return {
+    shapes: [{ key, d: line(from, to), className: "ink rod" }],
+    labels: named(element.label, stage, [from, to], key, 0.9 * stage.unit, outside(from, to)),
+  };
+}
+
+/** Where along an element its letter stands: not in the middle, where that of its angle is. */
+const ALONG = 0.7;
+
+/** The letter of a hanging rod goes to its other side while it swings so far, as part of its length. */
+const SWINGS = 0.25;
+
+/** The side away from the vertical, where no angle is written; upright, a rod has its letter on it. @param {Pixel} from @param {Pixel} to */
+function outside(from, to) {
+  const [across] = unit(subtract(to, from));
+  return Math.max(-1, Math.min(1, across / SWINGS));
+}
+
+/**
+ * The letter of a length or a stiffness beside its element.
+ * @param {string | undefined} name  of a parameter or coordinate @param {Stage} stage @param {[Pixel, Pixel]} ends
+ * @param {string} key @param {number} gap @param {number} [side]  1: to the right of what hangs down @returns {Figure["labels"]}
+ */
+function named(name, stage, [from, to], key, gap, side = 1) {
+  if (!name) return [];
+  const along = subtract(to, from);
+  if (!(lengthOf(along) > 4 * gap)) return [];
+  const at = add(add(from, scaled(along, ALONG)), scaled(normal(unit(along)), -gap * side));
+  return [{ key, latex: latexOf(stage.scene, name), at, className: coordinateClass(stage.scene, name) || "length" }];
 }
 
 /**
@@ -26,8 +54,21 @@ export function spring(element, stage, now, key) {
   const [from, to] = [element.from ?? "", element.to ?? ""];
   const first = [from, to].map((place) => stage.project(stage.trajectory.positions[place]?.[0] ?? [0, 0]));
   const coils = Math.max(4, Math.min(12, Math.round(lengthOf(subtract(first[1], first[0])) / (stage.unit * 0.85))));
-  const d = coil(...beside(element, stage, now), stage.unit * 0.72, coils);
-  return { shapes: [{ key, d, className: `ink spring ${element.load ? `load-${element.load}` : ""}` }], labels: [] };
+  const ends = beside(element, stage, now);
+  const load = element.load ? `load-${element.load}` : "";
+  return {
+    shapes: [{ key, d: coil(...ends, stage.unit * 0.72, coils), className: `ink spring ${load}` }],
+    labels: named(stiffnessOf(element, stage), stage, ends, key, 1.7 * stage.unit).map((label) => ({
+      ...label,
+      className: load || label.className,
+    })),
+  };
+}
+
+/** The name of a spring's constant, where it is one. @param {Element} element @param {Stage} stage */
+function stiffnessOf({ load }, { scene }) {
+  const { stiffness = "" } = scene.loads.find(({ name }) => name === load) ?? {};
+  return scene.parameters.find(({ name }) => name === stiffness)?.name;
 }
 
 /**

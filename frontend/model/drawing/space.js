@@ -1,7 +1,7 @@
 /** The angles of spherical coordinates, drawn in space and seen as everything in it: from the vertical, and round it. */
 
 import { add, arrowHead, at as pixel, line, polyline, scaled, subtract, unit, wrapped } from "./geometry.js";
-import { coordinateClass, latexOf } from "./stage.js";
+import { coordinateClass, latexOf, sizeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
@@ -53,7 +53,8 @@ export function polar(element, stage, now, key) {
 }
 
 /**
- * ψ: the arc round the vertical through `at`, level with `to`, from the first axis to where `to` stands.
+ * ψ: the arc round the vertical through `at`, level with `to`, to where `to` stands from the first axis, or from the
+ * direction that the element says.
  * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
  * @returns {Figure}
  */
@@ -62,8 +63,9 @@ export function azimuth(element, stage, now, key) {
   const [foot, end] = [placeIn(now, element.at), placeIn(now, element.to)];
   const centre = /** @type {Place} */ ([foot[0], foot[1], end[2]]);
   const radius = (ROUND * stage.unit) / stage.scale;
+  const zero = sizeOf(element.offset, stage);
   const on = /** @type {Circle} */ (
-    (turn) => [centre[0] + radius * Math.cos(turn), centre[1] + radius * Math.sin(turn), centre[2]]
+    (turn) => [centre[0] + radius * Math.cos(zero + turn), centre[1] + radius * Math.sin(zero + turn), centre[2]]
   );
   const middle = stage.project(centre);
   const past = (/** @type {Pixel} */ tip) => add(middle, scaled(subtract(tip, middle), 1.15));
@@ -72,6 +74,56 @@ export function azimuth(element, stage, now, key) {
     { key: `${key}-level`, d: line(middle, stage.project(end)), className: "reference" },
   ];
   return arc(element, stage, { key, centre, on, turn: wrapped(now.coordinates[element.coordinate ?? ""] ?? 0), below });
+}
+
+/** Sides of the polygon that a top's rim is drawn as. */
+const SIDES = 48;
+
+/**
+ * A top: a cone that stands on its point, with a rim about its axis at the second place, and a spoke that turns with
+ * the coordinate, counted from the line of nodes, where the rim is level.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function top(element, stage, now, key) {
+  if (stage.scene.dimension !== 3) return NOTHING;
+  const [foot, centre] = [placeIn(now, element.from), placeIn(now, element.to)];
+  const [x, y, z] = centre.map((value, i) => value - foot[i]);
+  const [across, height] = [Math.hypot(x, y), Math.hypot(x, y, z) || 1];
+  const nodes = across ? [-y / across, x / across, 0] : [1, 0, 0];
+  const rising = [(-z * nodes[1]) / height, (z * nodes[0]) / height, (x * nodes[1] - y * nodes[0]) / height];
+  const radius = sizeOf(element.radius, stage) || (2 * stage.unit) / stage.scale;
+  const on = (/** @type {number} */ turn) =>
+    stage.project(centre.map((c, i) => c + radius * (Math.cos(turn) * nodes[i] + Math.sin(turn) * rising[i])));
+  const rim = Array.from({ length: SIDES + 1 }, (_, i) => on((i * 2 * Math.PI) / SIDES));
+  const [apex, middle] = [stage.project(foot), stage.project(centre)];
+  const [ax, ay] = subtract(middle, apex);
+  const aside = (/** @type {Pixel} */ point) => {
+    const [px, py] = subtract(point, apex);
+    return (ax * py - ay * px) / (Math.hypot(px, py) || 1);
+  };
+  const edges = [...rim].sort((a, b) => aside(a) - aside(b));
+  const turn = now.coordinates[element.coordinate ?? ""] ?? 0;
+  const tip = on(turn);
+  return {
+    shapes: [
+      { key: `${key}-cone`, d: polyline([edges[0], apex, /** @type {Pixel} */ (edges.at(-1))]), className: "ink" },
+      { key, d: `${polyline(rim)}Z`, className: `ink steel body-${element.to}` },
+      {
+        key: `${key}-spoke`,
+        d: line(middle, tip),
+        className: `ink mark ${coordinateClass(stage.scene, element.coordinate)}`,
+      },
+    ],
+    labels: [
+      {
+        key,
+        latex: latexOf(stage.scene, element.coordinate),
+        at: add(tip, scaled(unit(subtract(tip, middle)), stage.unit)),
+        className: coordinateClass(stage.scene, element.coordinate),
+      },
+    ],
+  };
 }
 
 /**

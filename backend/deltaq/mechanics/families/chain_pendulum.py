@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import ClassVar
 
 GREEK = "\\varphi"
+MOST_LETTERED = 3  # links: for the arcs of more there is no room
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,11 @@ def _bob(i: int) -> dict[str, object]:
 
 def _elements(size: int) -> list[dict[str, object]]:
     places = ["pivot", *(f"bob{i}" for i in range(1, size + 1))]
-    rods: list[dict[str, object]] = [{"kind": "rod", "from": a, "to": b} for a, b in pairwise(places)]
+    rods: list[dict[str, object]] = [{"kind": "rod", "from": a, "to": b, "label": "l"} for a, b in pairwise(places)]
+    lettered = size <= MOST_LETTERED
+    angles: list[dict[str, object]] = [
+        {"kind": "angle", "at": at, "coordinate": f"phi{i}"} for i, at in enumerate(places[:-1], 1) if lettered
+    ]
     bobs: list[dict[str, object]] = [{"kind": "bob", "at": bob} for bob in places[1:]]
     support: list[dict[str, object]] = [{"kind": "ground", "at": "pivot"}, {"kind": "trail", "at": places[-1]}]
-    return [*support, *rods, {"kind": "pivot", "at": "pivot"}, *bobs]
+    return [*support, *rods, {"kind": "pivot", "at": "pivot"}, *angles, *bobs]
