@@ -33,27 +33,46 @@ export function rowsOf(scene, trajectory, beside = []) {
     curves: [
       ...row.curves,
       ...others.flatMap((rows, i) =>
-        (rows.find(({ key }) => key === row.key)?.curves ?? [])
-          .filter(({ dash }) => dash === "solid")
+        rows
+          .flatMap(({ curves }) => curves)
+          .filter(({ key, dash }) => dash === "solid" && row.curves.some((curve) => curve.key === key))
           .map((curve) => ({ ...curve, dash: DASHES[i % 2], band: false, beside: true })),
       ),
     ],
   }));
 }
 
+/** On an axis so many times as long as its range a curve looks like a line. */
+const FLAT = 12;
+
+/** @param {readonly (readonly number[])[]} curves */
+function widthOf(curves) {
+  const all = curves.flat().filter(Number.isFinite);
+  return Math.max(...all) - Math.min(...all);
+}
+
+/** Whether a curve and those of a row are all to be seen on one axis; what hardly moves is not, on whichever. @param {Row} row @param {readonly number[]} values */
+function fits({ curves, least }, values) {
+  const all = [...curves.map((curve) => curve.values), values];
+  const moving = all.map((one) => widthOf([one])).filter((range) => range > least);
+  return widthOf(all) <= FLAT * Math.min(...moving);
+}
+
 /**
- * Coordinates of the same unit share a row; the energies have the last one.
+ * Coordinates of the same unit share a row as long as each is to be seen in it; the energies have the last one.
  * @param {Scene} scene @param {Trajectory} trajectory
  * @returns {Row[]}
  */
 function rowsOfOne(scene, trajectory) {
-  /** @type {Map<string, Row>} */
-  const rows = new Map();
+  /** @type {(Row & {of: string})[]} */
+  const rows = [];
   scene.coordinates.forEach((coordinate, index) => {
     const values = trajectory.coordinates[coordinate.name];
     if (!values) return;
-    const row = rows.get(coordinate.unit) ?? {
+    const shared = rows.find((row) => row.of === coordinate.unit && fits(row, values));
+    const row = shared ?? {
       key: `q${index}`,
+      of: coordinate.unit,
       unit: unitText(coordinate.unit),
       least: leastRange(trajectory),
       curves: [],
@@ -71,9 +90,9 @@ function rowsOfOne(scene, trajectory) {
       band: true,
       beside: false,
     });
-    rows.set(coordinate.unit, row);
+    if (!shared) rows.push(row);
   });
-  return [...rows.values(), ...energyRow(trajectory)];
+  return [...rows.map(({ of: _, ...row }) => row), ...energyRow(trajectory)];
 }
 
 /** @param {Trajectory} trajectory @returns {Row[]} */

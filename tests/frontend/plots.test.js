@@ -17,6 +17,23 @@ test("coordinates of one unit share a row, each in its own colour", () => {
   assert.deepEqual(rowsOf(twins, trajectory)[0].curves.map((curve) => curve.className), ["q-0", "q-1"]);
 });
 
+for (const [name, ranges, rows] of /** @type {[string, number[], string[][]][]} */ ([
+  ["all to be seen", [1, 3, 10], [["a", "b", "c"]]],
+  ["the spin of a top beside its nutation", [20, 0.3, 400], [["a"], ["b"], ["c"]]],
+  ["two of one size, one apart", [1, 400, 2], [["a", "c"], ["b"]]],
+  ["what rests takes no axis", [5, 0, 4], [["a", "b", "c"]]],
+  ["one that runs away", [1, 1e300, 2], [["a", "c"], ["b"]]],
+]))
+  test(`curves of one unit have an axis on which each is to be seen: ${name}`, () => {
+    const coordinates = ["a", "b", "c"].map((each) => ({ ...scene.coordinates[0], name: each, unit: "rad" }));
+    const values = Object.fromEntries(ranges.map((range, i) => ["abc"[i], trajectory.t.map((t) => (t && range) * (t / (trajectory.t.at(-1) ?? 1)))]));
+    const motion = { ...trajectory, coordinates: values, rates: {}, energy: null };
+    const told = (/** @type {any} */ one, /** @type {any[]} */ beside = []) => rowsOf(/** @type {any} */ ({ ...scene, coordinates }), one, beside);
+    assert.deepEqual(told(motion).map(({ curves }) => curves.map(({ key }) => key)), rows);
+    const others = { ...motion, coordinates: { a: values.a, b: values.a, c: values.a } };
+    assert.deepEqual(told(motion, [others]).map(({ curves }) => curves.map(({ key }) => key)), rows.map((row) => [...row, ...row]), "runs beside it keep to its rows");
+  });
+
 test("rows fill the height from the top, without overlap", () => {
   const domains = domainsOf(3, 300, 16);
   assert.equal(domains[0][1], 1);
