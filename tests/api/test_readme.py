@@ -106,6 +106,7 @@ def test_every_file_that_is_named_is_there(root: Path) -> None:
 
 def test_every_key_that_is_named_is_one_of_the_page(root: Path) -> None:
     signs = {"→": "ArrowRight", "←": "ArrowLeft", "↓": "ArrowDown", "↑": "ArrowUp", "Esc": "Escape", "Space": " "}
+    signs |= {key: key for key in ("Ctrl+Z", "Ctrl+Y")}
     rows = re.findall(r"^\| ([^|]+) \| [^|]+ \|$", (root / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
     named = [signs.get(key, key.lower()) for row in rows if row != "key" for key in re.split(r", | / ", row)]
     known = re.findall(r'"([^"]+)"', (root / "frontend" / "model" / "keys.js").read_text(encoding="utf-8"))
