@@ -1,9 +1,9 @@
 /** A motion as still pictures over time, for paper: one for each row of curves, with the numbers on its axes. */
 
 import { traced } from "./curve.js";
+import { rowsOf } from "./curves.js";
 import { polyline } from "./drawing/geometry.js";
 import { scaleOf } from "./figure/phase.js";
-import { rowsOf } from "./plots.js";
 import { endOf } from "./trajectory.js";
 
 /** @typedef {import("./figure/phase.js").Tick} Tick */

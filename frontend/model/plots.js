@@ -1,126 +1,21 @@
-/** What the plots show: rows of curves over one time axis. */
+/** How rows of curves are drawn over one time axis. */
 
 import { traced } from "./curve.js";
-import { smooth, spanAt } from "./interpolation.js";
-import { unitText } from "./numbers.js";
-import { coordinateAt, largestError, leastRange, usual } from "./trajectory.js";
+import { spanAt } from "./interpolation.js";
+import { folded } from "./look.js";
+import { largestError, usual } from "./trajectory.js";
 
 /** @typedef {import("./types.js").Trajectory} Trajectory */
-/** @typedef {import("./types.js").Scene} Scene */
+/** @typedef {import("./curves.js").Curve} Curve */
+/** @typedef {import("./curves.js").Row} Row */
 /**
- * @typedef {{key: string, latex: string, className: string, values: readonly number[], times: readonly number[], at: (t: number) => number,
- *   dash: string, band: boolean, beside: boolean}} Curve  values at the samples, and between them; beside: of another run
- * @typedef {{key: string, unit: string, least: number, curves: Curve[]}} Row  least: a range below which there is nothing to be seen
- * @typedef {{width: number, height: number, em: number, duration: number}} Frame  pixels of the plots and of the page's type, and seconds
+ * @typedef {{width: number, height: number, em: number, duration: number, from?: number}} Frame  pixels of the plots and of the page's type, and seconds from and up to which they go
  */
 /** @typedef {{ink: string, muted: string, grid: string, paper: string, of: (className: string) => string}} Palette */
 
 /** An error estimate above this share of a row's range is shown as a band. */
 const VISIBLE = 0.01;
 const LEAST_RANGE = 1e-3;
-
-const DASHES = ["dash", "dot"];
-
-/**
- * The rows of a motion; the same curves of runs beside it are dashed in them.
- * @param {Scene} scene @param {Trajectory} trajectory @param {readonly Trajectory[]} [beside]
- * @returns {Row[]}
- */
-export function rowsOf(scene, trajectory, beside = []) {
-  const others = beside.map((run) => rowsOfOne(scene, run));
-  return rowsOfOne(scene, trajectory).map((row) => ({
-    ...row,
-    curves: [
-      ...row.curves,
-      ...others.flatMap((rows, i) =>
-        rows
-          .flatMap(({ curves }) => curves)
-          .filter(({ key, dash }) => dash === "solid" && row.curves.some((curve) => curve.key === key))
-          .map((curve) => ({ ...curve, dash: DASHES[i % 2], band: false, beside: true })),
-      ),
-    ],
-  }));
-}
-
-/** On an axis so many times as long as its range a curve looks like a line. */
-const FLAT = 12;
-
-/** @param {readonly (readonly number[])[]} curves */
-function widthOf(curves) {
-  const all = curves.flat().filter(Number.isFinite);
-  return Math.max(...all) - Math.min(...all);
-}
-
-/** Whether a curve and those of a row are all to be seen on one axis; what hardly moves is not, on whichever. @param {Row} row @param {readonly number[]} values */
-function fits({ curves, least }, values) {
-  const all = [...curves.map((curve) => curve.values), values];
-  const moving = all.map((one) => widthOf([one])).filter((range) => range > least);
-  return widthOf(all) <= FLAT * Math.min(...moving);
-}
-
-/**
- * Coordinates of the same unit share a row as long as each is to be seen in it; the energies have the last one.
- * @param {Scene} scene @param {Trajectory} trajectory
- * @returns {Row[]}
- */
-function rowsOfOne(scene, trajectory) {
-  /** @type {(Row & {of: string})[]} */
-  const rows = [];
-  scene.coordinates.forEach((coordinate, index) => {
-    const values = trajectory.coordinates[coordinate.name];
-    if (!values) return;
-    const shared = rows.find((row) => row.of === coordinate.unit && fits(row, values));
-    const row = shared ?? {
-      key: `q${index}`,
-      of: coordinate.unit,
-      unit: unitText(coordinate.unit),
-      least: leastRange(trajectory),
-      curves: [],
-    };
-    const latex = coordinate.latex || coordinate.name;
-    const at = (/** @type {number} */ t) => coordinateAt(trajectory, coordinate.name, t);
-    row.curves.push({
-      key: coordinate.name,
-      latex,
-      className: `q-${index}`,
-      values,
-      times: trajectory.t,
-      at,
-      dash: "solid",
-      band: true,
-      beside: false,
-    });
-    if (!shared) rows.push(row);
-  });
-  return [...rows.map(({ of: _, ...row }) => row), ...energyRow(trajectory)];
-}
-
-/** @param {Trajectory} trajectory @returns {Row[]} */
-function energyRow({ t: times, energy }) {
-  if (!energy) return [];
-  const curve = (
-    /** @type {keyof typeof energy} */ key,
-    /** @type {string} */ latex,
-    /** @type {string} */ className,
-    dash = "solid",
-  ) => ({
-    key,
-    latex,
-    className,
-    values: energy[key],
-    times,
-    at: smooth(times, energy[key]),
-    dash,
-    band: false,
-    beside: false,
-  });
-  const curves = [
-    curve("kinetic", "E", "energy-kinetic"),
-    curve("potential", "V", "energy-potential"),
-    curve("balance", "E+V-\\textstyle\\int\\! P\\,dt", "energy-balance", "dot"),
-  ];
-  return [{ key: "energy", unit: "J", least: 0, curves }];
-}
 
 /** Between two rows there is room for the names of the curves: this many times the page's type size. */
 const GAP = 1.5;
@@ -144,8 +39,8 @@ export function domainsOf(count, height, em) {
  * @param {readonly Row[]} rows @param {Frame} frame
  * @returns {((t: number, value: number) => import("./types.js").Pixel)[]}
  */
-export function scalesOf(rows, { width, height, em, duration }) {
-  const { pixel } = timeScale(width, duration, em);
+export function scalesOf(rows, { width, height, em, duration, from = 0 }) {
+  const { pixel } = timeScale(width, duration, em, from);
   const { t: above, b: below } = marginsOf(em);
   const inner = height - above - below;
   return domainsOf(rows.length, height, em).map(([bottom, top], r) => {
@@ -154,6 +49,9 @@ export function scalesOf(rows, { width, height, em, duration }) {
   });
 }
 
+/** @param {Curve} curve */
+export const isShown = ({ hidden }) => !hidden;
+
 /**
  * Plotly traces of all rows: their corners are chosen for the size in which they are drawn.
  * @param {readonly Row[]} rows @param {Trajectory} trajectory @param {Palette} palette @param {Frame} frame
@@ -161,9 +59,10 @@ export function scalesOf(rows, { width, height, em, duration }) {
 export function tracesOf(rows, trajectory, palette, frame) {
   const scales = scalesOf(rows, frame);
   return rows.flatMap((row, r) =>
-    row.curves.flatMap((curve) => {
-      const { t: x } = traced((t) => scales[r](t, curve.at(t)), curve.times);
-      const y = x.map(curve.at);
+    row.curves.filter(isShown).flatMap((curve) => {
+      const { t } = traced((t) => scales[r](t, curve.at(t)), curve.times);
+      const straight = { x: t, y: t.map(curve.at) };
+      const { x, y } = curve.wrapped ? folded(straight.x, straight.y) : straight;
       const axis = { xaxis: "x", yaxis: r === 0 ? "y" : `y${r + 1}` };
       const color = palette.of(curve.className);
       const trace = {
@@ -193,7 +92,7 @@ function bandOf(curve, trajectory, drawn, color, axis) {
   if (!((largestError(trajectory) ?? 0) > VISIBLE * range)) return [];
   const wide = (/** @type {number} */ sign) =>
     drawn.y.map((v, n) => {
-      const { i, j, s } = spanAt(curve.times, drawn.x[n]);
+      const { i, j, s } = spanAt(trajectory.t, drawn.x[n]);
       return v + sign * Math.min((1 - s) * (error[i] ?? range) + s * (error[j] ?? range), range);
     });
   const x = [...drawn.x, ...[...drawn.x].reverse()];
@@ -222,9 +121,9 @@ export const marginsOf = (em) => ({ l: 2.9 * em, r: 0.65 * em, t: 1.5 * em, b: 1
 /**
  * Plotly layout: one time axis at the bottom, one value axis per row.
  * @param {readonly Row[]} rows @param {number} end @param {Palette} palette @param {string} lang
- * @param {number} height in pixels @param {number} em the page's type size in pixels
+ * @param {number} height in pixels @param {number} em the page's type size in pixels @param {number} [from]
  */
-export function layoutOf(rows, end, palette, lang, height, em) {
+export function layoutOf(rows, end, palette, lang, height, em, from = 0) {
   const font = { family: "system-ui, sans-serif", size: 0.7 * em, color: palette.muted };
   const line = { gridcolor: palette.grid, zeroline: false, ticks: "", fixedrange: true, exponentformat: "power" };
   const axes = domainsOf(rows.length, height, em).map((domain, r) => [
@@ -241,7 +140,7 @@ export function layoutOf(rows, end, palette, lang, height, em) {
   ]);
   return {
     ...Object.fromEntries(axes),
-    xaxis: { ...line, range: [0, end || 1], anchor: rows.length > 1 ? `y${rows.length}` : "y", nticks: 8 },
+    xaxis: { ...line, range: [from, end || 1], anchor: rows.length > 1 ? `y${rows.length}` : "y", nticks: 8 },
     margin: { ...marginsOf(em), pad: em / 4 },
     showlegend: false,
     hovermode: false,
@@ -258,7 +157,8 @@ export function layoutOf(rows, end, palette, lang, height, em) {
  * @param {Row} row
  */
 function rangeOf(row) {
-  const values = row.curves.flatMap((curve) => curve.values).filter(Number.isFinite);
+  const edges = row.curves.some((curve) => curve.wrapped && isShown(curve)) ? [-Math.PI, Math.PI] : [];
+  const values = [...row.curves.filter(isShown).flatMap((curve) => curve.values), ...edges].filter(Number.isFinite);
   if (!values.length) return [0, 1];
   const [low, high] = usual(values.sort((a, b) => a - b));
   const span = Math.max(high - low, row.least, 1e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
@@ -268,13 +168,15 @@ function rangeOf(row) {
 
 /**
  * Pixels of a time on the plots, and back.
- * @param {number} width @param {number} end @param {number} em
+ * @param {number} width @param {number} end @param {number} em @param {number} [from]
  */
-export function timeScale(width, end, em) {
+export function timeScale(width, end, em, from = 0) {
   const { l, r } = marginsOf(em);
   const inner = Math.max(1, width - l - r);
   return {
-    pixel: (/** @type {number} */ t) => l + (end > 0 ? t / end : 0) * inner,
-    time: (/** @type {number} */ x) => Math.max(0, Math.min(end, ((x - l) / inner) * end)),
+    pixel: (/** @type {number} */ t) => l + (end > from ? (t - from) / (end - from) : 0) * inner,
+    time: (/** @type {number} */ x) => Math.max(from, Math.min(end, from + ((x - l) / inner) * (end - from))),
+    /** Whether a moment is on them. @param {number} t */
+    holds: (t) => t >= from && t <= end,
   };
 }

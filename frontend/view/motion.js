@@ -106,10 +106,10 @@ export function createMotion({ root, state, clock, session, still, update }) {
       const readable = lines.length > 0 || failures.derivation;
       parts.plots.show(
         readable && scene && trajectory
-          ? { scene, trajectory, runs, duration: place.duration, lang: place.lang, theme }
+          ? { scene, trajectory, runs, duration: place.duration, lang: place.lang, theme, look: place.plot }
           : null,
       );
-      if (place.vary || place.with || place.runs || place.why) void instruments.want();
+      if (place.vary || place.with || place.runs || place.why || place.plot) void instruments.want();
       instruments.part?.show();
       begin();
       move(clock.time);

@@ -51,9 +51,9 @@ export function page(view) {
         ${drawing(view)}
         ${player(view)}
         ${(state.place.vary && view.instruments?.panel(view)) || values(view)}
-        <div class="plots" role="img" aria-label=${t("plots.description")}>
-          <div class="canvas"></div><div class="rows"></div><div class="beyond" hidden></div>
-          <div class="ghost" hidden></div><div class="cursor"></div>
+        <div class="plots" role="group" aria-label=${t("plots")}>
+          <div class="canvas" role="img" aria-label=${t("plots.description")}></div><div class="rows"></div><div class="beyond" hidden></div>
+          <div class="ghost" hidden></div><div class="cursor"></div><div class="plot-tools">${view.instruments?.plotTools(view)}</div>
         </div>
         ${report(view)}
       </section>

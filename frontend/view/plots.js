@@ -1,6 +1,8 @@
 /** The plots: curves drawn once by Plotly, and above them the moment. */
 
-import { domainsOf, layoutOf, marginsOf, rowsOf, timeScale, tracesOf } from "../model/plots.js";
+import { rowsOf } from "../model/curves.js";
+import { readLook, spanOf } from "../model/look.js";
+import { domainsOf, isShown, layoutOf, marginsOf, scalesOf, timeScale, tracesOf } from "../model/plots.js";
 import { trustedUntil } from "../model/trajectory.js";
 import { script } from "./bring.js";
 import { whenIdle } from "./frames.js";
@@ -10,7 +12,8 @@ import { typeset } from "./typesetting.js";
 
 /** @typedef {import("../model/types.js").Scene} Scene */
 /** @typedef {import("../model/types.js").Trajectory} Trajectory */
-/** @typedef {{scene: Scene, trajectory: Trajectory, runs: import("../model/figure/runs.js").Run[], duration: number, lang: string, theme: string}} Shown */
+/** @typedef {{scene: Scene, trajectory: Trajectory, runs: import("../model/figure/runs.js").Run[], duration: number, lang: string, theme: string, look: string}} Shown */
+/** @typedef {{rows: import("../model/curves.js").Row[], scale: ReturnType<typeof timeScale>, scales: ReturnType<typeof scalesOf>}} Drawn  what is drawn where */
 
 /** Named in the import map, so that its address carries the version of the libraries. */
 const SOURCE = import.meta.resolve("plotly");
@@ -39,7 +42,7 @@ function createCurves(root) {
   /** Fetched when the first plot is wanted. @type {Promise<boolean> | null} */
   let plotly = null;
 
-  /** @param {import("../model/plots.js").Row[]} rows @param {number} em */
+  /** @param {import("../model/curves.js").Row[]} rows @param {number} em */
   function label(rows, em) {
     const { t, b } = marginsOf(em);
     const tops = domainsOf(rows.length, root.clientHeight, em).map(
@@ -51,31 +54,33 @@ function createCurves(root) {
   return {
     /** False if it cannot be had. A slow processor has enough to do with it: the curves are drawn in another task. */
     library: () => (plotly ??= script(SOURCE).then((come) => new Promise((resolve) => setTimeout(resolve, 0, come)))),
-    /** @param {Shown} shown @returns {Promise<ReturnType<typeof timeScale>>} what is drawn where */
-    async draw({ scene, trajectory, runs, duration, lang }) {
+    /** @param {Shown} shown @returns {Promise<Drawn>} */
+    async draw({ scene, trajectory, runs, duration, lang, look: text }) {
       const palette = coloured(root);
+      const look = readLook(text);
+      const [from, to] = spanOf(look, duration);
       const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
       const rows = rowsOf(
         scene,
         trajectory,
         runs.map((run) => run.trajectory),
+        look,
       );
-      const frame = { width: root.clientWidth, height: root.clientHeight, em, duration };
+      const frame = { width: root.clientWidth, height: root.clientHeight, em, duration: to, from };
       const layout = {
-        ...layoutOf(rows, duration, palette, lang, root.clientHeight, em),
+        ...layoutOf(rows, to, palette, lang, root.clientHeight, em, from),
         width: frame.width,
         height: frame.height,
       };
       const traces = tracesOf(rows, trajectory, palette, frame);
       await globalThis.Plotly.react(canvas, traces, layout, { staticPlot: true, displayModeBar: false });
       label(rows, em);
-      // Curves carry the class of their quantity, so that pointing at it lights them up.
-      canvas.querySelectorAll(".scatterlayer .trace").forEach((curve, i) => curve.classList.add(traces[i]?.className));
-      const scale = timeScale(root.clientWidth, duration, em);
-      const end = trustedUntil(trajectory);
+      canvas.querySelectorAll(".scatterlayer .trace").forEach((curve, i) => mark(curve, traces[i]?.className ?? ""));
+      const scale = timeScale(root.clientWidth, to, em, from);
+      const end = Math.max(from, trustedUntil(trajectory));
       beyond.style.insetInlineStart = `${scale.pixel(end)}px`;
-      beyond.hidden = end >= duration * 0.999;
-      return scale;
+      beyond.hidden = end >= to * 0.999;
+      return { rows, scale, scales: scalesOf(rows, frame) };
     },
   };
 }
@@ -89,6 +94,10 @@ export function createPlots(root, { seek }) {
   let shown = null;
   let visible = false;
   let due = 0;
+  /** @type {Drawn | null} */
+  let drawn = null;
+  /** @type {() => void} */
+  let told = () => {};
   const curves = createCurves(root);
   const moment = createMoment(root, { seek, lang: () => shown?.lang ?? "" });
 
@@ -96,8 +105,10 @@ export function createPlots(root, { seek }) {
     due = 0;
     if (!shown || !visible || root.clientWidth === 0) return;
     if (!(await curves.library()) || !shown) return;
-    moment.fit(await curves.draw(shown));
+    drawn = await curves.draw(shown);
+    moment.fit(drawn.scale);
     root.classList.add("ready");
+    told();
   }
 
   function schedule() {
@@ -115,6 +126,15 @@ export function createPlots(root, { seek }) {
 
   return {
     move: moment.move,
+    /** Null before there is anything. */
+    get drawn() {
+      return drawn;
+    },
+    /** @param {() => void} listener  called after each drawing */
+    listen(listener) {
+      told = listener;
+      if (drawn) told();
+    },
     /** @param {Shown | null} next */
     show(next) {
       const same =
@@ -131,14 +151,29 @@ export function createPlots(root, { seek }) {
   };
 }
 
-/** The names of a row's curves, in their colours, with the unit. @param {import("../model/plots.js").Row} row @param {number} top */
+/**
+ * Curves carry the class of their quantity, so that pointing at it lights them up; Plotly draws others into the same elements.
+ * @param {Element} curve @param {string} name
+ */
+function mark(curve, name) {
+  const before = curve.getAttribute("data-quantity");
+  if (before === name) return;
+  if (before) curve.classList.remove(before, "lit");
+  curve.setAttribute("data-quantity", name);
+  curve.classList.add(name);
+}
+
+/** The names of a row's curves, in their colours, with the unit; a press hides or shows a curve. @param {import("../model/curves.js").Row} row @param {number} top */
 function legend(row, top) {
   const line = document.createElement("div");
   line.className = "legend";
   line.style.top = `${top}px`;
   for (const curve of row.curves.filter(({ beside }) => !beside)) {
-    const name = document.createElement("span");
+    const name = document.createElement("button");
     name.className = `key ${curve.className}`;
+    name.dataset.curve = curve.key;
+    name.setAttribute("aria-label", curve.name);
+    name.setAttribute("aria-pressed", String(isShown(curve)));
     typeset(name, curve.latex, false);
     line.append(name);
   }

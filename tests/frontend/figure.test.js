@@ -6,7 +6,8 @@ import { originsOf } from "../../frontend/model/figure/origins.js";
 import { portraitsOf } from "../../frontend/model/figure/phase.js";
 import { differences, keyOf, readRuns, withoutRun, withRun } from "../../frontend/model/figure/runs.js";
 import { linesOf } from "../../frontend/model/reveal.js";
-import { rowsOf, tracesOf } from "../../frontend/model/plots.js";
+import { rowsOf } from "../../frontend/model/curves.js";
+import { tracesOf } from "../../frontend/model/plots.js";
 import { readChanges } from "../../frontend/model/values.js";
 import { scene, trajectory } from "./fixtures.js";
 

@@ -1,6 +1,7 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { domainsOf, layoutOf, marginsOf, rowsOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
+import { rowsOf } from "../../frontend/model/curves.js";
+import { domainsOf, layoutOf, marginsOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
 import { scene, trajectory } from "./fixtures.js";
 
 const palette = { ink: "black", muted: "gray", grid: "silver", paper: "white", of: (/** @type {string} */ name) => `colour of ${name}` };

@@ -7,8 +7,10 @@ import { createEnergies } from "./energies.js";
 import { createHand } from "./hand.js";
 import { createIntegrals } from "./integrals.js";
 import { layerIn } from "./layer.js";
+import { createLook } from "./look.js";
 import { createPaths } from "./paths.js";
 import { createPhase } from "./phase.js";
+import { createReading } from "./reading.js";
 import { createRuns } from "./runs.js";
 import { createVirtual } from "./virtual.js";
 import { steppers, tools } from "./tools.js";
@@ -62,10 +64,13 @@ export function open(around) {
   const phase = createPhase(bench, around.seek);
   const energies = createEnergies(bench);
   const paths = createPaths(bench, layerIn(around.frame, "paths"));
+  const look = createLook(bench);
+  const reading = createReading(bench, look.fit);
   void session.need("figure");
   return {
     panel: virtual.panel,
     steppers,
+    plotTools: look.menu,
     why: createWhy(state),
     integrals: createIntegrals(bench),
     /** @param {View} view */
@@ -82,7 +87,7 @@ export function open(around) {
     },
     /** Follows the clock. */
     move() {
-      for (const part of [virtual, hand, runs, phase, energies]) part.move();
+      for (const part of [virtual, hand, runs, phase, energies, reading]) part.move();
     },
   };
 }
