@@ -163,7 +163,7 @@ function mark(curve, name) {
   curve.classList.add(name);
 }
 
-/** The names of a row's curves, in their colours, with the unit; a press hides or shows a curve. @param {import("../model/curves.js").Row} row @param {number} top */
+/** The symbols of a row's curves, in their colours, heard as words, with the unit; a press hides or shows a curve. @param {import("../model/curves.js").Row} row @param {number} top */
 function legend(row, top) {
   const line = document.createElement("div");
   line.className = "legend";
@@ -172,9 +172,15 @@ function legend(row, top) {
     const name = document.createElement("button");
     name.className = `key ${curve.className}`;
     name.dataset.curve = curve.key;
-    name.setAttribute("aria-label", curve.name);
     name.setAttribute("aria-pressed", String(isShown(curve)));
-    typeset(name, curve.latex, false);
+    const [seen, heard] = ["math", "unseen"].map((part) => {
+      const span = document.createElement("span");
+      span.className = part;
+      return span;
+    });
+    typeset(seen, curve.latex, false, "html");
+    heard.textContent = curve.name;
+    name.append(seen, heard);
     line.append(name);
   }
   const unit = document.createElement("span");
