@@ -5105,6 +5105,57 @@ export interface components {
             density?: string | null;
         };
         /**
+         * SceneConstraint
+         * @description What the motion keeps to, by a reaction that does no virtual work; its kind decides which fields it has.
+         */
+        SceneConstraint: {
+            /**
+             * Name
+             * @description as steps and answers call it
+             * @example rod
+             */
+            name?: string | null;
+            /**
+             * Kind
+             * @description of constraint
+             * @enum {string}
+             */
+            kind: "equation" | "distance";
+            /**
+             * Equation
+             * @description between coordinates, t and parameters, or linear in the rates
+             * @example x^2 + y^2 - l^2 = 0
+             */
+            equation?: string | null;
+            /**
+             * From
+             * @description the point or body where a rod begins
+             */
+            from?: string | null;
+            /**
+             * To
+             * @description the point or body where it ends
+             */
+            to?: string | null;
+            /**
+             * Length
+             * @description of the rod: the multiplier is its force, positive in tension
+             */
+            length?: string | null;
+            /**
+             * Multiplier
+             * @description what expressions call its multiplier
+             * @example lambda
+             */
+            multiplier?: string | null;
+            /**
+             * Latex
+             * @description how the multiplier is written
+             * @example \lambda
+             */
+            latex?: string | null;
+        };
+        /**
          * SceneCoordinate
          * @description A generalized coordinate, with where it begins.
          */
@@ -5281,6 +5332,11 @@ export interface components {
              * @description coordinates that are given functions of time
              */
             guides?: components["schemas"]["SceneGuide"][] | null;
+            /**
+             * Constraints
+             * @description what reactions keep, besides the coordinates
+             */
+            constraints?: components["schemas"]["SceneConstraint"][] | null;
             /**
              * Events
              * @description what ends the motion

@@ -114,6 +114,23 @@ class SceneGuide(Part):
     value: Expression = Field(description="its function of time", examples=["y0*sin(omega*t)"])
 
 
+class SceneConstraint(Part):
+    """What the motion keeps to, by a reaction that does no virtual work; its kind decides which fields it has."""
+
+    name: str | None = Field(None, description="as steps and answers call it", examples=["rod"])
+    kind: Literal["equation", "distance"] = Field(description="of constraint")
+    equation: Expression | None = Field(
+        None,
+        description="between coordinates, t and parameters, or linear in the rates",
+        examples=["x^2 + y^2 - l^2 = 0"],
+    )
+    start: str | None = Field(None, alias="from", description="the point or body where a rod begins")
+    to: str | None = Field(None, description="the point or body where it ends")
+    length: Expression | None = Field(None, description="of the rod: the multiplier is its force, positive in tension")
+    multiplier: str | None = Field(None, description="what expressions call its multiplier", examples=["lambda"])
+    latex: str | None = Field(None, description="how the multiplier is written", examples=["\\lambda"])
+
+
 class SceneEvent(Part):
     """What ends the motion: an expression that passes through zero."""
 
@@ -180,6 +197,7 @@ class SceneDocument(Part):
     bodies: list[SceneBody] | None = Field(None, description="all that has mass; a motion needs one")
     loads: list[SceneLoad] | None = Field(None, description="all that does work")
     guides: list[SceneGuide] | None = Field(None, description="coordinates that are given functions of time")
+    constraints: list[SceneConstraint] | None = Field(None, description="what reactions keep, besides the coordinates")
     events: list[SceneEvent] | None = Field(None, description="what ends the motion")
     labels: dict[str, Text] | None = Field(None, description="what parts are called, by their names")
     drawing: SceneDrawing | None = Field(None, description="how it is drawn")

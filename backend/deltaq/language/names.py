@@ -13,7 +13,7 @@ from ..errors import InputError, Problem
 from .functions import OPERATORS, SPELLINGS
 from .spelling import folded, key, latex_of
 
-Kind = Literal["time", "constant", "parameter", "coordinate", "material"]
+Kind = Literal["time", "constant", "parameter", "coordinate", "material", "multiplier"]
 
 MAX_SYMBOLS = 200
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}\Z")

@@ -74,9 +74,16 @@ def _guided(scene: Scene, guide: Guide, pointer: str) -> Scene:
         known = ", ".join(coordinate.name for coordinate in scene.free)
         parameters = {"name": guide.coordinate[:40], "known": known}
         raise UnknownNameError(Problem("unknown-coordinate", f"{pointer}/coordinate", parameters=parameters))
-    if len(scene.free) == 1:
+    if scene.degrees_of_freedom == 1:
         raise SceneError(Problem("no-free-coordinate", pointer))
-    return replace(scene, guides=(*scene.guides, guide))
+    try:
+        return replace(scene, guides=(*scene.guides, guide))
+    except SceneError as error:  # a constraint that it leaves without a coordinate is no mistake of the scene
+        raise SceneError(*(_of_guide(pointer, problem) for problem in error.problems)) from None
+
+
+def _of_guide(pointer: str, problem: Problem) -> Problem:
+    return replace(problem, pointer=pointer) if problem.pointer.startswith("/constraints") else problem
 
 
 def _frozen(scene: Scene, name: str, pointer: str) -> Scene:

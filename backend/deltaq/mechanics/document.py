@@ -12,6 +12,7 @@ from ..language.names import Kind, Names, Symbol, is_name
 from ..packages import classes_of
 from .bodies import Body
 from .checks import as_float
+from .constraints import Constraint
 from .coordinate import Coordinate
 from .drawing import Drawing, Element, Vertical
 from .event import Event
@@ -72,6 +73,7 @@ def _scene(root: Reader) -> Iterator[Scene]:
         _drawing(root, context),
         _labels(root),
         _each(root.tables("events", context), Event.read),
+        _each(root.tables("constraints", context), read_constraint),
     )
     yield from root.build(lambda _: make()) if not root.problems else ()
 
@@ -193,6 +195,11 @@ def read_body(table: Reader) -> Body:
 def read_load(table: Reader) -> Load:
     """A load of the kind named."""
     return cast("type[Load]", _kind("deltaq.mechanics.loads", table)).read(table)
+
+
+def read_constraint(table: Reader) -> Constraint:
+    """A constraint of the kind named."""
+    return cast("type[Constraint]", _kind("deltaq.mechanics.constraints", table)).read(table)
 
 
 def _kind(package: str, table: Reader) -> type:

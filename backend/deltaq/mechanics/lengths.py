@@ -1,11 +1,11 @@
-"""The distance between two places, as a tree."""
+"""The distance between two places, and other differences, as trees."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 
 from ..language.expression import Expression
-from ..language.tree import Call, Negation, Node, Number, Power, Sum
+from ..language.tree import Call, Negation, Node, Number, Power, Span, Sum
 
 ZERO, TWO = Number(Fraction(0)), Number(Fraction(2))
 
@@ -18,3 +18,11 @@ def squared_distance(start: tuple[Expression, ...], end: tuple[Expression, ...])
 def distance(start: tuple[Expression, ...], end: tuple[Expression, ...]) -> Node:
     """s = |r_end − r_start|"""
     return Call("sqrt", (squared_distance(start, end),))
+
+
+def difference(left: Node, right: Node) -> Node:
+    """left − right; left alone where the other is zero."""
+    if right == ZERO:
+        return left
+    whole = Span(left.span.offset, right.span.offset + right.span.length - left.span.offset)
+    return Sum((left, Negation(right, right.span)), whole)

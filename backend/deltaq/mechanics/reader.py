@@ -17,8 +17,9 @@ from ..errors import InputError, Parameter, Problem, escaped
 from ..language.expression import Expression
 from ..language.names import Names
 from ..language.parser import parse
-from ..language.tree import Number
+from ..language.tree import Equation, Number
 from .checks import as_float, default_name
+from .lengths import difference
 from .user_text import Translated, translated
 
 T = TypeVar("T")
@@ -180,13 +181,20 @@ class Reader:
             self.complain("unknown-place", key, name=name, suggestion=near[0] if near else "")
         return name
 
-    def parsed(self, text: str, key: str) -> Expression:
+    def equation(self, key: str) -> Expression:
+        """An equation between scalars as left − right, the text as written; without a sign, what is to be zero."""
+        text = self.text(key)
+        return self.parsed(text, key, is_equation=True) if text else self._empty(key)
+
+    def parsed(self, text: str, key: str, *, is_equation: bool = False) -> Expression:
         """A text as a scalar expression; NOTHING in place of one with a problem."""
         try:
             expression = parse(text, self.named.names)
         except InputError as error:
             self.problems.extend(problem.below(f"{self.pointer}/{key}") for problem in error.problems)
             return NOTHING
+        if is_equation and isinstance(expression.tree, Equation):
+            expression = Expression(text, difference(expression.tree.left, expression.tree.right))
         if not expression.is_scalar:
             self.complain("not-scalar", key)
         elif expression.has_derivatives:

@@ -11,9 +11,11 @@ from types import MappingProxyType
 
 from ..errors import Problem, escaped
 from ..language.expression import Expression
-from ..language.names import Names, Symbol
+from ..language.names import Names, Symbol, is_reserved
 from .bodies import Body
 from .checks import demand, load_name_problem
+from .conditions import Condition
+from .constraints import Constraint
 from .contributions import Contribution, DistributedForce
 from .coordinate import Coordinate
 from .drawing import Drawing
@@ -30,10 +32,11 @@ _DECIMAL = re.compile(r"\d\.\d")
 
 @dataclass(frozen=True)
 class Scene:
-    """A mechanical system (scene format 1): coordinates, parameters, points, bodies, loads, guides, events, a drawing.
+    """A mechanical system (scene format 1): coordinates, parameters, bodies, loads, guides, constraints, events.
 
     `dimension` is the number of components of every vector, 2 (plane) or 3 (space). Points and bodies are both places,
-    and share their names; loads have names of their own. `labels` say what they are called in sentences, by language.
+    and share their names; loads and constraints have names of their own. `labels` say what they are called in
+    sentences, by language.
     """
 
     id: str
@@ -49,6 +52,7 @@ class Scene:
     drawing: Drawing = Drawing()
     labels: Mapping[str, Translated] = field(default_factory=dict)
     events: tuple[Event, ...] = ()
+    constraints: tuple[Constraint, ...] = ()
 
     def __post_init__(self) -> None:
         demand(*self._problems())
@@ -64,11 +68,15 @@ class Scene:
         yield from _repeated("/loads", [load.name for load in self.loads])
         yield from _repeated("/guides", [guide.coordinate for guide in self.guides])
         yield from _repeated("/events", [event.name for event in self.events])
+        yield from _repeated("/constraints", [constraint.name for constraint in self.constraints])
+        yield from self._multiplier_problems()
         yield from filter(None, (load_name_problem(load.name, f"/loads/{i}/name") for i, load in enumerate(self.loads)))
         for name in sorted(self.labels.keys() - self.places.keys() - self._others):
             yield Problem("label-of-nothing", f"/labels/{escaped(name)}", parameters={"name": name[:40]})
         for index, guide in enumerate(self.guides):
             yield from self._guide_problems(f"/guides/{index}", guide)
+        if self.free:
+            yield from list(self._constraint_problems()) or self._freedom_problems()
 
     def _guide_problems(self, pointer: str, guide: Guide) -> Iterator[Problem]:
         known = tuple(coordinate.name for coordinate in self.coordinates)
@@ -78,15 +86,54 @@ class Scene:
         for name in sorted(guide.value.names & set(known)):
             yield Problem("guide-by-coordinate", f"{pointer}/value", parameters={"name": name})
 
+    def _multiplier_problems(self) -> Iterator[Problem]:
+        """The names that multipliers are given must be free, and none of two."""
+        taken = {symbol.name for symbol in self.names.symbols}
+        for index, constraint in enumerate(self.constraints):
+            name = constraint.multiplier
+            if name and (name in taken or is_reserved(name)):
+                code = "duplicate-name" if name in taken else "reserved-name"
+                yield Problem(code, f"/constraints/{index}/multiplier", parameters={"name": name})
+            taken.add(name)
+
+    def _constraint_problems(self) -> Iterator[Problem]:
+        """Each constraint must hold something that is free."""
+        free, known = ({c.name for c in each} for each in (self.free, self.coordinates))
+        for index, condition in enumerate(self.conditions):
+            names = Expression("", condition.value).names
+            if not names & known:
+                yield Problem("constraint-without-coordinates", f"/constraints/{index}")
+            elif not names & free:
+                yield Problem(
+                    "constraint-of-guided", f"/constraints/{index}", parameters={"names": _listed(names & known)}
+                )
+
+    def _freedom_problems(self) -> Iterator[Problem]:
+        """All constraints together must leave a motion."""
+        if self.degrees_of_freedom <= 0:
+            parameters = {"count": len(self.constraints), "free": len(self.free)}
+            yield Problem("too-many-constraints", f"/constraints/{len(self.free) - 1}", parameters=parameters)
+
     @cached_property
     def names(self) -> Names:
         """What its expressions may refer to, material coordinates included."""
         return names_of(self.coordinates, self.parameters, self.material)
 
     @cached_property
+    def multipliers(self) -> tuple[Symbol, ...]:
+        """The symbols of the multipliers, in the order of the constraints: as they say, else λ or λ₁, λ₂ …"""
+        taken = {symbol.name for symbol in self.names.symbols} | {each.multiplier for each in self.constraints}
+        nameless = [constraint.name for constraint in self.constraints if not constraint.multiplier]
+        plain = ["lambda"] if len(nameless) == 1 else []
+        fresh = (name for name in (*plain, *(f"lambda_{k}" for k in range(1, len(taken) + 200))) if name not in taken)
+        names = [constraint.multiplier or next(fresh) for constraint in self.constraints]
+        return tuple(Symbol(name, "multiplier", c.latex) for name, c in zip(names, self.constraints, strict=True))
+
+    @cached_property
     def writes_decimals(self) -> bool:
-        """Whether its bodies, loads or guides are stated with decimals, 0.5 and not 1/2."""
-        things: tuple[Body | Load | Guide, ...] = (*self.bodies, *self.loads, *self.guides)
+        """Whether its bodies, loads, guides or constraints are stated with decimals, 0.5 and not 1/2."""
+        things: tuple[Body | Load | Guide | Constraint, ...]
+        things = (*self.bodies, *self.loads, *self.guides, *self.constraints)
         return any(_DECIMAL.search(text) for thing in things for text in _texts(thing))
 
     @cached_property
@@ -98,7 +145,7 @@ class Scene:
 
     @cached_property
     def free(self) -> tuple[Coordinate, ...]:
-        """The coordinates that no guide prescribes: the degrees of freedom."""
+        """The coordinates that no guide prescribes: the degrees of freedom, if there are no constraints."""
         guided = {guide.coordinate for guide in self.guides}
         return tuple(coordinate for coordinate in self.coordinates if coordinate.name not in guided)
 
@@ -118,17 +165,28 @@ class Scene:
         """The forces and potentials that the loads come down to, in the order of the loads."""
         return tuple(part for load in self.loads for part in load.contributions(self.places, self.bodies))
 
+    @cached_property
+    def conditions(self) -> tuple[Condition, ...]:
+        """The expressions that the constraints keep at zero, in their order."""
+        return tuple(constraint.condition(self.places) for constraint in self.constraints)
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """How many rates may be chosen at will: free coordinates less (independent) constraints."""
+        return len(self.free) - len(self.constraints)
+
     @property
     def _others(self) -> set[str]:
-        """Names of what is no place: loads and continua."""
-        return {load.name for load in self.loads} | {body.name for body in self.bodies}
+        """Names of what is no place: loads, constraints and continua."""
+        things: tuple[Load | Constraint | Body, ...] = (*self.loads, *self.constraints, *self.bodies)
+        return {thing.name for thing in things}
 
     def __reduce__(self) -> tuple[object, ...]:
         # A mapping proxy cannot be pickled; the cached properties need not be.
         fields = (self.id, dict(self.title), dict(self.summary), self.dimension, self.coordinates, self.parameters)
         things = (self.points, self.bodies, self.loads, self.guides, self.drawing)
         labels = {name: dict(label) for name, label in self.labels.items()}
-        return Scene, (*fields, *things, labels, self.events)
+        return Scene, (*fields, *things, labels, self.events, self.constraints)
 
 
 def names_of(
@@ -142,11 +200,15 @@ def names_of(
     )
 
 
-def _texts(thing: Body | Load | Guide) -> Iterator[str]:
-    """What is stated of a body, load or guide, as written."""
+def _texts(thing: Body | Load | Guide | Constraint) -> Iterator[str]:
+    """What is stated of a body, load, guide or constraint, as written."""
     for stated in vars(thing).values():
         parts = stated if isinstance(stated, tuple) else (stated,)
         yield from (part.text for part in parts if isinstance(part, Expression))
+
+
+def _listed(names: frozenset[str]) -> str:
+    return ", ".join(sorted(names))
 
 
 def _repeated(pointer: str, names: list[str]) -> Iterator[Problem]:

@@ -10,6 +10,7 @@ from ..language.expression import Expression
 from ..language.tree import Rate, walk
 from .definedness import definedness_problems
 from .homogeneity import SECOND, dimension_problems
+from .independence import independence_problems
 from .inertia import inertia_problems
 from .integrability import integrability_problems
 from .material import Material
@@ -33,12 +34,14 @@ def soundness_problems(scene: Scene) -> Iterator[Problem]:
     yield from _units(scene, found)
     accelerated = tuple(_accelerations(found))
     undefined = tuple(definedness_problems(scene, ((field.pointer, field.expression) for field in found)))
-    yield from accelerated or undefined or tuple(inertia_problems(scene)) or integrability_problems(scene)
+    held = () if undefined else tuple(independence_problems(scene))
+    yield from accelerated or undefined or held or tuple(inertia_problems(scene)) or integrability_problems(scene)
 
 
 def expressions(scene: Scene) -> Iterator[Field]:
     """Every expression of a scene with its JSON pointer."""
     lists = {"points": scene.points, "bodies": scene.bodies, "loads": scene.loads, "events": scene.events}
+    lists |= {"constraints": scene.constraints}
     for key, things in lists.items():
         for index, thing in enumerate(things):
             yield from _fields(f"/{key}/{index}", thing)

@@ -7,6 +7,7 @@ from dataclasses import fields
 
 from ..language.expression import Expression
 from .bodies import Body
+from .constraints import Constraint
 from .coordinate import Coordinate
 from .document import FORMAT
 from .event import Event
@@ -38,13 +39,14 @@ def write_scene(scene: Scene) -> dict[str, object]:
         "bodies": [_write(thing) for thing in scene.bodies],
         "loads": [_write(thing) for thing in scene.loads],
         "guides": [_write(thing) for thing in scene.guides],
+        **({"constraints": [_write(thing) for thing in scene.constraints]} if scene.constraints else {}),
         **({"events": [_write(thing) for thing in scene.events]} if scene.events else {}),
         "labels": {name: plainly(label) for name, label in scene.labels.items()},
         "drawing": {key: value for key, value in drawing.items() if value is not None},
     }
 
 
-def _write(thing: Coordinate | Parameter | Point | Body | Load | Guide | Event) -> dict[str, object]:
+def _write(thing: Coordinate | Parameter | Point | Body | Load | Guide | Constraint | Event) -> dict[str, object]:
     kind = {"kind": thing.kind} if hasattr(thing, "kind") else {}
     values = {item.metadata.get("key", item.name): getattr(thing, item.name) for item in fields(thing)}  # type: ignore[arg-type]
     return kind | {key: _plain(value) for key, value in values.items() if value is not None}

@@ -9,7 +9,7 @@ import { tableOf } from "../own.js";
 const PLACES = ["at", "from", "to"];
 const NAMED = ["points", "bodies", "loads"];
 /** Nothing refers to these by their names, or expressions alone do. */
-const UNREFERRED = ["parameters", "guides", "events"];
+const UNREFERRED = ["parameters", "guides", "constraints", "events"];
 
 /**
  * The document with another value at a pointer; undefined takes the field away.
@@ -142,7 +142,7 @@ export function renamed(document, key, index, name) {
     Object.fromEntries(
       Object.entries(tableOf(row) ?? {}).map(([k, v]) => [k, keys.includes(k) && v === before ? name : v]),
     );
-  const lists = key === "coordinates" ? ["guides"] : ["loads", "events"];
+  const lists = key === "coordinates" ? ["guides"] : ["loads", "constraints", "events"];
   const moved = Object.fromEntries(
     lists.filter((list) => Array.isArray(next[list])).map((list) => [list, rowsOf(next[list]).map(follow)]),
   );

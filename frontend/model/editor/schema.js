@@ -48,6 +48,14 @@ export const SECTIONS = [
     },
   },
   { key: "guides", fields: [field("coordinate", "coordinate"), field("value", "expression")] },
+  {
+    key: "constraints",
+    fields: [NAME],
+    kinds: {
+      equation: [field("equation", "expression"), optional("multiplier", "text")],
+      distance: [...ENDS, field("length", "expression"), optional("multiplier", "text")],
+    },
+  },
   { key: "events", fields: [NAME, field("value", "expression")] },
 ];
 

@@ -17,6 +17,7 @@ export const EMPTY = {
   bodies: [],
   loads: [],
   guides: [],
+  constraints: [],
   events: [],
 };
 
@@ -28,6 +29,7 @@ const ROWS = {
   bodies: { name: "body", kind: "particle", mass: "", position: ["", ""] },
   loads: { name: "load", kind: "gravity", acceleration: ["0", ""] },
   guides: { coordinate: "", value: "" },
+  constraints: { name: "constraint", kind: "equation", equation: "" },
   events: { name: "event", value: "" },
 };
 
