@@ -8,12 +8,16 @@ import pytest
 import sympy
 from tests.language.scene_names import NAMES, SYMBOLS, problem_of, read
 
+from deltaq.language.canonical import is_zero
 from deltaq.language.floats import evaluate
 from deltaq.language.functions import FUNCTIONS
 from deltaq.language.intervals import sample_zero
 from deltaq.language.latex_printer import Typography, latex
+from deltaq.language.names import Names, Symbol
 from deltaq.language.parser import parse
 from deltaq.language.plain_printer import plain
+from deltaq.language.symbols import Symbols
+from deltaq.language.sympy_algebra import to_sympy
 
 X, Y, L = SYMBOLS.name("x"), SYMBOLS.name("y"), SYMBOLS.name("l")
 
@@ -26,16 +30,17 @@ FUNCTION_OF = [
     ("asinh", sympy.asinh, (-2.0, 0.3)), ("acosh", sympy.acosh, (1.2, 3.0)), ("atanh", sympy.atanh, (-0.9, 0.3)),
     ("exp", sympy.exp, (-2.0, 0.3)), ("log", sympy.log, (0.2, 3.0)), ("sqrt", sympy.sqrt, (0.2, 3.0)),
     ("abs", sympy.Abs, (-2.0, 0.3)), ("sign", sympy.sign, (-2.0, 0.0, 0.3)),
+    ("step", sympy.Heaviside, (-2.0, 0.0, 0.3)),
 ]  # fmt: skip
 SPELLINGS = [
     ("cotan", "cot"), ("cosec", "csc"), ("arcsin", "asin"), ("arccos", "acos"), ("arctan", "atan"), ("arsinh", "asinh"),
     ("arcsinh", "asinh"), ("arcosh", "acosh"), ("arccosh", "acosh"), ("artanh", "atanh"), ("arctanh", "atanh"),
-    ("ln", "log"), ("sgn", "sign"), ("signum", "sign"),
+    ("ln", "log"), ("sgn", "sign"), ("signum", "sign"), ("heaviside", "step"),
 ]  # fmt: skip
 
 
 def test_all_functions_are_here() -> None:
-    assert {name for name, *_ in FUNCTION_OF} | {"atan2"} == set(FUNCTIONS)
+    assert {name for name, *_ in FUNCTION_OF} | {"atan2", "max", "min"} == set(FUNCTIONS)
 
 
 @pytest.mark.parametrize(("name", "function", "points"), FUNCTION_OF, ids=[name for name, *_ in FUNCTION_OF])
@@ -53,6 +58,38 @@ def test_the_angle_of_a_vector() -> None:
     assert read("arctan2(y, x)") == sympy.atan2(Y, X)
 
 
+# What is read, and what is printed of it as plain text and as LaTeX.
+LARGEST = [
+    ("max(y, x)", "max(x, y)", r"\max(x, q_1)"),
+    ("min(x, 0)", "min(0, x)", r"\min(0, x)"),
+    ("max(x, y, l)", "max(l, x, y)", r"\max(l, x, q_1)"),
+    ("max(2, 3, 1)", "3", "3"),
+    ("diff(max(x^2, y), x)", "2*x*step(x^2 - y)", r"2 x \operatorname{step}(x^{2} - q_1)"),
+]
+
+
+@pytest.mark.parametrize(("written", "as_text", "as_latex"), LARGEST, ids=[row[0] for row in LARGEST])
+def test_the_largest_and_the_smallest(written: str, as_text: str, as_latex: str) -> None:
+    value = read(written)
+    assert plain(value) == as_text
+    assert latex(value, Typography(NAMES)) == as_latex
+    assert read(as_text) == read(as_latex, "latex") == value
+
+
+@pytest.mark.parametrize(
+    "equal",
+    ["max(x, y) = -min(-x, -y)", "max(x, y) + min(x, y) = x + y", "max(l*x, l*y) = l*max(x, y)",
+     "step(x) = (1 + sign(x))/2", "max(x, 0) = x*step(x)", "abs(x - y)*sign(x - y) = x - y"],
+)  # fmt: skip
+def test_kinks_that_are_the_same(equal: str) -> None:
+    assert is_zero(read(equal), SYMBOLS)
+
+
+def test_a_scene_may_have_names_of_younger_functions() -> None:
+    own = Names((Symbol("x", "coordinate"), Symbol("step", "parameter"), Symbol("max", "parameter")))
+    assert plain(to_sympy(parse("max*x + step", own).tree, Symbols(own))) == "max*x + step"
+
+
 @pytest.mark.parametrize(("spelling", "name"), SPELLINGS)
 def test_other_spellings(spelling: str, name: str) -> None:
     assert read(f"{spelling}(x)") == read(f"{name}(x)")
@@ -68,7 +105,7 @@ def test_written_and_read_back(name: str) -> None:
 
 @pytest.mark.parametrize("name", [name for name, *_ in FUNCTION_OF])
 def test_a_power_after_the_name(name: str) -> None:
-    if name in ("sqrt", "abs", "sign"):
+    if name in ("sqrt", "abs", "sign", "step"):
         assert problem_of(f"{name}^2(x)").code == "function-power"
     else:
         assert read(f"{name}^2(x)") == read(f"{name}(x)^2")

@@ -10,7 +10,7 @@ from deltaq.language.functions import FUNCTIONS as LANGUAGE
 from deltaq.model.compiled import compile_expressions
 from deltaq.model.functions import FUNCTIONS
 
-POINT = {"acosh": (1.7,), "atan2": (0.4, -0.7)}
+POINT = {"acosh": (1.7,), "atan2": (0.4, -0.7), "max": (0.4, -0.7), "min": (0.4, -0.7)}
 
 
 def test_the_model_knows_exactly_the_functions_of_the_language() -> None:
@@ -32,7 +32,16 @@ def test_value_and_derivative(name: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "x", "value"),
-    [("abs", -2.0, 2.0), ("abs", 0.0, 0.0), ("sign", -2.0, -1.0), ("sign", 0.0, 0.0), ("sign", 3.0, 1.0)],
+    [
+        ("abs", -2.0, 2.0),
+        ("abs", 0.0, 0.0),
+        ("sign", -2.0, -1.0),
+        ("sign", 0.0, 0.0),
+        ("sign", 3.0, 1.0),
+        ("step", -2.0, 0.0),
+        ("step", 0.0, 0.5),
+        ("step", 3.0, 1.0),
+    ],
 )
 def test_kinks(name: str, x: float, value: float) -> None:
     symbol = se.Symbol("x")

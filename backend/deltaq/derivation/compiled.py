@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import sympy as sp
 
-from ..language.functions import FUNCTIONS
+from ..language.functions import CLASSES, FUNCTIONS
 
 Function = Callable[[Sequence[float]], float]
 Vectors = Callable[[Sequence[float]], list[float]]
@@ -60,8 +60,8 @@ def _compiled(expression: sp.Expr, slots: Mapping[sp.Symbol, int]) -> Function:
     if expression.is_Pow:
         base, exponent = parts
         return lambda values: math.pow(base(values), exponent(values))
-    name = type(expression).__name__.lower()
-    function = _impulse if name == "diracdelta" else FUNCTIONS[name].evaluate
+    name = type(expression).__name__
+    function = _impulse if name == "DiracDelta" else FUNCTIONS[CLASSES.get(name, name)].evaluate
     return lambda values: function(*(part(values) for part in parts))
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 
 import sympy as sp
 from flint import arb, arb_mat, arb_series
@@ -122,4 +123,7 @@ SERIES: Mapping[str, Callable[..., arb_series | arb]] = {
     "tanh": lambda x: _odd(x) / _even(x),
     "Abs": lambda x: x * _sign(x),
     "sign": lambda x: arb(_sign(x)),
+    "Max": lambda *parts: reduce(lambda a, b: a if _sign(a - b) >= 0 else b, parts),
+    "Min": lambda *parts: reduce(lambda a, b: b if _sign(a - b) >= 0 else a, parts),
+    "Heaviside": lambda x, _at_zero: arb(1 + _sign(x)) / 2,
 }

@@ -24,6 +24,7 @@ MOST_COORDINATES = 3
 HIGHEST = 6  # degree of the form
 NOTHING = arb(2) ** -200  # of the terms of a derivative, where the equilibrium is known to more than 400 bits
 MOST_BOXES = 4000
+KINKS = (sp.DiracDelta, sp.sign, sp.Heaviside, sp.Abs, sp.Max, sp.Min, sp.Derivative)
 ENDS = (arb(-1), arb(1))
 
 Form = Mapping[tuple[int, ...], arb]  # coefficients by exponents
@@ -49,7 +50,7 @@ def leading_form(forces: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], point
 
 def _value(slope: sp.Expr, point: Mapping[str, arb]) -> arb | None:
     """The number, 0 where it is rounding; None for what jumps."""
-    if slope.has(sp.DiracDelta, sp.sign, sp.Abs, sp.Derivative):
+    if slope.has(*KINKS):
         return None
     value = number(slope, dict(point))
     size = sum((abs(number(term, dict(point))) for term in sp.Add.make_args(slope)), arb(0))

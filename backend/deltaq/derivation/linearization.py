@@ -81,7 +81,7 @@ def _at_rest(system: System, slope: sp.Expr) -> sp.Expr:
 
 def _vanishes_at_rest(system: System, term: sp.Expr) -> bool:
     """Whether a term falls with the rates, whichever way they tend to zero. A jump's slope is zero beside it only."""
-    if term.has(sp.DiracDelta, sp.sign):
+    if term.has(sp.DiracDelta, sp.sign, sp.Heaviside):
         return False
     point = {symbol.name: number(value, {}) for symbol, value in system.parameter_values.items()}
     point |= {c.name: arb(c.value) + arb(1) / 7 for c in system.scene.free}

@@ -10,13 +10,14 @@ from functools import lru_cache
 import sympy as sp
 from flint import arb
 
+from ..language.functions import CLASSES
 from .points import Place, Point
 from .tree_evaluation import FUNCTIONS, power
 
 # Operations by the names of SymPy's classes.
 BY_CLASS: Mapping[str, Callable[..., arb]] = {
     **FUNCTIONS,
-    "Abs": FUNCTIONS["abs"],
+    **{own: FUNCTIONS[name] for own, name in CLASSES.items()},
     "Add": lambda *terms: sum(terms, arb(0)),
     "Mul": lambda *factors: math.prod(factors, start=arb(1)),
     "Pow": power,

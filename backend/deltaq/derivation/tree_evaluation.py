@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from fractions import Fraction
+from functools import reduce
 from typing import TypeAlias
 
 from flint import arb
@@ -37,6 +38,9 @@ FUNCTIONS: Mapping[str, Callable[..., arb]] = {
     "sqrt": arb.sqrt,
     "abs": abs,
     "sign": arb.sgn,
+    "max": lambda *parts: reduce(arb.max, parts),
+    "min": lambda *parts: reduce(arb.min, parts),
+    "step": lambda x, *_at_zero: (1 + x.sgn()) / 2,
 }
 
 

@@ -55,7 +55,10 @@ class Arguments:
 
     def made(self, function: str, arguments: tuple[Node, ...], span: Span) -> Node:
         """The call, if the number of arguments is right."""
-        wanted = FUNCTIONS[function].arguments
+        known = FUNCTIONS[function]
+        wanted = known.arguments
+        while known.is_associative and len(arguments) > wanted:
+            arguments = (self._cursor.made(Call(function, arguments[:2], span)), *arguments[2:])
         if len(arguments) != wanted:
             fail("argument-count", span, function=function, wanted=wanted, found=len(arguments))
         return self._cursor.made(Call(function, arguments, span))

@@ -21,10 +21,16 @@ class Function:
     arguments: int = 1
     spellings: tuple[str, ...] = ()
     power_after_name: bool = True
+    is_associative: bool = False  # f(a, b, c) is f(f(a, b), c)
 
 
 def _sign(x: float) -> float:
     return math.copysign(1.0, x) if x else 0.0
+
+
+def _step(x: float, at_zero: float = 0.5) -> float:
+    """0 before and 1 behind the jump; at it the mean, so that step(x) = (1 + sign(x))/2."""
+    return 0.5 * (1.0 + _sign(x)) if x else at_zero
 
 
 _TABLE = (
@@ -49,14 +55,23 @@ _TABLE = (
     Function("sqrt", math.sqrt, r"\sqrt", power_after_name=False),
     Function("abs", abs, r"\operatorname{abs}", power_after_name=False),
     Function("sign", _sign, r"\operatorname{sgn}", spellings=("sgn", "signum"), power_after_name=False),
+    Function("max", max, r"\max", arguments=2, power_after_name=False, is_associative=True),
+    Function("min", min, r"\min", arguments=2, power_after_name=False, is_associative=True),
+    Function("step", _step, r"\operatorname{step}", spellings=("heaviside",), power_after_name=False),
 )
 
 FUNCTIONS: Mapping[str, Function] = MappingProxyType({f.name: f for f in _TABLE})
 SPELLINGS: Mapping[str, Function] = MappingProxyType({s: f for f in _TABLE for s in (f.name, *f.spellings)})
 
+# Classes of SymPy whose names are not the functions' own.
+CLASSES: Mapping[str, str] = MappingProxyType({"Abs": "abs", "Max": "max", "Min": "min", "Heaviside": "step"})
+KINKED = frozenset({"abs", "sign", "max", "min", "step"})  # which bend or jump where an argument changes its sign
+
+FREE_NAMES = frozenset({"max", "min", "step"})  # younger than the format: a scene may have a name that is one of them
+
 # Words with a meaning of their own in the plain language; no symbol of a scene may take them.
 OPERATORS = frozenset({"dot", "ddot", "dddot", "ddddot", "delta", "d", "diff"})
 REFUSED_FUNCTIONS = frozenset(
     {"factorial", "gamma", "eval", "exec", "lambda", "import", "Integral", "integrate", "sum", "product", "limit"}
-    | {"solve", "subs", "det", "min", "max", "floor", "ceil", "round", "mod", "erf", "Piecewise", "binomial"}
+    | {"solve", "subs", "det", "floor", "ceil", "round", "mod", "erf", "Piecewise", "binomial"}
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Mapping
+from functools import reduce
 from math import prod
 from types import MappingProxyType
 from typing import Any, Literal
@@ -11,7 +12,7 @@ from typing import Any, Literal
 import flint
 import sympy
 
-from .functions import FUNCTIONS
+from .functions import FUNCTIONS, KINKED
 
 PRECISIONS = (96, 400, 4000)
 POINTS = 12
@@ -32,10 +33,13 @@ _FUNCTIONS: Mapping[Any, Callable[..., Any]] = MappingProxyType(
     {
         **{
             getattr(sympy, name): (lambda x, name=name: getattr(x, name)())
-            for name in FUNCTIONS.keys() - {"abs", "sign", "sqrt", "atan2"}
+            for name in FUNCTIONS.keys() - KINKED - {"sqrt", "atan2"}
         },
         sympy.Abs: abs,
         sympy.sign: lambda x: x.sgn(),
+        sympy.Max: lambda *parts: reduce(flint.arb.max, parts),
+        sympy.Min: lambda *parts: reduce(flint.arb.min, parts),
+        sympy.Heaviside: lambda x, _at_zero: (1 + x.sgn()) / 2,
         sympy.atan2: flint.arb.atan2,
         sympy.Add: _sum,
         sympy.Mul: _product,

@@ -47,6 +47,10 @@ class KernelReader(Reader):
             return self._size_of(self.form(expr.args[0]))
         if isinstance(expr, sympy.sign):
             return self._sign_of(self.form(expr.args[0]))
+        if isinstance(expr, (sympy.Max, sympy.Min)):
+            return self._opaque(expr)
+        if isinstance(expr, sympy.Heaviside):
+            return self._step_of(self.form(expr.args[0]))
         return super()._read(expr)
 
     def _base(self, form: Form, exponent: Any, expr: Any) -> Form:
@@ -98,6 +102,19 @@ class KernelReader(Reader):
         self.sizes.setdefault(f"~|{text}|", inner)
         self.meaning.setdefault(f"~|{text}|", sympy.Abs(self.expression(inner)))
         return fourier.scale(fourier.monomial(key), sign)
+
+    def _step_of(self, form: Form) -> Form:
+        """step(c f) is step(f) for c > 0, and 1 − step(f) for c < 0."""
+        if not form:
+            return fourier.constant(fmpq(1, 2))
+        inner, number, _ = self._oriented(form)
+        if not inner:
+            return fourier.constant(fmpq(1 if number > 0 else 0))
+        value = sympy.Heaviside(self.expression(inner))
+        key = f"~step {sympy.sstr(value.args[0])}"
+        self.meaning[key] = value
+        step = fourier.monomial(key)
+        return step if number > 0 else fourier.add((fourier.constant(fmpq(1)), fourier.scale(step, fmpq(-1))))
 
     def _oriented(self, form: Form) -> tuple[Form, Any, Form]:
         """What stays between the bars, the number that leaves them, and the positive monomial that does."""

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Any
 
 import sympy
 
-from .functions import FUNCTIONS
+from .functions import CLASSES, FUNCTIONS, Function
 from .memory import cached_method
 from .numerals import (
     ATOM,
@@ -25,11 +23,10 @@ from .numerals import (
     named_root,
     signed_sum,
 )
-from .order import split_symbol
+from .order import arguments_of, split_symbol
 from .typography import Mark, Typography, unmarked
 
 _SET_OFF = r" \, "
-_NAMES: Mapping[str, str] = MappingProxyType({"Abs": "abs"})
 
 __all__ = ["Mark", "Typography", "latex", "unmarked"]
 
@@ -172,8 +169,8 @@ class _Latex:
 
     def call(self, expr: sympy.Expr, power: sympy.Expr = sympy.S.One, *, closed: bool = False) -> str:
         """A function with its power: \\sin^{2}\\varphi, \\cos(\\varphi_1 - \\varphi_2)."""
-        name = _NAMES.get(type(expr).__name__, type(expr).__name__)
-        arguments = [self.text(a, 0) for a in expr.args]
+        name = CLASSES.get(type(expr).__name__, type(expr).__name__)
+        arguments = [self.text(a, 0) for a in arguments_of(expr)]
         raised = "" if power == 1 else f"^{{{power}}}"
         if name == "abs":
             return rf"\left|{arguments[0]}\right|{raised}"
@@ -189,8 +186,8 @@ def _spaced(argument: str) -> str:
 
 def _has_bare_argument(call: sympy.Expr) -> bool:
     """Whether the argument is written without brackets: a single symbol that is no rate, after a command of LaTeX."""
-    known = FUNCTIONS.get(_NAMES.get(type(call).__name__, type(call).__name__))
-    if known is None or known.latex.endswith("}") or known.name == "abs":
+    known = FUNCTIONS.get(CLASSES.get(type(call).__name__, type(call).__name__))
+    if known is None or known.latex.endswith("}") or known.name == "abs" or known.arguments > 1:
         return False
     return all(argument.is_Symbol and not split_symbol(argument.name)[0] for argument in call.args)
 
@@ -209,10 +206,15 @@ def _is_call(factor: sympy.Expr) -> bool:
 
 def _takes_power(base: sympy.Expr, exponent: sympy.Expr) -> bool:
     """Whether this is a function whose power stands after its name, as in sin² x."""
-    known = FUNCTIONS.get(_NAMES.get(type(base).__name__, type(base).__name__))
+    known = FUNCTIONS.get(CLASSES.get(type(base).__name__, type(base).__name__))
     if known is None or known.name == "exp" or not base.is_Function:
         return False
-    return bool(exponent == 1 or (known.name != "sign" and exponent.is_Integer and exponent > 0))
+    return bool(exponent == 1 or (_is_raised_by_name(known) and exponent.is_Integer and exponent > 0))
+
+
+def _is_raised_by_name(known: Function) -> bool:
+    """Whether the power stands behind the name, or behind the bars."""
+    return known.power_after_name or known.name == "abs"
 
 
 def _joint(space: str, following: str) -> str:

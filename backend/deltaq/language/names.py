@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import Literal
 
 from ..errors import InputError, Problem
-from .functions import OPERATORS, SPELLINGS
+from .functions import FREE_NAMES, OPERATORS, SPELLINGS
 from .spelling import folded, key, latex_of
 
 Kind = Literal["time", "constant", "parameter", "coordinate", "material", "multiplier"]
@@ -112,7 +112,8 @@ def _table(entries: Iterable[tuple[str, Symbol]]) -> Mapping[str, tuple[Symbol, 
 
 def is_reserved(name: str) -> bool:
     """Whether the language itself uses this word. d may be a distance: d(x) is a differential all the same."""
-    return (name in OPERATORS and name != "d") or name in SPELLINGS or name in (TIME.name, PI.name)
+    is_function = name in SPELLINGS and name not in FREE_NAMES
+    return (name in OPERATORS and name != "d") or is_function or name in (TIME.name, PI.name)
 
 
 def is_name(name: str) -> bool:

@@ -25,7 +25,12 @@ def _quotient(upper: Any, lower: Any) -> Any:
     return upper * lower**-1
 
 
-_REWRITTEN: Mapping[Any, Callable[[Any], Any]] = MappingProxyType(
+def _between(a: Any, b: Any, way: int) -> Any:
+    """max(a, b) = (a + b + |a − b|)/2, and min with a minus: what is known of absolute values is known of them."""
+    return (a + b + way * sympy.Abs(a - b)) / 2
+
+
+_REWRITTEN: Mapping[Any, Callable[..., Any]] = MappingProxyType(
     {
         sympy.tan: lambda x: _quotient(sympy.sin(x), sympy.cos(x)),
         sympy.cot: lambda x: _quotient(sympy.cos(x), sympy.sin(x)),
@@ -34,6 +39,9 @@ _REWRITTEN: Mapping[Any, Callable[[Any], Any]] = MappingProxyType(
         sympy.sinh: lambda x: (sympy.exp(x) - sympy.exp(-x)) / 2,
         sympy.cosh: lambda x: (sympy.exp(x) + sympy.exp(-x)) / 2,
         sympy.tanh: lambda x: _quotient(sympy.exp(x) - sympy.exp(-x), sympy.exp(x) + sympy.exp(-x)),
+        sympy.Max: lambda a, *rest: _between(a, sympy.Max(*rest), 1),
+        sympy.Min: lambda a, *rest: _between(a, sympy.Min(*rest), -1),
+        sympy.Heaviside: lambda x, _at_zero: (1 + sympy.sign(x)) / 2,
     }
 )
 
@@ -74,7 +82,7 @@ class Reader(Generators):
         if isinstance(expr, (sympy.Abs, sympy.sign)):
             return self._size(self.form(expr.args[0]), expr, sign=isinstance(expr, sympy.sign))
         rewrite = _REWRITTEN.get(expr.func)
-        return self.form(rewrite(expr.args[0])) if rewrite else self._opaque(expr)
+        return self.form(rewrite(*expr.args)) if rewrite else self._opaque(expr)
 
     def _size(self, form: Form, expr: Any, *, sign: bool) -> Form:
         """|f| as √(f²), and sgn f as f/√(f²)."""

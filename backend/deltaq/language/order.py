@@ -45,6 +45,11 @@ def split_symbol(name: str) -> tuple[int, str]:
 
 
 @lru_cache(maxsize=1 << 14)
+def arguments_of(call: sympy.Expr) -> tuple[sympy.Expr, ...]:
+    """What a function is called with; SymPy's unit step carries its value at 0, too."""
+    return call.args[:1] if isinstance(call, sympy.Heaviside) else tuple(call.args)
+
+
 def _text(expr: sympy.Expr) -> str:
     """The expression as text, to sort by; making it takes long, and the same parts come again and again."""
     return str(expr)

@@ -6,17 +6,14 @@ used, so that any program can read it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Any
 
 import sympy
 
+from .functions import CLASSES
 from .memory import cached_method
 from .numerals import ATOM, POWER, PRODUCT, SUM, base_exponent, fraction_parts, plain_number, signed_sum
-from .order import Order
-
-_FUNCTION_NAMES: Mapping[str, str] = MappingProxyType({"Abs": "abs"})
+from .order import Order, arguments_of
 
 
 def plain(expr: Any, order: Order | None = None) -> str:
@@ -67,8 +64,8 @@ class _Plain:
             return self._product(expr)
         if expr.is_Pow:
             return self._power(expr)
-        name = _FUNCTION_NAMES.get(type(expr).__name__, type(expr).__name__)
-        return f"{name}({', '.join(self.text(a, 0) for a in expr.args)})", ATOM
+        name = CLASSES.get(type(expr).__name__, type(expr).__name__)
+        return f"{name}({', '.join(self.text(a, 0) for a in arguments_of(expr))})", ATOM
 
     def _sum(self, expr: sympy.Expr) -> str:
         return signed_sum(self.text(term, SUM + 1) for term in self._order.terms(expr))

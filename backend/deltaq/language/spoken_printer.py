@@ -14,14 +14,14 @@ from typing import Any
 
 import sympy
 
+from .functions import CLASSES
 from .memory import cached_method
 from .numerals import Decides, base_exponent, decimal, decimals_of, ends, exact, fraction_parts, named_root
-from .order import Order
+from .order import Order, arguments_of
 from .spoken_symbols import LARGEST, SpokenSymbols, Vocabulary
 
 # How tightly words hold together. A prefix, as "sine of", reaches over one atom and no further.
 SUM, QUOTIENT, PRODUCT, POWER, PREFIX, ATOM = 1, 2, 3, 4, 5, 6
-_NAMES = {"Abs": "abs"}
 _MOST_PARTS = 12
 _WORDS = frozenset({"d", "delta", "e", "a"})  # letters that are words, or begin some
 _SHORT = 4  # words of a term that needs no pause before it
@@ -273,15 +273,16 @@ class _Speech:
 
     def _call(self, expr: sympy.Expr, power: sympy.Expr = sympy.S.One) -> str:
         """A function with its power: sine squared of phi."""
-        name = _NAMES.get(type(expr).__name__, type(expr).__name__)
+        name = CLASSES.get(type(expr).__name__, type(expr).__name__)
         function = self._words.words.get(f"functions.{name}", name)
         raised = function if power == 1 else self._raised(function, power)
         return self._words.say("of", raised, self._arguments(expr))
 
     def _arguments(self, expr: sympy.Expr) -> str:
-        if len(expr.args) == 1:
-            return self.text(expr.args[0], ATOM)
-        return self._words.say("bracket", self._words.say("and").join(self.text(a, 0) for a in expr.args))
+        arguments = arguments_of(expr)
+        if len(arguments) == 1:
+            return self.text(arguments[0], ATOM)
+        return self._words.say("bracket", self._words.say("and").join(self.text(a, 0) for a in arguments))
 
 
 def joined_terms(words: Vocabulary, terms: list[str]) -> str:

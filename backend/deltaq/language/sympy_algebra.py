@@ -17,7 +17,7 @@ from .derivatives import diff
 from .display import size
 from .form_calculus import plain_form
 from .fourier import TooLargeError
-from .functions import FUNCTIONS
+from .functions import CLASSES, FUNCTIONS
 from .measure import MAX_EXPONENT
 from .symbols import Symbols
 from .tree import Node, fold
@@ -26,9 +26,9 @@ from .tree import Node, fold
 Value = Any
 
 _BOUNDED_DOMAIN = frozenset({"log", "asin", "acos", "acosh", "atanh"})
-_SAME_NAME = FUNCTIONS.keys() - {"abs"}
+_SAME_NAME = FUNCTIONS.keys() - set(CLASSES.values())
 _FUNCTIONS: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {name: getattr(sympy, name) for name in _SAME_NAME} | {"abs": sympy.Abs}
+    {name: getattr(sympy, name) for name in _SAME_NAME} | {name: getattr(sympy, own) for own, name in CLASSES.items()}
 )
 _UNDEFINED = (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo)
 _NOT_A_VALUE: Mapping[str, tuple[Any, ...]] = MappingProxyType(
@@ -134,7 +134,10 @@ class SympyAlgebra:
     def call(self, function: str, arguments: tuple[Value, ...]) -> Value:
         if function == "exp":
             _check_exponential(arguments[0])
-        value = _FUNCTIONS[function](*arguments)
+        try:
+            value = _FUNCTIONS[function](*arguments)
+        except ValueError:  # the larger of two numbers that are not real
+            _refuse("not-real")
         if value in _UNDEFINED:
             _refuse("division-by-zero")
         if function in _BOUNDED_DOMAIN and value.is_extended_real is False:

@@ -26,7 +26,7 @@ from ..language.tree import (
 from .units import ONE, Dimension
 
 SECOND = Dimension(time=Fraction(1))
-SAME_AS_ARGUMENT = ("abs",)
+SAME_AS_ARGUMENTS = ("abs", "max", "min")
 # A bare number takes the dimension of its surroundings where it stands alone; so does cosh(x) of an x without a unit.
 NUMBER = "number"
 
@@ -111,11 +111,11 @@ class DimensionCheck:
     def _call(self, function: str, arguments: tuple[Node, ...]) -> Found:
         if function == "sqrt":
             return self._raised(self.of(arguments[0]), Fraction(1, 2))
-        if function in SAME_AS_ARGUMENT:
-            return self.of(arguments[0])
+        if function in SAME_AS_ARGUMENTS:
+            return self._same(arguments)
         if function == "atan2":
             self._same(arguments)
-        elif function != "sign":
+        elif function not in ("sign", "step"):
             self.expect(arguments[0], ONE)
         silent = DimensionCheck(self.units, self.text, [])
         return ONE if isinstance(silent.of(arguments[0]), Dimension) else NUMBER

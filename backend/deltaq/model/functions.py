@@ -24,6 +24,21 @@ def sign(x: Expr) -> Expr:
     return se.Piecewise((1, x > 0), (-1, x < 0), (0, True))
 
 
+def largest(a: Expr, b: Expr) -> Expr:
+    """max(a, b) as a piecewise expression."""
+    return se.Piecewise((a, a - b >= 0), (b, True))
+
+
+def smallest(a: Expr, b: Expr) -> Expr:
+    """min(a, b) as a piecewise expression."""
+    return se.Piecewise((b, a - b >= 0), (a, True))
+
+
+def step(x: Expr) -> Expr:
+    """The unit step as a piecewise expression, 1/2 at 0."""
+    return se.Piecewise((1, x > 0), (0, x < 0), (se.Rational(1, 2), True))
+
+
 FUNCTIONS: Mapping[str, Callable[..., Expr]] = MappingProxyType(
     {
         "sin": se.sin,
@@ -47,5 +62,8 @@ FUNCTIONS: Mapping[str, Callable[..., Expr]] = MappingProxyType(
         "sqrt": se.sqrt,
         "abs": absolute,
         "sign": sign,
+        "max": largest,
+        "min": smallest,
+        "step": step,
     }
 )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from ..language.functions import KINKED
 from ..language.tree import Call, Node, walk
 from ..mechanics.contributions import Contribution
 from ..mechanics.scene import Scene
@@ -17,7 +18,6 @@ from .problem import Problem
 from .run import Steps, run
 from .stiffness import drive, spectra
 
-KINKED = frozenset({"abs", "sign"})
 LEAST_STEPS = 140.0  # of any run, since no step may be longer than a part of the span
 LOOSE = 1e-3
 SHORT, SHORT_STEPS = 0.05, 500
