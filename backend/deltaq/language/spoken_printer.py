@@ -126,8 +126,10 @@ class _Speech:
             return joined_terms(self._words, self.summands(expr)), SUM
         if expr.is_Mul:
             return self._product(expr)
+        if expr is sympy.E and not self._is_taken("e"):
+            return self._words.say("euler"), ATOM
         if expr is sympy.E or isinstance(expr, sympy.exp):
-            return self._exponential(expr), POWER
+            return self._exponential(expr)
         return self._power(expr) if expr.is_Pow else (self._call(expr), PREFIX)
 
     def summands(self, expr: sympy.Expr) -> list[str]:
@@ -166,11 +168,15 @@ class _Speech:
             return f"{count} {self._words.say(f'parts.{number}.{size.denominator}')}"
         return self._words.say("fraction", self._words.whole(size.numerator), self._words.whole(size.denominator))
 
-    def _exponential(self, expr: sympy.Expr) -> str:
+    def _is_taken(self, letter: str) -> bool:
+        """Whether a symbol of the scene is called so."""
+        return letter in self._symbols.reader.plain
+
+    def _exponential(self, expr: sympy.Expr) -> tuple[str, int]:
         exponent = expr.args[0] if expr.args else sympy.S.One
-        if "e" in self._symbols.reader.plain:
-            return self._words.say("of", self._words.say("functions.exp"), self.text(exponent, ATOM))
-        return self._words.say("power", self._words.say("euler"), self._exponent(exponent))
+        if self._is_taken("e"):
+            return self._words.say("of", self._words.say("functions.exp"), self.text(exponent, ATOM)), PREFIX
+        return self._words.say("power", self._words.say("euler"), self._exponent(exponent)), POWER
 
     def _product(self, expr: sympy.Expr) -> tuple[str, int]:
         sign, upper, lower = fraction_parts(expr, self._as_decimal)
