@@ -23,6 +23,7 @@ from deltaq.derivation.formula import (
     Explicit,
     Formula,
     Gateaux,
+    Given,
     Inserted,
     Integral,
     Jacobian,
@@ -529,6 +530,17 @@ FORMULAS = [
         "the determinant of open bracket capital M minus capital M close bracket",
     ),
     ("power", Power(KINETIC, 2), "E squared"),
+    (
+        "power of a value with a unit",
+        Power(Rounded(sp.Float("2.5"), "m"), 2),
+        "open bracket 2.5 metres close bracket squared",
+    ),
+    (
+        "power of a variation",
+        Power(Named(Quantity("virtual-displacement", "bob"), X), 2),
+        "open bracket delta r close bracket squared",
+    ),
+    ("product with what the scene states", Times((e(M), Given((), M * L))), "m times m l"),
     ("power of a sum", Power(SUM_OF_BOTH, 4), "open bracket E minus capital V close bracket to the power of four"),
     ("mode", MODE, "a one"),
     ("at equilibrium", AtEquilibrium(SUM_OF_BOTH, {}), "the value of E minus capital V in the equilibrium"),
@@ -586,7 +598,10 @@ ON_FUNCTIONS = [
     ("value", e(L * X), "l x"),
     ("direction", e(L * VX), "l v"),
     ("rate of a direction", e(VDX**2), "v dot squared"),
+    ("second rate of a direction", e(sp.Symbol("ddot(delta(x))", real=True)), "v double dot"),
+    ("fourth rate of a function", e(sp.Symbol("ddddot(x)", real=True)), "x fourfold dot"),
     ("another direction", e(VPSI), "w"),
+    ("differential", e(sp.Symbol("d(x)", real=True) ** 2), "open bracket d x close bracket squared"),
     ("function of a function", e(sp.sin(X)), "sine of x"),
     ("power", e(X**2), "x squared"),
     ("name", CALLED, "f of x of t"),
@@ -663,6 +678,14 @@ ON_FUNCTIONS = [
         ),
     ),
     (
+        "instant of a function of a function along a direction",
+        Directional(AtTime(e(sp.sin(X)), T0), ALONG, H),
+        (
+            "the derivative at h equal to zero of open bracket sine of"
+            " open bracket x of t zero plus h times v of t zero close bracket close bracket"
+        ),
+    ),
+    (
         "difference quotient",
         LimitOfQuotient(CALLED, ALONG, H),
         (
@@ -727,6 +750,7 @@ EQUAL = Relation((KINETIC, SUM_OF_BOTH, e(M * L**2 * DPHI * X)))
                 "equals x",
             ],
         ),
+        ((), (("s", "x"),), ["with s ", "equals x"]),
         ((Relation((KINETIC, e(M * X * L)), "≠"),), (), ["E ", "is not equal to m l x"]),
         (
             (Relation((Summed(SUM_OF_BOTH, ()), Inserted(SUM_OF_BOTH, {}), Each(e(X), ())), "<"),),

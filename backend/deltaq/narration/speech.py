@@ -371,7 +371,7 @@ class Speech:
 
     def _unsigned(self, term: Term) -> list[str]:
         """The term with its minus, if it has one; a sum that is added needs no brackets."""
-        texts = self.members(term.formula) if not isinstance(term.formula, Equation) else [self.formula(term.formula)]
+        texts = self.members(term.formula)
         plus, minus = self._say("plus", ""), self._say("minus", "")
         if term.sign > 0:
             return [text.removeprefix(plus) for text in texts]
