@@ -36,11 +36,13 @@ StabilityKind = Literal["family", "gyroscopic", "degenerate", "band"]
 # Why a search for equilibria is not complete: its operations were spent, or equilibria are not isolated.
 SearchEnd = Literal["budget", "continuum"]
 # Parts of the last chapter that a derivation is complete without, and why one is missing: it has not been asked for,
-# its operations were spent, its time was over, or it failed.
+# its operations were spent, its time was over, it failed, or it is not made for scenes with constraints.
 OptionalPart = Literal["model", "equilibria", "small-motions", "integrals", "relative-equilibria", "canonical"]
-Missing = Literal["later", "budget", "time", "failed"]
+Missing = Literal["later", "budget", "time", "failed", "constraints"]
 # Among which generators symmetries are sought: those affine in coordinates and time; motions of space and rigid bodies.
 GeneratorFamily = Literal["affine", "motions-of-space"]
+# What holds a part of a scene fixed: a length, another parameter of positions, the guide of a coordinate.
+HoldKind = Literal["length", "angle", "guide"]
 # Whether a load has a potential, by the curl of its generalized forces.
 CurlOutcome = Literal[
     "conservative",

@@ -1682,6 +1682,38 @@ export interface components {
             step: string;
         };
         /**
+         * ConstraintResult
+         * @description A constraint, and the reaction that keeps it: λ ∂g/∂q, or λ a where a·q̇ + b = 0 is kept.
+         */
+        ConstraintResult: {
+            /**
+             * Name
+             * @example rod
+             */
+            name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "equation" | "distance";
+            /**
+             * Holonomic
+             * @description whether it binds positions; else it is linear in the rates
+             */
+            holonomic: boolean;
+            /** @description what is kept, as an equation `… = 0` */
+            equation: components["schemas"]["Formula"];
+            /** @description the symbol λ in the equations; of a distance the rod's force in tension */
+            multiplier: components["schemas"]["Formula"];
+            /** @description λ by coordinates and rates; null where it would be too long */
+            reaction: components["schemas"]["Formula"] | null;
+            /**
+             * Forces
+             * @description the generalized reactions, by coordinate
+             */
+            forces: components["schemas"]["CoordinateFormula"][];
+        };
+        /**
          * ConvergenceAnswer
          * @description Errors over steps, and the orders that they show.
          */
@@ -1818,6 +1850,30 @@ export interface components {
              *     ]
              */
             methods?: string[];
+        };
+        /**
+         * CoordinateFormula
+         * @description What belongs to one coordinate.
+         */
+        CoordinateFormula: {
+            /**
+             * Plain
+             * @example m*l^2*dot(phi)^2/2
+             */
+            plain: string;
+            /** Latex */
+            latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
+            /**
+             * Coordinate
+             * @example phi
+             */
+            coordinate: string;
         };
         /**
          * CoordinateSum
@@ -2007,6 +2063,12 @@ export interface components {
          *       },
          *       "scene": "base-pendulum"
          *     }
+         * @example {
+         *       "release": [
+         *         "l"
+         *       ],
+         *       "scene": "pendulum"
+         *     }
          */
         DerivationRequest: {
             /**
@@ -2038,6 +2100,14 @@ export interface components {
              * @description the principle from which the equations are derived
              */
             formulation?: components["schemas"]["DerivationRequestFormulation"];
+            /**
+             * Release
+             * @description lengths, and coordinates guided or frozen, whose reactions are asked for
+             * @example [
+             *       "l"
+             *     ]
+             */
+            release?: string[];
             /**
              * Canonical
              * @description whether a last chapter has Hamilton's function and canonical equations
@@ -2105,6 +2175,23 @@ export interface components {
             relative_equilibria: components["schemas"]["RelativeEquilibrium"][];
             /** Symbols */
             symbols: components["schemas"]["OwnSymbol"][];
+            /**
+             * Constraints
+             * @default []
+             */
+            constraints: components["schemas"]["ConstraintResult"][];
+            /**
+             * Reactions
+             * @description of what the request released
+             * @default []
+             */
+            reactions: components["schemas"]["ReactionResult"][];
+            /**
+             * Releasable
+             * @description what may be released
+             * @default []
+             */
+            releasable: components["schemas"]["Releasable"][];
         };
         Draft: components["schemas"]["SceneId"] | components["schemas"]["SceneDocument"] | {
             [key: string]: unknown;
@@ -3631,7 +3718,7 @@ export interface components {
              * @description `later`: ask for it; `budget`: its operations are spent; `time`: so is its time; `failed`: our bug
              * @enum {string}
              */
-            reason: "later" | "budget" | "time" | "failed";
+            reason: "later" | "budget" | "time" | "failed" | "constraints";
             /**
              * Text
              * @description that it is missing, and what to do about it
@@ -4791,6 +4878,31 @@ export interface components {
             predicted: number | null;
         };
         /**
+         * ReactionResult
+         * @description What holds a length, an angle or a guided coordinate that was released in thought: δW = Z δl.
+         */
+        ReactionResult: {
+            /**
+             * Name
+             * @example l
+             */
+            name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "length" | "angle" | "guide";
+            /** @description Z, in the direction in which it grows: negative where a rod pulls */
+            reaction: components["schemas"]["Formula"];
+            /**
+             * Closed
+             * @description whether no accelerations are left in it
+             */
+            closed: boolean;
+            /** @description of a length, the force −Z of rod or string, positive in tension */
+            force: components["schemas"]["Formula"] | null;
+        };
+        /**
          * Readiness
          * @description Always true: a service that is not ready answers with a problem document.
          */
@@ -4980,6 +5092,24 @@ export interface components {
             initial: {
                 [key: string]: components["schemas"]["InitialState"];
             };
+        };
+        /**
+         * Releasable
+         * @description What a scene holds fixed, so that `release` can ask what holds it.
+         */
+        Releasable: {
+            /**
+             * Name
+             * @example l
+             */
+            name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "length" | "angle" | "guide";
+            /** Latex */
+            latex: string;
         };
         /**
          * RouthFunction

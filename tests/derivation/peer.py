@@ -121,12 +121,22 @@ class Peer:
                 return self.integrate(self.vector(density).dot(self.vector(position).diff(q)), material)
 
     def equations(self) -> list[Any]:
-        """d/dt ∂E/∂q̇ − ∂E/∂q − Q for every free coordinate."""
+        """d/dt ∂E/∂q̇ − ∂E/∂q − Q − Σ λ a for every free coordinate.
+
+        SymPy takes holonomic constraints first, and its multipliers stand on the left with the other sign.
+        """
         energy = sum(self.kinetic(part) for body in self.scene.bodies for part in body.kinetics)
-        method = LagrangesMethod(energy, list(self.q.values()))
+        kept: dict[bool, list[Any]] = {True: [], False: []}
+        names: dict[bool, list[str]] = {True: [], False: []}
+        for condition, symbol in zip(self.scene.conditions, self.scene.multipliers, strict=True):
+            kept[condition.is_holonomic].append(self.read(condition.value).doit())
+            names[condition.is_holonomic].append(symbol.name)
+        method = LagrangesMethod(energy, list(self.q.values()), hol_coneqs=kept[True], nonhol_coneqs=kept[False])
         left = method.form_lagranges_equations()
+        multipliers = [*(method.lam_vec if self.scene.constraints else [])]
+        known = {theirs: -sp.Symbol(name) for theirs, name in zip(multipliers, names[True] + names[False], strict=True)}
         forces = [sum(self.force(load, name) for load in self.scene.contributions) for name in self.q]
-        return [self._named((side - force).doit()) for side, force in zip(left, forces, strict=True)]
+        return [self._named((side - force).doit().subs(known)) for side, force in zip(left, forces, strict=True)]
 
     def _named(self, expression: Any) -> Any:
         for order, form in ((2, "ddot({})"), (1, "dot({})")):

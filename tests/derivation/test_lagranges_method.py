@@ -7,7 +7,7 @@ import random
 import pytest
 import sympy as sp
 from tests.derivation.peer import Peer
-from tests.derivation.scenes import spring_in_space
+from tests.derivation.scenes import constrained, spring_in_space
 
 from deltaq.derivation.result import result_of
 from deltaq.derivation.system import System
@@ -15,6 +15,7 @@ from deltaq.mechanics.library import load_scene, scene_ids
 
 SCENES = [*(pytest.param(load_scene(name), id=name) for name in scene_ids())]
 SCENES += [pytest.param(spring_in_space(), id="spring and drag in space")]
+SCENES += [pytest.param(scene, id=scene.id) for scene in constrained()]
 
 
 @pytest.fixture(scope="module", params=SCENES)
@@ -44,5 +45,6 @@ def test_mass_matrix_and_forcing_are_the_equations(system: System) -> None:
     result = result_of(system)
     accelerations = sp.Matrix([system.acceleration(q) for q in system.free])
     equations = sp.Matrix(list(result.equations.values()))
-    for gap in result.mass_matrix * accelerations - result.forcing - equations:
+    reactions = sp.Matrix([system.reaction(q) for q in system.free])
+    for gap in result.mass_matrix * accelerations - result.forcing - reactions - equations:
         assert system.is_zero(sp.expand(gap))

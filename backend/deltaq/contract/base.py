@@ -95,6 +95,10 @@ Guides = Annotated[
     items(max_length=32, description="coordinates to be made functions of time"),
 ]
 Frozen = Annotated[Names, Field(description="coordinates to be held constant", examples=[[]])]
+Released = Annotated[
+    Names,
+    Field(description="lengths, and coordinates guided or frozen, whose reactions are asked for", examples=[["l"]]),
+]
 Values = Annotated[dict[Name, float], Field(max_length=256, description="values of parameters", examples=[{"l": 0.8}])]
 InitialValues = Annotated[
     dict[Name, InitialValue],

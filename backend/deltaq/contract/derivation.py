@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from ..vocabulary import Missing, OptionalPart
-from .base import Answer, AskedLanguage, SceneWithChanges, examples
+from .base import Answer, AskedLanguage, Released, SceneWithChanges, examples
 from .result import DerivationResult, Origin
 
 Formulation = Literal["dalembert-lagrange", "hamilton"]
@@ -19,6 +19,7 @@ class DerivationRequest(SceneWithChanges):
     """Which scene to derive, what to change before, and in which language."""
 
     formulation: Formulation = Field("dalembert-lagrange", description=PRINCIPLE)
+    release: Released = ()
     canonical: bool = Field(
         default=False, description="whether a last chapter has Hamilton's function and canonical equations"
     )
@@ -37,6 +38,7 @@ class DerivationRequest(SceneWithChanges):
             "guides": [{"coordinate": "y", "value": "y0*sin(omega*t)"}],
             "parameters": {"y0": 0.1, "omega": 12.0},
         },
+        {"scene": "pendulum", "release": ["l"]},
     )
 
 

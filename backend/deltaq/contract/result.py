@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from ..vocabulary import CurlOutcome, GeneratorFamily, SearchEnd, Stability, StabilityKind
+from ..vocabulary import CurlOutcome, GeneratorFamily, HoldKind, SearchEnd, Stability, StabilityKind
 from .base import Answer
 
 Change = Literal["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged"]
@@ -116,6 +116,42 @@ class JacobiEnergy(Sum):
     """Σ q̇ ∂L/∂q̇ − L."""
 
     equals_energy: bool = Field(description="whether it is kinetic + potential energy")
+
+
+class CoordinateFormula(Formula):
+    """What belongs to one coordinate."""
+
+    coordinate: str = Field(examples=["phi"])
+
+
+class ConstraintResult(Answer):
+    """A constraint, and the reaction that keeps it: λ ∂g/∂q, or λ a where a·q̇ + b = 0 is kept."""
+
+    name: str = Field(examples=["rod"])
+    kind: Literal["equation", "distance"]
+    holonomic: bool = Field(description="whether it binds positions; else it is linear in the rates")
+    equation: Formula = Field(description="what is kept, as an equation `… = 0`")
+    multiplier: Formula = Field(description="the symbol λ in the equations; of a distance the rod's force in tension")
+    reaction: Formula | None = Field(description="λ by coordinates and rates; null where it would be too long")
+    forces: tuple[CoordinateFormula, ...] = Field(description="the generalized reactions, by coordinate")
+
+
+class ReactionResult(Answer):
+    """What holds a length, an angle or a guided coordinate that was released in thought: δW = Z δl."""
+
+    name: str = Field(examples=["l"])
+    kind: HoldKind
+    reaction: Formula = Field(description="Z, in the direction in which it grows: negative where a rod pulls")
+    closed: bool = Field(description="whether no accelerations are left in it")
+    force: Formula | None = Field(description="of a length, the force −Z of rod or string, positive in tension")
+
+
+class Releasable(Answer):
+    """What a scene holds fixed, so that `release` can ask what holds it."""
+
+    name: str = Field(examples=["l"])
+    kind: HoldKind
+    latex: str
 
 
 class Curl(Formula):
@@ -268,3 +304,6 @@ class DerivationResult(Answer):
     routh: RouthFunction | None = Field(description="where a coordinate is cyclic")
     relative_equilibria: tuple[RelativeEquilibrium, ...]
     symbols: tuple[OwnSymbol, ...]
+    constraints: tuple[ConstraintResult, ...] = ()
+    reactions: tuple[ReactionResult, ...] = Field((), description="of what the request released")
+    releasable: tuple[Releasable, ...] = Field((), description="what may be released")

@@ -5,14 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .dissipation import dissipation_function
+from .multipliers import multipliers
 from .rules import (
+    augmented_system,
     closed_loop,
+    constrained_variation,
+    constraint,
+    constraint_rates,
     curl_test,
     decomposition,
     generalized_force,
     guide,
     guided_position,
     lagrange_equation,
+    multiplier,
     position,
     potential,
     rayleigh_function,
@@ -21,6 +27,7 @@ from .rules import (
     total_virtual_work,
     velocity,
     virtual_displacement,
+    work_of_reaction,
 )
 from .rules._choice import energy_rule_of, rule_of
 from .step import Step
@@ -73,7 +80,7 @@ def kinetic_energy(system: System) -> Iterator[Step]:
 
 
 def forces(system: System) -> Iterator[Step]:
-    """Which loads have a potential, and what is left."""
+    """Which loads have a potential, and what is left; then the constraints, released."""
     for load in system.load_names:
         yield curl_test.apply(system, load)
         if system.is_conservative(load):
@@ -81,6 +88,10 @@ def forces(system: System) -> Iterator[Step]:
         else:
             yield from _without_potential(system, load)
     yield decomposition.apply(system)
+    for condition in system.conditions:
+        yield constraint.apply(system, condition)
+        yield constrained_variation.apply(system, condition)
+        yield work_of_reaction.apply(system, condition)
 
 
 def _without_potential(system: System, load: str) -> Iterator[Step]:
@@ -99,3 +110,15 @@ def equations(system: System) -> Iterator[Step]:
     """The equation of motion of each free coordinate, term by term."""
     for coordinate in system.free:
         yield lagrange_equation.apply(system, coordinate)
+
+
+def constraints(system: System) -> Iterator[Step]:
+    """Accelerations and multipliers together: the constraints differentiated, one linear system, and its solution."""
+    if not system.conditions:
+        return
+    for condition in system.conditions:
+        yield constraint_rates.apply(system, condition)
+    yield augmented_system.apply(system)
+    found = multipliers(system)
+    if found is not None:
+        yield from (multiplier.apply(system, condition, found) for condition in system.conditions)

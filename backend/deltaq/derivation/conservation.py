@@ -15,8 +15,8 @@ MOST_CYCLIC = 2
 
 @cached_method
 def is_cyclic(system: System, coordinate: str) -> bool:
-    """Whether neither L nor a force without potential acts on the coordinate: its momentum is conserved."""
-    passive = system.is_zero(system.nonconservative_force(coordinate))
+    """Whether neither L nor another force or reaction acts on the coordinate: its momentum is conserved."""
+    passive = system.is_zero(system.nonconservative_force(coordinate) + system.reaction(coordinate))
     return passive and system.is_zero(system.slope(system.lagrangian, system.q(coordinate)))
 
 
@@ -48,8 +48,8 @@ def is_passive(system: System) -> bool:
 
 @cached_method
 def jacobi_energy_rate(system: System) -> sp.Expr:
-    """dh/dt along the motion: Σ Qᵢᵈ q̇ᵢ − ∂L/∂t."""
-    return system.display(power(system) - system.slope(system.lagrangian, system.t))
+    """dh/dt along the motion: Σ Qᵢᵈ q̇ᵢ − Σ λ b − ∂L/∂t."""
+    return system.display(power(system) + system.reaction_power() - system.slope(system.lagrangian, system.t))
 
 
 @cached_method
@@ -70,7 +70,7 @@ class Reduction:
 @cached_method
 def reduction(system: System) -> Reduction | None:
     """R(q, q̇, p) = L − Σ pᵢ q̇ᵢ of the cyclic coordinates; None where there is none, or nothing else that moves."""
-    names = cyclic(system)
+    names = () if system.conditions else cyclic(system)
     if not names or len(names) > MOST_CYCLIC or len(names) == len(system.free):
         return None
     momenta = {q: system.fresh(f"p_{q}", f"p_{q}_0", f"momentum_{q}") for q in names}

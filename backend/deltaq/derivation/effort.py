@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from ..vocabulary import OptionalPart
+from ..vocabulary import Missing, OptionalPart
 
 T = TypeVar("T")
 SHARE = 300_000  # operations of each part: a few seconds, a hundred times what most scenes take
@@ -22,11 +22,11 @@ class Spent(Exception):
 
 @dataclass
 class Effort:
-    """Who spends, how much each part has spent, and which ones could not be ended. Outside of a part nothing counts."""
+    """Who spends, how much each part has spent, which are missing and why. Outside of a part nothing counts."""
 
     share: int = SHARE
     spent: dict[OptionalPart, int] = field(default_factory=dict)
-    left_out: dict[OptionalPart, None] = field(default_factory=dict)
+    left_out: dict[OptionalPart, Missing] = field(default_factory=dict)
     running: list[OptionalPart] = field(default_factory=list)
 
     def spend(self, operations: int) -> None:
@@ -45,7 +45,7 @@ class Effort:
             self.spend(0)
             return compute()
         except Spent:
-            self.left_out[part] = None
+            self.left_out[part] = "budget"
             return otherwise
         finally:
             self.running.pop()

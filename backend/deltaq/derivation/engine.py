@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from difflib import get_close_matches
 from types import MappingProxyType
 
@@ -12,6 +13,9 @@ from ..packages import modules_of
 from . import model_chapter
 from .grounds import Grounds
 from .normal_algebra import NormalAlgebra
+from .released import Release
+from .rules import reaction, reaction_equation
+from .rules import release as release_rule
 from .step import Chapter, Derivation, Step
 from .system import System
 from .verification import SAMPLED, random_points, verified_step
@@ -46,6 +50,24 @@ def chapters(system: System, formulation: str = USUAL, *, canonical: bool = Fals
     for name, steps in {**by_name, **(ON_REQUEST if canonical else {})}.items():
         told = tuple(verified_step(step, points) for step in steps(system))
         yield grounds.of_chapter(Chapter(name, told))
+
+
+def reactions(release: Release) -> Chapter:
+    """What holds a released length or coordinate, every step verified and with its grounds.
+
+    They are those of the wider system; of steps of the scene itself only the ids are named. Ids of substeps that the
+    scene has as well end in what is released.
+    """
+    wider = release.wider
+    points, grounds = tuple(random_points(wider)), _grounds(wider)
+    rules = (release_rule, reaction_equation, reaction)
+    told = tuple(verified_step(_marked(rule.apply(release), release.name), points) for rule in rules)
+    return grounds.of_chapter(Chapter("reactions", told))
+
+
+def _marked(step: Step, name: str) -> Step:
+    substeps = (replace(each, subject=f"{each.subject}:{name}-released") for each in step.substeps)
+    return step.with_substeps(*substeps)
 
 
 def chapters_of_equations(formulation: str) -> int:

@@ -14,7 +14,7 @@ from .terms import terms_by_source
 
 @cached_method
 def left_side(system: System, coordinate: str) -> sp.Expr:
-    """d/dt ∂L/∂q̇ − ∂L/∂q − Qᵈ, written out."""
+    """d/dt ∂L/∂q̇ − ∂L/∂q − Qᵈ − Σ λ a, written out."""
     terms = terms_by_source(system, coordinate)
     return sp.Add(*(term.written_out if term.sign > 0 else negated(term.written_out) for term in terms))
 
@@ -34,12 +34,12 @@ def _slope(system: System, coordinate: str, acceleration: sp.Symbol) -> sp.Expr:
 
 @cached_method
 def forcing(system: System) -> sp.ImmutableMatrix:
-    """f(q, q̇, t): what does not hang on accelerations, on the right."""
+    """f(q, q̇, t): what hangs neither on accelerations nor on multipliers, on the right."""
     return column(_rest(system, q) for q in system.free)
 
 
 def _rest(system: System, coordinate: str) -> sp.Expr:
-    at_rest = {system.acceleration(q): system.zero for q in system.free}
+    at_rest = dict.fromkeys((*map(system.acceleration, system.free), *system.multipliers), system.zero)
     terms = terms_by_source(system, coordinate)
     outside = (t for t in terms if not t.written_out.free_symbols & at_rest.keys())
     inside = [t.sign * t.written_out.xreplace(at_rest) for t in terms if t.written_out.free_symbols & at_rest.keys()]
@@ -55,5 +55,5 @@ def forces_at_rest(system: System) -> sp.ImmutableMatrix:
 
 def is_autonomous(system: System) -> bool:
     """Whether the equations of motion do not depend on time explicitly."""
-    laws = (*mass_matrix(system), *forcing(system))
+    laws = (*mass_matrix(system), *forcing(system), *map(system.condition, system.conditions))
     return all(system.is_zero(diff(law, system.t)) for law in laws if law.has(system.t))

@@ -44,12 +44,15 @@ MOST_SHOWN = 4
 
 def model(system: System) -> Iterator[Step]:
     """Matrix form, equilibria with their small motions, and what is conserved."""
-    yield matrix_form.apply(system)
-    if is_autonomous(system):
+    if not system.conditions:
+        yield matrix_form.apply(system)
+    if is_autonomous(system) and not system.conditions:
         yield equilibrium_condition.apply(system)
         yield from _equilibria(system)
+    elif system.conditions:
+        search_of(system)
     yield from _conserved(system)
-    yield from (left_out.apply(part) for part in system.effort.left_out)
+    yield from (left_out.apply(part, why) for part, why in system.effort.left_out.items())
 
 
 def _equilibria(system: System) -> Iterator[Step]:
@@ -94,9 +97,13 @@ def _conserved(system: System) -> Iterator[Step]:
 
 def canonical(system: System) -> Iterator[Step]:
     """Hamilton's function, the canonical equations, and the brackets of the integrals of motion with it."""
+    if system.conditions:
+        system.effort.left_out["canonical"] = "constraints"
+        yield left_out.apply("canonical", "constraints")
+        return
     found = system.effort.afford("canonical", lambda: hamiltonian_of(system), None)
     if "canonical" in system.effort.left_out:
-        yield left_out.apply("canonical")
+        yield left_out.apply("canonical", system.effort.left_out["canonical"])
         return
     yield hamiltonian.apply(system, found)
     if found is None:

@@ -1,10 +1,12 @@
 """The parts of the last chapter that a derivation is complete without, each within its share of operations.
 
-A part whose share is used up is as if there were nothing to be found; `system.effort.left_out` tells so.
+A part whose share is used up is as if there were nothing to be found; `system.effort.left_out` tells so, as it does of
+parts that have no law for scenes with constraints: equilibria with multipliers, symmetries that keep the constraints.
 """
 
 from __future__ import annotations
 
+from ..vocabulary import OptionalPart
 from .conservation import Reduction, reduction
 from .equilibria import Search, search
 from .generator import Symmetry
@@ -16,6 +18,8 @@ from .system import System
 
 def search_of(system: System) -> Search | None:
     """The search for equilibria."""
+    if _is_bound(system, "equilibria"):
+        return None
     return system.effort.afford("equilibria", lambda: search(system), None)
 
 
@@ -26,16 +30,29 @@ def motions_of(system: System) -> tuple[Linearization, ...]:
 
 def symmetries_of(system: System) -> tuple[Symmetry, ...]:
     """The symmetries besides those of cyclic coordinates and of time."""
+    if _is_bound(system, "integrals"):
+        return ()
     if not is_searched(system):
-        system.effort.left_out["integrals"] = None
+        system.effort.left_out["integrals"] = "budget"
     return system.effort.afford("integrals", lambda: symmetries(system), ())
 
 
 def reduction_of(system: System) -> Reduction | None:
     """Routh's function."""
+    if _is_bound(system, "relative-equilibria"):
+        return None
     return system.effort.afford("relative-equilibria", lambda: reduction(system), None)
 
 
 def steady_motions_of(system: System) -> tuple[SteadyMotion, ...]:
     """The relative equilibria."""
+    if _is_bound(system, "relative-equilibria"):
+        return ()
     return system.effort.afford("relative-equilibria", lambda: steady_motions(system), ())
+
+
+def _is_bound(system: System, part: OptionalPart) -> bool:
+    """Whether constraints keep the part from being sought."""
+    if system.conditions:
+        system.effort.left_out[part] = "constraints"
+    return bool(system.conditions)

@@ -88,13 +88,19 @@ def of_symmetry(system: System, symmetry: Symmetry) -> Iterator[Share]:
 
 @cached_method
 def of_equation(system: System, coordinate: str) -> tuple[Share, ...]:
-    """d/dt ∂L/∂q̇ᵢ − ∂L/∂qᵢ − Qᵢᵈ, the left side of `… = 0`."""
-    return (*_of_inertia(system, coordinate), *_of_loads(system, coordinate))
+    """d/dt ∂L/∂q̇ᵢ − ∂L/∂qᵢ − Qᵢᵈ − Σ λ aᵢ, the left side of `… = 0`."""
+    parts = _of_inertia(system, coordinate), _of_loads(system, coordinate), _of_constraints(system, coordinate)
+    return tuple(share for part in parts for share in part)
 
 
 def _of_inertia(system: System, coordinate: str) -> Iterator[Share]:
     for source, energy in of_kinetic_energy(system):
         yield source, system.euler_expression(energy, coordinate)
+
+
+def _of_constraints(system: System, coordinate: str) -> Iterator[Share]:
+    for condition in system.conditions:
+        yield f"constraint:{condition.source}", -system.reaction_share(condition, coordinate)
 
 
 def _of_loads(system: System, coordinate: str) -> Iterator[Share]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
@@ -21,7 +21,9 @@ from .formula import Explicit, Term
 from .generator import Generator, Symmetry, solved
 from .linearization import Linearization
 from .matrix_form import forcing, left_side, mass_matrix
+from .multipliers import multipliers
 from .optional import motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
+from .released import Release
 from .rules.curl_test import outcome
 from .space import motions
 from .steady import SteadyMotion
@@ -60,6 +62,19 @@ class LoadPotential:
     has_potential: bool
     potential: sp.Expr | None
     curl: Mapping[tuple[str, str], sp.Expr]
+
+
+@dataclass(frozen=True)
+class Bound:
+    """A constraint as an equation `… = 0`, its multiplier, and what it does: λ in closed form or None, λ aᵢ."""
+
+    name: str
+    kind: str
+    is_holonomic: bool
+    equation: sp.Expr
+    multiplier: sp.Symbol
+    reaction: sp.Expr | None
+    forces: Mapping[str, sp.Expr]
 
 
 @dataclass(frozen=True)
@@ -103,6 +118,8 @@ class Result:
     routh: Reduction | None = None
     steady: tuple[SteadyMotion, ...] = ()
     generators: tuple[GeneratorFamily, ...] = ()
+    constraints: tuple[Bound, ...] = ()
+    reactions: tuple[Release, ...] = ()
 
 
 def result_of(system: System) -> Result:
@@ -147,7 +164,23 @@ def equations_of(system: System) -> Result:
         is_energy=is_energy(system),
         terms=_terms(system),
         loads=tuple(_potential_of(system, load) for load in system.load_names),
+        constraints=tuple(_bound(system)),
     )
+
+
+def _bound(system: System) -> Iterator[Bound]:
+    found = multipliers(system)
+    for condition, constraint in zip(system.conditions, system.scene.constraints, strict=True):
+        symbol = system.multiplier(condition)
+        yield Bound(
+            condition.source,
+            constraint.kind,
+            condition.is_holonomic,
+            system.condition(condition),
+            symbol,
+            found.values[symbol] if found else None,
+            {q: system.reaction_share(condition, q) for q in system.bound(condition)},
+        )
 
 
 def _terms(system: System) -> Terms:
@@ -197,8 +230,8 @@ def _mass_terms(system: System, coordinate: str, other: str) -> tuple[Term, ...]
 
 
 def _forcing_terms(system: System, coordinate: str) -> tuple[Term, ...]:
-    """What does not hang on accelerations, on the right."""
-    at_rest = {system.acceleration(q): system.zero for q in system.free}
+    """What hangs neither on accelerations nor on multipliers, on the right."""
+    at_rest = dict.fromkeys((*map(system.acceleration, system.free), *system.multipliers), system.zero)
     rests = ((term, term.written_out.xreplace(at_rest)) for term in _equation_terms(system, coordinate))
     return tuple(replace(term, formula=Explicit(rest), sign=-term.sign) for term, rest in rests if rest != 0)
 

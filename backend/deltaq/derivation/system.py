@@ -17,11 +17,11 @@ from ..mechanics.contributions import PotentialEnergy
 from ..mechanics.kinetics import Distribution, Kinetics, Rotation, Translation
 from .antiderivative import antiderivative, is_finite
 from .formula import Formula, Given, Named, Quantity, Substituted
-from .work import Work
+from .reactions import Reactions
 
 
 @dataclass(frozen=True, eq=False)
-class System(Work):
+class System(Reactions):
     """Everything the rules ask of a scene. Results are kept, so that each is computed once in a derivation."""
 
     def mass(self, body: Body) -> sp.Expr:

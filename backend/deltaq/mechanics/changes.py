@@ -63,7 +63,7 @@ def _set(parameter: Parameter | None, name: str, value: float) -> Parameter:
 
 def _with_guide(scene: Scene, guide: Mapping[str, str], pointer: str) -> Scene:
     try:
-        added = Guide(guide["coordinate"], parse(guide["value"], scene.names))
+        added = Guide(guide["coordinate"], parse(guide["value"], scene.stated_names))
     except InputError as error:
         raise SceneError(*(problem.below(f"{pointer}/value") for problem in error.problems)) from None
     return _guided(scene, added, pointer)

@@ -7,12 +7,14 @@ from dataclasses import dataclass
 
 from ..errors import Problem
 from ..language.expression import Expression
+from ..language.memory import hashed_once
 from ..language.tree import Call, Negation, Node, Number, Power, Product, Quotient, Rate, Sum, children, walk
 from .checks import latex_problem, name_problem
 
 NOT_SMOOTH = ("abs", "sign", "max", "min", "step")
 
 
+@hashed_once
 @dataclass(frozen=True)
 class Condition:
     """u = 0, kept by a reaction with the multiplier λ. `source` is the name of the constraint it comes from.

@@ -88,7 +88,7 @@ class Scene:
 
     def _multiplier_problems(self) -> Iterator[Problem]:
         """The names that multipliers are given must be free, and none of two."""
-        taken = {symbol.name for symbol in self.names.symbols}
+        taken = {symbol.name for symbol in self.stated_names.symbols}
         for index, constraint in enumerate(self.constraints):
             name = constraint.multiplier
             if name and (name in taken or is_reserved(name)):
@@ -116,13 +116,18 @@ class Scene:
 
     @cached_property
     def names(self) -> Names:
+        """What its results may refer to: the names of its expressions, and the multipliers."""
+        return Names((*self.stated_names.symbols, *self.multipliers)) if self.constraints else self.stated_names
+
+    @cached_property
+    def stated_names(self) -> Names:
         """What its expressions may refer to, material coordinates included."""
         return names_of(self.coordinates, self.parameters, self.material)
 
     @cached_property
     def multipliers(self) -> tuple[Symbol, ...]:
         """The symbols of the multipliers, in the order of the constraints: as they say, else λ or λ₁, λ₂ …"""
-        taken = {symbol.name for symbol in self.names.symbols} | {each.multiplier for each in self.constraints}
+        taken = {symbol.name for symbol in self.stated_names.symbols} | {each.multiplier for each in self.constraints}
         nameless = [constraint.name for constraint in self.constraints if not constraint.multiplier]
         plain = ["lambda"] if len(nameless) == 1 else []
         fresh = (name for name in (*plain, *(f"lambda_{k}" for k in range(1, len(taken) + 200))) if name not in taken)

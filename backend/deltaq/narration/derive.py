@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice
+from typing import Any
 
 from ..contract.derivation import DerivationRequest
 from ..contract.reading import read
-from ..derivation.engine import chapters, chapters_of_equations
+from ..derivation.engine import chapters, chapters_of_equations, reactions
+from ..derivation.released import Release
 from ..derivation.result import Result, equations_of, result_of
 from ..derivation.result_history import result_origins
 from ..derivation.step import Chapter, Derivation
@@ -37,6 +39,7 @@ def derive_request(document: Mapping[str, object]) -> Document:
     told = _read(document)
     with inside("/scene"):
         told.tell_equations()
+        told.tell_reactions()
         return told.whole()
 
 
@@ -45,6 +48,7 @@ def derive_parts(document: Mapping[str, object]) -> Generator[Document, None, Do
     told = _read(document)
     with inside("/scene"):
         told.tell_equations()
+        told.tell_reactions()
         yield told.equations()
         return told.whole()
 
@@ -60,7 +64,8 @@ def _read(document: Mapping[str, object]) -> _Told:
     asked = read(DerivationRequest, document)
     system = System(changed_scene(asked))
     steps = chapters(system, asked.formulation, canonical=asked.canonical)
-    return _Told(system, asked.formulation, language_of(asked.lang), steps)
+    releases = tuple(Release.of(system, name, f"/release/{i}") for i, name in enumerate(dict.fromkeys(asked.release)))
+    return _Told(system, asked.formulation, language_of(asked.lang), steps, releases)
 
 
 @dataclass
@@ -71,6 +76,7 @@ class _Told:
     formulation: str
     language: str
     steps: Iterator[Chapter]
+    releases: tuple[Release, ...] = ()
     derived: tuple[Chapter, ...] = ()
     chapters: list[Document] = field(default_factory=list)
     roots: Roots = field(default_factory=Roots)
@@ -82,6 +88,15 @@ class _Told:
         """Tells the chapters that lead to the equations of motion."""
         self._tell(tuple(islice(self.steps, chapters_of_equations(self.formulation))))
 
+    def tell_reactions(self) -> None:
+        """Tells what holds the released lengths and coordinates in one chapter, each in its wider scene's symbols."""
+        told = [chapter for each in self.releases for chapter in self._of_release(each)]
+        if told:
+            self.chapters.append({**told[0], "steps": [step for chapter in told for step in chapter["steps"]]})
+
+    def _of_release(self, release: Release) -> list[dict[str, Any]]:
+        return narrator_of(release.wider, self.language).chapters(Derivation(self.formulation, (reactions(release),)))
+
     def equations(self) -> Document:
         """These chapters and their results; those of the last one are empty."""
         return self._document(equations_of(self.system), [missing("model", "later", self.language)])
@@ -90,7 +105,8 @@ class _Told:
         """The last chapter behind what has been told, and all results."""
         self._tell(tuple(self.steps))
         found = result_of(self.system)
-        return self._document(found, [missing(part, "budget", self.language) for part in self.system.effort.left_out])
+        left_out = self.system.effort.left_out.items()
+        return self._document(found, [missing(part, why, self.language) for part, why in left_out])
 
     def _tell(self, chapters: tuple[Chapter, ...]) -> None:
         told, self.roots = self.narrator.told(chapters, self.roots)
@@ -98,7 +114,7 @@ class _Told:
         self.chapters += told
 
     def _document(self, found: Result, left_out: list[Document]) -> Document:
-        scene = self.system.scene
+        scene, found = self.system.scene, replace(found, reactions=self.releases)
         typography = Typography(scene.names, decimals=scene.writes_decimals, order=self.system.symbols.order)
         origins = result_origins(Derivation(self.formulation, self.derived), self.system, found.terms)
         return {

@@ -25,5 +25,6 @@ def explained(answer: Document, language: str) -> Document:
 
 def missing(part: OptionalPart, reason: Missing, language: str) -> Document:
     """A part of a derivation that is not there, why, and what to do about it."""
-    key = f"rules.left-out.{reason}" if part == "model" else f"rules.steps.left-out.{part}"
+    outcome = f"{part}-constrained" if reason == "constraints" else part
+    key = f"rules.left-out.{reason}" if part == "model" else f"rules.steps.left-out.{outcome}"
     return {"part": part, "reason": reason, "text": plain(text(language, key))}

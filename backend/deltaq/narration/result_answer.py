@@ -12,6 +12,7 @@ from ..derivation.generator import Generator
 from ..derivation.result import Conserved, Result
 from ..derivation.result_history import Origins
 from ..derivation.step import Origin
+from .constraint_answer import constraint, reaction, releasable
 from .expression_writer import ExpressionWriter
 from .model_answer import equilibrium, load, own_symbols, routh, search, steady
 
@@ -47,6 +48,9 @@ def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write:
         "jacobi_energy": {**sums.sum("jacobi_energy", result.jacobi_energy), "equals_energy": result.is_energy},
         "loads": [load(each, write) for each in result.loads],
         "symbols": own_symbols(result, write),
+        "constraints": [constraint(each, write) for each in result.constraints],
+        "reactions": [reaction(each, write) for each in result.reactions],
+        "releasable": releasable(result.scene),
         "routh": routh(result.routh, write),
         "relative_equilibria": [steady(each, number, write) for number, each in enumerate(result.steady, 1)],
     }

@@ -42,6 +42,7 @@ CHAPTERS: Mapping[str, Callable[[System], Iterator[Step]]] = MappingProxyType(
         "dalembert-to-lagrange": _dalembert_to_lagrange,
         "decomposition": chapters.forces,
         "lagrange": _lagrange,
+        "constraints": chapters.constraints,
         "model": model,
     }
 )

@@ -55,6 +55,7 @@ CHAPTERS: Mapping[str, Callable[[System], Iterator[Step]]] = MappingProxyType(
         "decomposition": chapters.forces,
         "hamilton": _hamilton,
         "lagrange": chapters.equations,
+        "constraints": chapters.constraints,
         "model": model,
     }
 )

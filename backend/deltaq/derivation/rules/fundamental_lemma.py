@@ -12,8 +12,8 @@ from ..differential_expression import direction
 from ..formula import Equation, Explicit, Plus, Term, Times
 from ..step import Relation, Step
 from ..terms import terms_by_source
+from ._outside import outside_terms
 from .collected_variation import euler_expression
-from .hamilton_principle import has_other_force, other_force, other_sources
 
 RULE = "fundamental-lemma"
 
@@ -33,8 +33,5 @@ def apply(action: Action) -> Step:
 
 
 def factor(action: Action, coordinate: str) -> Plus:
-    """∂L/∂qᵢ − d/dt ∂L/∂q̇ᵢ, and Qᵢᵈ where there is any."""
-    inner = euler_expression(action, coordinate)
-    if not has_other_force(action, coordinate):
-        return inner
-    return Plus((*inner.terms, Term(other_force(action, coordinate), other_sources(action, coordinate))))
+    """∂L/∂qᵢ − d/dt ∂L/∂q̇ᵢ, and Qᵢᵈ and reactions where there are any."""
+    return Plus((*euler_expression(action, coordinate).terms, *outside_terms(action.system, coordinate)))

@@ -1,5 +1,8 @@
 """Hamilton's principle: δS = 0 for every δq that vanishes at t₀ and t₁; with other forces δS + ∫ Qᵢᵈ δqᵢ dt = 0.
 
+Where constraints are released their reactions do work as well, δS + ∫ (Qᵢᵈ + λ ∂Φ/∂qᵢ) δqᵢ dt = 0. The constraint is
+not put into L with its multiplier: for constraints on rates that would be another (vakonomic) problem.
+
 It is d'Alembert's principle integrated over the time, and is stated here, not derived.
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §2.1; Lanczos, ch. V.1.
 """
@@ -7,44 +10,30 @@ Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §2.1; Lanczos, c
 from __future__ import annotations
 
 from ..action import Action
-from ..formula import Equation, Explicit, Formula, Named, Plus, Quantity, Term, Times
+from ..formula import Equation, Explicit, Formula, Plus, Term, Times
 from ..step import Relation, Step
+from ._outside import outside_terms
 from .functional import variation
 
 RULE = "hamilton-principle"
 
 
 def apply(action: Action) -> Step:
-    """δS = 0, or δS + ∫ Qᵢᵈ δqᵢ dt = 0 (outcome `driven`) with the loads without potential as its sources."""
+    """δS = 0, or δS + ∫ Qᵢᵈ δqᵢ dt = 0 (outcome `driven`, with reactions `constrained`); sources are what does work."""
     system = action.system
-    outside = other_work(action)
-    left: Formula = Plus((Term(variation(action)), Term(action.on(outside)))) if outside else variation(action)
+    work = other_work(action)
+    left: Formula = Plus((Term(variation(action)), Term(action.on(work)))) if work else variation(action)
     line = Relation((Equation(left, Explicit(system.zero)),))
-    sources = tuple(dict.fromkeys(source for x in action.functions for source in other_sources(action, x)))
-    return Step(RULE, "", (line,), sources, {"outcome": "driven" if outside else "text"}, premises=("action",))
+    sources = tuple(dict.fromkeys(source for term in (work.terms if work else ()) for source in term.sources))
+    outcome = "constrained" if system.conditions else "driven" if work else "text"
+    return Step(RULE, "", (line,), sources, {"outcome": outcome}, premises=("action",))
 
 
 def other_work(action: Action) -> Plus | None:
-    """Qᵢᵈ δqᵢ of the forces that have no potential, or None if there are none."""
+    """(Qᵢᵈ + λ ∂Φ/∂qᵢ) δqᵢ of forces without a potential and of reactions, or None if there are none."""
     terms = tuple(
-        Term(Times((other_force(action, x), Explicit(action.system.variation(x)))), other_sources(action, x))
+        Term(Times((term.formula, Explicit(action.system.variation(x)))), term.sources)
         for x in action.functions
-        if has_other_force(action, x)
+        for term in outside_terms(action.system, x)
     )
     return Plus(terms) if terms else None
-
-
-def has_other_force(action: Action, coordinate: str) -> bool:
-    """Whether Qᵢᵈ ≠ 0: a force without potential acts on the coordinate."""
-    return bool(action.system.nonconservative_force(coordinate) != 0)
-
-
-def other_sources(action: Action, coordinate: str) -> tuple[str, ...]:
-    """The loads without potential that act on a coordinate."""
-    system = action.system
-    return tuple(source for source in system.force_sources(coordinate) if source not in system.conservative_sources)
-
-
-def other_force(action: Action, coordinate: str) -> Named:
-    """Qᵢᵈ"""
-    return Named(Quantity("nonconservative-force", coordinate), action.system.nonconservative_force(coordinate))

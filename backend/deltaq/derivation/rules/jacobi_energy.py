@@ -56,12 +56,14 @@ def _left_sides(system: System, lagrangian: Named) -> tuple[Term, ...]:
 
 
 def _powers(system: System) -> tuple[Term, ...]:
-    """Σ Qᵢᵈ q̇ᵢ"""
+    """Σ Qᵢᵈ q̇ᵢ, and the power of reactions where their constraints move."""
     forces = ((q, system.nonconservative_force(q)) for q in system.free)
-    return tuple(
+    works = tuple(
         Term(Times((Named(Quantity("nonconservative-force", q), force), Explicit(system.rate(q)))))
         for q, force in forces
     )
+    moved = system.reaction_power()
+    return works if moved == 0 else (*works, Term(Explicit(moved), system.constraint_sources))
 
 
 def _explicit(system: System, lagrangian: Named) -> tuple[Term, ...]:

@@ -12,6 +12,7 @@ from ..formula import Term as Summand
 from ..step import Relation, Step
 from ..system import System
 from ..terms import terms_by_source
+from ._outside import outside
 
 RULE = "equation"
 MOMENTUM, MOMENTUM_RATE, SLOPE = "momentum", "momentum-rate", "lagrangian-slope"
@@ -22,16 +23,16 @@ def apply(system: System, coordinate: str) -> Step:
     lagrangian = Named(Quantity("lagrangian"), system.lagrangian)
     rate, q = system.rate(coordinate), system.q(coordinate)
     law = Plus((Summand(Rate(Partial(lagrangian, rate))), minus(Partial(lagrangian, q))))
-    outside = Named(Quantity("nonconservative-force", coordinate), system.nonconservative_force(coordinate))
     terms = terms_by_source(system, coordinate)
     written = Equation(Plus(terms) if terms else Explicit(system.zero), Explicit(sp.Integer(0)))
     sources = tuple(dict.fromkeys(source for term in terms for source in term.sources))
-    line = Relation((Equation(law, outside), written), "⇔")
+    line = Relation((Equation(law, outside(system, coordinate)), written), "⇔")
     step = Step(RULE, coordinate, (line,), sources, {"coordinate": coordinate})
-    return step.with_substeps(*_parts(system, coordinate, lagrangian))
+    return step.with_substeps(*parts(system, coordinate, lagrangian))
 
 
-def _parts(system: System, coordinate: str, lagrangian: Named) -> tuple[Step, ...]:
+def parts(system: System, coordinate: str, lagrangian: Named) -> tuple[Step, ...]:
+    """∂L/∂q̇, its rate, and ∂L/∂q."""
     rate, q = system.rate(coordinate), system.q(coordinate)
     momentum = system.momentum(coordinate)
     name = Named(Quantity("momentum", coordinate), momentum)

@@ -1,17 +1,18 @@
-"""A part of the last chapter that would take too long: how long expressions become cannot be told beforehand.
+"""A part of the last chapter that would take too long, or that has no law here for scenes with constraints.
 
-So each part has a share of operations, after which it ends without a result (`derivation/effort.py`).
+How long expressions become cannot be told beforehand, so each part has a share of operations, after which it ends
+without a result (`derivation/effort.py`).
 Source: Davenport, Siret, Tournier, Computer Algebra (1988), ch. 2, on the swell of intermediate expressions.
 """
 
 from __future__ import annotations
 
-from ...vocabulary import OptionalPart
+from ...vocabulary import Missing, OptionalPart
 from ..step import Step
 
 RULE = "left-out"
 
 
-def apply(part: OptionalPart) -> Step:
+def apply(part: OptionalPart, why: Missing) -> Step:
     """A step of words only."""
-    return Step(RULE, part, (), (), {"outcome": part})
+    return Step(RULE, part, (), (), {"outcome": f"{part}-constrained" if why == "constraints" else part})

@@ -1,0 +1,69 @@
+"""The multipliers in closed form, where they are short: from A q̈ + γ = 0 and q̈ = M⁻¹ (f + Aᵀ λ),
+
+    (A M⁻¹ Aᵀ) λ = −γ − A M⁻¹ f.
+
+Source: Udwadia, Kalaba, Analytical Dynamics: A New Approach, §3.3; Hairer, Wanner, Solving ODEs II, §VII.1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ..language.display import size
+from ..language.memory import cached_method
+from .matrix_form import forcing, mass_matrix
+from .system import System
+
+MOST_COORDINATES, MOST_CONSTRAINTS = 4, 2
+LONGEST = 400  # parts of an expression that is still read
+
+
+@dataclass(frozen=True)
+class Multipliers:
+    """λ(q, q̇, t), and what it comes from: `matrix` λ + `rest` is Φ̈ along the motion with the multipliers λ."""
+
+    accelerations: dict[sp.Symbol, sp.Expr]  # in terms of λ
+    matrix: sp.ImmutableMatrix
+    rest: sp.ImmutableMatrix
+    values: dict[sp.Symbol, sp.Expr]
+
+
+@cached_method
+def multipliers(system: System) -> Multipliers | None:
+    """None where there are no constraints, or λ would be too long to be read."""
+    count = len(system.conditions)
+    if not 0 < count <= MOST_CONSTRAINTS or len(system.free) > MOST_COORDINATES:
+        return None
+    mass, rows = mass_matrix(system), system.constraint_matrix()
+    if sum(map(size, (*mass, *rows, *forcing(system)))) > LONGEST:
+        return None
+    inverse = _inverse(system, mass)
+    if inverse is None:
+        return None
+    loads = forcing(system) + rows.T * sp.Matrix(system.multipliers)
+    accelerations = {system.acceleration(q): a for q, a in zip(system.free, inverse * loads, strict=True)}
+    matrix = system.display(rows * inverse * rows.T)
+    drift = sp.Matrix([system.drift_term(each) for each in system.conditions])
+    rest = system.display(sp.ImmutableMatrix(rows * (inverse * forcing(system)) + drift))
+    values = _solved(system, sp.ImmutableMatrix(matrix), rest)
+    if values is None or sum(map(size, values.values())) > LONGEST:
+        return None
+    return Multipliers(accelerations, sp.ImmutableMatrix(matrix), rest, values)
+
+
+def _inverse(system: System, mass: sp.ImmutableMatrix) -> sp.ImmutableMatrix | None:
+    determinant = system.display(mass.det(method="berkowitz"))
+    if determinant == 0:
+        return None
+    return sp.ImmutableMatrix(mass.adjugate()).applyfunc(lambda entry: system.display(entry / determinant))
+
+
+def _solved(system: System, matrix: sp.ImmutableMatrix, rest: sp.ImmutableMatrix) -> dict[sp.Symbol, sp.Expr] | None:
+    """λ = −(matrix)⁻¹ rest"""
+    determinant = system.display(matrix.det(method="berkowitz"))
+    if determinant == 0:
+        return None
+    found = -(matrix.adjugate() * rest)
+    return {each: system.display(value / determinant) for each, value in zip(system.multipliers, found, strict=True)}

@@ -1,0 +1,29 @@
+"""The reaction in the motion of the scene: what was released is put back as it was held, and q̈ by its equations.
+
+Source: Lanczos, The Variational Principles of Mechanics, ch. III.5.
+"""
+
+from __future__ import annotations
+
+from ..formula import Explicit, Formula, Inserted, Named, Plus, Quantity, Substituted, minus
+from ..released import Release
+from ..step import Relation, Step
+from .reaction_equation import RULE as EQUATION
+
+RULE = "reaction"
+
+
+def apply(release: Release) -> Step:
+    """Z with the constancy put in, without accelerations where that is short, and the force of a rod or string."""
+    system, name = release.system, release.name
+    reaction = Named(Quantity("reaction", name), release.reaction)
+    held: Formula = Substituted(reaction, release.constancy)
+    lines = [Relation((held, Explicit(release.in_motion)))]
+    if release.accelerations is not None and release.closed is not None:
+        lines.append(Relation((Inserted(Explicit(release.in_motion), release.accelerations), Explicit(release.closed))))
+    if release.kind == "length":
+        force = Named(Quantity("rod-force", name), system.display(-release.value))
+        lines.append(Relation((force, Plus((minus(Explicit(release.value)),)), Explicit(force.value))))
+    about = {"coordinate": name, "outcome": f"{release.kind}{'' if release.closed is not None else '-accelerated'}"}
+    equations = tuple(f"equation:{q}" for q in system.free) if release.accelerations else ()
+    return Step(RULE, name, tuple(lines), (), about, premises=(f"{EQUATION}:{name}", *equations))

@@ -1,0 +1,31 @@
+"""Lagrange's equation of the released coordinate, with its reaction: Z = d/dt ∂L/∂l̇ − ∂L/∂l − Qᵈ.
+
+Source: Lanczos, The Variational Principles of Mechanics, ch. III.5; Goldstein, Poole, Safko, 3rd ed., §2.4.
+"""
+
+from __future__ import annotations
+
+from ..formula import Explicit, Named, Partial, Plus, Quantity, Rate, Term, minus
+from ..released import Release
+from ..step import Relation, Step
+from ..terms import terms_by_source
+from . import release as release_rule
+from ._outside import outside_terms
+from .lagrange_equation import parts
+
+RULE = "reaction-equation"
+
+
+def apply(release: Release) -> Step:
+    """Z by the letters, and written out for any motion of the released coordinate; its parts as substeps."""
+    wider, name = release.wider, release.name
+    lagrangian = Named(Quantity("lagrangian"), wider.lagrangian)
+    law = (Term(Rate(Partial(lagrangian, wider.rate(name)))), minus(Partial(lagrangian, wider.q(name))))
+    others = tuple(minus(term.formula, *term.sources) for term in outside_terms(wider, name))
+    terms = terms_by_source(wider, name)
+    written = Plus(terms) if terms else Explicit(wider.zero)
+    sources = tuple(dict.fromkeys(source for term in terms for source in term.sources))
+    line = Relation((Named(Quantity("reaction", name), release.reaction), Plus((*law, *others)), written))
+    premises = (f"{release_rule.RULE}:{name}",)
+    step = Step(RULE, name, (line,), sources, {"coordinate": name}, premises=premises)
+    return step.with_substeps(*parts(wider, name, lagrangian))

@@ -1,0 +1,132 @@
+"""Reactions by release: what holds a length or a guided coordinate, in all scenes, against Newton's law."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+
+from deltaq.derivation.engine import reactions
+from deltaq.derivation.released import Release
+from deltaq.derivation.system import System
+from deltaq.errors import UnknownNameError
+from deltaq.language.parser import parse
+from deltaq.language.sympy_algebra import to_sympy
+from deltaq.mechanics.changes import change
+from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.release import held
+from deltaq.narration.derive import derive_request
+
+HELD = [
+    pytest.param(scene, each.name, id=f"{scene} {each.name}")
+    for scene in scene_ids()
+    for each in held(load_scene(scene))
+]
+
+
+@pytest.mark.parametrize(("scene", "name"), HELD)
+def test_every_step_holds_exactly(scene: str, name: str) -> None:
+    chapter = reactions(Release.of(System(load_scene(scene)), name))
+    steps = [step for each in chapter.steps for step in each.walk()]
+    assert [step.id for step in steps if not step.verified] == []
+    assert {step.evidence.kind for step in steps} == {"exact"}
+    assert len({step.id for step in steps}) == len(steps)
+
+
+# Z by Newton's law, in the direction in which what is released grows; a string or rod in tension has Z < 0.
+REACTIONS = [
+    # Towards the pivot: m l φ̇² is what the circle needs, m g cos φ what the weight takes of it.
+    pytest.param("pendulum", "l", "-m*(l*dot(phi)^2 + g*cos(phi))"),
+    pytest.param("string-pendulum", "l", "-m*(l*dot(phi)^2 + g*cos(phi))"),
+    pytest.param("conical-pendulum", "l", "-m*(g*cos(theta) + l*(dot(theta)^2 + sin(theta)^2*dot(psi)^2))"),
+    # m₂ falls with a = (m₂ − m₁) g/(m₁ + m₂ + J/R²): the string holds m₂ (g − a).
+    pytest.param("atwood", "l", "-m2*(g - (m2 - m1)*g/(m1 + m2 + J/R^2))"),
+    # The pivot has no mass: the spring force k y is what the rod has in its direction.
+    pytest.param("elastic-pendulum", "l", "-k*y/cos(phi)"),
+    # In the frame of the pivot the weight is m (g − ÿ), with y downwards: y = y₀ sin ωt.
+    pytest.param("guided-pendulum", "l", "-m*(l*dot(phi)^2 + (g + y0*omega^2*sin(omega*t))*cos(phi))"),
+    # The guide holds what the rod pulls down with, S cos φ.
+    pytest.param("guided-pendulum", "y", "-m*(l*dot(phi)^2 + (g + y0*omega^2*sin(omega*t))*cos(phi))*cos(phi)"),
+    # Bead on a hoop of radius R, θ from below; its normal force is outwards where R Ω² sin²θ + R θ̇² + g cos θ < 0.
+    pytest.param("bead-on-rotating-hoop", "R", "-m*(R*dot(theta)^2 + R*Omega^2*sin(theta)^2 + g*cos(theta))"),
+    # The moment that keeps the hoop turning evenly is the rate of angular momentum, d/dt (m R² sin²θ Ω).
+    pytest.param("bead-on-rotating-hoop", "psi", "m*R^2*Omega*2*sin(theta)*cos(theta)*dot(theta)"),
+    # The rod of a pendulum on a cart pulls with M m (l φ̇² + g cos φ)/(M + m sin²φ).
+    pytest.param("cart-pendulum", "l", "-M*m*(l*dot(phi)^2 + g*cos(phi))/(M + m*sin(phi)^2)"),
+    # What lifts the top's centre of mass along its axis: m g cos θ less m l times the square of the axis' turning.
+    pytest.param("heavy-top", "l", "m*(g*cos(theta) - l*(dot(theta)^2 + sin(theta)^2*dot(psi)^2))"),
+    # The wheel follows the road through its tyre.
+    pytest.param("quarter-car", "w", "k1*(w0*sin(omega*t) - z1)"),
+]
+
+
+@pytest.mark.parametrize(("scene", "name", "expected"), REACTIONS)
+def test_reactions_are_the_forces_of_newtons_law(scene: str, name: str, expected: str) -> None:
+    system = System(load_scene(scene))
+    found = Release.of(system, name).closed
+    assert found is not None
+    assert system.is_zero(found - to_sympy(parse(expected, system.scene.names).tree, system.symbols))
+
+
+def test_the_lower_rod_of_a_double_pendulum_pulls_the_upper_bob() -> None:
+    """S₁ and S₂ at rest, hanging straight down and turned by 90°: weights alone."""
+    system = System(load_scene("double-pendulum"))
+    still = {f"dot(phi{k})": 0.0 for k in (1, 2)}
+    forces = {name: -Release.of(system, name).value for name in ("l1", "l2")}
+    hanging = {"phi1": 0.0, "phi2": 0.0, **still, "m1": 2.0, "m2": 3.0, "l1": 1.0, "l2": 0.5, "g": 9.81}
+    assert [_at(force, hanging) for force in forces.values()] == pytest.approx([5.0 * 9.81, 3.0 * 9.81])
+    # Let go with both rods horizontal everything falls freely at the outer end; nothing pulls along the rods.
+    level = {**hanging, "phi1": float(sp.pi / 2), "phi2": float(sp.pi / 2)}
+    assert [_at(force, level) for force in forces.values()] == pytest.approx([0.0, 0.0], abs=1e-12)
+
+
+def _at(value: sp.Expr, point: dict[str, float]) -> float:
+    return float(value.xreplace({symbol: point[symbol.name] for symbol in value.free_symbols}))
+
+
+def test_a_frozen_coordinate_has_a_reaction_too() -> None:
+    """The pivot held at y₀ by the spring k y₀, by the rod, and by what freezes it: Z = k y₀ − S cos φ."""
+    system = System(change(load_scene("elastic-pendulum"), freeze=["y"]))
+    found = Release.of(system, "y").closed
+    expected = parse("k*y_0 - m*(l*dot(phi)^2 + g*cos(phi))*cos(phi)", system.scene.names).tree
+    assert found is not None
+    assert system.is_zero(found - to_sympy(expected, system.symbols))
+
+
+def test_what_is_too_long_without_accelerations_keeps_them() -> None:
+    system = System(load_scene("triple-pendulum"))
+    release = Release.of(system, "l1")
+    assert release.closed is None
+    assert release.value == release.in_motion
+    assert release.value.has(system.acceleration("phi2"))
+
+
+def test_motion_and_freedom_stay_those_of_the_scene() -> None:
+    plain, released = (derive_request({"scene": "pendulum", "lang": "en", **more}) for more in ({}, {"release": ["l"]}))
+    assert {**released["result"], "reactions": []} == plain["result"]  # type: ignore[dict-item]
+    assert [chapter["id"] for chapter in released["chapters"]][-2:] == ["reactions", "model"]  # type: ignore[attr-defined]
+    (reaction,) = released["result"]["reactions"]  # type: ignore[index]
+    assert (reaction["name"], reaction["kind"], reaction["closed"]) == ("l", "length", True)
+    assert reaction["reaction"]["plain"] == "-m*(l*dot(phi)^2 + g*cos(phi))"
+    assert reaction["force"]["plain"] == "m*(l*dot(phi)^2 + g*cos(phi))"
+
+
+@pytest.mark.parametrize(
+    ("scene", "name", "known"),
+    [
+        pytest.param("pendulum", "m", "l", id="no length"),
+        pytest.param("pendulum", "phi", "l", id="free"),
+        pytest.param("pendulum", "nothing", "l", id="unknown"),
+        pytest.param("physical-pendulum", "J", "", id="a moment of inertia"),
+    ],
+)
+def test_what_nothing_holds_is_refused_at_its_place(scene: str, name: str, known: str) -> None:
+    with pytest.raises(UnknownNameError) as caught:
+        derive_request({"scene": scene, "release": ["l", name] if known else [name]})
+    (problem,) = caught.value.problems
+    assert (problem.code, problem.pointer) == ("cannot-release", f"/release/{1 if known else 0}")
+    assert dict(problem.parameters) == {"name": name, "known": known}
+
+
+def test_a_length_that_also_says_what_a_body_is_made_of_is_not_offered() -> None:
+    """Half the length of a rod is where its centre of mass is; its moment of inertia depends on the length as well."""
+    assert [each.name for each in held(load_scene("double-rod-pendulum"))] == []
