@@ -43,17 +43,18 @@ export function createDerivations(store, api, attempt) {
 
   return async function derive() {
     const scene = sceneOf(get());
-    const { lang, formulation, n, more } = get().place;
+    const { lang, formulation, n, more, release } = get().place;
     const isWanted = () => {
       const { place } = get();
-      const asked = [place.lang, place.formulation, place.n, place.more];
-      return sceneOf(get()) === scene && asked.every((value, i) => value === [lang, formulation, n, more][i]);
+      const asked = [place.lang, place.formulation, place.n, place.more, place.release];
+      return sceneOf(get()) === scene && asked.every((value, i) => value === [lang, formulation, n, more, release][i]);
     };
     const question = {
       scene: scene ?? OWN,
       lang,
       formulation,
       ...(more ? { canonical: true } : {}),
+      ...(release ? { release: release.split(",") } : {}),
       ...(n ? { parameters: { n } } : {}),
     };
     await attempt("derivation", async () => {

@@ -104,6 +104,13 @@ export function createSession(store, api, clock) {
         step: get().derivation?.chapters.find(({ id }) => id === more)?.steps[0]?.id ?? get().place.step,
       });
     },
+    /** Lets go in thought of what the scene holds, and opens the chapter on what holds it. @param {string} release its name, or "" */
+    async release(release) {
+      move({ release });
+      await derive();
+      const chapter = get().derivation?.chapters.find(({ id }) => id === "reactions");
+      if (chapter?.steps[0]) move({ step: chapter.steps.at(-1)?.id ?? "" });
+    },
     /** @param {Partial<Place>} patch */
     move(patch) {
       speech.needFor(patch);
@@ -118,7 +125,7 @@ export function createSession(store, api, clock) {
       if (differs("scene", "n")) return subject.choose(there.scene, there.step, there.n, there.set);
       if (differs("set")) set({ changes: readChanges(there.set), held: null });
       if (differs("set", "method", "duration")) simulations.ask();
-      if (differs("formulation", "more")) await derive();
+      if (differs("formulation", "more", "release")) await derive();
     },
     /** @param {Partial<Place>} patch how to simulate */
     resimulate(patch) {

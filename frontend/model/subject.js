@@ -33,7 +33,7 @@ export function createSubject(store, api, attempt, { derive, rewind, simulations
       step,
       n,
       set: changes,
-      ...(id === get().place.scene ? {} : { part: 0, vary: "", runs: "", plot: "", at: 0 }),
+      ...(id === get().place.scene ? {} : { part: 0, vary: "", runs: "", plot: "", at: 0, release: "" }),
     });
     simulations.ask();
     await attempt("scene", async () => {

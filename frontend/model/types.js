@@ -89,7 +89,7 @@
  * @typedef {"" | "canonical"} More  a chapter that is told when it is asked for
  * @typedef {{scene: string, step: string, lang: Lang, theme: string, method: string, n: number, formulation: Formulation,
  *   duration: number, speed: number, panel: Panel, edit: Editing, view: Showing, part: number, pace: Pace, beside: Beside,
- *   vary: string, set: string, at: number, with: string, runs: string, plot: string, show: Shown, why: string, more: More}} Place  what is shown
+ *   vary: string, set: string, at: number, with: string, runs: string, plot: string, show: Shown, why: string, more: More, release: string}} Place  what is shown
  * @typedef {Omit<Place, "lang"> & {lang: Lang | ""}} Address  what an address says of it: perhaps no language
  */
 export {};

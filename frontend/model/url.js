@@ -29,6 +29,7 @@ export const HOME = {
   show: "",
   why: "",
   more: "",
+  release: "",
 };
 
 /** @type {readonly import("./types.js").Lang[]} */
@@ -87,6 +88,7 @@ export function readPlace(query) {
     show: oneOf(SHOWN, given.get("show"), HOME.show),
     why: slug(given.get("why")),
     more: oneOf(MORE, given.get("more"), HOME.more),
+    release: slug(given.get("release")),
   };
 }
 

@@ -71,7 +71,7 @@ function reading(view) {
   const { t } = view;
   return html`
     <section class="derivation" id="derivation" aria-label=${t("derivation")} aria-busy=${isUnderWay(view.state.derivation)}>
-      <div class="contents">${formulation(view)}${chapters(view)}</div>
+      <div class="contents">${formulation(view)}${release(view)}${chapters(view)}</div>
       <div class="scroll" tabindex="0" role="region" aria-label=${t("derivation")}>
         ${trouble(view) ?? steps(view)} ${missing(view.state)} ${canonical(view)}
       </div>
@@ -94,6 +94,22 @@ function formulation({ state, session, t }) {
       <span class="unseen">${t("formulation.choose")}</span>
       <select @change=${chosen}>
         ${FORMULATIONS.map((id) => html`<option value=${id} ?selected=${id === state.place.formulation}>${t(`formulation.${id}`)}</option>`)}
+      </select>${icon("chevron")}
+    </label>`;
+}
+
+/** What the scene holds fixed, each with the way to the force that holds it. @param {View} view */
+function release({ state, session, t }) {
+  const { place, derivation } = state;
+  const held = derivation?.result?.releasable ?? [];
+  const chosen = (/** @type {Event} */ { target }) => session.release(/** @type {HTMLSelectElement} */ (target).value);
+  if (!held.length) return nothing;
+  return html`
+    <label class="choice release" title=${t("release.choose")}>
+      <span class="unseen">${t("release.choose")}</span>
+      <select @change=${chosen}>
+        <option value="" ?selected=${!place.release}>${t("release.choose")}</option>
+        ${held.map(({ name, kind }) => html`<option value=${name} ?selected=${name === place.release}>${t(`release.${kind}`, { name })}</option>`)}
       </select>${icon("chevron")}
     </label>`;
 }

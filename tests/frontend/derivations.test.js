@@ -66,6 +66,7 @@ for (const [
   ["language", ({ session }) => session.move({ lang: "de" })],
   ["formulation", ({ session }) => session.formulate("hamilton")],
   ["number of members", ({ session }) => session.choose("swing", "", 5)],
+  ["release", ({ session }) => session.release("l")],
 ])) {
   test(`a derivation for another ${name} than the one on the page is not shown, however late it comes`, async () => {
     const about = name.endsWith("own")
@@ -84,6 +85,24 @@ for (const [
     assert.deepEqual(ids(about.get()), ["wanted"]);
   });
 }
+
+test("what force holds a length is asked with it, and the chapter opens at what it leads to", async () => {
+  const { session, last, get } = page();
+  const done = session.release("l");
+  assert.deepEqual(last("derive").given[0].release, ["l"]);
+  const answer = derivation("a", "b");
+  answer.chapters.push({
+    ...answer.chapters[0],
+    id: "reactions",
+    steps: derivation("release:l", "reaction:l").chapters[0].steps,
+  });
+  await last("derive").answer(answer);
+  await done;
+  assert.deepEqual(
+    [get().place.release, get().place.step],
+    ["l", "reaction:l"],
+  );
+});
 
 test("what is wanted stays when an overtaken answer comes after it", async () => {
   const { session, all, get } = page();

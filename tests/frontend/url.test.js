@@ -5,8 +5,8 @@ import { HOME, readPlace, startLanguage, writePlace } from "../../frontend/model
 const PLACES = [
   ["nothing said", "", HOME],
   ["scene and step", "?scene=pendulum&step=virtual-displacement:bob", { ...HOME, scene: "pendulum", step: "virtual-displacement:bob" }],
-  ["everything", "?scene=a&step=b&lang=de&theme=dark&method=rk4&n=6&formulation=hamilton&duration=20&speed=0.25&panel=plots&edit=json&view=lecture&part=2&pace=substeps&beside=plots&vary=phi:0.2&set=l:0.5&at=1.5&with=bars&runs=%40rk4&plot=wrapped%2C2:4&show=figure&why=b&more=canonical",
-    { scene: "a", step: "b", lang: "de", theme: "dark", method: "rk4", n: 6, formulation: "hamilton", duration: 20, speed: 0.25, panel: "plots", edit: "json", view: "lecture", part: 2, pace: "substeps", beside: "plots", vary: "phi:0.2", set: "l:0.5", at: 1.5, with: "bars", runs: "@rk4", plot: "wrapped,2:4", show: "figure", why: "b", more: "canonical" }],
+  ["everything", "?scene=a&step=b&lang=de&theme=dark&method=rk4&n=6&formulation=hamilton&duration=20&speed=0.25&panel=plots&edit=json&view=lecture&part=2&pace=substeps&beside=plots&vary=phi:0.2&set=l:0.5&at=1.5&with=bars&runs=%40rk4&plot=wrapped%2C2:4&show=figure&why=b&more=canonical&release=l",
+    { scene: "a", step: "b", lang: "de", theme: "dark", method: "rk4", n: 6, formulation: "hamilton", duration: 20, speed: 0.25, panel: "plots", edit: "json", view: "lecture", part: 2, pace: "substeps", beside: "plots", vary: "phi:0.2", set: "l:0.5", at: 1.5, with: "bars", runs: "@rk4", plot: "wrapped,2:4", show: "figure", why: "b", more: "canonical", release: "l" }],
 ];
 
 for (const [name, query, place] of PLACES) {
