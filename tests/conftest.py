@@ -6,11 +6,13 @@ import fcntl
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.bundling import bundle_of
+from tests.bundling import bundle_of, made
 from tests.order import ByFile, durations, in_order, left_out, needs_kernels
+from tests.serving import PATIENT, shared
 from xdist.remote import Producer
 from xdist.scheduler import LoadFileScheduling
 
@@ -33,6 +35,36 @@ def kernels() -> None:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not are_compiled():
             subprocess.run([sys.executable, "-m", "deltaq.cli", "compile"], check=True, stdout=subprocess.DEVNULL)
+
+
+@pytest.fixture(scope="session")
+def of_the_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder that all workers of this run share."""
+    own = tmp_path_factory.getbasetemp()
+    return own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+
+
+@pytest.fixture(scope="session")
+def server(root: Path, of_the_run: Path, kernels: None) -> Iterator[str]:
+    """The address of the service that all tests of this run share, with the page as packages have it.
+
+    From its sources if there is no esbuild. Answers are kept: each is computed once. Tests that burden a service, end
+    it or look at how it is doing have one of their own.
+    """
+    with shared(of_the_run / "server", static=made(root) or "", **common(of_the_run)) as address:
+        yield address
+
+
+@pytest.fixture(scope="session")
+def source_server(of_the_run: Path, kernels: None) -> Iterator[str]:
+    """The address of another one, with the page from its sources, as who works on it sees it."""
+    with shared(of_the_run / "source_server", static="", **common(of_the_run)) as address:
+        yield address
+
+
+def common(folder: Path) -> dict[str, object]:
+    """The settings of services that are shared; all their clients are one, which may have all of the processors."""
+    return {"workers": 2, "client_share": 0, "cache_folder": folder / "answers", **PATIENT}
 
 
 def pytest_xdist_auto_num_workers() -> int:

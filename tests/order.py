@@ -29,6 +29,7 @@ MOVING = (
     "tests/deploy/",
     "tests/e2e/",
     "tests/frontend/test_drawn.py",
+    "tests/homework/test_classes.py",
     "tests/lab/",
     "tests/simulation/",
     "tests/test_cli.py",

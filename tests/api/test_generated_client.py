@@ -18,7 +18,6 @@ import pytest
 from tests.api import typescript
 from tests.description import openapi
 from tests.frontend.node import run
-from tests.serving import PATIENT, Served, served
 
 from deltaq.contract.document import EXAMPLE
 from deltaq.contract.scene import TOML_EXAMPLE
@@ -54,14 +53,8 @@ def generated(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 @pytest.fixture(scope="module")
-def service() -> Iterator[Served]:
-    with served(workers=2, **PATIENT) as one:
-        yield one
-
-
-@pytest.fixture(scope="module")
-def client(generated: str, service: Served) -> Iterator[Any]:
-    with part("client").Client(base_url=service.address.rstrip("/"), timeout=300) as one:
+def client(generated: str, server: str) -> Iterator[Any]:
+    with part("client").Client(base_url=server.rstrip("/"), timeout=300) as one:
         yield one
 
 
@@ -201,12 +194,12 @@ OWN_CALLS = [
 
 
 @pytest.fixture(scope="module")
-def statuses(tmp_path_factory: pytest.TempPathFactory, service: Served) -> dict[str, int]:
+def statuses(tmp_path_factory: pytest.TempPathFactory, server: str) -> dict[str, int]:
     """The status of the answer to every call of the program in TypeScript, by its name."""
     folder = tmp_path_factory.mktemp("typescript")
     typed = [own for one in CALLS if (own := typescript.with_scene(one, EXAMPLE))]
     compiled = typescript.build(folder, DOCUMENT, typescript.program([*CALLS, *OWN_CALLS], typed))
-    done = run("node", str(compiled), service.address.rstrip("/"), cwd=folder)
+    done = run("node", str(compiled), server.rstrip("/"), cwd=folder)
     assert done.returncode == 0, done.stdout + done.stderr
     return {str(name): int(status) for name, status in json.loads(done.stdout).items()}
 

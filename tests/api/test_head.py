@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 
 import pytest
 from tests.description import openapi
-from tests.serving import PATIENT, served
+from tests.serving import PATIENCE
 
 CHANGING = {"date", "x-request-id", "server-timing"}
 COUNTING = ("/api/v1/metrics", "/api/v1/health")  # each answer counts the one before
@@ -26,13 +26,12 @@ def addresses() -> Iterator[str]:
 
 
 @pytest.fixture(scope="module")
-def service() -> Iterator[str]:
-    with served(workers=1, **PATIENT) as one:
-        yield urlsplit(one.address).netloc
+def service(server: str) -> str:
+    return urlsplit(server).netloc
 
 
 def asked(service: str, method: str, address: str) -> tuple[int, dict[str, str], bytes]:
-    connection = http.client.HTTPConnection(service, timeout=60)
+    connection = http.client.HTTPConnection(service, timeout=PATIENCE)
     connection.request(method, address)
     answer = connection.getresponse()
     fields: dict[str, Any] = {name.lower(): value for name, value in answer.getheaders()}

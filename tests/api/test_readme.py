@@ -9,12 +9,10 @@ import re
 import shlex
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import httpx
 import pytest
-from tests.serving import PATIENT, Served, served
 
 from deltaq.api.samples import ADDRESS
 
@@ -30,12 +28,6 @@ def blocks(root: Path) -> dict[str, list[str]]:
     ):
         found.setdefault(language, []).append(block)
     return found
-
-
-@pytest.fixture(scope="module")
-def service() -> Iterator[Served]:
-    with served(workers=2, **PATIENT) as one:
-        yield one
 
 
 def alike(one: str, other: str) -> bool:
@@ -58,18 +50,18 @@ def test_a_system_of_ones_own(blocks: dict[str, list[str]], tmp_path: Path) -> N
         assert alike(ended.stdout, told), ended.stdout + ended.stderr
 
 
-def test_derivation_by_a_line_for_a_shell(blocks: dict[str, list[str]], service: Served) -> None:
+def test_derivation_by_a_line_for_a_shell(blocks: dict[str, list[str]], server: str) -> None:
     line = next(block for block in blocks["sh"] if "/derivations" in block)
     body = shlex.split(line)[-1]
-    answer = httpx.post(f"{service.address}api/v1/derivations", json=json.loads(body), timeout=60).json()["result"]
+    answer = httpx.post(f"{server}api/v1/derivations", json=json.loads(body), timeout=60).json()["result"]
     told = json.loads(f"{{{blocks['json'][0]}}}")["generalized_forces"]["nonconservative"]
     found = answer["generalized_forces"]["nonconservative"]
     assert [{key: one[key] for key in ("coordinate", "plain", "latex")} for one in found] == told
 
 
-def test_simulation_by_a_program(blocks: dict[str, list[str]], service: Served) -> None:
+def test_simulation_by_a_program(blocks: dict[str, list[str]], server: str) -> None:
     program, told = blocks["python"]
-    *lines, last = program.replace(ADDRESS, service.address.rstrip("/")).splitlines()
+    *lines, last = program.replace(ADDRESS, server.rstrip("/")).splitlines()
     known: dict[str, object] = {}
     exec("\n".join(lines), known)
     found = eval(last, known)
@@ -77,9 +69,9 @@ def test_simulation_by_a_program(blocks: dict[str, list[str]], service: Served) 
     assert found == (status, pytest.approx(value, abs=1e-9), pytest.approx(estimate, rel=0.5))
 
 
-def test_an_answer_is_checked_by_a_line_for_a_shell(blocks: dict[str, list[str]], service: Served) -> None:
+def test_an_answer_is_checked_by_a_line_for_a_shell(blocks: dict[str, list[str]], server: str) -> None:
     line = next(block for block in blocks["sh"] if "/checks" in block).partition("\ndeltaq")[0]
-    answer = httpx.post(f"{service.address}api/v1/checks", json=json.loads(shlex.split(line)[-1]), timeout=60).json()
+    answer = httpx.post(f"{server}api/v1/checks", json=json.loads(shlex.split(line)[-1]), timeout=60).json()
     assert (answer["outcome"], answer["misconception"]) == ("wrong", "half-in-kinetic-energy")
 
 

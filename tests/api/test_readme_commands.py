@@ -17,7 +17,6 @@ from pathlib import Path
 
 import httpx
 import pytest
-from tests.serving import PATIENT, served
 
 BLOCK = re.compile(r"^```(sh|console|toml)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ANSWERS = "student,task,answer\nada,kinetic-energy,m*l^2*dot(phi)^2/2\n"
@@ -87,7 +86,7 @@ README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
-def clone(tmp_path_factory: pytest.TempPathFactory, root: Path) -> Iterator[Clone]:
+def clone(tmp_path_factory: pytest.TempPathFactory, root: Path, server: str) -> Clone:
     folder = tmp_path_factory.mktemp("clone") / "deltaq"
     subprocess.run(["git", "clone", "--quiet", "--shared", str(root), str(folder)], check=True)
     (scene,) = [block for language, block in BLOCK.findall(README) if language == "toml"]
@@ -99,8 +98,7 @@ def clone(tmp_path_factory: pytest.TempPathFactory, root: Path) -> Iterator[Clon
     for name, arguments in STAND_INS.items():
         place = programs if name in ("pip", "pytest") else folder / "system"
         _write(place / name, STAND_IN.format(python=sys.executable, arguments=arguments))
-    with served(workers=2, **PATIENT) as service:
-        yield Clone(folder, service.address)
+    return Clone(folder, server)
 
 
 def _write(file: Path, content: str) -> None:

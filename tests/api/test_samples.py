@@ -5,28 +5,20 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
-from collections.abc import Iterator
 
 import httpx
 import pytest
-from tests.serving import PATIENT, Served, served
 
 from deltaq.api.samples import ADDRESS
 
 
 @pytest.fixture(scope="module")
-def service() -> Iterator[Served]:
-    with served(workers=2, **PATIENT) as one:
-        yield one
-
-
-@pytest.fixture(scope="module")
-def sources(service: Served) -> dict[tuple[str, str], str]:
+def sources(server: str) -> dict[tuple[str, str], str]:
     """Every sample by its operation and language, with the address of the service."""
-    document = httpx.get(f"{service.address}api/v1/openapi.json", timeout=60).json()
+    document = httpx.get(f"{server}api/v1/openapi.json", timeout=60).json()
     operations = [operation for methods in document["paths"].values() for operation in methods.values()]
     return {
-        (operation["operationId"], sample["lang"]): sample["source"].replace(ADDRESS, service.address.rstrip("/"))
+        (operation["operationId"], sample["lang"]): sample["source"].replace(ADDRESS, server.rstrip("/"))
         for operation in operations
         for sample in operation["x-codeSamples"]
     }

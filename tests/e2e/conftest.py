@@ -2,45 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import os
-import time
-import urllib.request
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
-from tests.bundling import made
 from tests.e2e.browser import NoBrowser, chromium, started
 from tests.e2e.lecture import Lecture
 from tests.e2e.waiting import PATIENCE
-from tests.serving import PATIENT, served
-
-
-@pytest.fixture(scope="session")
-def answers(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder in which the services of all workers of this run keep their answers: each is computed once."""
-    own = tmp_path_factory.getbasetemp()
-    return (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "answers"
-
-
-@pytest.fixture(scope="session")
-def server(root: Path, answers: Path) -> Iterator[str]:
-    """The address of a service with the page as packages have it; from its sources if there is no esbuild."""
-    yield from _serving(made(root) or "", answers)
-
-
-@pytest.fixture(scope="session")
-def source_server(answers: Path) -> Iterator[str]:
-    """The address of a service with the page from its sources, as who works on it sees it."""
-    yield from _serving("", answers)
-
-
-def _serving(static: Path | str, answers: Path) -> Iterator[str]:
-    with served(static=static, cache_folder=answers, **PATIENT) as service:
-        _answered(f"{service.address}api/v1/simulations", {"scene": "elastic-pendulum", "t_end": 1.0})
-        yield service.address
 
 
 @pytest.fixture(params=["sources", "bundle"])
@@ -57,27 +26,6 @@ def sources(page: Page, source_server: str) -> Iterator[Lecture]:
     lecture = Lecture(page, source_server)
     yield lecture
     assert lecture.complaints == []
-
-
-@pytest.fixture(scope="session")
-def bench(server: str) -> None:
-    """The kernels of all methods are compiled: experiments wait for them, motions only for those of their own."""
-    _answered(f"{server}api/v1/experiments/convergence", {"scene": "pendulum", "t_end": 1.0}, 900.0)
-
-
-def _answered(address: str, question: dict[str, object], patience: float = 240.0) -> None:
-    """Ask until there is an answer: the first one of a machine's life compiles kernels."""
-    request = urllib.request.Request(address, json.dumps(question).encode(), {"content-type": "application/json"})
-    end = time.monotonic() + patience
-    while True:
-        try:
-            urllib.request.urlopen(request, timeout=patience).close()
-        except OSError:
-            if time.monotonic() > end:
-                raise
-            time.sleep(0.5)
-        else:
-            return
 
 
 expect.set_options(timeout=PATIENCE)

@@ -196,7 +196,6 @@ def by_turns(places: list[Any]) -> list[Any]:
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize(("place", "ready", "first", "language"), by_turns(PLACES))
 def test_page(
-    request: pytest.FixtureRequest,
     lecture: Lecture,
     axe: str,
     place: str,
@@ -204,8 +203,6 @@ def test_page(
     first: Callable[[Page], None],
     language: str,
 ) -> None:
-    if first is measure:
-        request.getfixturevalue("bench")
     page = opened(lecture, place, ready, language)
     first(page)
     assert page.locator("html").get_attribute("lang") == language

@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 from tests.e2e.lecture import Lecture
 from tests.e2e.waiting import until_equal
 
-pytestmark = [pytest.mark.e2e, pytest.mark.usefixtures("bench")]
+pytestmark = pytest.mark.e2e
 
 
 def opened(lecture: Lecture, query: str, lang: str = "en") -> Lecture:

@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 from tests.homework.both_graders import by_page, by_shell
 from tests.homework.classes import class_archive, class_table
-from tests.serving import served
 
 from deltaq.homework.assignment import read_assignment
 from deltaq.homework.gradebook import Gradebook, Plan, refusal
@@ -24,12 +23,11 @@ READABLE = ("correct", "wrong", "follow_through")
 
 
 def test_the_shell_and_the_page_give_the_same_file(
-    root: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    root: Path, tmp_path: Path, server: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """200 of them, of four students each, are marked by `python -m tests.benchmarks.bench_grader`."""
     tables = [*(class_table(seed, students=2) for seed in SAME), *(class_archive(seed) for seed in SAME)]
-    with served(workers=1) as service:
-        pages = list(by_page(tables, service.address, root))
+    pages = list(by_page(tables, server, root))
     for table, page in zip(tables, pages, strict=True):
         assert page == by_shell(table, tmp_path), table.seed
 
