@@ -166,6 +166,11 @@ def test_an_expression(text: str, words: str) -> None:
     assert said(to_sympy(parse(text, NAMES, "plain").tree, Symbols(NAMES))) == words
 
 
+def test_a_power_of_a_symbol_with_a_minus_is_no_fraction() -> None:
+    assert said(X ** (-K)) == "x to the power of open bracket minus k close bracket"
+    assert said(X ** (K / 2)) == "x to the power of the fraction k over two, end of fraction"
+
+
 HALF = sp.Rational(1, 2)
 
 

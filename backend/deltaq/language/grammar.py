@@ -300,8 +300,7 @@ class Operators:
     def prime(self, operand: Node, span: Span) -> Node:
         """φ′, or φ′(t), which is the rate as a function of time."""
         node = self._differentiation.time_derivative(operand, span)
-        if isinstance(node, Rate):
-            self._of_time()
+        self._of_time()
         return node
 
     def _of_time(self) -> None:
