@@ -67,6 +67,24 @@ def told(scene: Scene) -> list[tuple[str, list[str], list[str]]]:
             id="moment",
         ),
         pytest.param(
+            particle(
+                ["x"], {"k": 3.0, "c": 1.0, "F": 2.0}, ["x", "0"], {"kind": "potential", "energy": "(k-c)*x^2/2-F*x"}
+            ),
+            [("stable", [], ["c < k"])],
+            id="a quotient is there whatever its sign",
+        ),
+        pytest.param(
+            particle(
+                ["x", "y"],
+                {"k": 3.0, "c": 1.0},
+                ["x", "y"],
+                {"kind": "potential", "energy": "(k-c)*(x^2+y^2)/2"},
+                {"kind": "force", "at": "bob", "force": ["-c*y", "c*x"]},
+            ),
+            [],
+            id="a force that turns with the motion has no potential",
+        ),
+        pytest.param(
             BOOKS["two wells (Duffing)"], [("stable", [], [])] * 2 + [("unstable", [], [])], id="for all parameters"
         ),
     ],

@@ -551,6 +551,11 @@ FORMULAS = [
         "open bracket 2.5 metres close bracket squared",
     ),
     (
+        "determinant of numbers",
+        Determinant(Rounded(sp.ImmutableMatrix([[sp.Float("0.5"), 1]]))),
+        "the determinant of the matrix with row one: 0.5, next 1, end of matrix",
+    ),
+    (
         "power of a variation",
         Power(Named(Quantity("virtual-displacement", "bob"), X), 2),
         "open bracket delta r close bracket squared",
