@@ -293,7 +293,7 @@ class Operators:
         """A symbol. `phi(t)` is the coordinate φ as a function of time, not φ·t."""
         token = self._cursor.take()
         node = self._cursor.made(Name(token.text, token.span))
-        if self._differentiation.kind(token.text) == "coordinate":
+        if self._differentiation.kind(token.text) in ("coordinate", "multiplier"):
             self._of_time()
         return node
 
