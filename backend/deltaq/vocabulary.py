@@ -24,6 +24,7 @@ Status = Literal[
     "horizon_reached",
     "tolerance_missed",
     "guide_jumps",
+    "singular_constraints",
 ]
 # The same of a run among many, which was not tried where the one before took too long.
 TriedStatus = Literal[Status, "too_slow"]

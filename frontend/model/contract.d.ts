@@ -1466,7 +1466,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "too_slow";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "too_slow";
             /**
              * Error
              * @description largest of any coordinate: absolute below 1, relative above
@@ -2281,7 +2281,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "too_slow";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "too_slow";
             /**
              * T
              * @description ends of the stretches of time
@@ -2666,6 +2666,13 @@ export interface components {
              * @description whether the error stays below it; null where nothing was estimated
              */
             reached: boolean | null;
+            /**
+             * Multipliers
+             * @description of the multipliers of constraints: the estimated absolute error of each at each sample
+             */
+            multipliers?: {
+                [key: string]: number[];
+            } | null;
         };
         /**
          * EulerLagrangeEquation
@@ -3884,7 +3891,7 @@ export interface components {
              * @description ok, or how the motion ended before its time
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
             /**
              * Span
              * @description seconds that were followed
@@ -4168,7 +4175,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "refused";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "refused";
             /**
              * Largest
              * @description distance from the full motion, in metres
@@ -4273,7 +4280,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "too_slow";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "too_slow";
             /**
              * Error
              * @description largest of any coordinate: absolute below 1, relative above
@@ -4321,6 +4328,16 @@ export interface components {
          */
         MotionAnswer: {
             scene: components["schemas"]["SceneDocument"];
+        };
+        /**
+         * MovedValue
+         * @description What was added to the initial value and rate of a coordinate, so that all constraints are kept.
+         */
+        MovedValue: {
+            /** Value */
+            value: number;
+            /** Rate */
+            rate: number;
         };
         /**
          * NamedFunction
@@ -5835,7 +5852,7 @@ export interface components {
              * @example ok
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
             /**
              * Reason
              * @description the status as a sentence
@@ -5884,6 +5901,30 @@ export interface components {
              */
             loads?: {
                 [key: string]: components["schemas"]["VectorColumn"];
+            } | null;
+            /**
+             * Multipliers
+             * @description of constraints, as far as they are unique; of a distance the force, positive in tension
+             */
+            multipliers?: {
+                [key: string]: components["schemas"]["Column"];
+            } | null;
+            /**
+             * Undetermined
+             * @description multipliers that are not unique, since their constraints depend on one another
+             */
+            undetermined?: string[] | null;
+            /**
+             * Drift
+             * @description largest amount by which a holonomic constraint is not kept
+             */
+            drift?: number | null;
+            /**
+             * Moved
+             * @description by how much initial values were moved to keep the constraints, in the metric of the mass matrix
+             */
+            moved?: {
+                [key: string]: components["schemas"]["MovedValue"];
             } | null;
             energy?: components["schemas"]["Energy"] | null;
             error?: components["schemas"]["ErrorEstimate"] | null;
@@ -5989,10 +6030,10 @@ export interface components {
             step?: number | null;
             /**
              * Include
-             * @description the parts wanted, of coordinates, rates, positions, loads, energy, error; all if empty
+             * @description the parts wanted, of coordinates, rates, positions, loads, multipliers, energy, error; all if empty
              * @example []
              */
-            include?: ("coordinates" | "rates" | "positions" | "loads" | "energy" | "error")[];
+            include?: ("coordinates" | "rates" | "positions" | "loads" | "multipliers" | "energy" | "error")[];
             /**
              * Columns
              * @description how arrays are written; base64: little-endian doubles, components of a vector together
@@ -6636,7 +6677,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
             /**
              * Evaluations
              * @description of the right-hand side

@@ -14,7 +14,7 @@ from .base import Answer, AskedLanguage, Name, NotAbove, SceneWithInitialValues,
 LARGEST_SPAN = 1e5  # seconds
 SHORTEST = 1e-250  # seconds; parts of less are no longer different numbers
 USUAL_TOLERANCE = 1e-6
-Part = Literal["coordinates", "rates", "positions", "loads", "energy", "error"]
+Part = Literal["coordinates", "rates", "positions", "loads", "multipliers", "energy", "error"]
 PARTS: tuple[Part, ...] = get_args(Part)
 Written = Literal["numbers", "base64"]
 COLUMNS: tuple[Written, ...] = get_args(Written)
@@ -91,6 +91,16 @@ class ErrorEstimate(Answer):
     worst: float | None = Field(description="largest of all, absolute below 1, relative above")
     tolerance: float | None = Field(description="as it was asked for")
     reached: bool | None = Field(description="whether the error stays below it; null where nothing was estimated")
+    multipliers: dict[str, tuple[float, ...]] | None = Field(
+        None, description="of the multipliers of constraints: the estimated absolute error of each at each sample"
+    )
+
+
+class MovedValue(Answer):
+    """What was added to the initial value and rate of a coordinate, so that all constraints are kept."""
+
+    value: float
+    rate: float
 
 
 class EventAnswer(Answer):
@@ -130,6 +140,17 @@ class SimulationAnswer(Answer):
     rates: dict[str, Column] | None = None
     positions: dict[str, VectorColumn] | None = None
     loads: dict[str, VectorColumn] | None = Field(None, description="force vectors")
+    multipliers: dict[str, Column] | None = Field(
+        None, description="of constraints, as far as they are unique; of a distance the force, positive in tension"
+    )
+    undetermined: tuple[str, ...] | None = Field(
+        None, description="multipliers that are not unique, since their constraints depend on one another"
+    )
+    drift: float | None = Field(None, description="largest amount by which a holonomic constraint is not kept")
+    moved: dict[str, MovedValue] | None = Field(
+        None,
+        description="by how much initial values were moved to keep the constraints, in the metric of the mass matrix",
+    )
     energy: Energy | None = None
     error: ErrorEstimate | None = None
     t_reached: float = Field(description="when the run ended, in seconds")

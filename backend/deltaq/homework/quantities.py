@@ -14,7 +14,6 @@ from .equality import (
     equations,
     expression,
     frequencies,
-    kept_by_constraints,
     lagrangian,
     stated,
     symmetry,
@@ -32,8 +31,6 @@ from .subjects import (
     loaded,
     numbered,
     oscillating,
-    reacting,
-    reaction_of,
     resting,
     symmetric,
     whole,
@@ -58,7 +55,7 @@ def _conserved_value(solution: Solution, number: str) -> Parts:
     return (solution.conserved(_true(solution).conserved_of[int(number) - 1]),)
 
 
-EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED, KEPT = (
+EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED = (
     cast("Equality", module)
     for module in (
         expression,
@@ -70,7 +67,6 @@ EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED, KEPT = (
         conserved,
         symmetry,
         stated,
-        kept_by_constraints,
     )
 )
 
@@ -82,7 +78,7 @@ def _ordering(goal: str, step: str, subjects: Subjects) -> Quantity:
         "order",
         STATED,
         lambda solution, subject: ordering.value(_true(solution), goal, subject),
-        lambda solution: subjects(solution) if is_short(_true(solution)) and not solution.conditions else (),
+        lambda solution: subjects(solution) if is_short(_true(solution)) else (),
         "lagrange",
         points=2.0,
         steps=(step,),
@@ -203,18 +199,6 @@ QUANTITIES: tuple[Quantity, ...] = (
         ("lagrangian", "kinetic-energy", "potential-energy", "equation"),
         4.0,
         steps=("matrix-form",),
-    ),
-    Quantity(
-        "constraint-force",
-        "expression",
-        KEPT,
-        lambda solution, name: (reaction_of(_true(solution), name),),
-        reacting,
-        "constraints",
-        ("lambda", "λ", "S", "N", "Z"),
-        ("equation",),
-        2.0,
-        steps=("multiplier:{subject}", "work-of-reaction:{subject}"),
     ),
     Quantity(
         "linearized",

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from ..contract.experiment import ExperimentRequest
 from ..errors import Problem as Mistake
-from ..errors import UnknownNameError
+from ..errors import RequestError, UnknownNameError
 from ..language.spelling import in_unicode, latex_of
 from ..mechanics.requests import begun_scene, inside
 from ..mechanics.scene import Scene
@@ -53,6 +53,17 @@ def subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:
     scene = replace(begun_scene(request), events=())  # it is about the equations, as if nothing ended the motion
     with inside("/scene"):
         return Subject(scene, problem_of(scene, request.t_end, samples))
+
+
+def free_subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:
+    """The subject of an experiment that moves states at will: a scene without constraints, which would not let it.
+
+    Raises InputError as `subject_of` does, and RequestError for a scene with constraints.
+    """
+    subject = subject_of(request, samples)
+    if subject.problem.is_constrained:
+        raise RequestError(Mistake("lab-constraints", "/scene", parameters={"count": len(subject.scene.constraints)}))
+    return subject
 
 
 def bounded(subject: Subject, step_limit: int) -> Problem:

@@ -34,13 +34,14 @@ class Vocabulary:
 
     def say(self, key: str, *parts: str) -> str:
         """The words under a key with the parts in their places, each noun in the case that is asked for."""
-        declension = self._declension
-        return declension.joint.sub(declension.declined, self.words[key].format(*parts))
+        text = self.words[key].format(*parts)
+        return self._declension.joint.sub(self._declension.declined, text) if parts and self._declension else text
 
     @cached_property
-    def _declension(self) -> Declension:
+    def _declension(self) -> Declension | None:
         nouns = [self.words[key].split("|") for key in self.words if key.startswith("nouns.")]
-        return Declension(nouns, *(frozenset(self.words[f"cases.{case}"].split()) for case in ("dative", "accusative")))
+        cases = [frozenset(self.words.get(f"cases.{case}", "").split()) for case in ("dative", "accusative")]
+        return Declension(nouns, *cases) if any(cases) else None
 
     def whole(self, number: int) -> str:
         """A whole number that is not negative."""
@@ -59,7 +60,7 @@ class Declension:
     def joint(self) -> re.Pattern[str]:
         """A word that asks for a case, and a noun without it."""
         words, nouns = sorted(self.dative | self.accusative), [forms[0] for forms in self.nouns]
-        return re.compile(rf"(?<!\w)({'|'.join(words)}) ({'|'.join(nouns)})(?!\w)")
+        return re.compile(rf"(?<!\w)({'|'.join(words)}) ({'|'.join(sorted(nouns, key=len, reverse=True))})(?!\w)")
 
     def declined(self, found: re.Match[str]) -> str:
         """Both with the noun in its case; von dem is vom."""
@@ -136,7 +137,7 @@ class SymbolReader:
         low = letter.lower()
         is_capital = low != letter and low in self.lower
         said = self.vocabulary.say("capital", self._name(low) if len(low) > 1 else letter) if is_capital else None
-        said = said or (self._name(low) if low in GREEK_NAMES else letter)
+        said = said or (self._name(low) if len(letter) > 1 and low in GREEK_NAMES else letter)
         told = place == "bold" and (letter in self.plain)
         return self.vocabulary.say("matrix-letter" if letter in "MDK" else "vector-letter", said) if told else said
 
@@ -160,7 +161,8 @@ class SpokenSymbols:
 
     def __post_init__(self) -> None:
         plain = heads(symbol.typeset for symbol in self.names.symbols)
-        object.__setattr__(self, "reader", SymbolReader(self.vocabulary, plain | LETTERS_OF_QUANTITIES, plain))
+        lower = frozenset(letter for letter in plain if letter.islower()) | LETTERS_OF_QUANTITIES
+        object.__setattr__(self, "reader", SymbolReader(self.vocabulary, lower, plain))
 
     def symbol(self, name: str) -> str:
         """The words for a symbol by its plain name."""

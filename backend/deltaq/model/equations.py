@@ -18,6 +18,7 @@ import symengine as se
 
 from ..language.expression import Expression
 from ..mechanics.scene import Scene
+from .constraints import NONE, ConstraintEquations, constraint_equations
 from .convected import convected
 from .functions import Expr
 from .kinetic import ZERO, Vector, components, kinetic_energy
@@ -46,11 +47,12 @@ class Equations:
     positions: Mapping[str, Vector]
     arrows: Mapping[str, Vector]  # force vectors by load, or by "load:place" where a load acts in several places
     events: Vector  # what is positive as long as the scene's events have not happened
+    constraints: ConstraintEquations = NONE  # M q̈ = f + Aᵀλ where there are any; P then has −λ·b as well
 
     @property
     def is_powered(self) -> bool:
         """Whether anything feeds power in or takes it that is not in E + V."""
-        return any(part != 0 for part in (self.power, *self.acceleration_power))
+        return self.constraints.is_driven or any(part != 0 for part in (self.power, *self.acceleration_power))
 
 
 def equations(scene: Scene) -> Equations:
@@ -76,6 +78,7 @@ def equations(scene: Scene) -> Equations:
         {name: guides.into(_position(place, symbols)) for name, place in scene.places.items()},
         {name: guides.into(force) for name, force in _arrows(scene, loads).items()},
         guides.into(components(tuple(event.value.tree for event in scene.events), symbols)),
+        constraint_equations(scene, symbols, guides.into),
     )
 
 

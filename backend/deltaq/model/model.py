@@ -10,6 +10,7 @@ import symengine as se
 
 from ..mechanics.scene import Scene
 from .compiled import THOROUGH, Compiled, Floats, compile_expressions
+from .constraints import ConstraintEquations
 from .disturbance import disturbed
 from .equations import Equations, equations
 from .functions import Expr
@@ -35,9 +36,13 @@ class Layout:
     dimension: int
     is_powered: bool
     switches: tuple[str, ...] = ()  # whose rates the switching functions are made of, by function
+    multipliers: tuple[str, ...] = ()  # by constraint, the holonomic ones first
+    holonomic: int = 0  # how many of the constraints are
+    constraints: tuple[int, ...] = ()  # their places in the scene
 
     @property
     def degrees(self) -> int:
+        """The number of free coordinates n; where there are constraints, fewer of them are independent."""
         return len(self.free)
 
 
@@ -68,11 +73,13 @@ class Usage:
 class Model:
     """M(q, t) q̈ = f(q, q̇, t) as machine code; parameters are inputs, so new values need no new model.
 
-    `motion` gives the lower triangle of M (row by row), f and, where power is fed in, P₀ and p₁ of P = P₀ + p₁·q̈.
+    `motion` gives the lower triangle of M (row by row), f and, where power is fed in, P₀ and p₁ of P = P₀ + p₁·q̈; where
+    there are constraints A (row by row), γ and b follow, and M q̈ = f + Aᵀλ, A q̈ = γ. `gaps` gives how far a state is
+    from keeping them: g of the holonomic ones, then w = A q̇ + b of all.
     `observed` gives E, V, values and rates of guided coordinates, positions and force vectors; `events`, of scenes that
     have any, what is positive as long as none has happened; `switches`, of those with dry friction, what changes its
     sign where a force jumps with a rate. `tape` has the operations of M and f, of the values of
-    guided coordinates and of their rates.
+    guided coordinates and of their rates, of A and γ.
     """
 
     layout: Layout
@@ -80,6 +87,7 @@ class Model:
     observed: Compiled
     events: Compiled | None
     switches: Compiled | None
+    gaps: Compiled | None
     tape: Tape = field(repr=False, compare=False)
     scene: Scene = field(repr=False, compare=False)
     disturbance: float = 0.0  # relative, of every entry of M and f
@@ -155,7 +163,8 @@ class _Mechanics:
 def _mechanics(scene: Scene) -> tuple[object, ...]:
     names = tuple(c.name for c in scene.coordinates), tuple(p.name for p in scene.parameters)
     events = tuple(event.value for event in scene.events)
-    return scene.dimension, names, scene.points, scene.bodies, scene.loads, scene.guides, events
+    constraints = scene.conditions, tuple(symbol.name for symbol in scene.multipliers)
+    return scene.dimension, names, scene.points, scene.bodies, scene.loads, scene.guides, events, constraints
 
 
 @lru_cache(maxsize=64)
@@ -166,7 +175,7 @@ def _compiled_once(mechanics: _Mechanics) -> Model:
 def build(eqs: Equations, scene: Scene, disturbance: float = 0.0) -> Model:
     """The model of a scene whose equations are at hand, compiled quickly."""
     symbols = eqs.symbols
-    switches = _switches(eqs)
+    switches, held = _switches(eqs), eqs.constraints
     layout = Layout(
         symbols.free,
         symbols.guided,
@@ -176,6 +185,9 @@ def build(eqs: Equations, scene: Scene, disturbance: float = 0.0) -> Model:
         scene.dimension,
         eqs.is_powered,
         tuple(_movers(switch, symbols) for switch in switches),
+        eqs.constraints.names,
+        len(eqs.constraints.gaps),
+        eqs.constraints.places,
     )
     vectors = [*eqs.positions.values(), *eqs.arrows.values()]
     seen = [value for value, _ in eqs.guided.values()] + [rate for _, rate in eqs.guided.values()]
@@ -186,7 +198,8 @@ def build(eqs: Equations, scene: Scene, disturbance: float = 0.0) -> Model:
         compile_expressions(symbols.inputs, observed),
         compile_expressions(symbols.inputs, eqs.events) if eqs.events else None,
         compile_expressions(symbols.inputs, switches) if switches else None,
-        tape_of(symbols.inputs, [*_triangle(eqs), *eqs.forcing, *seen]),
+        compile_expressions(symbols.inputs, [*held.gaps, *held.slips]) if held.slips else None,
+        tape_of(symbols.inputs, [*_triangle(eqs), *eqs.forcing, *seen, *_rows(held), *held.accelerations]),
         scene,
         disturbance,
     )
@@ -194,7 +207,13 @@ def build(eqs: Equations, scene: Scene, disturbance: float = 0.0) -> Model:
 
 def of_motion(eqs: Equations) -> list[Expr]:
     """What `Model.motion` computes."""
-    return [*_triangle(eqs), *eqs.forcing, *([eqs.power, *eqs.acceleration_power] if eqs.is_powered else [])]
+    power, held = [eqs.power, *eqs.acceleration_power] if eqs.is_powered else [], eqs.constraints
+    return [*_triangle(eqs), *eqs.forcing, *power, *_rows(held), *held.accelerations, *held.drives]
+
+
+def _rows(held: ConstraintEquations) -> list[Expr]:
+    """A by rows."""
+    return [entry for row in held.jacobian for entry in row]
 
 
 def _triangle(eqs: Equations) -> list[Expr]:

@@ -53,8 +53,8 @@ class Tape:
     """Operation i is codes[i] with operands at the places a[i], b[i], c[i] < i and the constant constants[i].
 
     `codes`, `a`, `b`, `c` and `constants` have shape (operations,). An input's `a` is its number among the model's
-    inputs (q, q̇, t, parameters). `outputs`, shape (n (n + 1)/2 + n + 2 guided,), are the places of the packed lower
-    triangle of M, of f, of the values of guided coordinates, and of their rates.
+    inputs (q, q̇, t, parameters). `outputs`, shape (n (n + 1)/2 + n + 2 guided + m n + m,), are the places of the packed
+    lower triangle of M, of f, of the values of guided coordinates, of their rates, and, with constraints, of A and γ.
     """
 
     codes: Indices

@@ -13,12 +13,13 @@ from .choice import Choice
 from .columns import WRITERS, Column
 from .derivatives import power
 from .outcome import Outcome
-from .problem import Floats, Problem
+from .problem import Floats, Moved, Problem
 from .request import Request
 from .rounding import rounded, short, significant
 from .trajectory import Trajectory
 
 Document = dict[str, object]
+NOTICED = 1e-9  # a change of an initial value, relative to it or to 1, that is worth telling
 UNKNOWN_ERROR = 1e-12  # to round by where no error estimate was asked for
 
 
@@ -32,7 +33,9 @@ def answer(
     if "energy" in request.include:
         parts["energy"] = _energy(problem, trajectory, seen, errors, column)
     if "error" in request.include:
-        parts["error"] = _error(trajectory, request.tolerance)
+        parts["error"] = _error(problem, trajectory, request.tolerance)
+    if problem.is_constrained:
+        parts |= _constrained(request, problem, trajectory, column)
     return {
         "status": trajectory.outcome.status,
         "reason": _told(trajectory.outcome),
@@ -117,9 +120,60 @@ def _energy(
     }
 
 
-def _error(trajectory: Trajectory, tolerance: float | None) -> Document:
+def _constrained(
+    request: Request, problem: Problem, trajectory: Trajectory, column: Callable[[Floats], Column]
+) -> Document:
+    """Multipliers as far as they are unique, the largest |g|, and by how much the initial values were moved."""
+    reactions, moved, found = trajectory.reactions, problem.moved, trajectory.estimate
+    if reactions is None or moved is None:
+        return {}
+    parts: Document = {
+        "drift": short(float(np.max(reactions.gaps, initial=0.0))),
+        "undetermined": list(moved.undetermined),
+        "moved": _moved(request, moved),
+    }
+    if "multipliers" in request.include:
+        known = found.multipliers if found is not None and found.multipliers is not None else None
+        parts["multipliers"] = {
+            name: column(rounded(reactions.multipliers[:, k], _doubts(known, k, len(trajectory.times))))
+            for k, name in _unique(problem)
+        }
+    return parts
+
+
+def _unique(problem: Problem) -> list[tuple[int, str]]:
+    """The multipliers that have one value, by their number, in the order of the scene."""
+    layout, unknown = problem.model.layout, problem.moved.undetermined if problem.moved else ()
+    ordered = sorted(range(len(layout.multipliers)), key=layout.constraints.__getitem__)
+    return [(k, layout.multipliers[k]) for k in ordered if layout.multipliers[k] not in unknown]
+
+
+def _doubts(known: Floats | None, k: int, count: int) -> Floats:
+    return np.full(count, UNKNOWN_ERROR) if known is None else known[:, k]
+
+
+def _moved(request: Request, moved: Moved) -> Document | None:
+    """By coordinate, what was added to the initial value and rate wanted; None if nothing that counts was."""
+    added = zip(request.scene.free, moved.values, moved.rates, strict=True)
+    changed: Document = {
+        coordinate.name: {"value": short(value, 6), "rate": short(rate, 6)}
+        for coordinate, value, rate in added
+        if abs(value) > NOTICED * max(1.0, abs(coordinate.value))
+        or abs(rate) > NOTICED * max(1.0, abs(coordinate.rate))
+    }
+    return changed or None
+
+
+def _error(problem: Problem, trajectory: Trajectory, tolerance: float | None) -> Document:
     found = trajectory.estimate
+    of_multipliers = None if found is None or found.multipliers is None else found.multipliers
+    told = (
+        {}
+        if of_multipliers is None
+        else {"multipliers": {name: significant(of_multipliers[:, k], 3).tolist() for k, name in _unique(problem)}}
+    )
     return {
+        **told,
         "estimate": significant(found.errors, 3).tolist() if found else [None] * len(trajectory.times),
         "horizon": found.horizon if found else None,
         "worst": short(found.worst) if found else None,

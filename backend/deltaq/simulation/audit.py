@@ -21,6 +21,7 @@ from .method import Method
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
 from .run import Run
+from .sensitivity import sensitivities
 
 # Swings of an argument that a method follows: four radians, or less where its stages lie far apart.
 LARGEST_SWING, PER_GAP = 4.0, 1.25
@@ -145,26 +146,15 @@ class Audit:
         return Ranges(start, start.copy(), *_columns(operations), np.zeros(outputs))
 
     def _seeds(self, times: Floats, q: Floats, v: Floats) -> Floats:
-        """Bounds of |∂q̈/∂M|, |∂q̈/∂f| at some states, |q| above 1 counted as 1; guides count as they move.
+        """Bounds of how q̈ moves with each output of the tape at some states, |q| above 1 counted as 1.
 
-        From M q̈ = f: dq̈ = M⁻¹ (df − dM q̈). Shape (states, outputs of the tape).
+        Guides count as they move. Shape (states, outputs of the tape).
         """
-        n, model = self.problem.degrees, self.problem.model
+        model = self.problem.model
         table = model.motion.table(self.problem.inputs(times, np.hstack([q, v])))
-        mass, inverse = np.zeros((len(times), n, n)), np.full((len(times), n, n), np.inf)
-        rows, columns = np.tril_indices(n)
-        mass[:, rows, columns] = mass[:, columns, rows] = table[:, : rows.size]
-        regular = np.isfinite(mass).all(axis=(1, 2)) & (np.linalg.det(np.nan_to_num(mass)) != 0.0)
-        inverse[regular] = np.abs(np.linalg.inv(mass[regular]))
-        with np.errstate(invalid="ignore"):
-            weights = (inverse / np.maximum(1.0, np.abs(q))[:, :, None]).sum(axis=1)
-            bends = np.nan_to_num(np.abs(inverse @ np.abs(table[:, rows.size : rows.size + n, None]))[:, :, 0], nan=0.0)
-            of_mass = weights[:, rows] * bends[:, columns] + np.where(
-                rows != columns, weights[:, columns] * bends[:, rows], 0.0
-            )
-        guided = len(model.layout.guided)
-        guides = np.repeat([[self._per_span * self._per_span, self._per_span]], guided, axis=1)
-        found = np.hstack([of_mass, weights, np.repeat(guides, len(times), axis=0)])
+        of_motion, of_constraints = sensitivities(model.layout, table, np.maximum(1.0, np.abs(q)))
+        guides = np.repeat([[self._per_span * self._per_span, self._per_span]], len(model.layout.guided), axis=1)
+        found = np.hstack([of_motion, np.repeat(guides, len(times), axis=0), of_constraints])
         return np.asarray(np.nan_to_num(found, nan=np.finfo(float).max, posinf=np.finfo(float).max))
 
     def _leaves(self, threshold: float) -> list[tuple[float, float, float]]:

@@ -10,6 +10,7 @@ import numpy as np
 from .attempt import Attempt, Integrator
 from .audit import Audit, GuideJump
 from .conclusion import outcome
+from .constraints import settled
 from .estimate import Estimate
 from .event import EventOccurrence
 from .integration import Flag
@@ -89,6 +90,10 @@ def _trajectory(
     found, n = best.estimate, problem.degrees
     is_reached = None if tolerance is None or found is None else found.worst <= tolerance and best.is_complete
     times, states, errors = _shown(best, _refined(problem))
+    reactions = None
+    if problem.is_constrained:
+        states, reactions = settled(problem, times, states)
+        times, errors = times[: len(states)], errors[: len(states)]
     return Trajectory(
         method.id,
         outcome(problem, method, best, tolerance, step, guide_jump),
@@ -96,14 +101,25 @@ def _trajectory(
         states[:, :n],
         states[:, n : 2 * n],
         states[:, 2 * n] if states.shape[1] > 2 * n else np.zeros(len(states)),
-        None if found is None else Estimate(errors, found.worst, found.horizon),
+        None
+        if found is None
+        else Estimate(errors, found.worst, found.horizon, multipliers=_of_shown(found, _refined(problem), len(times))),
         is_reached,
         best.reached,
         min(run.conditioning for run in best.runs),
         _cost(attempts, best),
         _event_occurrence(best),
         best.seen_until,
+        reactions,
     )
+
+
+def _of_shown(found: Estimate, every: int, count: int) -> Floats | None:
+    """The errors of the multipliers at the samples shown; an event's are those of the last sample before it."""
+    if found.multipliers is None:
+        return None
+    shown = found.multipliers[::every][:count]
+    return np.vstack([shown, np.repeat(found.multipliers[-1:], count - len(shown), axis=0)])
 
 
 def _shown(best: Attempt, every: int) -> tuple[Floats, Floats, Floats]:

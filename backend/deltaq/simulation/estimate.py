@@ -26,6 +26,7 @@ ANYWHERE = 0.1  # what counts of the largest before and behind, wherever it is
 TURNING = 4.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
 ROUNDING, EPSILON = 4e-16, 2.0**-52
 STOPS = 1.5  # times the difference of two stops
+OF_TERMS = 8e-16  # of the largest multiplier: rounding errors of the terms that each is the difference of
 CLOSE = 3e-14  # so much of a difference may be one of rounding errors, which are no smaller in the finer run
 MATTERS = 0.05  # of the estimate: rounding that could be more is looked at
 LINEAR = 0.1  # of the size of a coordinate: differences up to that are proportional to errors
@@ -40,7 +41,8 @@ class Estimate:
     After `horizon` seconds no digit is left; None if that is never so. `worst` is the largest error in the measure of a
     tolerance: absolute below 1 and relative above. `event` is the error of the time of the event that ended both runs;
     the last of `errors` is that of the state then. `doubtful` is an event that may have happened or not, as far as the
-    errors tell. `stop` is the error of where friction holds the motion.
+    errors tell. `stop` is the error of where friction holds the motion. `multipliers`, shape (samples, m), are the
+    errors of the multipliers of constraints, where there are any.
     """
 
     errors: Floats
@@ -49,6 +51,7 @@ class Estimate:
     event: float | None = None
     stop: float = 0.0
     doubtful: EventOccurrence | None = None
+    multipliers: Floats | None = None
 
 
 def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimate:
@@ -76,7 +79,8 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     worst = max(float(np.max(errors / ones)), stop)
     doubts = np.vstack([errors, np.maximum(spread[n:], floor)])
     of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
-    return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, _doubtful(problem, coarse, fine, times, doubts))
+    doubtful = _doubtful(problem, coarse, fine, times, doubts)
+    return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, doubtful, _of_multipliers(coarse, fine, factor))
 
 
 def larger(one: Estimate, other: Estimate) -> Estimate:
@@ -86,7 +90,14 @@ def larger(one: Estimate, other: Estimate) -> Estimate:
     errors[:count] = np.maximum(errors[:count], other.errors[:count])
     horizons = [each for each in (one.horizon, other.horizon) if each is not None]
     worst, stop = max(one.worst, other.worst), max(one.stop, other.stop)
-    return replace(one, errors=errors, worst=worst, stop=stop, horizon=min(horizons, default=None))
+    reactions = one.multipliers
+    if reactions is not None and other.multipliers is not None:
+        reactions = reactions.copy()
+        both = min(len(reactions), len(other.multipliers))
+        reactions[:both] = np.maximum(reactions[:both], other.multipliers[:both])
+    return replace(
+        one, errors=errors, worst=worst, stop=stop, horizon=min(horizons, default=None), multipliers=reactions
+    )
 
 
 def rounding_matters(problem: Problem, fine: Run, found: Estimate) -> bool:
@@ -112,7 +123,29 @@ def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> E
     errors = found.errors.copy()
     errors[:count] = np.maximum(errors[:count], floor.max(axis=0))
     ones = np.maximum(1.0, np.abs(fine.states[:count, : problem.degrees].T))
-    return replace(found, errors=errors, worst=max(found.worst, float(np.max(floor / ones))))
+    worst, reactions = max(found.worst, float(np.max(floor / ones))), found.multipliers
+    if reactions is not None and other.reactions is not None and fine.reactions is not None:
+        apart = np.abs(other.reactions.multipliers[:count] - fine.reactions.multipliers[:count]).T
+        reactions = reactions.copy()
+        reactions[:count] = np.maximum(reactions[:count], _known(6.0 * EPSILON / DISTURBANCE * _spread(apart)).T)
+    return replace(found, errors=errors, worst=worst, multipliers=reactions)
+
+
+def _of_multipliers(coarse: Run, fine: Run, factor: float) -> Floats | None:
+    """The error of each multiplier, shape (samples, m); None where there are none.
+
+    λ follows from q and q̇ without any integration, so its difference is that of two runs like theirs, and its rounding
+    that of the terms it is left of, which are about as large as the largest λ.
+    """
+    if fine.reactions is None or coarse.reactions is None:
+        return None
+    one, other = fine.reactions.multipliers, coarse.reactions.multipliers
+    count = min(len(one), len(other))
+    differences = np.abs(other[:count] - one[:count]).T
+    largest = np.abs(one[:count]).max(axis=0, initial=0.0)[:, None]
+    rounding = OF_TERMS * largest / np.sqrt(fine.conditioning) if fine.conditioning > 0.0 else np.inf
+    spread = _spread(factor * differences + np.minimum(differences, CLOSE * largest))
+    return _known(np.maximum(spread, rounding)).T
 
 
 def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats, Floats]:

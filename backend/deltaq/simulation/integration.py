@@ -8,6 +8,8 @@ from functools import cache, singledispatch
 import numpy as np
 from numpy.typing import NDArray
 
+from .constraints import block
+from .kernels.constraints import constrained_motion, constrained_phase
 from .kernels.explicit_runge_kutta import integrate
 from .kernels.implicit_runge_kutta import integrate_implicit
 from .kernels.implicit_workspace import make_implicit_workspace
@@ -16,13 +18,14 @@ from .kernels.motion import Motion
 from .kernels.newmark import integrate_newmark
 from .kernels.newmark_step import NewmarkWeights, make_newmark_workspace
 from .kernels.phase import Phase
+from .kernels.projection import constrained_finish
 from .kernels.splitting import SplitWeights, integrate_split, make_split_workspace
 from .kernels.stages import ImplicitWeights
 from .kernels.step import Weights, make_workspace
 from .kernels.step_control import Control
 from .kernels.switch import Switch, make_switch
 from .kernels.watch import Watch, make_watch, unwatched
-from .method import Newmark, Partitioned, Row, Tableau
+from .method import Newmark, Partitioned, Row, Scheme, Tableau
 from .problem import Floats, Problem
 
 Flag = NDArray[np.int64]  # one number; anything but 0 ends the run
@@ -60,24 +63,40 @@ def _explicit(scheme: Tableau, arguments: KernelArguments) -> Result:
 
 @run_kernel.register
 def _partitioned(scheme: Partitioned, arguments: KernelArguments) -> Result:
-    problem, phase = arguments.problem, phase_of(arguments.problem)
-    if scheme.kicks and problem.model.phase.is_separable:
-        split = SplitWeights(floats(scheme.kicks), floats(scheme.drifts))
-        split_workspace = make_split_workspace(problem.state, problem.degrees)
-        return integrate_split(
-            arguments.motion,
-            phase,
-            split,
-            arguments.control,
-            arguments.watch,
-            split_workspace,
-            arguments.times,
-            arguments.out,
-        )
+    problem = arguments.problem
+    if scheme.kicks and problem.model.phase.is_separable and not problem.is_constrained:
+        return _split(scheme, arguments)
+    phase = free_phase_of(problem) if is_kicked(scheme, problem) else phase_of(problem)
     workspace = make_implicit_workspace(problem.state, problem.degrees, scheme.stages)
     weights = implicit_weights(scheme)
     return integrate_implicit(
         arguments.motion, phase, weights, arguments.control, arguments.watch, workspace, arguments.times, arguments.out
+    )
+
+
+def is_kicked(scheme: Scheme, problem: Problem) -> bool:
+    """Whether constraints are kept by kicks between the steps, so that a symplectic method stays one.
+
+    That is of order 2, and not worth it where the method's own order is higher.
+    """
+    if not isinstance(scheme, Partitioned) or not problem.is_constrained:
+        return False
+    return scheme.is_symplectic and (scheme.stages == 1 or bool(scheme.kicks))
+
+
+def _split(scheme: Partitioned, arguments: KernelArguments) -> Result:
+    problem = arguments.problem
+    weights = SplitWeights(floats(scheme.kicks), floats(scheme.drifts))
+    workspace = make_split_workspace(problem.state, problem.degrees)
+    return integrate_split(
+        arguments.motion,
+        phase_of(problem),
+        weights,
+        arguments.control,
+        arguments.watch,
+        workspace,
+        arguments.times,
+        arguments.out,
     )
 
 
@@ -90,14 +109,18 @@ def _newmark(scheme: Newmark, arguments: KernelArguments) -> Result:
     )
 
 
-def motion_of(problem: Problem, *, is_long: bool = True) -> Motion:
+def motion_of(problem: Problem, *, is_long: bool = True, is_kicked: bool = False) -> Motion:
     """The right-hand side of a problem for kernels, in code for long runs or code that is compiled quickly."""
     motion = problem.model.thorough if is_long else problem.model.motion
     address, data = motion.addresses
     inputs = np.zeros(motion.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
-    powered = problem.model.layout.is_powered
-    return Motion(address, data, problem.degrees, powered, inputs, np.zeros(motion.outputs), np.ones(1))
+    powered, outputs = problem.model.layout.is_powered, np.zeros(motion.outputs)
+    finish, memory = 0, np.zeros(1)
+    if problem.is_constrained:
+        memory = block(problem, is_long=is_long, is_kicked=is_kicked)
+        address, data, finish = constrained_motion.address, memory.ctypes.data, constrained_finish.address
+    return Motion(address, data, problem.degrees, powered, inputs, outputs, np.ones(1), finish, memory)
 
 
 def watch_of(problem: Problem, flag: Flag) -> Watch:
@@ -121,12 +144,21 @@ def _switch_of(problem: Problem) -> Switch:
 
 
 def phase_of(problem: Problem) -> Phase:
-    """Momenta and their rates of a problem, for kernels."""
+    """Momenta and their rates of a problem, reactions included, for kernels."""
+    found = free_phase_of(problem)
+    if not problem.is_constrained:
+        return found
+    memory = block(problem, with_phase=True)
+    return found._replace(address=constrained_phase.address, data=memory.ctypes.data, memory=memory)
+
+
+def free_phase_of(problem: Problem) -> Phase:
+    """The same without the reactions of constraints."""
     function = problem.model.phase.function
     address, data = function.addresses
     inputs = np.zeros(function.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
-    return Phase(address, data, problem.degrees, inputs, np.zeros(function.outputs))
+    return Phase(address, data, problem.degrees, inputs, np.zeros(function.outputs), np.zeros(1))
 
 
 @cache

@@ -12,6 +12,7 @@ from .kernels.motion import (
     EVENT,
     FINE,
     HELD,
+    LOCKED,
     NEWTON_FAILED,
     NOT_FINITE,
     SINGULAR,
@@ -53,6 +54,7 @@ _WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
         STIFF: ("stiff", "stiff"),
         EVENT: ("event", "event"),
         HELD: ("stopped", "stopped"),
+        LOCKED: ("singular_constraints", "singular_constraints"),
     }
 )
 

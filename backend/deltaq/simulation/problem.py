@@ -16,6 +16,18 @@ STEP_LIMIT = 2_000_000
 
 
 @dataclass(frozen=True)
+class Moved:
+    """What was added to the values and rates wanted, of each free coordinate, so that all constraints are kept.
+
+    `undetermined` are the multipliers that are not unique.
+    """
+
+    values: tuple[float, ...]
+    rates: tuple[float, ...]
+    undetermined: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Problem:
     """An initial value problem: q(0), q̇(0) of the free coordinates (in their order), on [0, t_end].
 
@@ -31,6 +43,12 @@ class Problem:
     samples: int = 501
     angular: tuple[bool, ...] = ()
     step_limit: int = STEP_LIMIT
+    rank: int = 0
+    moved: Moved | None = None
+
+    @property
+    def is_constrained(self) -> bool:
+        return bool(self.model.layout.multipliers)
 
     @property
     def degrees(self) -> int:

@@ -7,10 +7,11 @@ from time import perf_counter
 
 import numpy as np
 
+from .constraints import Reactions, is_locked, pivot_of, settled
 from .event import Approach, Event, approaches, first_event
-from .integration import Flag, KernelArguments, motion_of, run_kernel, watch_of
+from .integration import Flag, KernelArguments, is_kicked, motion_of, run_kernel, watch_of
 from .kernels.loop import Result
-from .kernels.motion import EVENT, FINE, HELD, STEP_LIMIT, STIFF
+from .kernels.motion import EVENT, FINE, HELD, LOCKED, SINGULAR, STEP_LIMIT, STIFF
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
 from .method import Method
@@ -57,6 +58,7 @@ class Run:
     mesh_states: Floats = field(default_factory=lambda: np.empty((0, 0)))
     stride: int = 1
     steps: Steps | None = None
+    reactions: Reactions | None = None  # where there are constraints
 
     @property
     def is_complete(self) -> bool:
@@ -114,7 +116,7 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
     plan = steps.plan(replace(problem, t_end=float(times[-1])), method)
     arguments = KernelArguments(
         problem,
-        motion_of(problem, is_long=is_long),
+        motion_of(problem, is_long=is_long, is_kicked=is_kicked(method.tableau, problem)),
         _control(problem, method, steps, plan),
         watch_of(problem, cancelled),
         np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
@@ -125,6 +127,12 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
     wall_time = perf_counter() - start
     out, conditioning = arguments.out, float(arguments.motion.conditioning[0])
     good = int(np.isfinite(out[: result.samples]).all(axis=1).cumprod().sum())
+    reactions = None
+    if problem.is_constrained:
+        memory = arguments.motion.memory
+        result, conditioning = _told_apart(result, memory), pivot_of(memory)
+        out, reactions = settled(problem, times[:good], out[:good])
+        good = len(out)
     found = Run(
         times[:good],
         out[:good],
@@ -136,6 +144,7 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
         mesh_states=plan.states[: plan.progress[COUNT]],
         stride=int(plan.progress[STRIDE]),
         steps=steps,
+        reactions=reactions,
     )
     return found if arguments.watch.functions == 0 else _ended(found, arguments)
 
@@ -171,4 +180,11 @@ def _ended(run: Run, arguments: KernelArguments) -> Run:
     close = APART * (arguments.times[1] - arguments.times[0])
     count = max(int(np.searchsorted(run.times, event.time - close)), 1)
     result = run.result._replace(outcome=EVENT, reached=event.time, samples=count)
-    return replace(run, times=run.times[:count], states=run.states[:count], result=result, event=event)
+    reactions = run.reactions and run.reactions.first(count)
+    times, states = run.times[:count], run.states[:count]
+    return replace(run, times=times, states=states, result=result, event=event, reactions=reactions)
+
+
+def _told_apart(result: Result, memory: Floats) -> Result:
+    """The result, saying whether M has no inverse or the constraints have lost their independence."""
+    return result._replace(outcome=LOCKED) if result.outcome == SINGULAR and is_locked(memory) else result

@@ -17,6 +17,7 @@ from ..model.model import Observation, compile_model
 from .answer import Document, answer
 from .auto import choose
 from .choice import Choice, check
+from .consistency import consistent
 from .derivatives import power
 from .driver import simulate
 from .event import event_values
@@ -42,8 +43,8 @@ def run(document: Mapping[str, object]) -> Document:
     with inside("/scene"):
         compile_model(request.scene)
     compile_time = perf_counter() - start
-    problem = problem_of(request.scene, request.t_end, request.samples)
     with inside("/scene"):
+        problem = problem_of(request.scene, request.t_end, request.samples)
         require_no_event(request.scene, problem)
     choice = choose(request.method, request.scene, problem, request.step, request.tolerance)
     return _simulated(request, choice, problem, compile_time)
@@ -80,8 +81,11 @@ def _at_start(event: Event, value: float) -> dict[str, str | int | float]:
 
 
 def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:
-    """The initial value problem that a scene's own values pose."""
-    return Problem(
+    """The initial value problem that a scene's own values pose.
+
+    Raises SceneError where they cannot be made to keep the scene's constraints.
+    """
+    problem = Problem(
         compile_model(scene),
         tuple(parameter.value for parameter in scene.parameters),
         tuple(coordinate.value for coordinate in scene.free),
@@ -90,6 +94,7 @@ def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:
         samples,
         tuple(coordinate.unit in ANGLES for coordinate in scene.free),
     )
+    return consistent(problem) if problem.is_constrained else problem
 
 
 def warm(*chosen: str) -> None:
@@ -107,6 +112,7 @@ def _finite(trajectory: Trajectory, seen: Observation, watts: Floats) -> tuple[T
     are, too.
     """
     arrays = [trajectory.values, trajectory.rates, trajectory.work, watts, seen.kinetic, seen.potential]
+    arrays += [trajectory.reactions.multipliers] if trajectory.reactions else []
     told = [*seen.values.values(), *seen.rates.values(), *seen.positions.values(), *seen.arrows.values()]
     good = int((np.abs(np.column_stack([*arrays, *told])) <= LARGEST).all(axis=1).cumprod().sum())
     if good == len(trajectory.times):
@@ -124,9 +130,16 @@ def _cut(trajectory: Trajectory, good: int) -> Trajectory:
         values=trajectory.values[:good],
         rates=trajectory.rates[:good],
         work=trajectory.work[:good],
-        estimate=replace(found, errors=found.errors[:good]) if found else None,
+        estimate=replace(found, errors=found.errors[:good], multipliers=_first(found.multipliers, good))
+        if found
+        else None,
+        reactions=trajectory.reactions and trajectory.reactions.first(good),
         reached=float(trajectory.times[max(good - 1, 0)]),
     )
+
+
+def _first(values: Floats | None, count: int) -> Floats | None:
+    return None if values is None else values[:count]
 
 
 def _cut_observation(seen: Observation, good: int) -> Observation:

@@ -21,7 +21,7 @@ from ..experiment import Experiment
 from ..flips import Plane
 from ..lyapunov import CONFIDENCE, Exponent, Judgement, exponent_of, is_enough, judge
 from ..report import Document, Report, rounded, significant
-from ..subject import Subject, subject_of
+from ..subject import Subject, free_subject_of
 
 SAMPLES = 801
 APART = 1e-8  # of the twins, if nobody says
@@ -34,7 +34,7 @@ FIRST, LAST = 2, 39  # reports that the exponent is done at
 
 def run(request: ChaosRequest) -> Iterator[Report]:
     """Twins, exponent and horizon, then the map where it is wanted."""
-    subject, apart = subject_of(request, SAMPLES), request.apart or APART
+    subject, apart = free_subject_of(request, SAMPLES), request.apart or APART
     problem, total = subject.problem, 40 + 10 * request.map
     result = subject.described | {"apart": apart, "twins": _twins(problem, apart)}
     yield Report(1, total, result)

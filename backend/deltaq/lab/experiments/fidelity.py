@@ -27,7 +27,7 @@ from ..ladder.findings import Finding, Growth, Ladder, Least, Measured, Rung
 from ..ladder.measurement import full_run
 from ..measurement import Point, Setting, too_slow, warm
 from ..report import Document, Report, appended, machine, measured, rounded, significant
-from ..subject import Subject, subject_of
+from ..subject import Subject, free_subject_of
 from ..sweep import settings_of
 
 METHODS = ("rk4", "dormand-prince-54", "dop853", "radau-5")
@@ -37,7 +37,7 @@ COARSE = 8  # settings of each method, from coarse to fine
 
 def run(request: FidelityRequest) -> Iterator[Report]:
     """The ladder from the full model on, then the full model by several methods."""
-    subject, tolerance = subject_of(request), request.tolerance or TOLERANCE
+    subject, tolerance = free_subject_of(request), request.tolerance or TOLERANCE
     result = subject.described | {"tolerance": tolerance, "machine": machine(), "repeats": REPEATS}
     result |= {"taken": measured(REPEATS)}
     result |= {"rungs": [], "measured": [], "growth": [], "points": [], "least": ""}

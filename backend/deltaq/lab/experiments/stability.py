@@ -30,7 +30,7 @@ from ..neighbours import Neighbours
 from ..region import region
 from ..report import Document, Report, appended, measured, significant
 from ..rest import at_rest
-from ..subject import Subject, bounded, methods_of, parameter_of, subject_of
+from ..subject import Subject, bounded, free_subject_of, methods_of, parameter_of
 
 STIFFENED = ("rk4", "dop853", "stormer-verlet", "newmark", "radau-5")
 FACTORS = tuple(10.0 ** (k / 2) for k in range(11))  # of the stiffness: 1 to 10⁵
@@ -39,7 +39,7 @@ TOLERANCE, STEP_LIMIT = 1e-4, 300_000
 
 def run(request: StabilityRequest) -> Iterator[Report]:
     """One method after the other, then the series over the stiffness."""
-    subject, methods = subject_of(request), methods_of(request.methods)
+    subject, methods = free_subject_of(request), methods_of(request.methods)
     stiffness = request.stiffness or stiffness_of(subject.scene)
     place = parameter_of(subject, stiffness, "/stiffness") if stiffness else -1
     problem = bounded(subject, STEP_LIMIT)

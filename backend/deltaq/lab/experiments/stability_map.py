@@ -22,14 +22,14 @@ from ..experiment import Experiment
 from ..monodromy import Axis, Plane, StabilityMap
 from ..period import clocks, period
 from ..report import Document, Report, measured, rounded, significant
-from ..subject import Subject, parameter_of, subject_of
+from ..subject import Subject, free_subject_of, parameter_of
 
 COARSEST = 8
 
 
 def run(request: StabilityMapRequest) -> Iterator[Report]:
     """The map, rough at first."""
-    subject, first, second = subject_of(request), _axis(request.x), _axis(request.y)
+    subject, first, second = free_subject_of(request), _axis(request.x), _axis(request.y)
     if first.parameter == second.parameter:
         told = {"name": first.parameter}
         raise RequestError(Mistake("request-same-parameter", "/y/parameter", parameters=told))

@@ -7,13 +7,14 @@ import hashlib
 import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from pickle import UnpicklingError
 from typing import Any, TypeVar, cast
 
 from numba import njit
-from numba.core.caching import IndexDataCacheFile
+from numba.core.caching import FunctionCache, IndexDataCacheFile
+from numba.core.ccallback import CFunc
 
 from ...ownership import require_trusted
 
@@ -36,15 +37,51 @@ def inline(function: F) -> F:
     return _compiled(function, forceinline=True)
 
 
+class Callback:
+    """A function with a fixed signature that machine code calls by its address; compiled when first asked for."""
+
+    def __init__(self, function: Callable[..., object], signature: Any) -> None:
+        self._function, self._signature = function, signature
+
+    @cached_property
+    def address(self) -> int:
+        """Where the machine code is, as long as the process lives."""
+        options = {"nogil": True, "error_model": "numpy", "_nrt": False, "fastmath": {"contract"}}
+        arguments, returned = self._signature.args, self._signature.return_type
+        compiled: Any = CFunc(self._function, (arguments, returned), {}, options)
+        files: Any = FunctionCache
+        compiled._cache = _kept(files(self._function), self._function)  # noqa: SLF001
+        compiled.compile()
+        self._kept = compiled
+        return int(compiled.address)
+
+
+def callback(signature: Any) -> Callable[[Callable[..., object]], Callback]:
+    """A function that machine code calls by its address: a compiled model made around another, say."""
+
+    def wrapped(function: Callable[..., object]) -> Callback:
+        return Callback(function, signature)
+
+    return wrapped
+
+
 def _compiled(function: F, *, forceinline: bool) -> F:
     options: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "_nrt": False}
     compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, **options)(function)
-    # Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
-    stamp = source_stamp(Path(function.__code__.co_filename))
-    base = compiled._cache._impl.filename_base  # noqa: SLF001 - Numba offers no other way
-    compiled._cache._cache_file = OwnFiles(compiled._cache.cache_path, base, stamp)  # noqa: SLF001
-    compiled._cache._guard_against_spurious_io_errors = _without_cache_errors  # noqa: SLF001
+    _kept(compiled._cache, function)  # noqa: SLF001 - Numba offers no other way
     return cast("F", compiled)
+
+
+def _kept(cache: Any, function: Callable[..., object]) -> Any:
+    """The cache of a function, with files that are renewed with all that it is made of.
+
+    Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
+    """
+    stamp = source_stamp(Path(function.__code__.co_filename))
+    base = cache._impl.filename_base  # noqa: SLF001
+    cache._cache_file = OwnFiles(cache.cache_path, base, stamp)  # noqa: SLF001
+    cache._guard_against_spurious_io_errors = _without_cache_errors  # noqa: SLF001
+    return cache
 
 
 class OwnFiles(IndexDataCacheFile):

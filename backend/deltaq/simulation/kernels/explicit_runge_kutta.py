@@ -7,7 +7,7 @@ import numpy as np
 from .compiler import inline, kernel, runtime_int
 from .extension import sample, watch_extension
 from .loop import Result, advance_time, begin, interruption
-from .motion import FINE, HELD, STEP_UNDERFLOW, Floats, Motion, rhs
+from .motion import FINE, HELD, STEP_UNDERFLOW, Floats, Motion, finish_constrained, rhs
 from .plan import enter_piece, fit_step, record
 from .step import Weights, Workspace, accept, attempt
 from .step_control import (
@@ -92,6 +92,10 @@ def integrate(
         outcome = attempt(motion, weights, t, h, workspace)
         evaluations += end
         error = error_norm(weights.error, control.tolerance, h, motion.degrees, workspace) if is_adaptive else 0.0
+        if outcome == FINE and error <= 1.0:
+            outcome = finish_constrained(
+                motion, t, h, workspace.old, workspace.new, workspace.derivatives[0], workspace.derivatives[end]
+            )
         if outcome == FINE and error <= 1.0:
             left = times[times.size - 1] - t
             stability_limited, outcome = detect_stiffness(

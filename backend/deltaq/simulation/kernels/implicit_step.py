@@ -7,11 +7,12 @@ import numpy as np
 from .compiler import inline
 from .implicit_error import error_of, prepare_error
 from .implicit_workspace import ImplicitWorkspace, compensated_sum
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Motion, rhs
+from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Motion, finish_constrained, rhs
 from .newton import assemble, newton
-from .phase import Phase, linearize, velocity
+from .phase import Phase, linearize, momenta, velocity
 from .stages import ImplicitWeights, Start, midpoint
 from .step import LARGEST_VALUE
+from .system import KICKED
 
 
 @inline
@@ -42,6 +43,20 @@ def finish(
             work += weights.b[i] * workspace.derivative[2 * n]
         ends.new[2 * n] = compensated_sum(ends.old[2 * n], h * work, 2 * n, workspace)
     return velocity(phase, t + h, ends.new[:n], workspace.new_p, ends.new[n : 2 * n], stages.spare[0])
+
+
+@inline
+def finish_momenta(motion: Motion, phase: Phase, t: float, h: float, workspace: ImplicitWorkspace) -> int:
+    """The new state brought back onto the constraints, and the momenta there; returns the outcome.
+
+    KICKED if the step is to be made again with other momenta at its start, which they are then.
+    """
+    ends, n = workspace.ends, motion.degrees
+    outcome = finish_constrained(motion, t, h, ends.old, ends.new, ends.old_derivative, ends.new_derivative)
+    for d in range(n if outcome == KICKED else 0):
+        workspace.p[d] += ends.old_derivative[d]
+    momenta(phase, t + h, ends.new[:n], ends.new[n : 2 * n], workspace.new_p, workspace.stages.spare[0])
+    return outcome
 
 
 @inline
@@ -84,4 +99,24 @@ def attempt_implicit(
     if outcome == FINE:
         outcome = finish(motion, phase, weights, t, h, workspace)
     error = error_of(weights, tolerance, h, workspace) if outcome == FINE and tolerance > 0.0 else 0.0
+    if outcome == FINE and error <= 1.0 and motion.finish != 0:
+        outcome = finish_momenta(motion, phase, t, h, workspace)
     return outcome, weights.b.size * iterations + 1, slowness, error
+
+
+@inline
+def attempt_kept(
+    motion: Motion,
+    phase: Phase,
+    weights: ImplicitWeights,
+    tolerance: float,
+    t: float,
+    h: float,
+    workspace: ImplicitWorkspace,
+) -> tuple[int, int, float, float]:
+    """`attempt_implicit`, once, or, where kicks keep the constraints, until the new positions do."""
+    outcome, made, slowness, error = KICKED, 0, 0.0, 0.0
+    while outcome == KICKED:
+        outcome, more, slowness, error = attempt_implicit(motion, phase, weights, tolerance, t, h, workspace)
+        made += more
+    return outcome, made, slowness, error

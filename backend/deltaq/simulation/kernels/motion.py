@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .compiler import inline
-from .pointer import call, prevent_vectorization
+from .pointer import call, call_finish, prevent_vectorization
 
 Floats = NDArray[np.float64]
 
 # How a computation ended; `outcome.py` gives each its name.
 FINE, STEP_LIMIT, SINGULAR, NOT_FINITE, TOO_LARGE, STEP_UNDERFLOW, CANCELLED = 0, 1, 2, 3, 4, 5, 6
-NEWTON_FAILED, STIFF, EVENT, HELD = 7, 8, 9, 10
+NEWTON_FAILED, STIFF, EVENT, HELD, LOCKED = 7, 8, 9, 10, 11
 
 ROUNDING = 2.3e-16  # of a number in double precision, relative to it
 # A pivot smaller than this part of what it is left of is rounding error: M has no inverse there.
@@ -28,6 +28,9 @@ class Motion(NamedTuple):
     triangle of M, f and, where power is fed in, P₀ and p₁, shape (n (n + 1)/2 + n,) or n + 1 more. `conditioning`,
     shape (1,), keeps the smallest ratio of a pivot to the diagonal entry of M that it is left of. No change of units
     changes that ratio; its inverse is about the condition of M scaled to a unit diagonal.
+
+    Of a model with constraints the function is made around the compiled one (see `constraints`). Then `finish` is the
+    address of what projects the end of a step, else 0, and `memory`, shape (size,), keeps what both read and write.
     """
 
     address: int
@@ -37,6 +40,8 @@ class Motion(NamedTuple):
     inputs: Floats
     outputs: Floats
     conditioning: Floats
+    finish: int
+    memory: Floats
 
 
 @inline
@@ -153,3 +158,16 @@ def rhs_at_inputs(motion: Motion, t: float, out: Floats) -> int:
             power += outputs[place + 1 + i] * out[n + i]
         out[2 * n] = power
     return FINE
+
+
+@inline
+def finish_constrained(
+    motion: Motion, t: float, h: float, old: Floats, new: Floats, old_derivative: Floats, new_derivative: Floats
+) -> int:
+    """Where there are constraints, projects the new state of a step onto them; its derivative is taken anew.
+
+    The states at both ends of the step from t and their derivatives have shape (width,). Returns the outcome.
+    """
+    if motion.finish == 0:
+        return FINE
+    return int(call_finish(motion.finish, motion.data, t, h, old, new, old_derivative, new_derivative))

@@ -9,7 +9,7 @@ import numpy as np
 from .compiler import inline
 from .hermite import Ends, make_ends
 from .linear import Indices, decompose, substitute
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, TOO_LARGE, Floats, Motion, rhs
+from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, TOO_LARGE, Floats, Motion, finish_constrained, rhs
 from .phase import NUDGE
 from .pointer import call
 from .step import LARGEST_VALUE
@@ -138,6 +138,8 @@ def finish_step(motion: Motion, t: float, h: float, workspace: NewmarkWorkspace)
         if not size <= LARGEST_VALUE:
             return TOO_LARGE if size < np.inf else NOT_FINITE
     outcome = rhs(motion, t + h, ends.new, ends.new_derivative)
+    if outcome == FINE:
+        outcome = finish_constrained(motion, t, h, ends.old, ends.new, ends.old_derivative, ends.new_derivative)
     for d in range(2 * n, ends.new.size):
         ends.new[d] = ends.old[d] + 0.5 * h * (ends.old_derivative[d] + ends.new_derivative[d])
     return outcome

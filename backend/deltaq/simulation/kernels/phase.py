@@ -16,7 +16,8 @@ NUDGE = 1.5e-8  # of forward differences: the root of the rounding error
 class Phase(NamedTuple):
     """A compiled function of q, q̇, t: the packed lower triangle of M, p = ∂E/∂q̇ and ṗ = ∂E/∂q + Q.
 
-    `inputs` has shape (2n + 1 + parameters,), `outputs` shape (n (n + 1)/2 + 2n,).
+    `inputs` has shape (2n + 1 + parameters,), `outputs` shape (n (n + 1)/2 + 2n,). Where there are constraints, ṗ
+    contains their reactions, and `memory` keeps what the function reads.
     """
 
     address: int
@@ -24,6 +25,7 @@ class Phase(NamedTuple):
     degrees: int
     inputs: Floats
     outputs: Floats
+    memory: Floats
 
 
 class Linear(NamedTuple):

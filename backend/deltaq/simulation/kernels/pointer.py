@@ -10,6 +10,7 @@ from typing import Any
 from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
+from numba.np.arrayobj import populate_array
 
 
 def _call(_context: Any, _address: Any, _data: Any, outputs: Any, inputs: Any) -> Any:
@@ -27,6 +28,40 @@ def _call(_context: Any, _address: Any, _data: Any, outputs: Any, inputs: Any) -
     return types.void(types.int64, types.int64, outputs, inputs), generate
 
 
+def _call_finish(
+    _context: Any, _address: Any, _data: Any, _t: Any, _h: Any, old: Any, new: Any, before: Any, after: Any
+) -> Any:
+    """call_finish(address, data, t, h, old, new, before, after): int64 f(void *data, t, h, 4 × double *) there."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        real, memory = ir.DoubleType(), ir.IntType(8).as_pointer()
+        kind = ir.FunctionType(ir.IntType(64), [memory, real, real, *(real.as_pointer() for _ in range(4))])
+        function = builder.inttoptr(arguments[0], kind.as_pointer())
+        arrays = zip(signature.args[4:], arguments[4:], strict=True)
+        data = [context.make_array(array)(context, builder, value).data for array, value in arrays]
+        return builder.call(function, [builder.inttoptr(arguments[1], memory), *arguments[2:4], *data])
+
+    return types.int64(types.int64, types.int64, types.float64, types.float64, old, new, before, after), generate
+
+
+def _array_at(element: Any) -> Any:
+    """An intrinsic f(address, size): an array of numbers of that kind, in memory that is owned elsewhere."""
+    array = types.Array(element, 1, "C")
+
+    def typed(_context: Any, _address: Any, _size: Any) -> Any:
+        def generate(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+            made = context.make_array(array)(context, builder)
+            width = context.get_constant(types.intp, 8)
+            data = builder.inttoptr(arguments[0], context.get_data_type(element).as_pointer())
+            fill: Any = populate_array
+            fill(made, data=data, shape=[arguments[1]], strides=[width], itemsize=width, meminfo=None)
+            return made._getvalue()  # noqa: SLF001 - as Numba's own code does
+
+        return array(types.int64, types.int64), generate
+
+    return intrinsic(typed)
+
+
 def _prevent_vectorization(_context: Any) -> Any:
     """prevent_vectorization(): the function in which this stands, and what it is a part of, is not vectorized.
 
@@ -42,4 +77,7 @@ def _prevent_vectorization(_context: Any) -> Any:
 
 
 call: Any = intrinsic(_call)
+call_finish: Any = intrinsic(_call_finish)
+doubles_at: Any = _array_at(types.float64)
+integers_at: Any = _array_at(types.int64)
 prevent_vectorization: Any = intrinsic(_prevent_vectorization)

@@ -1,0 +1,91 @@
+"""Constraints from outside of the kernels: the memory they work in, and samples brought back onto them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .kernels import system as kernel
+from .kernels.linear import Indices
+from .kernels.projection import settle_samples
+from .problem import Floats, Problem
+
+
+@dataclass(frozen=True)
+class Reactions:
+    """At samples: `multipliers` are λ, shape (samples, m), `gaps` the largest |g|, shape (samples,)."""
+
+    multipliers: Floats
+    gaps: Floats
+
+    def first(self, count: int) -> Reactions:
+        """Those at the first samples."""
+        return Reactions(self.multipliers[:count], self.gaps[:count])
+
+
+def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, is_kicked: bool = False) -> Floats:
+    """The memory of a model with constraints, which its functions are given: shape (size,).
+
+    It holds addresses of machine code that lives as long as the model. `is_kicked`: positions are kept by kicks.
+    """
+    model = problem.model
+    n, m = problem.degrees, len(model.layout.multipliers)
+    motion = model.thorough if is_long else model.motion
+    phase = model.phase.function if with_phase else None
+    outputs = 0 if phase is None else phase.outputs
+    size = kernel.block_size(n, m, motion.inputs, motion.outputs, outputs)
+    memory = np.zeros(size)
+    head = memory.view(np.int64)
+    head[: kernel.PHASE_OUTPUTS + 1] = (
+        size,
+        n,
+        m,
+        model.layout.holonomic,
+        model.layout.is_powered,
+        problem.rank,
+        motion.inputs,
+        motion.outputs,
+        outputs,
+    )
+    head[kernel.MOTION], head[kernel.MOTION_DATA] = motion.addresses
+    if model.gaps is not None:
+        head[kernel.GAPS], head[kernel.GAPS_DATA] = model.gaps.addresses
+    if phase is not None:
+        head[kernel.PHASE], head[kernel.PHASE_DATA] = phase.addresses
+    head[kernel.IS_KICKED] = is_kicked
+    first = kernel.HEAD + 2 * m
+    memory[first + 2 * n + 1 : first + motion.inputs] = problem.parameters
+    memory[-1] = 1.0  # the conditioning
+    return memory
+
+
+def is_locked(memory: Floats) -> bool:
+    """Whether the model has no accelerations because its constraints lost their independence.
+
+    `memory` has shape (size,).
+    """
+    return bool(_integers(memory)[kernel.LOCKS])
+
+
+def pivot_of(memory: Floats) -> float:
+    """The smallest pivot of M and of AM⁻¹Aᵀ met, relative to its diagonal entry; `memory` has shape (size,)."""
+    return float(memory[-1])
+
+
+def settled(problem: Problem, times: Floats, states: Floats) -> tuple[Floats, Reactions]:
+    """States brought back onto the constraints as far as they are good, and the reactions there.
+
+    `times` has shape (samples,), `states` shape (samples, width).
+    """
+    memory, found = block(problem, is_long=problem.model.is_thorough), np.array(states)
+    reactions = Reactions(np.zeros((len(times), len(problem.model.layout.multipliers))), np.zeros(len(times)))
+    good = settle_samples(
+        _integers(memory), memory, np.ascontiguousarray(times), found, reactions.multipliers, reactions.gaps
+    )
+    return found[:good], reactions.first(good)
+
+
+def _integers(memory: Floats) -> Indices:
+    """The same memory as integers: shape (size,)."""
+    return memory.view(np.int64)

@@ -1,0 +1,48 @@
+"""How far accelerations move with what a model says: bounds of |∂q̈/∂M|, |∂q̈/∂f| and of |∂q̈/∂A|, |∂q̈/∂γ|.
+
+From M q̈ = f: dq̈ = M⁻¹ (df − dM q̈). With constraints q̈ and λ solve K (q̈, λ) = (f, γ), K = [M −Aᵀ; A 0], and
+d(q̈, λ) = K⁻¹ (d(f, γ) − dK (q̈, λ)) in the same way.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model.model import Layout
+from .problem import Floats
+
+
+def sensitivities(layout: Layout, table: Floats, sizes: Floats) -> tuple[Floats, Floats]:
+    """By M (packed triangle) and f, shape (states, n (n + 1)/2 + n); by A and γ, shape (states, m n + m).
+
+    `table`, shape (states, outputs), is what the model says of some states; a change of qᵢ counts relative to `sizes`,
+    shape (states, n).
+    """
+    n, m = layout.degrees, len(layout.multipliers)
+    rows, columns = np.tril_indices(n)
+    matrix = np.zeros((len(table), n + m, n + m))
+    matrix[:, rows, columns] = matrix[:, columns, rows] = table[:, : rows.size]
+    right = table[:, rows.size : rows.size + n]
+    if m:
+        first = rows.size + n + (n + 1 if layout.is_powered else 0)
+        jacobian = table[:, first : first + m * n].reshape(-1, m, n)
+        matrix[:, n:, :n], matrix[:, :n, n:] = jacobian, -jacobian.transpose(0, 2, 1)
+        right = np.hstack([right, table[:, first + m * n : first + m * n + m]])
+    inverse = _inverse(matrix)
+    with np.errstate(invalid="ignore"):
+        weights = (inverse[:, :n] / sizes[:, :, None]).sum(axis=1)
+        found = np.nan_to_num(np.abs(inverse @ np.abs(right[:, :, None]))[:, :, 0], nan=0.0)
+        bends, multipliers = found[:, :n], found[:, n:]
+        of_mass = weights[:, rows] * bends[:, columns] + np.where(
+            rows != columns, weights[:, columns] * bends[:, rows], 0.0
+        )
+        of_rows = weights[:, None, :n] * multipliers[:, :, None] + weights[:, n:, None] * bends[:, None, :]
+    return np.hstack([of_mass, weights[:, :n]]), np.hstack([of_rows.reshape(len(table), m * n), weights[:, n:]])
+
+
+def _inverse(matrix: Floats) -> Floats:
+    """The absolute values of K⁻¹, infinite where K has none."""
+    inverse = np.full(matrix.shape, np.inf)
+    regular = np.isfinite(matrix).all(axis=(1, 2)) & (np.linalg.det(np.nan_to_num(matrix)) != 0.0)
+    inverse[regular] = np.abs(np.linalg.inv(matrix[regular]))
+    return inverse

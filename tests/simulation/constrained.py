@@ -1,0 +1,134 @@
+"""Scenes with constraints whose motion is known, and what is known of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from deltaq.mechanics.document import read_scene
+from deltaq.mechanics.scene import Scene
+
+Document = dict[str, object]
+G = 9.81
+
+
+def scene(
+    coordinates: dict[str, tuple[float, float]],
+    parameters: dict[str, float],
+    bodies: Sequence[Document],
+    constraints: Sequence[Document],
+    *,
+    points: dict[str, list[str]] | None = None,
+    weight: bool = True,
+    dimension: int = 2,
+    loads: Sequence[Document] = (),
+) -> Scene:
+    """A scene without units: coordinates with value and rate, parameters with values; weight along the last axis."""
+    down = [*["0"] * (dimension - 1), "-g"]
+    gravity: list[Document] = [{"name": "weight", "kind": "gravity", "acceleration": down}] if weight else []
+    return read_scene(
+        {
+            "format": 1,
+            "id": "own",
+            "title": {"de": "Eigene", "en": "Own"},
+            "summary": {"de": "Eigene", "en": "Own"},
+            "dimension": dimension,
+            "coordinates": [{"name": name, "value": q, "rate": v} for name, (q, v) in coordinates.items()],
+            "parameters": [{"name": name, "value": value, "positive": False} for name, value in parameters.items()],
+            "points": [{"name": name, "position": at} for name, at in (points or {}).items()],
+            "bodies": list(bodies),
+            "loads": [*gravity, *loads],
+            "constraints": list(constraints),
+        }
+    )
+
+
+def particle(name: str, *position: str, mass: str = "m") -> Document:
+    """A particle by its position."""
+    return {"name": name, "kind": "particle", "mass": mass, "position": list(position)}
+
+
+def rod(name: str, start: str, end: str, length: str = "l") -> Document:
+    """A rod without mass between two places; its multiplier has its name."""
+    return {"name": f"rod_{name}", "kind": "distance", "from": start, "to": end, "length": length, "multiplier": name}
+
+
+def equation(name: str, text: str) -> Document:
+    """A constraint as an equation; its multiplier has its name."""
+    return {"name": f"law_{name}", "kind": "equation", "equation": text, "multiplier": name}
+
+
+def pendulum(
+    x: float = 1.0, y: float = 0.0, u: float = 0.0, v: float = 0.0, pivot: tuple[str, str] = ("0", "0")
+) -> Scene:
+    """A pendulum of length 1 m in x and y."""
+    return scene(
+        {"x": (x, u), "y": (y, v)},
+        {"m": 1.0, "l": 1.0, "g": G, "a": 0.1, "Omega": 3.0},
+        [particle("bob", "x", "y")],
+        [rod("S", "pivot", "bob")],
+        points={"pivot": list(pivot)},
+    )
+
+
+def double_pendulum(angles: tuple[float, float], rates: tuple[float, float], values: dict[str, float]) -> Scene:
+    """Two particles on rods in x₁, y₁, x₂, y₂, begun where angles from the downward vertical and their rates say."""
+    at, speed = (np.zeros(2), np.zeros(2))
+    coordinates: dict[str, tuple[float, float]] = {}
+    for k, (angle, rate) in enumerate(zip(angles, rates, strict=True), start=1):
+        along, across = np.array([np.sin(angle), -np.cos(angle)]), np.array([np.cos(angle), np.sin(angle)])
+        at, speed = at + values[f"l{k}"] * along, speed + values[f"l{k}"] * rate * across
+        coordinates |= {f"x{k}": (at[0], speed[0]), f"y{k}": (at[1], speed[1])}
+    return scene(
+        coordinates,
+        values,
+        [particle("upper", "x1", "y1", mass="m1"), particle("lower", "x2", "y2", mass="m2")],
+        [rod("S1", "pivot", "upper", "l1"), rod("S2", "upper", "lower", "l2")],
+        points={"pivot": ["0", "0"]},
+    )
+
+
+def four_bar(coupler: float = 1.6, ground: float = 1.5) -> Scene:
+    """Crank of 0.5 m and rocker of 1.2 m, with a coupler between: three angles and a closed loop."""
+    return scene(
+        {"a": (1.0, 4.0), "b": (0.3, 0.0), "c": (1.9, 0.0)},
+        {"m": 1.0, "r": 0.5, "k": coupler, "s": 1.2, "d": ground, "g": G},
+        [
+            particle("crank", "r*cos(a)", "r*sin(a)"),
+            particle("middle", "r*cos(a) + k/2*cos(b)", "r*sin(a) + k/2*sin(b)"),
+            particle("rocker", "d + s*cos(c)", "s*sin(c)"),
+        ],
+        [equation("X", "r*cos(a) + k*cos(b) - d - s*cos(c) = 0"), equation("Y", "r*sin(a) + k*sin(b) - s*sin(c) = 0")],
+    )
+
+
+def parallelogram(rate: float = 3.0) -> Scene:
+    """Two cranks of 1 m and a coupler as long as the ground: where it lies flat it may fold or not."""
+    return scene(
+        {"x1": (0.0, -rate), "y1": (1.0, 0.0), "x2": (2.0, -rate), "y2": (1.0, 0.0)},
+        {"m": 1.0, "l": 1.0, "d": 2.0, "g": G},
+        [particle("one", "x1", "y1"), particle("two", "x2", "y2")],
+        [rod("S1", "left", "one"), rod("S2", "right", "two"), rod("S3", "one", "two", "d")],
+        points={"left": ["0", "0"], "right": ["d", "0"]},
+        weight=False,
+    )
+
+
+def sleigh(speed: float = 0.2, spin: float = 1.5) -> Scene:
+    """Chaplygin's sleigh: a skate at (x, y) along θ, the centre of mass a ahead of it."""
+    body: Document = {
+        "name": "sleigh",
+        "kind": "rigid",
+        "mass": "m",
+        "inertia": "J",
+        "angle": "theta",
+        "position": ["x + a*cos(theta)", "y + a*sin(theta)"],
+    }
+    return scene(
+        {"x": (0.0, speed), "y": (0.0, 0.0), "theta": (0.0, spin)},
+        {"m": 2.0, "J": 0.3, "a": 0.4},
+        [body],
+        [equation("N", "dot(y)*cos(theta) - dot(x)*sin(theta) = 0")],
+        weight=False,
+    )

@@ -1,0 +1,143 @@
+"""Motions with constraints against what is known of them: closed forms, minimal coordinates, and what must be kept."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.special import ellipj
+from tests.simulation.constrained import G, double_pendulum, four_bar, parallelogram, pendulum, sleigh
+
+from deltaq.errors import SceneError
+from deltaq.mechanics.library import load_scene
+from deltaq.mechanics.scene import Scene
+from deltaq.simulation.driver import simulate
+from deltaq.simulation.library import get_method, method_ids
+from deltaq.simulation.problem import Floats
+from deltaq.simulation.service import problem_of
+from deltaq.simulation.trajectory import Trajectory
+
+
+def moved(
+    scene: Scene, t_end: float, tolerance: float = 1e-11, method: str = "dop853", samples: int = 101
+) -> Trajectory:
+    return simulate(problem_of(scene, t_end, samples), get_method(method), tolerance=tolerance)
+
+
+def reactions(trajectory: Trajectory) -> Floats:
+    """The multipliers, shape (samples, m)."""
+    assert trajectory.reactions is not None
+    return trajectory.reactions.multipliers
+
+
+def drift(trajectory: Trajectory) -> float:
+    assert trajectory.reactions is not None
+    return float(trajectory.reactions.gaps.max())
+
+
+def balance(scene: Scene, trajectory: Trajectory) -> float:
+    """How far E + V − ∫P dt departs from its start."""
+    problem = problem_of(scene, 1.0)
+    seen = problem.model.observe(problem.inputs(trajectory.times, np.hstack([trajectory.values, trajectory.rates])))
+    kept = seen.kinetic + seen.potential - trajectory.work
+    return float(np.abs(kept - kept[0]).max())
+
+
+def swing(times: Floats, amplitude: float = np.pi / 2) -> tuple[Floats, Floats]:
+    """φ(t) and φ̇² of a pendulum of 1 m let go at an amplitude: sin φ/2 = k cd(ω₀t | k²), Landau, Mechanics, §11."""
+    k, frequency = np.sin(amplitude / 2), np.sqrt(G)
+    _, cn, dn, _ = ellipj(frequency * times, k**2)
+    return 2.0 * np.arcsin(k * cn / dn), 2.0 * G * (np.cos(2.0 * np.arcsin(k * cn / dn)) - np.cos(amplitude))
+
+
+def test_a_rod_carries_weight_and_centripetal_force_in_tension() -> None:
+    found = moved(pendulum(), 10.0)
+    angle, square = swing(found.times)
+    assert np.abs(found.values - np.column_stack([np.sin(angle), -np.cos(angle)])).max() < 1e-10
+    assert np.abs(reactions(found)[:, 0] - (square + G * np.cos(angle))).max() < 1e-9
+    assert found.estimate is not None
+    assert found.estimate.multipliers is not None
+    assert (np.abs(reactions(found)[:, 0] - (square + G * np.cos(angle))) <= found.estimate.multipliers[:, 0]).all()
+
+
+def test_nothing_drifts_in_a_thousand_periods() -> None:
+    assert drift(moved(pendulum(), 2370.0, 1e-6, samples=401)) < 1e-13
+    rocking = four_bar()
+    assert drift(moved(rocking, 500.0, 1e-4, samples=401)) < 1e-13
+
+
+def test_two_rods_move_as_the_double_pendulum_in_angles() -> None:
+    angles = load_scene("double-pendulum")
+    first, second = angles.free
+    values = {parameter.name: parameter.value for parameter in angles.parameters}
+    rods = double_pendulum((first.value, second.value), (first.rate, second.rate), values)
+    by_angles, by_rods = moved(angles, 3.0), moved(rods, 3.0)
+    phi, psi = by_angles.values.T
+    places = np.column_stack(
+        [
+            values["l1"] * np.sin(phi),
+            -values["l1"] * np.cos(phi),
+            values["l1"] * np.sin(phi) + values["l2"] * np.sin(psi),
+            -values["l1"] * np.cos(phi) - values["l2"] * np.cos(psi),
+        ]
+    )
+    assert np.abs(by_rods.values - places).max() < 1e-9
+
+
+@pytest.mark.parametrize("method", method_ids())
+def test_every_method_keeps_constraints_and_comes_near(method: str) -> None:
+    order = get_method(method).order
+    problem = problem_of(pendulum(), 1.0, 11)
+    errors = []
+    for step in (0.01, 0.005):
+        found = simulate(problem, get_method(method), step=step, with_error=False)
+        angle, _ = swing(found.times)
+        assert found.outcome.is_ok
+        assert drift(found) < 1e-14
+        errors.append(np.abs(found.values - np.column_stack([np.sin(angle), -np.cos(angle)])).max())
+    assert errors[1] < max(1.5 * errors[0] / 2**order, 1e-12), errors
+
+
+def test_the_sleigh_turns_its_spin_into_speed() -> None:
+    """v → √(v₀² + (J + ma²)ω₀²/m), v = c tanh(κt + artanh v₀/c): Bloch, Nonholonomic Mechanics and Control, §1.7."""
+    speed, spin, m, inertia, a = 0.2, 1.5, 2.0, 0.3, 0.4
+    found = moved(sleigh(speed, spin), 10.0)
+    limit = np.sqrt(speed**2 + (inertia + m * a**2) / m * spin**2)
+    v = np.cos(found.values[:, 2]) * found.rates[:, 0] + np.sin(found.values[:, 2]) * found.rates[:, 1]
+    known = limit * np.tanh(m * a * limit / (inertia + m * a**2) * found.times + np.arctanh(speed / limit))
+    assert np.abs(v - known).max() < 1e-10
+    # The skate's force: m times the acceleration across it, v ω + a ω̇.
+    omega = found.rates[:, 2]
+    force = m * (v * omega - a * (m * a * v * omega) / (inertia + m * a**2))
+    assert np.abs(reactions(found)[:, 0] - force).max() < 1e-9
+
+
+def test_a_moving_pivot_feeds_power_in_through_its_rod() -> None:
+    scene = pendulum(pivot=("0", "a*sin(Omega*t)"))
+    found = moved(scene, 10.0)
+    assert np.abs(found.work).max() > 0.1
+    assert balance(scene, found) < 1e-9
+
+
+def test_flat_parallelogram_ends_the_motion_where_it_may_fold() -> None:
+    found = moved(parallelogram(), 2.0, 1e-8)
+    assert (found.outcome.status, found.outcome.code) == ("singular_constraints", "singular_constraints")
+    assert found.reached == pytest.approx(np.pi / 6, abs=1e-5)
+    angle = np.pi / 2 + 3.0 * found.times
+    assert np.abs(found.values[:, 0] - np.cos(angle)).max() < 1e-8
+
+
+def test_initial_values_are_moved_onto_the_constraints_and_told() -> None:
+    problem = problem_of(pendulum(1.2, 0.0, 0.5, 0.7), 1.0)
+    assert problem.moved is not None
+    assert problem.values == pytest.approx((1.0, 0.0))
+    assert problem.rates == pytest.approx((0.0, 0.7))
+    assert problem.moved.values == pytest.approx((-0.2, 0.0))
+    assert problem.moved.rates == pytest.approx((-0.5, 0.0))
+
+
+def test_parts_that_do_not_fit_are_refused_at_their_constraint() -> None:
+    with pytest.raises(SceneError) as caught:
+        problem_of(four_bar(5.0), 1.0)
+    assert [(problem.code, problem.pointer) for problem in caught.value.problems] == [
+        ("constraint-not-met", "/constraints/0")
+    ]
