@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.derivation.scenes import constrained
 
 from deltaq.handout.script import comment, script
 from deltaq.handout.service import export_request
@@ -41,6 +42,20 @@ def test_program_agrees_with_the_simulation(identifier: str, tmp_path: Path) -> 
         np.testing.assert_allclose(rates, shown["rates"][name][:count], atol=100 * AGREEMENT, rtol=AGREEMENT)
     for body, position in program["positions"](times[-1], q[:, -1]).items():
         np.testing.assert_allclose(position, shown["positions"][body][count - 1], atol=10 * AGREEMENT)
+
+
+def test_program_of_a_scene_with_constraints_keeps_them(tmp_path: Path) -> None:
+    (sleigh,) = (scene for scene in constrained() if scene.id == "sleigh")
+    (rod,) = (scene for scene in constrained() if scene.id == "particle-on-a-rod")
+    program = executed(script(rod, "en", T_END), tmp_path)
+    times, q, v = program["solve"]()
+    assert np.abs(np.hypot(*q) - 1.0).max() < 1e-14
+    tension = v[0] ** 2 + v[1] ** 2 + q[1] * 1.0  # m (l φ̇² + g cos φ), all parameters 1
+    np.testing.assert_allclose(program["multipliers"](times, q, v)[0], tension, atol=1e-12)
+    start = replace(sleigh, coordinates=tuple(replace(c, rate=1.0) for c in sleigh.coordinates))
+    program = executed(script(start, "en", T_END), tmp_path)
+    times, q, v = program["solve"]()
+    assert np.abs(v[1] * np.cos(q[2]) - v[0] * np.sin(q[2])).max() < 1e-14  # though the start was not so
 
 
 def test_changes_of_a_request_reach_the_program(tmp_path: Path) -> None:

@@ -1,10 +1,15 @@
-"""A motion as a program of its own: Python with NumPy and SciPy, from the derived equations M(q, t) q̈ = f(q, q̇, t)."""
+"""A motion as a program of its own: Python with NumPy and SciPy, from the derived equations M(q, t) q̈ = f(q, q̇, t).
+
+With constraints the program solves [M Aᵀ; A 0] [q̈; −λ] = [f; −γ] for the accelerations (index 1), and moves positions
+and rates back to the constraints at every sample, so that they do not drift away.
+"""
 
 from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterator, Mapping
 
+from ..derivation.calculus import column
 from ..derivation.matrix_form import forcing, mass_matrix
 from ..derivation.system import System
 from ..mechanics.event import Event
@@ -14,7 +19,7 @@ from .words import Words, event_symbol
 
 TEMPLATE = """\
 # {title}
-# The motion of this scene, from the equations of motion M(q, t) q'' = f(q, q', t) that δq derived.
+# The motion of this scene, from the equations of motion {form} that δq derived.
 # Needs NumPy and SciPy; draws the motion if Matplotlib is there. Units are those beside the values.
 
 import numpy as np
@@ -46,7 +51,27 @@ def positions(t, q):
     return {positions}
 
 
-{events}def right_hand_side(t, state):
+{events}{dynamics}def draw(times, q):
+    try:
+        from matplotlib import pyplot
+    except ImportError:
+        return
+    for name, curve in zip(COORDINATES, q):
+        pyplot.plot(times, curve, label=name)
+    pyplot.xlabel("t in s")
+    pyplot.legend()
+    pyplot.show()
+
+
+if __name__ == "__main__":
+    times, q, v = solve()
+    print("t," + ",".join({columns}))
+    for t, *row in zip(times, *q{further}):
+        print(",".join(f"{{value:.10g}}" for value in (t, *row)))
+    draw(times, q)
+"""
+FREE = """\
+def right_hand_side(t, state):
     q, v = np.split(state, 2)
     return np.concatenate([v, np.linalg.solve(mass_matrix(t, q), forcing(t, q, v))])
 
@@ -62,24 +87,79 @@ def solve(t_end=T_END, samples=SAMPLES):
     return found.t, found.y[: len(VALUES)], found.y[len(VALUES) :]
 
 
-def draw(times, q):
-    try:
-        from matplotlib import pyplot
-    except ImportError:
-        return
-    for name, curve in zip(COORDINATES, q):
-        pyplot.plot(times, curve, label=name)
-    pyplot.xlabel("t in s")
-    pyplot.legend()
-    pyplot.show()
+"""
+CONSTRAINED = """\
+MULTIPLIERS = {multipliers}
 
 
-if __name__ == "__main__":
-    times, q, v = solve()
-    print("t," + ",".join(COORDINATES))
-    for t, *row in zip(times, *q):
-        print(",".join(f"{{value:.10g}}" for value in (t, *row)))
-    draw(times, q)
+def conditions(t, q):  # what is zero because positions are constrained
+    {unpack_values}
+    return np.array({conditions}, dtype=float)
+
+
+def constraint_matrix(t, q):  # A in A v + b = 0, a row for each constraint
+    {unpack_values}
+    return np.array({constraint_matrix}, dtype=float).reshape(len(MULTIPLIERS), len(VALUES))
+
+
+def constraint_offset(t, q):  # b
+    {unpack_values}
+    return np.array({constraint_offset}, dtype=float)
+
+
+def constraint_drift(t, q, v):  # gamma in A v' + gamma = 0
+    {unpack_values}
+    {unpack_rates}
+    return np.array({constraint_drift}, dtype=float)
+
+
+HOLONOMIC = {holonomic}  # rows of A that belong to conditions
+
+
+def accelerations_and_multipliers(t, q, v):
+    mass, rows = mass_matrix(t, q), constraint_matrix(t, q)
+    whole = np.block([[mass, rows.T], [rows, np.zeros((len(rows), len(rows)))]])
+    found = np.linalg.solve(whole, np.concatenate([forcing(t, q, v), -constraint_drift(t, q, v)]))
+    return found[: len(q)], -found[len(q) :]
+
+
+def right_hand_side(t, state):
+    q, v = np.split(state, 2)
+    return np.concatenate([v, accelerations_and_multipliers(t, q, v)[0]])
+
+
+def projected(t, state):  # the nearest state that keeps the constraints, by Newton's method
+    q, v = np.split(state, 2)
+    for _ in range(20):
+        gap = conditions(t, q)
+        if gap.size == 0 or np.abs(gap).max() < 1e-14:
+            break
+        q = q - np.linalg.lstsq(constraint_matrix(t, q)[HOLONOMIC], gap, rcond=None)[0]
+    rows = constraint_matrix(t, q)
+    v = v - np.linalg.lstsq(rows, rows @ v + constraint_offset(t, q), rcond=None)[0]
+    return np.concatenate([q, v])
+
+
+def solve(t_end=T_END, samples=SAMPLES):
+    times = np.linspace(0.0, t_end, samples)
+    states = [projected(0.0, np.array([*VALUES, *RATES]))]
+    for begin, end in zip(times[:-1], times[1:]):
+        found = solve_ivp(
+            right_hand_side, (begin, end), states[-1], method="DOP853", rtol=1e-11, atol=1e-12{watched}
+        )
+        if not found.success:
+            raise SystemExit(found.message)
+        if found.status == 1:
+            break
+        states.append(projected(end, found.y[:, -1]))
+    times, states = times[: len(states)], np.array(states).T
+    return times, states[: len(VALUES)], states[len(VALUES) :]
+
+
+def multipliers(times, q, v):
+    return np.array([accelerations_and_multipliers(*state)[1] for state in zip(times, q.T, v.T)]).T
+
+
 """
 EVENT = """\
 def {name}(t, state):  # {title}
@@ -106,6 +186,9 @@ def script(scene: Scene, language: str, t_end: float) -> str:
         "unpack_rates": f"[{', '.join(words.called(system.rate(c.name).name) for c in free)}] = v",
     }
     events = [_event(event, system, words, language, unpacked) for event in scene.events]
+    watched = (
+        f", events=[{', '.join(words.called(event_symbol(event.name)) for event in scene.events)}]" if events else ""
+    )
     content = unpacked | {
         "title": comment((scene.title.get(language) or UserText(scene.id)).line),
         "parameters": "\n".join(_parameters(scene, words)) or "# This scene has no parameters.",
@@ -115,14 +198,41 @@ def script(scene: Scene, language: str, t_end: float) -> str:
         "t_end": repr(float(t_end)),
         "samples": str(int(t_end * SAMPLES_PER_SECOND) + 1),
         "events": "".join(events),
-        "watched": f", events=[{', '.join(words.called(event_symbol(event.name)) for event in scene.events)}]"
-        if events
-        else "",
+        "watched": watched,
         "mass_matrix": words.matrix(mass_matrix(system)),
         "forcing": words.vector(forcing(system)),
         "positions": "{" + ", ".join(_positions(system, words)) + "}",
     }
+    content |= _constrained(system, words, content) if scene.constraints else _free(content)
     return TEMPLATE.format(functions=", ".join(words.functions), **content)
+
+
+def _free(content: Mapping[str, str]) -> dict[str, str]:
+    """How a scene without constraints moves."""
+    dynamics = FREE.format(**content)
+    return {"form": "M(q, t) q'' = f(q, q', t)", "dynamics": dynamics, "columns": "COORDINATES", "further": ""}
+
+
+def _constrained(system: System, words: Words, content: Mapping[str, str]) -> dict[str, str]:
+    """How one with constraints moves, and what keeps them."""
+    bound = system.conditions
+    kept = [each for each in bound if each.is_holonomic]
+    parts = {
+        "multipliers": repr([symbol.name for symbol in system.scene.multipliers]),
+        "conditions": words.vector(column(map(system.condition, kept))) if kept else "[]",
+        "constraint_matrix": words.matrix(system.constraint_matrix()),
+        "constraint_offset": words.vector(column(map(system.moving_term, bound))),
+        "constraint_drift": words.vector(column(map(system.drift_term, bound))),
+        "holonomic": repr([index for index, each in enumerate(bound) if each.is_holonomic]),
+    }
+    dynamics = CONSTRAINED.format(**content, **parts)
+    form = "M q'' = f + A^T lambda with A q'' = -gamma"
+    return {
+        "form": form,
+        "dynamics": dynamics,
+        "columns": "[*COORDINATES, *MULTIPLIERS]",
+        "further": ", *multipliers(times, q, v)",
+    }
 
 
 def _event(event: Event, system: System, words: Words, language: str, unpacked: Mapping[str, str]) -> str:

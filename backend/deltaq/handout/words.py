@@ -13,11 +13,20 @@ from ..derivation.system import System
 from ..language.functions import FUNCTIONS
 
 OWN = {"np", "solve_ivp", "mass_matrix", "forcing", "positions", "right_hand_side", "solve", "draw", "pyplot"}
+OF_CONSTRAINTS = {
+    "conditions",
+    "constraint_matrix",
+    "constraint_offset",
+    "constraint_drift",
+    "projected",
+    "multipliers",
+}
+LOCAL_THERE = {"accelerations_and_multipliers", "mass", "rows", "whole", "gap", "states", "begin", "end"}
 LOCAL = {"t", "q", "v", "state", "times", "found", "start", "name", "curve", "row", "value", "t_end", "samples"}
-CONSTANTS = {"COORDINATES", "VALUES", "RATES", "T_END", "SAMPLES"}
+CONSTANTS = {"COORDINATES", "VALUES", "RATES", "T_END", "SAMPLES", "MULTIPLIERS", "HOLONOMIC"}
 OF_NUMPY = {"arcsin", "arccos", "arctan", "arctan2", "arcsinh", "arccosh", "arctanh", "pi"}
 RECIPROCALS = {sp.cot: sp.tan, sp.sec: sp.cos, sp.csc: sp.sin}
-TAKEN = frozenset({*OWN, *LOCAL, *CONSTANTS, *OF_NUMPY, *FUNCTIONS, *dir(builtins)})
+TAKEN = frozenset({*OWN, *OF_CONSTRAINTS, *LOCAL, *LOCAL_THERE, *CONSTANTS, *OF_NUMPY, *FUNCTIONS, *dir(builtins)})
 
 
 class Words:
