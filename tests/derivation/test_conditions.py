@@ -67,6 +67,24 @@ def told(scene: Scene) -> list[tuple[str, list[str], list[str]]]:
             id="moment",
         ),
         pytest.param(
+            particle(
+                ["x"], {"k": 3.0, "c": 1.0, "F": 2.0}, ["x", "0"], {"kind": "potential", "energy": "(k-c)*x^2/2-F*x"}
+            ),
+            [("stable", [], ["c < k"])],
+            id="a quotient is there whatever its sign",
+        ),
+        pytest.param(
+            particle(
+                ["x", "y"],
+                {"k": 3.0, "c": 1.0},
+                ["x", "y"],
+                {"kind": "potential", "energy": "(k-c)*(x^2+y^2)/2"},
+                {"kind": "force", "at": "bob", "force": ["-c*y", "c*x"]},
+            ),
+            [],
+            id="a force that turns with the motion has no potential",
+        ),
+        pytest.param(
             BOOKS["two wells (Duffing)"], [("stable", [], [])] * 2 + [("unstable", [], [])], id="for all parameters"
         ),
     ],
@@ -112,10 +130,11 @@ def test_conditions_are_told_of_six_minors_at_most(count: int, known: bool) -> N
 
 
 @pytest.mark.parametrize(("powers", "known"), [(2, True), (40, False)])
-def test_conditions_that_nobody_reads_are_not_told(powers: int, known: bool) -> None:
-    """A stiffness that is a long sum."""
-    stiffness = "c - k" + "".join(f" - k^{n}" for n in range(2, powers))
-    assert bool(told(wells(stiffness, ["x"], {"c": 300.0, "k": 0.5}))) is known
+@pytest.mark.parametrize("sign", [1, -1])
+def test_conditions_that_nobody_reads_are_not_told(powers: int, known: bool, sign: int) -> None:
+    """A stiffness that is a long sum, on either side of the inequality."""
+    stiffness = f"{sign}*(c - k" + "".join(f" - k^{n}" for n in range(2, powers)) + ")"
+    assert bool(told(wells(stiffness, ["x"], {"c": 300.0 if sign > 0 else 0.1, "k": 0.5}))) is known
 
 
 def written(line: Mapping[str, Mapping[str, str]]) -> str:

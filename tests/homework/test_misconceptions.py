@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from tests.derivation.scenes import constrained
 from tests.homework.wrong_answers import SHORT, assert_hints_are_whole, assert_mistakes_are_found
 
 from deltaq.homework.faulty_solution import misconceptions
 from deltaq.homework.workbook import workbook_of
+from deltaq.mechanics.writing import write_scene
 from deltaq.narration.catalog import catalog
 
 SCENES = [*SHORT, "spring-pendulum", "rolling-disc", "coupled-pendulums"]
@@ -21,7 +23,7 @@ def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str) -> None:
 def test_every_misconception_occurs() -> None:
     seen = {
         candidate.solution.id
-        for scene in SCENES
+        for scene in (*SCENES, *(write_scene(scene) for scene in constrained() if scene.id == "sleigh"))
         for workbook in [workbook_of({"scene": scene})]
         for task in workbook.tasks
         for candidate in workbook.candidates(task)

@@ -30,6 +30,8 @@ ROWS = [
     pytest.param("a*m*x + a*m*y", "m*a*(y + x)", id="several parameters"),
     pytest.param("x*y + x*phi", "y*x + phi*x", id="coordinates are no common factor"),
     pytest.param("m*x*log(l*x) + m*y*log(l*x)", "m*(y*log(l*x) + x*log(l*x))", id="nor functions of them"),
+    pytest.param("x*sqrt(m) + y*sqrt(m)", "sqrt(m)*y + sqrt(m)*x", id="roots stay in the sum"),
+    pytest.param("m*x/l + m*y/l", "m*(y/l + x/l)", id="so does what is below the line"),
     pytest.param("m*x*log(l) + m*y*log(l)", "m*(y + x)*log(l)", id="but those of parameters are"),
 ]  # fmt: skip
 

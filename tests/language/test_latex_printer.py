@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Mul, Rational
+from sympy import Function, Mul, Rational
 from tests.language.scene_names import read
 
 from deltaq.language.latex_printer import Typography, latex
@@ -121,3 +121,27 @@ def test_a_symbol_by_its_plain_name(name: str, written: str) -> None:
 def test_a_number_multiplies_the_whole_sum(number: Rational, written: str) -> None:
     total = read("m + k", names=LECTURE)
     assert latex(Mul(number, total, evaluate=False), Typography(LECTURE)) == written
+
+
+@pytest.mark.parametrize(
+    ("text", "written"),
+    [
+        ("sqrt(y^2 + l^2)", "s"),
+        ("y^2 + l^2", "s^{2}"),
+        ("(y^2 + l^2)^(3/2)", "s^{3}"),
+        ("k/sqrt(y^2 + l^2)", r"\frac{k}{s}"),
+        ("k/(y^2 + l^2)", r"\frac{k}{s^{2}}"),
+        ("k*(sqrt(y^2 + l^2) - m)", "k (s - m)"),
+        ("(y^2 + l^2)^(1/3)", r"(s^{2})^{1/3}"),
+        ("sqrt(y^2 + m^2)", r"\sqrt{q_1^{2} + m^{2}}"),
+    ],
+)
+def test_a_root_that_has_a_letter_is_written_by_it(text: str, written: str) -> None:
+    typography = Typography(LECTURE, roots={read("y^2 + l^2", names=LECTURE): "s"})
+    assert latex(read(text, names=LECTURE), typography) == written
+
+
+def test_a_function_without_a_command_is_written_upright_with_brackets() -> None:
+    y = read("y", names=LECTURE)
+    assert latex(Function("f")(y), Typography(LECTURE)) == r"\operatorname{f}(q_1)"
+    assert latex(Function("f")(y) ** 2 * y, Typography(LECTURE)) == r"q_1 (\operatorname{f}(q_1))^{2}"

@@ -54,6 +54,7 @@ CASES = [
     pytest.param(lambda n: f"(10^-10)^-{n}", 30, "value-too-large", id="value of a negative power"),
     pytest.param(lambda n: f"(10^10)^-{n}", 30, "value-too-small", id="small value of a negative power"),
     pytest.param(lambda n: "*".join(["10^50"] * n), 6, "value-too-large", id="value of a product"),
+    pytest.param(lambda n: "*".join(["(10^60)^(3/2)"] * n), 3, "value-too-large", id="value of roots"),
     pytest.param(lambda n: "1" + "/10^50" * n, 6, "value-too-small", id="value of a quotient"),
     pytest.param(lambda n: "+".join(["(10^10)^30/2"] * n), 2, "value-too-large", id="value of a sum"),
     # 64 different names

@@ -140,3 +140,11 @@ WANTED = [
 def test_one_formula_has_one_kind_of_numbers(text: str, each: str, decimals: str, fractions: str) -> None:
     written = [latex(read(text), Typography(NAMES, decimals=wanted)) for wanted in (None, True, False)]
     assert written == [each, decimals, fractions]
+
+
+def test_terms_stand_by_the_highest_rate_in_them() -> None:
+    """Fourth rates, third ones, accelerations, then rates, though the sum was written otherwise."""
+    total = read("x + l*dot(x)^3 + m*ddot(x) + k*dddot(x) + m*ddddot(x)")
+    assert [str(term) for term in Order(NAMES).terms(total)] == [
+        "ddddot(x)*m", "dddot(x)*k", "ddot(x)*m", "dot(x)**3*l", "x",
+    ]  # fmt: skip

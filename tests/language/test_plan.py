@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import random
 from fractions import Fraction
 
 import pytest
+import sympy
 from tests.language.test_textbook import NAMES, ORDER, SYMBOLS
 
 from deltaq.language.kernel_reader import KernelReader
 from deltaq.language.parser import parse
 from deltaq.language.plan import Plan, Powers, Prices, Product, Sum, expanded, in_whole_numbers
 from deltaq.language.planner import Planner, split_off
-from deltaq.language.polynomial import Alphabet, Kind, Poly
+from deltaq.language.polynomial import Alphabet, Poly
 from deltaq.language.sympy_algebra import to_sympy
 from deltaq.language.textbook import Textbook
 from deltaq.language.trigonometry import written
@@ -234,23 +236,26 @@ def test_what_terms_share_is_split_off(poly: Poly, number: int, common: tuple[in
     assert split_off(poly) == (number, common, rest)
 
 
-def test_kinds_of_generators() -> None:
-    page = Page("m*k*x*sin(phi)*dot(x)*ddot(x)*delta(x)*d(x)*omega*t*sqrt(x^2 + l^2)*sqrt(k^2 + l^2)*sin(a)*dddot(x)")
-    found = {(g.name, g.kind, g.moves) for g in page.alphabet.generators if g.value.is_Symbol}
-    assert found == {
-        ("m", Kind.MASS, False), ("k", Kind.PARAMETER, False), ("omega", Kind.PARAMETER, False),
-        ("x", Kind.COORDINATE, True), ("t", Kind.COORDINATE, True), ("dot(x)", Kind.RATE, True),
-        ("ddot(x)", Kind.OUTER, True), ("delta(x)", Kind.OUTER, True), ("d(x)", Kind.OUTER, True),
-        ("dddot(x)", Kind.OUTER, True),
-    }  # fmt: skip
-    others = {(str(g.value), g.kind, g.moves) for g in page.alphabet.generators if not g.value.is_Symbol}
-    assert others == {
-        ("l**2 + x**2", Kind.KERNEL, True), ("k**2 + l**2", Kind.PARAMETER, False),
-        ("sin(phi)", Kind.WAVE, True), ("sin(a)", Kind.PARAMETER, False),
-    }  # fmt: skip
-    assert [g.kind for g in page.alphabet.generators] == sorted(
-        (g.kind for g in page.alphabet.generators), reverse=True
-    )
+def test_kinds_of_generators_and_their_order() -> None:
+    """What moves fastest first, then functions, coordinates, parameters, masses; in each the order of writing."""
+    page = Page("m*k*x*sin(phi)*dot(x)*ddot(x)*delta(x)*d(x)*omega*t*sqrt(x^2 + l^2)*sqrt(k^2 + l^2)*sin(a)*dddot(x)*M")
+    assert [(str(g.value), g.kind.name, g.moves) for g in page.alphabet.generators] == [
+        ("ddot(x)", "OUTER", True),
+        ("dddot(x)", "OUTER", True),
+        ("d(x)", "OUTER", True),
+        ("delta(x)", "OUTER", True),
+        ("dot(x)", "RATE", True),
+        ("l**2 + x**2", "KERNEL", True),
+        ("sin(phi)", "WAVE", True),
+        ("x", "COORDINATE", True),
+        ("t", "COORDINATE", True),
+        ("k", "PARAMETER", False),
+        ("k**2 + l**2", "PARAMETER", False),
+        ("omega", "PARAMETER", False),
+        ("sin(a)", "PARAMETER", False),
+        ("M", "MASS", False),
+        ("m", "MASS", False),
+    ]
 
 
 def test_a_plan_that_may_not_be_sought_is_the_plain_sum() -> None:
@@ -261,3 +266,36 @@ def test_a_plan_that_may_not_be_sought_is_the_plain_sum() -> None:
     squares = {(2, 0, 0): 1, (1, 1, 0): 2, (0, 2, 0): 1}
     assert isinstance(Planner(page.alphabet, budget=1).plan(squares), Product)
     assert isinstance(Planner(page.alphabet, budget=0).plan(squares), Sum)
+
+
+def written_by_hand(generator: random.Random) -> sympy.Expr:
+    """Two or three products, most with a bracket or two and one perhaps squared, as somebody would write a formula."""
+    symbols = [SYMBOLS.name(name) for name in ("x", "y", "phi", "l", "k", "a", "c", "m")]
+    symbols += [SYMBOLS.rate("x"), SYMBOLS.rate("y"), SYMBOLS.rate("x", 2)]
+
+    def bracket() -> sympy.Expr:
+        size = generator.choice((2, 2, 3))
+        return sympy.Add(*(generator.choice((1, 1, -1, 2)) * one for one in generator.sample(symbols, size)))
+
+    def product() -> sympy.Expr:
+        outside = generator.sample(symbols, generator.choice((1, 1, 2)))
+        brackets = [bracket() ** generator.choice((1, 1, 2)) for _ in range(generator.choice((0, 1, 1, 2)))]
+        return sympy.Mul(generator.choice((1, -1, 3)), *outside, *brackets, evaluate=False)
+
+    return sympy.Add(*(product() for _ in range(generator.choice((2, 3)))), evaluate=False)
+
+
+def test_what_thirty_formulas_cost_together() -> None:
+    """What was looked for is found: a total that grows is a loss, one that shrinks is to be written down here."""
+    generator = random.Random(19)
+    total = 0.0
+    for _ in range(30):
+        reader = KernelReader()
+        form = reader.read(sympy.expand(written_by_hand(generator)))
+        if form:
+            alphabet = Alphabet(reader, ORDER, [form], reader.meaning.__getitem__)
+            poly, denominator = alphabet.polynomial(form)
+            plan = Planner(alphabet).plan(poly, denominator)
+            assert expanded(plan, alphabet) == in_whole_numbers(poly, denominator)
+            total += plan.price
+    assert total == 699.75

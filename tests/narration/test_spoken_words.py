@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -165,6 +166,11 @@ def test_an_expression(text: str, words: str) -> None:
     assert said(to_sympy(parse(text, NAMES, "plain").tree, Symbols(NAMES))) == words
 
 
+def test_a_power_of_a_symbol_with_a_minus_is_no_fraction() -> None:
+    assert said(X ** (-K)) == "x to the power of open bracket minus k close bracket"
+    assert said(X ** (K / 2)) == "x to the power of the fraction k over two, end of fraction"
+
+
 HALF = sp.Rational(1, 2)
 
 
@@ -299,6 +305,14 @@ SYMBOLS = [
     ("m_{20}", "m 20"),
     ("m_{123}", "m 1 2 3"),
     ("m_1", "m one"),
+    ("m_ 1", "m one"),
+    (r"\mathrm dx", "d x"),
+    (r"\mathrm{d}xy", "d x y"),
+    (r"x_{\pm}", "x sub plus or minus"),
+    (r"x_{1\dots}", "x sub one and so on"),
+    (r"\Xi", "capital xi"),
+    (r"\Psi", "psi"),
+    (r"\Pr", "Pr"),
     ("m_{1,2}", "m sub one comma two"),
     ("m_{2s}", "m sub two s"),
     ("m_k", "m sub k"),
@@ -319,7 +333,7 @@ SYMBOLS = [
 
 @pytest.mark.parametrize(("latex", "words"), SYMBOLS, ids=[latex for latex, _ in SYMBOLS])
 def test_a_symbol_is_said_by_its_latex(latex: str, words: str) -> None:
-    letters = frozenset({"f", "omega", "r", "x", "m", "M", "D"})
+    letters = frozenset({"f", "omega", "xi", "r", "x", "m", "M", "D"})
     assert SymbolReader(vocabulary("en"), letters, letters).words(latex) == words
 
 
@@ -332,6 +346,7 @@ def test_capitals_and_vectors_are_told_apart_only_where_the_small_and_the_plain_
             Symbol("Omega", "parameter"),
             Symbol("omega", "parameter"),
             Symbol("r", "coordinate"),
+            Symbol("u", "parameter", r"\mathbf{u}"),
         )
     )
     words = SpokenSymbols(names, vocabulary("de"))
@@ -339,7 +354,7 @@ def test_capitals_and_vectors_are_told_apart_only_where_the_small_and_the_plain_
         "groß F", "groß omega", "omega", "r Punkt Punkt",
     ]  # fmt: skip
     assert words.reader.words(r"\mathbf{r}") == "Vektor r"
-    assert words.reader.words(r"\mathbf{x}") == "x"
+    assert [words.reader.words(latex) for latex in (r"\mathbf{x}", r"\mathbf{u}")] == ["x", "u"]
 
 
 @pytest.mark.parametrize(
@@ -534,6 +549,11 @@ FORMULAS = [
         "power of a value with a unit",
         Power(Rounded(sp.Float("2.5"), "m"), 2),
         "open bracket 2.5 metres close bracket squared",
+    ),
+    (
+        "determinant of numbers",
+        Determinant(Rounded(sp.ImmutableMatrix([[sp.Float("0.5"), 1]]))),
+        "the determinant of the matrix with row one: 0.5, next 1, end of matrix",
     ),
     (
         "power of a variation",
@@ -764,7 +784,14 @@ def test_a_step_is_said_term_by_term(
 ) -> None:
     """The places where terms begin cut what is said into these; pauses are where one needs to draw breath."""
     text, places = of_pendulum("en").spoken(relations, where)
-    assert [text[a:b] for a, b in zip(places, [*places[1:], len(text)], strict=True)] == pieces
+    assert [text[a:b] for a, b in zip([0, *places[1:]], [*places[1:], len(text)], strict=True)] == pieces
+
+
+def test_expressions_are_said_as_the_notation_writes_them() -> None:
+    speech = of_pendulum("en")
+    told = replace(speech, typography=replace(speech.typography, roots={ROOT: "s"}, decimals=True))
+    assert told.formula(e(sp.sqrt(ROOT) * sp.Rational(7, 5))) == "1.4 times s"
+    assert told.formula(e(sp.Rational(7, 5) * M * X)) == "1.4 times m x"
 
 
 def test_sentences_are_said_with_their_symbols_in_words() -> None:

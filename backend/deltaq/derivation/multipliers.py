@@ -18,6 +18,7 @@ from .system import System
 
 MOST_COORDINATES, MOST_CONSTRAINTS = 4, 2
 LONGEST = 400  # parts of an expression that is still read
+MOST_GIVEN, MOST_LEFT = 150, 120  # parts of the laws, and of the system for λ: solving it multiplies them
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ def multipliers(system: System) -> Multipliers | None:
     if not 0 < count <= MOST_CONSTRAINTS or len(system.free) > MOST_COORDINATES:
         return None
     mass, rows = mass_matrix(system), system.constraint_matrix()
-    if sum(map(size, (*mass, *rows, *forcing(system)))) > LONGEST:
+    if _length(mass, rows, forcing(system)) > MOST_GIVEN:
         return None
     inverse = _inverse(system, mass)
     if inverse is None:
@@ -47,10 +48,16 @@ def multipliers(system: System) -> Multipliers | None:
     matrix = system.display(rows * inverse * rows.T)
     drift = sp.Matrix([system.drift_term(each) for each in system.conditions])
     rest = system.display(sp.ImmutableMatrix(rows * (inverse * forcing(system)) + drift))
+    if _length(matrix, rest) > MOST_LEFT:
+        return None
     values = _solved(system, sp.ImmutableMatrix(matrix), rest)
     if values is None or sum(map(size, values.values())) > LONGEST:
         return None
     return Multipliers(accelerations, sp.ImmutableMatrix(matrix), rest, values)
+
+
+def _length(*matrices: sp.ImmutableMatrix) -> int:
+    return sum(size(entry) for matrix in matrices for entry in matrix)
 
 
 def _inverse(system: System, mass: sp.ImmutableMatrix) -> sp.ImmutableMatrix | None:

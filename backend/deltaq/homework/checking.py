@@ -21,7 +21,7 @@ from . import slips
 from .counterexamples import counterexample
 from .diagnosis import Diagnosis, diagnose
 from .dimensions import Told, other_unit, unlike_terms
-from .equality import Match, Parts, equation
+from .equality import Match, Parts, equation, kept_by_constraints
 from .model_questions import QuestionJudge, Understood, Written
 from .partwise import DECIDED, part_outcomes, part_share
 from .reading import Candidate, Reading, candidates
@@ -221,7 +221,11 @@ def compare(workbook: Workbook, task: Task, given: Parts) -> Match:
         return Match(equal=False, remark="degenerate")
     if own is None or right is None or (len(own) == len(right) and close(own, right, DISTINCT)):
         return task.quantity.equality.same(given, workbook.right(task), workbook.solution)
-    return _besides(workbook, task, given) or _solved(workbook.solution, task, given)
+    return (
+        _besides(workbook, task, given)
+        or _on_constraint(workbook, task, given)
+        or _solved(workbook.solution, task, given)
+    )
 
 
 def _besides(workbook: Workbook, task: Task, given: Parts) -> Match | None:
@@ -232,6 +236,13 @@ def _besides(workbook: Workbook, task: Task, given: Parts) -> Match | None:
         if not speaks and task.quantity.equality.same(given, parts, workbook.solution).equal:
             return Match(equal=True, remark="constant-force", about=left_out)
     return None
+
+
+def _on_constraint(workbook: Workbook, task: Task, given: Parts) -> Match | None:
+    """The match of equations that are right wherever the constraints are kept: S x/l for S x/√(x² + y²)."""
+    is_law = task.quantity.form in ("equation", "equations")
+    kept = is_law and kept_by_constraints.proportional(given, workbook.right(task), workbook.solution)
+    return Match(equal=True) if kept else None
 
 
 def _solved(solution: Solution, task: Task, given: Parts) -> Match:

@@ -14,6 +14,7 @@ from .equality import (
     equations,
     expression,
     frequencies,
+    kept_by_constraints,
     lagrangian,
     stated,
     symmetry,
@@ -31,6 +32,8 @@ from .subjects import (
     loaded,
     numbered,
     oscillating,
+    reacting,
+    reaction_of,
     resting,
     symmetric,
     whole,
@@ -55,7 +58,7 @@ def _conserved_value(solution: Solution, number: str) -> Parts:
     return (solution.conserved(_true(solution).conserved_of[int(number) - 1]),)
 
 
-EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED = (
+EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED, KEPT = (
     cast("Equality", module)
     for module in (
         expression,
@@ -67,6 +70,7 @@ EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED = (
         conserved,
         symmetry,
         stated,
+        kept_by_constraints,
     )
 )
 
@@ -78,7 +82,7 @@ def _ordering(goal: str, step: str, subjects: Subjects) -> Quantity:
         "order",
         STATED,
         lambda solution, subject: ordering.value(_true(solution), goal, subject),
-        lambda solution: subjects(solution) if is_short(_true(solution)) else (),
+        lambda solution: subjects(solution) if is_short(_true(solution)) and not solution.conditions else (),
         "lagrange",
         points=2.0,
         steps=(step,),
@@ -199,6 +203,18 @@ QUANTITIES: tuple[Quantity, ...] = (
         ("lagrangian", "kinetic-energy", "potential-energy", "equation"),
         4.0,
         steps=("matrix-form",),
+    ),
+    Quantity(
+        "constraint-force",
+        "expression",
+        KEPT,
+        lambda solution, name: (reaction_of(_true(solution), name),),
+        reacting,
+        "constraints",
+        ("lambda", "λ", "S", "N", "Z"),
+        ("equation",),
+        2.0,
+        steps=("multiplier:{subject}", "work-of-reaction:{subject}"),
     ),
     Quantity(
         "linearized",

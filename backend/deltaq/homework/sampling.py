@@ -47,7 +47,8 @@ class Sampler:
         virtual = [solution.symbols.variation(q, order) for q in solution.coordinates for order in (0, 1, 2)]
         differentials = [solution.symbols.differential(name) for name in (*solution.coordinates, "t")]
         materials = [solution.q(m.name) for m in solution.scene.material]
-        return [*map(solution.q, solution.coordinates), *jets, *virtual, *differentials, *materials]
+        multipliers = [x for one in solution.scene.multipliers for x in (solution.q(one.name), solution.rate(one.name))]
+        return [*map(solution.q, solution.coordinates), *jets, *virtual, *differentials, *materials, *multipliers]
 
     @cached_property
     def points(self) -> tuple[list[float], ...]:

@@ -45,9 +45,10 @@ class Solution(System):
 
     @cached_method
     def equation(self, coordinate: str) -> sp.Expr:
-        """d/dt ∂E/∂q̇ − ∂E/∂q + ∂V/∂q − Qᵈ, the left side of `… = 0`."""
+        """d/dt ∂E/∂q̇ − ∂E/∂q + ∂V/∂q − Qᵈ − Σ λ a, the left side of `… = 0`."""
         inertia = self.momentum_rate(coordinate) - self.energy_slope(coordinate)
-        return inertia + self.potential_slope(coordinate) - self.nonconservative_force(coordinate)
+        forces = self.nonconservative_force(coordinate) + self.reaction(coordinate)
+        return inertia + self.potential_slope(coordinate) - forces
 
     @cached_property
     def model(self) -> System:
@@ -56,8 +57,11 @@ class Solution(System):
 
     @cached_property
     def rest(self) -> dict[sp.Symbol, sp.Expr] | None:
-        """The first equilibrium that is stable and known in the parameters; None where there is none."""
-        for linear in linearizations(self.model):
+        """The first equilibrium that is stable and known in the parameters; None where there is none.
+
+        With constraints none is sought: multipliers would belong to it.
+        """
+        for linear in () if self.conditions else linearizations(self.model):
             regular = linear.equilibrium.exact and linear.spectrum is not None
             if regular and linear.stability == "stable":
                 return dict(linear.equilibrium.values)

@@ -11,7 +11,7 @@ from .ordering.judge import Ordering
 from .ordering.telling import block_documents
 from .task import Task
 from .telling import variant_sentences
-from .told import asked_about
+from .told import asked_about, reaction_sentences
 from .workbook import Workbook
 
 
@@ -19,7 +19,7 @@ def task_document(task: Task, workbook: Workbook, language: str) -> Document:
     """A task with its statement, the form wanted, three hints, and where the derivation answers it."""
     key = f"homework.tasks.{task.quantity.kind}"
     values = _subject(task, workbook, language)
-    told_otherwise = variant_sentences(workbook, language)
+    told_otherwise = (*reaction_sentences(task, workbook, language), *variant_sentences(workbook, language))
     return {
         "id": task.id,
         "kind": task.quantity.kind,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ..derivation.multipliers import multipliers
 from .equality import frequencies
 from .solution import Solution
 
@@ -59,6 +60,21 @@ def _positive(solution: Solution) -> bool:
     return bool(solution.frequencies) and all(
         frequencies.number_of(each, solution) > 1e-9 for each in solution.frequencies
     )
+
+
+def reacting(solution: Solution) -> tuple[str, ...]:
+    """Each constraint, if its multiplier is short enough to be asked for."""
+    found = multipliers(solution.model)
+    return tuple(condition.source for condition in solution.conditions) if found else ()
+
+
+def reaction_of(solution: Solution, name: str) -> sp.Expr:
+    """λ of a constraint by coordinates and rates."""
+    found = multipliers(solution.model)
+    condition = next(each for each in solution.conditions if each.source == name)
+    if found is None:
+        raise ValueError(f"the multiplier of {name} is too long")
+    return found.values[solution.multiplier(condition)]
 
 
 def numbered(solution: Solution) -> list[str]:

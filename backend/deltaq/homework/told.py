@@ -98,6 +98,33 @@ def _ordering(goal: str) -> Callable[[Task, Workbook, str], Texts]:
     }
 
 
+def reaction_sentences(task: Task, workbook: Workbook, language: str) -> tuple[CatalogText, ...]:
+    """Which multipliers the equations of motion have, and what decides their sign."""
+    if task.quantity.kind not in ("equation", "equations"):
+        return ()
+    solution, typography = workbook.solution, Typography(workbook.scene.names)
+    return tuple(
+        text(
+            language,
+            f"homework.reactions.{'holonomic' if each.is_holonomic else 'rates'}",
+            condition=formula(rf"\Phi = {latex(solution.model.condition(each), typography)} = 0"),
+            multiplier=formula(latex(solution.multiplier(each), typography)),
+        )
+        for each in solution.conditions
+    )
+
+
+def _bound(task: Task, workbook: Workbook, _language: str) -> Texts:
+    """The constraint, and the letter of its multiplier."""
+    solution, typography = workbook.solution, Typography(workbook.scene.names)
+    condition = next(each for each in solution.conditions if each.source == task.subject)
+    left = latex(solution.model.condition(condition), typography)
+    return {
+        "condition": formula(rf"\Phi = {left} = 0"),
+        "multiplier": formula(latex(solution.multiplier(condition), typography)),
+    }
+
+
 TOLD: Mapping[str, Callable[[Task, Workbook, str], Texts]] = MappingProxyType(
     {
         "linearized": _rest,
@@ -107,6 +134,7 @@ TOLD: Mapping[str, Callable[[Task, Workbook, str], Texts]] = MappingProxyType(
         "stability": _stability,
         "symmetry": _symmetry,
         "steady-motion": _steady,
+        "constraint-force": _bound,
         **{f"order-{goal}": _ordering(goal) for goal in (LAGRANGIAN, EQUATION)},
     }
 )

@@ -122,14 +122,14 @@ def varied(scene: Scene, variant: Variant) -> Scene:
 
 
 def expressions(scene: Scene) -> Iterator[Expression]:
-    """All that its points, bodies, loads, guides and events are stated by."""
+    """All that its points, bodies, loads, guides, events and constraints are stated by."""
     found: list[Expression] = []
 
     def note(expression: Expression) -> Expression:
         found.append(expression)
         return expression
 
-    for things in (scene.points, scene.bodies, scene.loads, scene.guides, scene.events):
+    for things in (scene.points, scene.bodies, scene.loads, scene.guides, scene.events, scene.constraints):
         _each(things, note)
     yield from found
 
@@ -161,6 +161,7 @@ def _exchanged(scene: Scene, exchange: Exchange) -> Scene:
         loads=_each(scene.loads, change),
         guides=_each(scene.guides, change),
         events=_each(scene.events, change),
+        constraints=_each(scene.constraints, change),
     )
 
 

@@ -57,7 +57,7 @@ class Differentiation:
         Orders above two are refused, of coordinates those above four.
         """
         match operand:
-            case Name(name) if self.kind(name) == "coordinate":
+            case Name(name) if self.kind(name) in ("coordinate", "multiplier"):
                 return self._cursor.made(Rate(name, 1, span))
             case Rate(name, order) if order < MAX_RATE:
                 return self._cursor.made(Rate(name, order + 1, span))

@@ -293,15 +293,14 @@ class Operators:
         """A symbol. `phi(t)` is the coordinate φ as a function of time, not φ·t."""
         token = self._cursor.take()
         node = self._cursor.made(Name(token.text, token.span))
-        if self._differentiation.kind(token.text) == "coordinate":
+        if self._differentiation.kind(token.text) in ("coordinate", "multiplier"):
             self._of_time()
         return node
 
     def prime(self, operand: Node, span: Span) -> Node:
         """φ′, or φ′(t), which is the rate as a function of time."""
         node = self._differentiation.time_derivative(operand, span)
-        if isinstance(node, Rate):
-            self._of_time()
+        self._of_time()
         return node
 
     def _of_time(self) -> None:

@@ -117,7 +117,7 @@ class Alphabet:
 
     def polynomial(self, form: Form) -> tuple[Poly, int]:
         """Whole coefficients, and the denominator they share."""
-        denominator = math.lcm(*(int(c.q) for c in form.values()), 1)
+        denominator = math.lcm(*(int(c.q) for c in form.values()))
         total: Poly = {}
         for (mono, _, _), c in form.items():
             key = self.exponents(mono)

@@ -34,14 +34,13 @@ class Vocabulary:
 
     def say(self, key: str, *parts: str) -> str:
         """The words under a key with the parts in their places, each noun in the case that is asked for."""
-        text = self.words[key].format(*parts)
-        return self._declension.joint.sub(self._declension.declined, text) if parts and self._declension else text
+        declension = self._declension
+        return declension.joint.sub(declension.declined, self.words[key].format(*parts))
 
     @cached_property
-    def _declension(self) -> Declension | None:
+    def _declension(self) -> Declension:
         nouns = [self.words[key].split("|") for key in self.words if key.startswith("nouns.")]
-        cases = [frozenset(self.words.get(f"cases.{case}", "").split()) for case in ("dative", "accusative")]
-        return Declension(nouns, *cases) if any(cases) else None
+        return Declension(nouns, *(frozenset(self.words[f"cases.{case}"].split()) for case in ("dative", "accusative")))
 
     def whole(self, number: int) -> str:
         """A whole number that is not negative."""
@@ -60,7 +59,7 @@ class Declension:
     def joint(self) -> re.Pattern[str]:
         """A word that asks for a case, and a noun without it."""
         words, nouns = sorted(self.dative | self.accusative), [forms[0] for forms in self.nouns]
-        return re.compile(rf"(?<!\w)({'|'.join(words)}) ({'|'.join(sorted(nouns, key=len, reverse=True))})(?!\w)")
+        return re.compile(rf"(?<!\w)({'|'.join(words)}) ({'|'.join(nouns)})(?!\w)")
 
     def declined(self, found: re.Match[str]) -> str:
         """Both with the noun in its case; von dem is vom."""
@@ -137,7 +136,7 @@ class SymbolReader:
         low = letter.lower()
         is_capital = low != letter and low in self.lower
         said = self.vocabulary.say("capital", self._name(low) if len(low) > 1 else letter) if is_capital else None
-        said = said or (self._name(low) if len(letter) > 1 and low in GREEK_NAMES else letter)
+        said = said or (self._name(low) if low in GREEK_NAMES else letter)
         told = place == "bold" and (letter in self.plain)
         return self.vocabulary.say("matrix-letter" if letter in "MDK" else "vector-letter", said) if told else said
 
@@ -161,8 +160,7 @@ class SpokenSymbols:
 
     def __post_init__(self) -> None:
         plain = heads(symbol.typeset for symbol in self.names.symbols)
-        lower = frozenset(letter for letter in plain if letter.islower()) | LETTERS_OF_QUANTITIES
-        object.__setattr__(self, "reader", SymbolReader(self.vocabulary, lower, plain))
+        object.__setattr__(self, "reader", SymbolReader(self.vocabulary, plain | LETTERS_OF_QUANTITIES, plain))
 
     def symbol(self, name: str) -> str:
         """The words for a symbol by its plain name."""

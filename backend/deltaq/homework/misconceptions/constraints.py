@@ -1,0 +1,82 @@
+"""Mistakes in the reactions of constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import sympy as sp
+
+from ...vocabulary import SlipKind
+from ..faulty_solution import FaultySolution
+from ..solution import Solution
+
+
+@dataclass(frozen=True, eq=False)
+class ReactionForgotten(FaultySolution):
+    """The reactions are left out of the equations of motion.
+
+    More coordinates are used than there are degrees of freedom, and then as if all of them were free.
+    """
+
+    id: ClassVar[str] = "reaction-forgotten"
+    likely: ClassVar[int] = 1
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
+
+    @classmethod
+    def variants(cls, true: Solution) -> Iterator[Self]:
+        if true.conditions:
+            yield cls(true.scene, true)
+
+    def reaction(self, _coordinate: str, /) -> sp.Expr:
+        return self.zero
+
+
+@dataclass(frozen=True, eq=False)
+class ReactionSign(FaultySolution):
+    """The reactions stand on the wrong side: +λ ∂Φ/∂q on the left of `… = 0`.
+
+    L + λΦ and E − V − λΦ are both in use; here λ is told by δW = λ δΦ, and its sign is not free any more.
+    """
+
+    id: ClassVar[str] = "reaction-sign"
+    likely: ClassVar[int] = 2
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"sign"})
+
+    @classmethod
+    def variants(cls, true: Solution) -> Iterator[Self]:
+        if true.conditions:
+            yield cls(true.scene, true)
+
+    def reaction(self, coordinate: str) -> sp.Expr:
+        return -super().reaction(coordinate)
+
+
+@dataclass(frozen=True, eq=False)
+class RatesVariedAlongTheMotion(FaultySolution):
+    """A constraint on rates is varied along the motion, as if L + λΦ were the Lagrange function.
+
+    That is the vakonomic problem: with λ̇ a − λ (∂Φ/∂q − ȧ) in the equations, its motions are others. The reaction of a
+    constraint on rates follows from virtual displacements at frozen time, Σ a δq = 0.
+    """
+
+    id: ClassVar[str] = "rates-varied-along-the-motion"
+    likely: ClassVar[int] = 1
+
+    @classmethod
+    def variants(cls, true: Solution) -> Iterator[Self]:
+        if not all(condition.is_holonomic for condition in true.conditions):
+            yield cls(true.scene, true)
+
+    def reaction(self, coordinate: str) -> sp.Expr:
+        held = (c for c in self.conditions if c.is_holonomic)
+        bound = (c for c in self.conditions if not c.is_holonomic)
+        varied = (self._varied(self.condition(c), self.multiplier(c), coordinate) for c in bound)
+        return sp.Add(*(self.reaction_share(c, coordinate) for c in held), *varied)
+
+    def _varied(self, condition: sp.Expr, multiplier: sp.Symbol, coordinate: str) -> sp.Expr:
+        """∂(λΦ)/∂q − d/dt ∂(λΦ)/∂q̇"""
+        slope = condition.diff(self.rate(coordinate))
+        change = self.time_derivative(slope)
+        return multiplier * (condition.diff(self.q(coordinate)) - change) - self.rate(multiplier.name) * slope
