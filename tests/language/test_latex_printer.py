@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Function, Mul, Rational
+from sympy import Add, Expr, Float, Function, Mul, Pow, Rational, cos, exp, pi, sin, sqrt
 from tests.language.scene_names import read
 
 from deltaq.language.latex_printer import Typography, latex
@@ -145,3 +145,49 @@ def test_a_function_without_a_command_is_written_upright_with_brackets() -> None
     y = read("y", names=LECTURE)
     assert latex(Function("f")(y), Typography(LECTURE)) == r"\operatorname{f}(q_1)"
     assert latex(Function("f")(y) ** 2 * y, Typography(LECTURE)) == r"q_1 (\operatorname{f}(q_1))^{2}"
+
+
+Y, M, K, PHI, DY, VARIED = (read(name, names=LECTURE) for name in ("y", "m", "k", "phi", "d(y)", "delta(y)"))
+BUILT = [
+    (Rational(-3), "-3"),
+    (Rational(-1, 3), r"-\frac{1}{3}"),
+    (Float("0.7"), "0.7"),
+    (Float("-0.25"), "-0.25"),
+    (Float("2.0"), "2"),
+    (Rational(1, 20), "0.05"),
+    (Rational(2, 3) ** Y, r"\left(\frac{2}{3}\right)^{q_1}"),
+    (Pow(-2, Y), "(-2)^{q_1}"),
+    (Float("9.81") ** Y, "9.81^{q_1}"),
+    (Add(Y, Add(M, K, evaluate=False), evaluate=False), "q_1 + (m + k)"),
+    ((M + K) / Y, r"\frac{m + k}{q_1}"),
+    (1 / (M + K), r"\frac{1}{m + k}"),
+    (M * (K + 1) / Y, r"\frac{m (1 + k)}{q_1}"),
+    ((M + K) * (Y + 1) / K, r"\frac{(m + k) (q_1 + 1)}{k}"),
+    (pi * M / 2, r"\frac{1}{2} \pi m"),
+    (3 * pi / 4, r"\frac{3}{4} \pi"),
+    (3 * Y / 4, r"\frac{3}{4} q_1"),
+    (3 * M * Y / 4, r"\frac{3}{4} m q_1"),
+    (M / (2 * K), r"\frac{m}{2 k}"),
+    (M / sin(PHI), r"\frac{m}{\sin q_2}"),
+    (sin(Y) ** -2, r"\frac{1}{\sin^{2} q_1}"),
+    (sin(Y) ** K, r"(\sin q_1)^{k}"),
+    (sin(Y**2), r"\sin(q_1^{2})"),
+    (sin(M + K) ** 2, r"\sin^{2}(m + k)"),
+    (Y ** (-K), "q_1^{-k}"),
+    (Y ** Rational(3, 2), "q_1^{3/2}"),
+    (DY**2, r"(\mathrm{d}q_1)^{2}"),
+    (VARIED**2, r"(\delta q_1)^{2}"),
+    (M * DY, r"m \, \mathrm{d}q_1"),
+    (sin(PHI) * DY, r"\sin q_2 \, \mathrm{d}q_1"),
+    (cos(PHI) * (M + K), r"(m + k) \cos q_2"),
+    ((M + K) ** 2, "(m + k)^{2}"),
+    ((M * K) ** Y, "(m k)^{q_1}"),
+    (sqrt(M + K), r"\sqrt{m + k}"),
+    (exp(exp(Y)), r"\mathrm{e}^{\mathrm{e}^{q_1}}"),
+    (M * exp(Y), r"m \mathrm{e}^{q_1}"),
+]
+
+
+@pytest.mark.parametrize(("value", "written"), BUILT, ids=[written for _, written in BUILT])
+def test_values_are_written_with_the_brackets_they_need(value: Expr, written: str) -> None:
+    assert latex(value, Typography(LECTURE)) == written

@@ -187,7 +187,7 @@ def _spaced(argument: str) -> str:
 def _has_bare_argument(call: sympy.Expr) -> bool:
     """Whether the argument is written without brackets: a single symbol that is no rate, after a command of LaTeX."""
     known = FUNCTIONS.get(CLASSES.get(type(call).__name__, type(call).__name__))
-    if known is None or known.latex.endswith("}") or known.name == "abs" or known.arguments > 1:
+    if known is None or known.latex.endswith("}") or known.arguments > 1:
         return False
     return all(argument.is_Symbol and not split_symbol(argument.name)[0] for argument in call.args)
 
@@ -209,7 +209,7 @@ def _takes_power(base: sympy.Expr, exponent: sympy.Expr) -> bool:
     known = FUNCTIONS.get(CLASSES.get(type(base).__name__, type(base).__name__))
     if known is None or known.name == "exp" or not base.is_Function:
         return False
-    return bool(exponent == 1 or (_is_raised_by_name(known) and exponent.is_Integer and exponent > 0))
+    return bool(exponent == 1 or (_is_raised_by_name(known) and exponent.is_Integer))
 
 
 def _is_raised_by_name(known: Function) -> bool:

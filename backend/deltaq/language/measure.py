@@ -124,7 +124,7 @@ def _product(parts: list[Measure], node: Node) -> Measure:
     for part in parts:
         value = None if value is None or part.value is None else _bounded(value * part.value, node.span)
     shapes = [p.shape for p in parts if p.shape]
-    if len(shapes) == 2 and len(shapes[0]) == 2 and shapes[1] == shapes[0][1:]:
+    if len(shapes) == 2 and shapes[1] == shapes[0][1:]:
         return Measure(sum(p.degree for p in parts), value, shapes[0][:1])  # a matrix times a vector
     if len(shapes) > 2 or (len(shapes) == 2 and (shapes[0] != shapes[1] or len(shapes[0]) > 1)):
         fail("vector-product", node.span, first=shape_text(shapes[0]), second=shape_text(shapes[1]))
