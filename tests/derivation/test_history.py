@@ -200,6 +200,24 @@ def test_terms_come_from_what_an_earlier_step_said_of_a_name(
     assert from_known(formula, value) == [[one] if one else [] for one in found]
 
 
+@pytest.mark.parametrize(
+    ("formula", "found"),
+    [
+        (V, [("first/0.1.0", "kept"), ("first/0.1.1", "kept")]),
+        (f.Rate(V), [("first/0.1.0", "differentiated"), ("first/0.1.1", "differentiated")]),
+        (f.Partial(V, y), [("first/0.1.1", "differentiated")]),
+        (W, []),
+    ],
+)
+def test_the_first_member_comes_from_the_step_that_said_what_it_is(
+    formula: f.Formula, found: list[tuple[str, str]]
+) -> None:
+    history = History(NormalAlgebra(("x", "y")))
+    history.lines(Step("first", "", (Relation((V, line(a * x, b * y))),)))
+    ((only,),) = history.lines(Step("next", "", (Relation((formula,)),)))
+    assert [(one.term, one.change) for term in only.terms for one in term.origins] == found
+
+
 def test_sources_of_terms_that_come_from_a_name_are_those_of_its_terms() -> None:
     """v is of both bodies, a x of one of them."""
     history = History(NormalAlgebra(("x", "y")))

@@ -10,6 +10,7 @@ from tests.language.scene_names import NAMES, SYMBOLS, read
 
 from deltaq.language.arrangement import Arrangement
 from deltaq.language.canonical import display
+from deltaq.language.display import size
 from deltaq.language.normal_form import Reader
 from deltaq.language.order import Order
 from deltaq.language.plain_printer import plain
@@ -63,3 +64,12 @@ def test_what_stands_before_a_long_sum(factor: str, in_front: str) -> None:
     assert len(bracket.args) == len(terms) == 220
     assert shown / bracket == read(in_front)
     assert sympy.expand(shown) == sympy.Add(*terms)
+
+
+def test_a_long_sum_with_a_quotient_keeps_its_value() -> None:
+    x, y, phi, m = (SYMBOLS.name(name) for name in ("x", "y", "phi", "m"))
+    powers = [(i, j, k) for i, j, k in itertools.product(range(9), repeat=3) if i + j + k <= 8]
+    total = sympy.Add(*(x**i * y**j * phi**k for i, j, k in powers)) + 1 / (x + m)
+    shown = display(total, SYMBOLS)
+    assert sympy.expand((shown - total).subs({x: 3, y: -2, phi: 5, m: 7})) == 0
+    assert size(shown) <= size(total)

@@ -197,6 +197,8 @@ ACCEPTED = [
 # Text; code, offset and length of what is wrong; parameters of the message.
 REFUSED = [
     ("x²²²", "exponent-too-large", 1, 3, {"limit": 64}),
+    ("x+^2", "unexpected-symbol", 2, 1, {"symbol": "^"}),
+    ("x = \\begin{pmatrix} 1", "unclosed-environment", 4, 15, {"name": "pmatrix"}),
     ("\\frac{d}{dt}^{m} x", "derivative-order", 14, 1, {"order": "m"}),
     ("\\frac\\right", "missing-argument", 0, 5, {"name": "\\frac"}),
     ("\\begin x", "unclosed-environment", 0, 6, {"name": ""}),

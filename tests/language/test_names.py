@@ -62,6 +62,22 @@ def test_a_word_and_a_product_are_ambiguous_in_latex() -> None:
     assert problem_of("ml", "latex", names) == wanted
 
 
+def test_an_index_belongs_to_the_last_letter_or_to_the_word() -> None:
+    names = Names(tuple(Symbol(n, "parameter") for n in ("m", "l_1", "ml_1")))
+    wanted = Problem("ambiguous-product", "", 1, 4, {"text": "ml_1", "first": "m*l_1", "second": "ml_1"})
+    assert problem_of("2ml_1", "latex", names) == wanted
+
+
+def test_of_a_long_word_the_beginning_is_told() -> None:
+    problem = problem_of("x + " + "z" * 45)
+    assert (problem.code, problem.offset, problem.length, problem.parameters["name"]) == (
+        "unknown-name",
+        4,
+        45,
+        "z" * 40,
+    )
+
+
 def test_two_ways_to_split_a_word_are_ambiguous() -> None:
     names = Names(tuple(Symbol(n, "parameter") for n in ("a", "b", "ab", "bc", "c")))
     wanted = Problem("ambiguous-product", "", 0, 3, {"text": "abc", "first": "a*b*c", "second": "a*bc"})

@@ -386,6 +386,8 @@ REFUSED = [
     ("90°", "unit", 2, 1, {"name": "°"}),
     ("10 cm", "unit", 3, 2, {"name": "cm"}),
     ("2.5 Nm", "unit", 4, 2, {"name": "Nm"}),
+    ("sin^0.5 x", "function-power", 0, 7, {"function": "sin"}),
+    ("abs^2(x)", "function-power", 0, 5, {"function": "abs"}),
     ("dot(m)", "rate-of-constant", 0, 6, {"name": "m"}),
     ("dot(t)", "rate-of-constant", 0, 6, {"name": "t"}),
     ("m'", "rate-of-constant", 0, 2, {"name": "m"}),

@@ -118,11 +118,8 @@ class Alphabet:
     def polynomial(self, form: Form) -> tuple[Poly, int]:
         """Whole coefficients, and the denominator they share."""
         denominator = math.lcm(*(int(c.q) for c in form.values()))
-        total: Poly = {}
-        for (mono, _, _), c in form.items():
-            key = self.exponents(mono)
-            total[key] = total.get(key, 0) + int((c * denominator).p)
-        return self._raised({key: c for key, c in total.items() if c}), denominator
+        total = {self.exponents(mono): int((c * denominator).p) for (mono, _, _), c in form.items()}
+        return self._raised(total), denominator
 
     def _raised(self, poly: Poly) -> Poly:
         """Fractions cancelled: s²/s³ is 1/s where s² is multiplied out."""

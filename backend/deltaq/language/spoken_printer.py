@@ -310,5 +310,4 @@ def paused(pieces: list[str]) -> str:
 
 def _takes_power(base: sympy.Expr, exponent: sympy.Expr) -> bool:
     """Whether the power stands behind the name of the function, as in sine squared of phi."""
-    is_call = bool(base.is_Function) and not isinstance(base, sympy.exp)
-    return is_call and bool(exponent == 1 or (exponent.is_Integer and exponent > 0))
+    return bool(base.is_Function and exponent.is_Integer) and not isinstance(base, sympy.exp)
