@@ -83,6 +83,13 @@ ROWS = [
     pytest.param("abs(-2*m*x) + abs(m)", "m*(1 + 2*abs(x))", id="positive factors leave the bars"),
     pytest.param("y*sign(-2*m*x)", "-y*sign(x)", id="positive factors leave the sign"),
     pytest.param("x*sign(m) + sign(x - x)", "x", id="signs that are known"),
+    pytest.param("step(2*m*x)", "step(x)", id="positive factors leave a step"),
+    pytest.param("step(m) + step(-m) + step(x - x)", "3/2", id="steps that are known"),
+    pytest.param("step(y - x) + step(x - y)", "1", id="a step and its opposite"),
+    pytest.param("y*step(x)^2", "y*step(x)^2", id="a power of a step"),
+    pytest.param("2*max(x, y) - x - y", "2*max(x, y) - y - x", id="the larger stays what it is"),
+    pytest.param("diff(max(x, y), x)", "step(x - y)", id="slope of the larger"),
+    pytest.param("diff(min(x, y)^2, x)", "2*step(y - x)*min(x, y)", id="slope of the square of the smaller"),
     pytest.param("abs(1 - x)", "abs(x - 1)", id="size of a difference the other way round"),
     pytest.param("y*sign(1 - x)", "y*sign(1 - x)", id="sign of a difference the other way round"),
     pytest.param("abs(m*x^2 - m*y*x)", "m*abs(x^2 - y*x)", id="size of a sum"),
@@ -171,3 +178,8 @@ def test_what_nobody_reads_is_not_worked_on(power: int) -> None:
 def test_without_names_latin_coordinates_come_before_greek_ones() -> None:
     assert plain(read("delta(phi) + delta(y)")) == "delta(y) + delta(phi)"
     assert plain(read("delta(phi) + delta(y)"), Order(Names())) == "delta(y) + delta(phi)"
+
+
+def test_a_sum_in_a_sum_has_brackets() -> None:
+    x, m, k = (SYMBOLS.name(name) for name in ("x", "m", "k"))
+    assert plain(sympy.Add(x, sympy.Add(m, k, evaluate=False), evaluate=False), Order(NAMES)) == "x + (m + k)"

@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 from flint import fmpq
-from tests.language.scene_names import read
+from tests.language.scene_names import SYMBOLS, read
 
 from deltaq.language import fourier
+from deltaq.language.canonical import is_zero
 from deltaq.language.fourier import Form, Phase
 from deltaq.language.kernel_reader import divided
 from deltaq.language.normal_form import Reader
@@ -106,3 +107,23 @@ def test_quotients_of_polynomials(form: str, by: str, quotient: str | None) -> N
 def _terms(text: str) -> list[Any]:
     value = read(text)
     return list(value.args) if value.is_Add else [value]
+
+
+@pytest.mark.parametrize(
+    ("text", "zero"),
+    [
+        ("max(x, y) + min(x, y) - x - y", True),
+        ("max(x, y) - min(x, y) - abs(x - y)", True),
+        ("2*max(x, y) - x - y - abs(x - y)", True),
+        ("max(x, y, phi) - max(max(phi, y), x)", True),
+        ("min(x, y) + max(-x, -y)", True),
+        ("max(x, y) - x", False),
+        ("min(x, y) - max(x, y)", False),
+        ("step(x) + step(-x) - 1", True),
+        ("2*step(x) - 1 - sign(x)", True),
+        ("step(3*x) - step(x)", True),
+        ("step(x) - step(y)", False),
+    ],
+)
+def test_the_larger_the_smaller_and_the_step_are_known_by_absolute_values_and_signs(text: str, *, zero: bool) -> None:
+    assert is_zero(read(text), SYMBOLS) is zero

@@ -17,6 +17,7 @@ L = sympy.Symbol("l", positive=True)
     ("expr", "outcome"),
     [
         pytest.param(sympy.E - sympy.Rational("2.718281828459045"), (False, 1), id="a number like e"),
+        pytest.param(sympy.cosh(1) - (sympy.E + 1 / sympy.E) / 2, (True, 12), id="e itself"),
         pytest.param(sympy.log(L**2) - 2 * sympy.log(L), (True, 12), id="logarithms"),
         pytest.param(sympy.cbrt(L**2 + 1) ** 3 - L**2, (False, 1), id="cube root"),
         pytest.param(sympy.S.Zero, (True, 12), id="zero itself"),

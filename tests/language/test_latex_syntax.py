@@ -198,6 +198,9 @@ ACCEPTED = [
 REFUSED = [
     ("x²²²", "exponent-too-large", 1, 3, {"limit": 64}),
     ("x+^2", "unexpected-symbol", 2, 1, {"symbol": "^"}),
+    ("x + \\mathrm{a b}", "unexpected-symbol", 12, 3, {"symbol": "a b"}),
+    ("x+\\mathrm{}", "unexpected-symbol", 10, 1, {"symbol": ""}),
+    ("{" + "ab+" * 15 + "}_1", "indexed-operator", 0, 47, {"name": "ab+" * 13 + "a"}),
     ("x = \\begin{pmatrix} 1", "unclosed-environment", 4, 15, {"name": "pmatrix"}),
     ("\\frac{d}{dt}^{m} x", "derivative-order", 14, 1, {"order": "m"}),
     ("\\frac\\right", "missing-argument", 0, 5, {"name": "\\frac"}),
