@@ -154,7 +154,7 @@ class SympyAlgebra:
         return value
 
     def vector(self, components: tuple[Value, ...]) -> Value:
-        if any(isinstance(c, sympy.Eq) for c in components):
+        if isinstance(components[0], sympy.Eq):
             return sympy.Tuple(*components)
         if isinstance(components[0], sympy.MatrixBase):
             return sympy.ImmutableMatrix([list(row) for row in components])
