@@ -21,6 +21,7 @@ READINGS = [
     ("g/lm", ["(g/l)*m", "g/(l*m)"], 2),
     ("g/lm k", ["(g/l)*m*k", "g*k/(l*m)", "g/(l*m*k)"], 2),
     ("g/l x' m", ["(g/l)*dot(x)*m"], 0),
+    ("g/l x'^2 m", ["(g/l)*dot(x)^2*m"], 0),
     ("g/lm x' k", ["(g/l)*m*dot(x)*k", "g*dot(x)*k/(l*m)"], 2),
     ("g/l(m+k)", ["(g/l)*(m+k)", "g/(l*(m+k))"], 2),
     ("g/l (m+k)", ["(g/l)*(m+k)"], 0),

@@ -192,12 +192,15 @@ ACCEPTED = [
     ("\\frac{\\partial}{\\partial x}^2 (x^3)", "6*x"),
     ("\\frac{\\partial^2 (x^2 y)}{\\partial x \\partial y}", "2*x"),
     ("\\begin{bmatrix}{x}\\\\ y\\end{bmatrix}", "[x, y]"),
+    ("\\begin{bmatrix} {x & y} \\\\ m \\end{bmatrix}", "[x*y, m]"),
 ]
 
 # Text; code, offset and length of what is wrong; parameters of the message.
 REFUSED = [
     ("x²²²", "exponent-too-large", 1, 3, {"limit": 64}),
     ("x+^2", "unexpected-symbol", 2, 1, {"symbol": "^"}),
+    ("x_{" + "a+" * 25 + "}", "unexpected-symbol", 3, 50, {"symbol": "a+" * 20}),
+    ("x+" + "{" * 62 + "y" + "}" * 62, "too-deep", 63, 3, {"limit": 60}),
     ("x + \\mathrm{a b}", "unexpected-symbol", 12, 3, {"symbol": "a b"}),
     ("x+\\mathrm{}", "unexpected-symbol", 10, 1, {"symbol": ""}),
     ("{" + "ab+" * 15 + "}_1", "indexed-operator", 0, 47, {"name": "ab+" * 13 + "a"}),
