@@ -5904,7 +5904,7 @@ export interface components {
             } | null;
             /**
              * Multipliers
-             * @description of constraints, as far as they are unique; of a distance the force, positive in tension
+             * @description of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of each name in `release`, in the direction in which it grows
              */
             multipliers?: {
                 [key: string]: components["schemas"]["Column"];
@@ -6034,6 +6034,14 @@ export interface components {
              * @example []
              */
             include?: ("coordinates" | "rates" | "positions" | "loads" | "multipliers" | "energy" | "error")[];
+            /**
+             * Release
+             * @description lengths, and coordinates guided or frozen, whose reactions are asked for
+             * @example [
+             *       "l"
+             *     ]
+             */
+            release?: string[];
             /**
              * Columns
              * @description how arrays are written; base64: little-endian doubles, components of a vector together

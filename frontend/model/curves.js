@@ -57,7 +57,7 @@ function fits({ curves, least }, values, axes) {
 }
 
 /**
- * Coordinates of the same unit share a row as long as each is to be seen in it; the energies have the last one.
+ * Coordinates of the same unit share a row as long as each is to be seen in it; reactions have one, the energies the last.
  * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look
  * @returns {Row[]}
  */
@@ -96,7 +96,8 @@ function rowsOfOne(scene, trajectory, look) {
     if (!shared) rows.push(row);
   });
   const span = look.span && spanOf(look, endOf(trajectory));
-  return [...rows.map(({ of: _, ...row }) => row), ...energyRow(trajectory, look)].map((row) =>
+  const others = [...reactionRow(scene, trajectory, look), ...energyRow(trajectory, look)];
+  return [...rows.map(({ of: _, ...row }) => row), ...others].map((row) =>
     span ? { ...row, curves: row.curves.map((curve) => within(curve, ...span)) } : row,
   );
 }
@@ -107,6 +108,40 @@ function within(curve, from, to) {
   const { at, wrapped } = curve;
   return { ...curve, times, values: times.map((t) => (wrapped ? wrap(at(t)) : at(t))) };
 }
+
+/**
+ * Reactions along the motion: multipliers of constraints, and what holds what was released.
+ * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
+ */
+function reactionRow({ coordinates, parameters }, { t: times, multipliers }, { hidden }) {
+  if (!multipliers) return [];
+  const known = new Map([...coordinates, ...parameters].map(({ name, latex }) => [name, latex || name]));
+  const curves = Object.entries(multipliers).map(([name, values], k) => ({
+    key: `reaction-${name}`,
+    name,
+    latex: known.has(name) ? `Z_{${known.get(name)}}` : symbolOf(name),
+    className: `q-${coordinates.length + k}`,
+    values,
+    times,
+    at: smooth(times, values),
+    dash: "solid",
+    band: false,
+    beside: false,
+    wrapped: false,
+    hidden: hidden.includes(`reaction-${name}`),
+  }));
+  return curves.length ? [{ key: "reactions", unit: "", least: 0, curves }] : [];
+}
+
+/** How the name of a multiplier is written: a Greek letter as such, a number behind it below. @param {string} name */
+function symbolOf(name) {
+  const [, letters, index] = /^([A-Za-z]+)_?(\w*)$/.exec(name) ?? ["", name, ""];
+  const letter = letters.length > 1 ? `\\${GREEK.has(letters) ? letters : `mathit{${letters}}`}` : letters;
+  return index ? `${letter}_{${index}}` : letter;
+}
+
+/** Greek letters that multipliers are called by. */
+const GREEK = new Set(["lambda", "mu", "nu", "kappa", "sigma", "tau", "rho", "xi", "eta", "zeta"]);
 
 /** @param {Trajectory} trajectory @param {Look} look @returns {Row[]} */
 function energyRow({ t: times, energy }, { hidden }) {

@@ -96,6 +96,7 @@ function quantitiesOf(trajectory) {
         .flatMap(componentsOf)
         .map((values) => quantity(values)),
     ),
+    ...Object.values(trajectory.multipliers ?? {}).map((values) => quantity(values)),
     ...(energy ? together([energy.kinetic, energy.potential, energy.balance].map((values) => quantity(values))) : []),
   ];
 }

@@ -107,6 +107,7 @@ export function createSession(store, api, clock) {
     /** Lets go in thought of what the scene holds, and opens the chapter on what holds it. @param {string} release its name, or "" */
     async release(release) {
       move({ release });
+      simulations.ask();
       await derive();
       const chapter = get().derivation?.chapters.find(({ id }) => id === "reactions");
       if (chapter?.steps[0]) move({ step: chapter.steps.at(-1)?.id ?? "" });
@@ -124,7 +125,7 @@ export function createSession(store, api, clock) {
       set({ place: there, overlay: "" });
       if (differs("scene", "n")) return subject.choose(there.scene, there.step, there.n, there.set);
       if (differs("set")) set({ changes: readChanges(there.set), held: null });
-      if (differs("set", "method", "duration")) simulations.ask();
+      if (differs("set", "method", "duration", "release")) simulations.ask();
       if (differs("formulation", "more", "release")) await derive();
     },
     /** @param {Partial<Place>} patch how to simulate */

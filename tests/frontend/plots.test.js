@@ -13,6 +13,13 @@ test("a row for each unit, and one for the energies", () => {
   ]);
 });
 
+test("reactions have a row above the energies, written as what they hold or as multipliers", () => {
+  const held = { ...trajectory, multipliers: { lambda_1: trajectory.t.map((t) => t), l: trajectory.t.map((t) => -t) } };
+  const parameters = [{ name: "l", latex: "\\ell" }];
+  const [row] = rowsOf(/** @type {any} */ ({ ...scene, parameters }), held).slice(-2);
+  assert.deepEqual(row.curves.map(({ latex, className }) => [latex, className]), [["\\lambda_{1}", "q-2"], ["Z_{\\ell}", "q-3"]]);
+});
+
 test("coordinates of one unit share a row, each in its own colour", () => {
   const twins = { ...scene, coordinates: scene.coordinates.map((c) => ({ ...c, unit: "m" })) };
   assert.deepEqual(rowsOf(twins, trajectory)[0].curves.map((curve) => curve.className), ["q-0", "q-1"]);

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { scene } from "./fixtures.js";
 import { failure, own, page, rest, swing } from "./server.js";
 
-const PARTS = ["coordinates", "rates", "positions", "loads", "energy", "error"];
+const PARTS = ["coordinates", "rates", "positions", "loads", "multipliers", "energy", "error"];
 const methods = /** @type {any} */ ([{ id: "dop853", adaptive: true }, { id: "rk4", adaptive: false }]);
 
 for (const [name, patch, expected] of /** @type {[string, any, any][]} */ ([

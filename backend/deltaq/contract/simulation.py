@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 from typing_extensions import TypeAliasType
 
 from ..vocabulary import AUTO, Status
-from .base import Answer, AskedLanguage, Name, NotAbove, SceneWithInitialValues, examples, items, outside
+from .base import Answer, AskedLanguage, Name, NotAbove, Released, SceneWithInitialValues, examples, items, outside
 
 LARGEST_SPAN = 1e5  # seconds
 SHORTEST = 1e-250  # seconds; parts of less are no longer different numbers
@@ -38,6 +38,7 @@ class SimulationRequest(SceneWithInitialValues):
     include: Annotated[tuple[Part, ...], items(max_length=32)] = Field(
         (), description=f"the parts wanted, of {', '.join(PARTS)}; all if empty", examples=[[]]
     )
+    release: Released = ()
     columns: Written = Field(
         "numbers", description="how arrays are written; base64: little-endian doubles, components of a vector together"
     )
@@ -141,7 +142,9 @@ class SimulationAnswer(Answer):
     positions: dict[str, VectorColumn] | None = None
     loads: dict[str, VectorColumn] | None = Field(None, description="force vectors")
     multipliers: dict[str, Column] | None = Field(
-        None, description="of constraints, as far as they are unique; of a distance the force, positive in tension"
+        None,
+        description="of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of"
+        " each name in `release`, in the direction in which it grows",
     )
     undetermined: tuple[str, ...] | None = Field(
         None, description="multipliers that are not unique, since their constraints depend on one another"

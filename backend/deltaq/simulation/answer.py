@@ -35,7 +35,9 @@ def answer(
     if "error" in request.include:
         parts["error"] = _error(problem, trajectory, request.tolerance)
     if problem.is_constrained:
-        parts |= _constrained(request, problem, trajectory, column)
+        parts |= _constrained(request, problem, trajectory)
+    if "multipliers" in request.include and problem.reactions:
+        parts["multipliers"] = _multipliers(problem, trajectory, column)
     return {
         "status": trajectory.outcome.status,
         "reason": _told(trajectory.outcome),
@@ -120,32 +122,35 @@ def _energy(
     }
 
 
-def _constrained(
-    request: Request, problem: Problem, trajectory: Trajectory, column: Callable[[Floats], Column]
-) -> Document:
-    """Multipliers as far as they are unique, the largest |g|, and by how much the initial values were moved."""
-    reactions, moved, found = trajectory.reactions, problem.moved, trajectory.estimate
+def _constrained(request: Request, problem: Problem, trajectory: Trajectory) -> Document:
+    """The largest |g|, the multipliers that are not unique, and by how much the initial values were moved."""
+    reactions, moved = trajectory.reactions, problem.moved
     if reactions is None or moved is None:
         return {}
-    parts: Document = {
+    return {
         "drift": short(float(np.max(reactions.gaps, initial=0.0))),
         "undetermined": list(moved.undetermined),
         "moved": _moved(request, moved),
     }
-    if "multipliers" in request.include:
-        known = found.multipliers if found is not None and found.multipliers is not None else None
-        parts["multipliers"] = {
-            name: column(rounded(reactions.multipliers[:, k], _doubts(known, k, len(trajectory.times))))
-            for k, name in _unique(problem)
-        }
-    return parts
+
+
+def _multipliers(problem: Problem, trajectory: Trajectory, column: Callable[[Floats], Column]) -> Document:
+    """The multipliers as far as they are unique, and what holds what was released."""
+    reactions, found = trajectory.reactions, trajectory.estimate
+    if reactions is None:
+        return {}
+    known = None if found is None else found.multipliers
+    return {
+        name: column(rounded(reactions.multipliers[:, k], _doubts(known, k, len(trajectory.times))))
+        for k, name in _unique(problem)
+    }
 
 
 def _unique(problem: Problem) -> list[tuple[int, str]]:
-    """The multipliers that have one value, by their number, in the order of the scene."""
-    layout, unknown = problem.model.layout, problem.moved.undetermined if problem.moved else ()
-    ordered = sorted(range(len(layout.multipliers)), key=layout.constraints.__getitem__)
-    return [(k, layout.multipliers[k]) for k in ordered if layout.multipliers[k] not in unknown]
+    """The reactions that have one value, by number: multipliers as the scene orders them, then what is released."""
+    places, unknown = problem.model.layout.constraints, problem.moved.undetermined if problem.moved else ()
+    ordered = [*sorted(range(len(places)), key=places.__getitem__), *range(len(places), len(problem.reactions))]
+    return [(k, problem.reactions[k]) for k in ordered if problem.reactions[k] not in unknown]
 
 
 def _doubts(known: Floats | None, k: int, count: int) -> Floats:

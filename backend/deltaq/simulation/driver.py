@@ -10,12 +10,12 @@ import numpy as np
 from .attempt import Attempt, Integrator
 from .audit import Audit, GuideJump
 from .conclusion import outcome
-from .constraints import settled
 from .estimate import Estimate
 from .event import EventOccurrence
 from .integration import Flag
 from .method import Method
 from .problem import Floats, Problem
+from .reactions import reactions_at
 from .refinement import ByStep, ByTolerance, Refinement
 from .rounding import significant
 from .run import Stop
@@ -91,8 +91,8 @@ def _trajectory(
     is_reached = None if tolerance is None or found is None else found.worst <= tolerance and best.is_complete
     times, states, errors = _shown(best, _refined(problem))
     reactions = None
-    if problem.is_constrained:
-        states, reactions = settled(problem, times, states)
+    if problem.reactions:
+        states, reactions = reactions_at(problem, times, states)
         times, errors = times[: len(states)], errors[: len(states)]
     return Trajectory(
         method.id,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.compiled import Compiled
 from ..model.model import Model
 
 Floats = NDArray[np.float64]
@@ -28,11 +29,21 @@ class Moved:
 
 
 @dataclass(frozen=True)
+class Released:
+    """What holds the quantities of these names: a function of what the model reads, of q̈ and λ."""
+
+    names: tuple[str, ...]
+    function: Compiled
+
+
+@dataclass(frozen=True)
 class Problem:
     """An initial value problem: q(0), q̇(0) of the free coordinates (in their order), on [0, t_end].
 
     `angular` says which coordinates are angles: an angle that is wrong by a radian is wrong, however often it has
-    wound around. `samples` are spread evenly over [0, t_end].
+    wound around. `samples` are spread evenly over [0, t_end]. Where there are constraints, the initial values keep
+    them: `rank` says how many are independent, `moved`, by how much those wanted were moved for that. Of what is
+    `released` it is asked what holds it.
     """
 
     model: Model
@@ -45,10 +56,16 @@ class Problem:
     step_limit: int = STEP_LIMIT
     rank: int = 0
     moved: Moved | None = None
+    released: Released | None = None
 
     @property
     def is_constrained(self) -> bool:
         return bool(self.model.layout.multipliers)
+
+    @property
+    def reactions(self) -> tuple[str, ...]:
+        """The names of the multipliers, then those of what is released."""
+        return (*self.model.layout.multipliers, *(self.released.names if self.released else ()))
 
     @property
     def degrees(self) -> int:

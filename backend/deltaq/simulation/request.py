@@ -13,7 +13,10 @@ from ..mechanics.scene import Scene
 
 @dataclass(frozen=True)
 class Request:
-    """A simulation to run. `scene` has the parameter and initial values wanted; exactly one of step and tolerance."""
+    """A simulation to run. `scene` has the parameter and initial values wanted; exactly one of step and tolerance.
+
+    `release` names what is asked what holds it.
+    """
 
     scene: Scene
     t_end: float
@@ -23,10 +26,13 @@ class Request:
     tolerance: float | None
     include: frozenset[str]
     columns: str
+    release: tuple[str, ...] = ()
 
 
 def read_request(document: Mapping[str, object]) -> Request:
     """The request in a document. Raises InputError with all problems of the fields, or of the scene."""
     asked = read(SimulationRequest, document)
     accuracy, include = (asked.step, asked.wanted_tolerance), frozenset(asked.include or PARTS)
-    return Request(begun_scene(asked), asked.t_end, asked.samples, asked.method, *accuracy, include, asked.columns)
+    release = tuple(dict.fromkeys(asked.release))
+    scene = begun_scene(asked)
+    return Request(scene, asked.t_end, asked.samples, asked.method, *accuracy, include, asked.columns, release)

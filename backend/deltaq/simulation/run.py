@@ -7,7 +7,7 @@ from time import perf_counter
 
 import numpy as np
 
-from .constraints import Reactions, is_locked, pivot_of, settled
+from .constraints import Reactions, is_locked, pivot_of
 from .event import Approach, Event, approaches, first_event
 from .integration import Flag, KernelArguments, is_kicked, motion_of, run_kernel, watch_of
 from .kernels.loop import Result
@@ -17,6 +17,7 @@ from .kernels.step_control import Control
 from .method import Method
 from .pieces import Pieces
 from .problem import Floats, Problem
+from .reactions import reactions_at
 from .stability import real_stability
 
 APART = 1e-6  # of the distance between two samples; the last one before an event is that far from it at least
@@ -131,7 +132,8 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
     if problem.is_constrained:
         memory = arguments.motion.memory
         result, conditioning = _told_apart(result, memory), pivot_of(memory)
-        out, reactions = settled(problem, times[:good], out[:good])
+    if problem.reactions:
+        out, reactions = reactions_at(problem, times[:good], out[:good])
         good = len(out)
     found = Run(
         times[:good],

@@ -14,6 +14,7 @@ from ..mechanics.library import load_scene
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..model.model import Observation, compile_model
+from ..model.reactions import reactions
 from .answer import Document, answer
 from .auto import choose
 from .choice import Choice, check
@@ -23,7 +24,7 @@ from .driver import simulate
 from .event import event_values
 from .library import get_method, method_ids
 from .outcome import Outcome
-from .problem import Floats, Problem
+from .problem import Floats, Problem, Released
 from .request import Request, read_request
 from .rounding import short
 from .trajectory import Trajectory
@@ -45,6 +46,9 @@ def run(document: Mapping[str, object]) -> Document:
     compile_time = perf_counter() - start
     with inside("/scene"):
         problem = problem_of(request.scene, request.t_end, request.samples)
+    if request.release:
+        released = Released(request.release, reactions(request.scene, request.release))
+        problem = replace(problem, released=released)
         require_no_event(request.scene, problem)
     choice = choose(request.method, request.scene, problem, request.step, request.tolerance)
     return _simulated(request, choice, problem, compile_time)

@@ -1,0 +1,61 @@
+"""What holds a released length, angle or guided coordinate, as a function of the scene's own motion.
+
+With l let go the scene has one coordinate more, whose equation Mₗ q̈ + bₗ = Qₗ + (Aᵀλ)ₗ + Z lacks Z, δW = Z δl.
+In the motion of the scene l is as it was; put in, the equation says what Z is.
+Source: Szabó, Höhere Technische Mechanik, §I.4; Lanczos, The Variational Principles of Mechanics, ch. III.5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import symengine as se
+
+from ..mechanics.release import released
+from ..mechanics.scene import Scene
+from .compiled import Compiled, compile_expressions
+from .equations import Equations, equations
+from .functions import Expr
+from .kinetic import ZERO
+from .symbols import CLOCK, Symbols
+from .symengine_algebra import to_symengine
+
+
+def reactions(scene: Scene, names: tuple[str, ...]) -> Compiled:
+    """Z of each name, of what a model reads and then q̈ of the free coordinates and λ, as its layout orders them.
+
+    Raises UnknownNameError, at the place in /release, for what nothing holds.
+    """
+    own = Symbols.of(scene)
+    multipliers = tuple(se.Symbol(f"r{k}") for k in range(len(scene.conditions)))
+    found = [_reaction(scene, own, name, f"/release/{k}", multipliers) for k, name in enumerate(names)]
+    inputs = (*own.inputs, *(own.accelerations[name] for name in own.free), *multipliers)
+    return compile_expressions(inputs, found)
+
+
+def _reaction(scene: Scene, own: Symbols, name: str, pointer: str, multipliers: tuple[Expr, ...]) -> Expr:
+    wide_scene = released(scene, name, pointer)
+    wide = equations(wide_scene)
+    row = wide.symbols.free.index(name)
+    inertia = (
+        entry * wide.symbols.accelerations[each]
+        for each, entry in zip(wide.symbols.free, wide.mass_matrix[row], strict=True)
+    )
+    held = wide.constraints
+    kept = (rows[row] * multipliers[k] for k, rows in enumerate(held.jacobian))
+    total = sum(inertia, ZERO) - wide.forcing[row] - sum(kept, ZERO)
+    return se.sympify(total).xreplace(_own(scene, own, wide, name))
+
+
+def _own(scene: Scene, own: Symbols, wide: Equations, name: str) -> Mapping[Expr, Expr]:
+    """The wider scene's symbols by the scene's own; the released coordinate as it is held."""
+    there = wide.symbols
+    values = {there.values[each]: own.values[each] for each in there.values if each in own.values}
+    rates = {there.rates[each]: own.rates[each] for each in there.free if each != name}
+    bends = {there.accelerations[each]: own.accelerations[each] for each in there.free if each != name}
+    guide = next((guide for guide in scene.guides if guide.coordinate == name), None)
+    value = own.values[name] if guide is None else to_symengine(guide.value.tree, own)
+    rate = ZERO if guide is None else value.diff(own.values[CLOCK])
+    bend = ZERO if guide is None else rate.diff(own.values[CLOCK])
+    as_held = {there.values[name]: value, there.rates[name]: rate, there.accelerations[name]: bend}
+    return {**values, **rates, **bends, **as_held}
