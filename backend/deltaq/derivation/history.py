@@ -322,12 +322,14 @@ def summands(formula: f.Formula) -> Iterator[Summand]:  # noqa: C901 - one case 
 def with_inside(formula: f.Formula, terms: tuple[Summand, ...]) -> f.Formula:
     """The line, in whose brackets each summand is told apart where `inside` of its terms does."""
     inside = tuple(pair for term in terms for pair in term.inside)
+    if not inside:
+        return formula
     match formula:
-        case f.Explicit(value, owners) if inside:
+        case f.Explicit(value, owners):
             return f.Explicit(value, (*owners, *inside))
-        case f.Plus(parts) if inside:
+        case f.Plus(parts):
             return f.Plus(tuple(replace(part, formula=with_inside(part.formula, terms)) for part in parts))
-        case f.Equation(left, right) if inside:
+        case f.Equation(left, right):
             return f.Equation(with_inside(left, terms), with_inside(right, terms))
     return formula
 
