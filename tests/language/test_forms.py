@@ -123,6 +123,9 @@ def _terms(text: str) -> list[Any]:
         ("2*step(x) - 1 - sign(x)", True),
         ("step(3*x) - step(x)", True),
         ("step(x) - step(y)", False),
+        ("abs(sin(x)^2 + cos(x)^2 - 1)", True),
+        ("y*sign(sin(x)^2 + cos(x)^2 - 1)", True),
+        ("step(sin(x)^2 + cos(x)^2 - 1) - 1/2", True),
     ],
 )
 def test_the_larger_the_smaller_and_the_step_are_known_by_absolute_values_and_signs(text: str, *, zero: bool) -> None:

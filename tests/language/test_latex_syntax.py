@@ -18,6 +18,7 @@ ACCEPTED = [
     (r"m gsinphi", "m*g*sin(phi)"),
     ("2m\\ell", "2*m*l"),
     (".5m", "m/2"),
+    ("mgx", "m*g*x"),
     (r"\frac{d}{dt}^1 x", "dot(x)"),
     (r"\frac{d}{dt}^2 x", "ddot(x)"),
     (r"(x^2)'(t)", "2*x*dot(x)"),

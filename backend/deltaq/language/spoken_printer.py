@@ -130,7 +130,7 @@ class _Speech:
             return self._words.say("euler"), ATOM
         if expr is sympy.E or isinstance(expr, sympy.exp):
             return self._exponential(expr)
-        return self._power(expr) if expr.is_Pow else (self._call(expr), PREFIX)
+        return self._power(expr)
 
     def summands(self, expr: sympy.Expr) -> list[str]:
         return (
@@ -249,6 +249,7 @@ class _Speech:
         return self.text(base, 0).split()[0] not in {*_WORDS, bracket}
 
     def _power(self, expr: sympy.Expr) -> tuple[str, int]:
+        """A power, a root, a fraction with nothing above its line, or a function with its power, which may be one."""
         base, exponent = base_exponent(expr)
         if exponent.is_Rational and exponent.is_negative:
             return self._quotient([], [base**-exponent])
