@@ -35,7 +35,7 @@ const reach = createReach(root);
 const session = createSession(store, api, clock);
 const visits = createVisits(history, () => performance.now(), { embedded: window.parent !== window });
 
-const motion = createMotion({ root, state: store.get, clock, session, still, update });
+const motion = createMotion({ root, state: store.get, clock, session, send, still, update });
 
 const aside = createAside({ root, store, api, session, send, changed: update, play: motion.play });
 

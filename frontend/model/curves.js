@@ -4,15 +4,15 @@ import { knotsBetween } from "./curve.js";
 import { smooth } from "./interpolation.js";
 import { readLook, spanOf, wrap } from "./look.js";
 import { unitText } from "./numbers.js";
-import { coordinateAt, endOf, leastRange } from "./trajectory.js";
+import { coordinateAt, decimalsKnown, endOf, leastRange } from "./trajectory.js";
 
 /** @typedef {import("./types.js").Trajectory} Trajectory */
 /** @typedef {import("./types.js").Scene} Scene */
 /** @typedef {import("./look.js").Look} Look */
 /**
  * @typedef {{key: string, name: string, latex: string, className: string, values: readonly number[], times: readonly number[],
- *   at: (t: number) => number, dash: string, band: boolean, beside: boolean, wrapped: boolean, hidden: boolean}} Curve  values at the
- *   samples, and between them; wrapped: its values are within (−π, π], what lies between them is not yet; beside: of another run
+ *   at: (t: number) => number, decimals: (t: number) => number, dash: string, band: boolean, beside: boolean, wrapped: boolean, hidden: boolean}} Curve  values at the
+ *   samples, and between them; decimals: that are known of its value; wrapped: its values are within (−π, π], what lies between them is not yet; beside: of another run
  * @typedef {{key: string, unit: string, least: number, curves: Curve[]}} Row  least: a range below which there is nothing to be seen
  */
 
@@ -87,6 +87,7 @@ function rowsOfOne(scene, trajectory, look) {
       values,
       times: trajectory.t,
       at,
+      decimals: decimalsKnown(trajectory.t, computed, trajectory.error?.estimate ?? []),
       dash: "solid",
       band: !wrapped,
       beside: false,
@@ -160,6 +161,7 @@ function energyRow({ t: times, energy }, { hidden }) {
     values: energy[key],
     times,
     at: smooth(times, energy[key]),
+    decimals: decimalsKnown(times, energy[key], []),
     dash,
     band: false,
     beside: false,

@@ -74,6 +74,30 @@ export function largestError(trajectory) {
     : null;
 }
 
+/** Decimals of a number as it is written. @param {number} value */
+function decimalsIn(value) {
+  const [, fraction = "", power = "0"] = String(value).match(/\.?(\d*)(?:e([-+]\d+))?$/) ?? [];
+  return Math.max(0, (String(value).includes(".") ? fraction.length : 0) - Number(power));
+}
+
+/** No double has more that mean something, next to a number of one's size. */
+const MOST_DECIMALS = 15;
+
+/**
+ * How many decimals of a curve's values are known around a moment: up to the first one in doubt, by the error estimates
+ * at its samples; where there are none, as many as its samples are written with.
+ * @param {readonly number[]} times @param {readonly number[]} values @param {readonly (number | null)[]} errors at the samples
+ */
+export function decimalsKnown(times, values, errors) {
+  return (/** @type {number} */ t) => {
+    const { i, j, s } = spanAt(times, t);
+    const near = s === 0 ? [i] : s === 1 ? [j] : [i, j];
+    const error = Math.max(...near.map((at) => errors[at] ?? NaN));
+    const decimals = error > 0 ? Math.ceil(-Math.log10(error)) : Math.max(...near.map((at) => decimalsIn(values[at])));
+    return Math.max(0, Math.min(MOST_DECIMALS, decimals));
+  };
+}
+
 /** So many times its error a coordinate moves before it is seen to move; more than this it does in any case. */
 const DOUBTFUL = 10;
 const SURE = 1e-3;

@@ -15,9 +15,9 @@ const PATIENCE = 8000;
 
 /**
  * @param {{root: HTMLElement, state: () => import("../model/state.js").State, clock: import("../model/clock.js").Clock,
- *   session: import("./page.js").View["session"], still: MediaQueryList, update: () => void}} around
+ *   session: import("./page.js").View["session"], send: typeof fetch, still: MediaQueryList, update: () => void}} around
  */
-export function createMotion({ root, state, clock, session, still, update }) {
+export function createMotion({ root, state, clock, session, send, still, update }) {
   const find = (/** @type {string} */ selector) => /** @type {HTMLElement} */ (root.querySelector(selector));
   /** @type {ReturnType<typeof assemble> | null} */
   let parts = null;
@@ -32,6 +32,7 @@ export function createMotion({ root, state, clock, session, still, update }) {
       state,
       clock,
       session,
+      send,
       seek: scrub,
     });
   }, update);

@@ -106,14 +106,59 @@ function save(file) {
 /** @param {string} address @param {View["t"]} t */
 const handoutLink = (address, t) => html`<a href=${address}>${icon("print")}<span>${t("share.handout")}</span></a>`;
 
+/** What is seen of the motion. @param {View} view */
+function seen({ instruments, t }) {
+  if (!instruments) return nothing;
+  const { take } = instruments;
+  const button = (/** @type {"svg" | "png" | "csv"} */ form) =>
+    html`<li><button class="quiet" @click=${trying(take[form], t)}>${icon("file")}<span>${t(`share.${form}`)}</span></button></li>`;
+  return html`${button("svg")} ${button("png")} ${button("csv")} ${film(take, t)}
+    <li class="warning" role="alert" data-trouble></li>`;
+}
+
+/** Tells in the list why there is no file, and what helps. @param {() => Promise<import("./figure/take.js").Trouble>} act @param {View["t"]} t */
+const trying =
+  (act, t) =>
+  async (/** @type {Event} */ { currentTarget }) => {
+    const list = /** @type {HTMLElement} */ (/** @type {HTMLElement} */ (currentTarget).closest("ul"));
+    const told = /** @type {HTMLElement} */ (list.querySelector("[data-trouble]"));
+    told.textContent = "";
+    const why = await act().catch(() => "unknown");
+    if (why) told.textContent = t(`share.trouble-${why}`);
+  };
+
+/** @param {import("./figure/take.js").TakeSeen} take @param {View["t"]} t */
+function film(take, t) {
+  const record = (/** @type {Event} */ event) => {
+    const button = /** @type {HTMLButtonElement} */ (event.currentTarget);
+    const way = /** @type {HTMLElement} */ (button.nextElementSibling);
+    const [bar, end] = /** @type {[HTMLProgressElement, HTMLButtonElement]} */ ([...way.children]);
+    const stop = new AbortController();
+    end.onclick = () => stop.abort();
+    [button.disabled, way.hidden] = [true, false];
+    const filming = async () => {
+      try {
+        return await take.film((part) => (bar.value = part), stop.signal);
+      } finally {
+        [button.disabled, way.hidden] = [false, true];
+      }
+    };
+    return trying(filming, t)(event);
+  };
+  return html`<li><button class="quiet" @click=${record}>${icon("file")}<span>${t("share.film")}</span></button>
+    <span class="film" hidden><progress max="1" value="0" aria-label=${t("share.film-under-way")}></progress> <button class="quiet small">${t("share.film-stop")}</button></span></li>`;
+}
+
 /** @param {View} view @param {Take} take */
-function files({ state, t }, take) {
+function files(view, take) {
+  const { state, t } = view;
   const { scene, lang, theme, formulation, n, set } = state.place;
   const handout = `/handout${writePlace({ ...HOME, scene, lang, theme, formulation, n, set })}${fragment(state)}`;
   return html`
     <ul class="files">
       <li>${handoutLink(handout, t)}</li>
       ${FORMS.map((form) => html`<li><button class="quiet" @click=${() => void take(form).then(save)}>${icon("file")}<span>${t(`share.${form}`)}</span></button></li>`)}
+      ${seen(view)}
     </ul>
     ${state.failures.export ? html`<p class="warning" role="alert">${state.failures.export.detail || t("failure.unreachable")}</p>` : nothing}`;
 }

@@ -102,8 +102,12 @@ const LAB = [
 ];
 const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`).concat("ladder.", "labs.without-result");
 
-/** What sharing asks for by form of file and by what a frame shows. */
-const SHARE = [...FORMS.map((form) => `share.${form}`), ...SHOWN.map((shown) => `share.show-${shown || "both"}`)];
+/** What sharing asks for by form of file, by why there is none, and by what a frame shows. */
+const SHARE = [
+  ...[...FORMS, "svg", "png", "csv"].map((form) => `share.${form}`),
+  ...["no-motion", "too-large", "no-film", "film-broke", "unknown"].map((why) => `share.trouble-${why}`),
+  ...SHOWN.map((shown) => `share.show-${shown || "both"}`),
+];
 
 /** What own lectures ask for by button and by what may be wrong with a document. */
 const LECTURES = [

@@ -12,6 +12,7 @@ import { createPaths } from "./paths.js";
 import { createPhase } from "./phase.js";
 import { createReading } from "./reading.js";
 import { createRuns } from "./runs.js";
+import { createTake } from "./take.js";
 import { createVirtual } from "./virtual.js";
 import { steppers, tools } from "./tools.js";
 import { createWhy } from "./why.js";
@@ -27,6 +28,7 @@ import { createWhy } from "./why.js";
  * @property {() => State} state
  * @property {import("../../model/clock.js").Clock} clock
  * @property {import("../page.js").View["session"]} session
+ * @property {typeof fetch} send
  * @property {(t: number) => void} seek
  */
 
@@ -71,6 +73,7 @@ export function open(around) {
     panel: virtual.panel,
     steppers,
     plotTools: look.menu,
+    take: createTake(bench),
     why: createWhy(state),
     integrals: createIntegrals(bench),
     /** @param {View} view */
