@@ -101,9 +101,14 @@ def test_a_table_has_the_curves_that_are_shown(lecture: Lecture, tmp_path: Path)
 
 
 def test_why_there_is_no_film_is_said_with_what_helps(lecture: Lecture) -> None:
-    lecture.page.add_init_script("window.MediaRecorder = undefined; HTMLCanvasElement.prototype.toBlob = (done) => done(null)")
+    lecture.page.add_init_script(
+        "window.MediaRecorder = undefined; HTMLCanvasElement.prototype.toBlob = (done) => done(null)"
+    )
     page = open_dialog(lecture, "?scene=pendulum&lang=en&at=1")
-    for form, told in (("WebM", "This browser records no films. Current"), ("PNG", "Make the window smaller, or take the SVG.")):
+    for form, told in (
+        ("WebM", "This browser records no films. Current"),
+        ("PNG", "Make the window smaller, or take the SVG."),
+    ):
         page.get_by_role("dialog").get_by_role("button", name=f"({form})").click()
         expect(page.get_by_role("alert")).to_contain_text(told)
 
