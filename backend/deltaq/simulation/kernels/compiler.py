@@ -15,6 +15,8 @@ from typing import Any, TypeVar, cast
 from numba import njit
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.core.ccallback import CFunc
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
 
 from ...ownership import require_trusted
 
@@ -67,7 +69,8 @@ def callback(signature: Any) -> Callable[[Callable[..., object]], Callback]:
 
 def _compiled(function: F, *, forceinline: bool) -> F:
     options: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "_nrt": False}
-    compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, **options)(function)
+    pipeline = PartCompiler if forceinline else Compiler
+    compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, pipeline_class=pipeline, **options)(function)
     _kept(compiled._cache, function)  # noqa: SLF001 - Numba offers no other way
     return cast("F", compiled)
 
@@ -82,6 +85,30 @@ def _kept(cache: Any, function: Callable[..., object]) -> Any:
     cache._cache_file = OwnFiles(cache.cache_path, base, stamp)  # noqa: SLF001
     cache._guard_against_spurious_io_errors = _without_cache_errors  # noqa: SLF001
     return cache
+
+
+class PartLibrary(JITCodeLibrary):
+    """The code of a part: what it calls is inlined, and the rest is left to the kernel that the part is inlined into.
+
+    Numba would optimize a part with all its own parts, and each of them again in whatever it is a part of.
+    """
+
+    def _optimize_final_module(self) -> None:
+        cheap: dict[str, Any] = {"loop_vectorize": False, "slp_vectorize": False, "opt": 0, "cost": "cheap"}
+        codegen: Any = self._codegen
+        manager, passes = codegen._module_pass_manager(**cheap)  # noqa: SLF001 - as Numba's own library does first
+        manager.run(self._final_module, passes)
+
+
+class PartCompiler(Compiler):
+    """Numba's compiler, with a library as parts have it."""
+
+    def compile_extra(self, function: Callable[..., object]) -> Any:
+        """Numba's result of compiling the function; raises what Numba raises."""
+        codegen = self.state.targetctx.codegen()
+        self.state.library = PartLibrary(codegen, function.__qualname__)  # type: ignore[no-untyped-call]
+        self.state.library.enable_object_caching()
+        return super().compile_extra(function)  # type: ignore[no-untyped-call]
 
 
 class OwnFiles(IndexDataCacheFile):

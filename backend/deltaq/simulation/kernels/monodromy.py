@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inline, kernel
+from .compiler import inline, kernel, runtime_int
 from .explicit_runge_kutta import integrate
 from .linear import decompose, substitute
 from .motion import CANCELLED, FINE, Floats, Motion
@@ -110,7 +110,7 @@ def periodic(flow: Flow, state: Floats, matrix: Floats, newton: NewtonWorkspace)
     `matrix`, shape (2n, 2n), becomes the monodromy matrix there.
     """
     for _ in range(PASSES):
-        outcome = follow(flow, state, 0, 0.0)
+        outcome = follow(flow, state, runtime_int(0), 0.0)
         if outcome != FINE:
             return outcome
         distance = 0.0
