@@ -95,11 +95,19 @@ function update() {
   history.replaceState(null, "", link({}));
   void framed?.then((tell) => tell());
   if (reach(place.step, still.matches)) announce(state.lines, place.step, t);
+  if (!awaitsLecture()) pressEarlyKeys();
+}
+
+/** Lecture mode is wanted and not there yet: its keys are not lost meanwhile. */
+function awaitsLecture() {
+  const { place, failure } = store.get();
+  return Boolean(place.view) && !failure && !lecturing();
 }
 
 store.subscribe(update);
 dark.addEventListener("change", update);
-listen(document, {
+const pressEarlyKeys = listen(document, {
+  waiting: awaitsLecture,
   go: (by) => (lecturing() ?? session).go(by),
   more,
   lecture: enterLecture,

@@ -99,13 +99,21 @@ function update() {
   motion.show(theme);
   visits.keep(place, current.link({}));
   if (reach(place.step, still.matches)) announce(state.lines, place.step, current.t);
+  if (!awaitsLecture()) pressEarlyKeys();
+}
+
+/** Lecture mode is wanted and not there yet: its keys are not lost meanwhile. */
+function awaitsLecture() {
+  const { place, failures } = store.get();
+  return Boolean(place.view) && !failures.page && !aside.lecturing();
 }
 
 for (const event of ["pointermove", "keydown", "focusin"]) document.addEventListener(event, expectLong, { once: true });
 store.subscribe(update);
 dark.addEventListener("change", update);
 linkHighlights(root);
-listen(document, {
+const pressEarlyKeys = listen(document, {
+  waiting: awaitsLecture,
   go: (by) => (aside.lecturing() ?? session).go(by),
   more: () => aside.lecturing()?.keys ?? {},
   fullscreen: toggleFullscreen,

@@ -21,6 +21,7 @@ const PRESSED = "button, a, summary";
  * @property {() => void} [undo]  what was changed last, by Ctrl+Z
  * @property {() => void} [redo]  by Ctrl+Shift+Z or Ctrl+Y
  * @property {() => Record<string, () => void>} [more]  what keys mean at this moment besides
+ * @property {() => boolean} [waiting]  what gives keys their meaning is still on its way
  */
 
 /** What each key does. @param {Keys} keys @returns {Record<string, () => void>} */
@@ -58,10 +59,15 @@ export function undoneBy({ key, shiftKey }, { undo, redo }) {
   return name === "y" ? redo : undefined;
 }
 
-/** @param {EventTarget} target @param {Keys} keys */
+/**
+ * Keys pressed while something is waited for are kept; what is returned has them pressed then.
+ * @param {EventTarget} target @param {Keys} keys
+ */
 export function listen(target, keys) {
   const actions = table(keys);
-  target.addEventListener("keydown", (event) => {
+  /** @type {Event[]} */
+  const early = [];
+  const press = (/** @type {Event} */ event) => {
     const { key, shiftKey, ctrlKey, metaKey, altKey, target: from } = /** @type {KeyboardEvent} */ (event);
     const element = from instanceof Element ? from : null;
     const undoing = (ctrlKey || metaKey) && !altKey && !element?.closest(TEXTS) && undoneBy({ key, shiftKey }, keys);
@@ -70,6 +76,7 @@ export function listen(target, keys) {
       return undoing();
     }
     if (ctrlKey || metaKey || altKey || element?.closest(FIELDS)) return;
+    if (keys.waiting?.()) return void early.push(event);
     if (key === " " && element?.closest(PRESSED)) return;
     const name = key.length === 1 ? key.toLowerCase() : key;
     const action = keys.more?.()[name] ?? actions[name];
@@ -79,5 +86,7 @@ export function listen(target, keys) {
     event.preventDefault();
     if (keys.covered()) keys.uncover();
     else action();
-  });
+  };
+  target.addEventListener("keydown", press);
+  return () => early.splice(0).forEach(press);
 }

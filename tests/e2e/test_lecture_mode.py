@@ -263,8 +263,7 @@ def test_what_a_step_rests_on_stands_above_it(hall: Lecture) -> None:
 def test_a_result_is_hidden_until_the_hall_has_chosen(hall: Lecture) -> None:
     page = hall.page
     page.goto(f"{hall.address}scene?scene=elastic-pendulum&lang=en&view=lecture&step=kinetic-energy-of-particle:bob")
-    expect(page.locator(".slide .result .formula .katex").first).to_be_visible()
-    page.keyboard.press("q")
+    page.keyboard.press("q")  # as soon as the document is there: lecture mode may still be on its way
     expect(page.locator(".choices .katex").first).to_be_visible()
     expect(page.locator(".slide .result .formula")).to_have_count(0)
     count = page.locator(".choices li").count()

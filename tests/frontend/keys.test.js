@@ -32,6 +32,26 @@ function heard({ inside = "", ...pressed }) {
   return done;
 }
 
+test("a key pressed before its meaning has come is done once it has", () => {
+  /** @type {string[]} */
+  const done = [];
+  /** @type {(event: unknown) => void} */
+  let hear = () => {};
+  let waiting = true;
+  globalThis.Element = /** @type {any} */ (class {});
+  const more = () => (waiting ? {} : { q: () => done.push("q") });
+  const keys = { covered: () => false, go: () => done.push("go"), more, waiting: () => waiting };
+  const target = { addEventListener: (/** @type {string} */ _, /** @type {any} */ take) => (hear = take) };
+  const pressEarly = listen(/** @type {any} */ (target), /** @type {any} */ (keys));
+  for (const key of ["q", "n", "x"]) hear({ key, target: null, preventDefault() {} });
+  assert.deepEqual(done, []);
+  waiting = false;
+  pressEarly();
+  pressEarly();
+  hear({ key: "q", target: null, preventDefault() {} });
+  assert.deepEqual(done, ["q", "go", "q"]);
+});
+
 for (const [pressed, done] of /** @type {[any, string[]][]} */ ([
   [{ key: "z", ctrlKey: true }, ["ours", "undo"]],
   [{ key: "z", metaKey: true }, ["ours", "undo"]],
