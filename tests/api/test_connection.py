@@ -146,14 +146,20 @@ def ask(service: Served) -> socket.socket:
     return connection
 
 
-def test_work_stops_when_its_client_has_gone() -> None:
-    with served(workers=1, simulation_deadline=60) as service:
-        settled(service)
-        kills = workers(service, "kills")
-        with ask(service):
-            assert within(20.0, service, 1)
-        assert within(4.0, service, 0)
-        assert workers(service, "kills") == kills  # it was given up, not killed for a fault
+@pytest.fixture(scope="module")
+def patient() -> Iterator[Served]:
+    """One worker, so that all who ask for something long ask the same one."""
+    with served(workers=1, simulation_deadline=60) as one:
+        yield one
+
+
+def test_work_stops_when_its_client_has_gone(patient: Served) -> None:
+    settled(patient)
+    kills = workers(patient, "kills")
+    with ask(patient):
+        assert within(20.0, patient, 1)
+    assert within(4.0, patient, 0)
+    assert workers(patient, "kills") == kills  # it was given up, not killed for a fault
 
 
 def measuring(service: Served) -> bool:
@@ -162,35 +168,33 @@ def measuring(service: Served) -> bool:
     return 'deltaq_workers_busy{pool="experiments"} 1.0' in metrics
 
 
-def test_experiment_stops_when_the_last_who_hears_it_has_gone() -> None:
+def test_experiment_stops_when_the_last_who_hears_it_has_gone(patient: Served) -> None:
     question, stream = {"scene": "triple-pendulum", "t_end": 77.0, "peers": True}, {"Accept": "text/event-stream"}
-    with served(workers=1) as service:
-        settled(service)
-        while measuring(service):  # it still compiles
-            time.sleep(0.2)
-        address = f"{service.address}api/v1/experiments/work-precision"
-        with httpx.stream("POST", address, json=question, headers=stream, timeout=PATIENCE) as first:
-            heard = first.iter_lines()  # whose end would be that of the connection
-            assert next(heard) == "event: part"
-            with httpx.stream("POST", address, json=question, headers=stream, timeout=PATIENCE) as second:
-                heard_too = second.iter_lines()
-                assert next(heard_too) == "event: part"
-            time.sleep(1.5)
-            assert measuring(service)
-        end = time.monotonic() + PATIENCE / 8
-        while measuring(service) and time.monotonic() < end:
-            time.sleep(0.05)
-        assert not measuring(service)
+    settled(patient)
+    while measuring(patient):  # it still compiles
+        time.sleep(0.2)
+    address = f"{patient.address}api/v1/experiments/work-precision"
+    with httpx.stream("POST", address, json=question, headers=stream, timeout=PATIENCE) as first:
+        heard = first.iter_lines()  # whose end would be that of the connection
+        assert next(heard) == "event: part"
+        with httpx.stream("POST", address, json=question, headers=stream, timeout=PATIENCE) as second:
+            heard_too = second.iter_lines()
+            assert next(heard_too) == "event: part"
+        time.sleep(1.5)
+        assert measuring(patient)
+    end = time.monotonic() + PATIENCE / 8
+    while measuring(patient) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not measuring(patient)
 
 
-def test_work_goes_on_while_anybody_waits_for_it() -> None:
-    with served(workers=1, simulation_deadline=60) as service:
-        settled(service)
-        with ask(service):
-            with ask(service):
-                assert within(20.0, service, 1)
-            time.sleep(1.5)
-            assert busy(service) == 1
+def test_work_goes_on_while_anybody_waits_for_it(patient: Served) -> None:
+    settled(patient)
+    with ask(patient):
+        with ask(patient):
+            assert within(20.0, patient, 1)
+        time.sleep(1.5)
+        assert busy(patient) == 1
 
 
 def test_requests_under_way_are_answered_when_the_service_ends() -> None:

@@ -148,7 +148,7 @@ REACH = """() => {
 }"""
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(("place", "ready"), PAGES)
 def test_a_thumb_meets_what_it_presses(browser: Browser, server: str, place: str, ready: str) -> None:
     context = browser.new_context(viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True)
