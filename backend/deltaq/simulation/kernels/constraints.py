@@ -12,7 +12,7 @@ from numba import types
 
 from .compiler import callback, inline, kernel
 from .motion import FINE, LOCKED, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, solve
-from .pointer import call, doubles_at
+from .pointer import call, doubles_at, prevent_vectorization
 from .ranked import factor_ranked, solve_ranked
 from .system import (
     COUNT,
@@ -104,8 +104,8 @@ def weigh(system: System, count: int, share: Floats) -> None:
             share[k * count + j] = share[j * count + k] = total * system.scales[k] * system.scales[j]
 
 
-@kernel
-def accelerate(system: System) -> int:
+@inline
+def solve_accelerations(system: System) -> int:
     """q̈ and λ at the state that stands in `inputs`, into `bends` and `multipliers`; returns the outcome.
 
     LOCKED if the constraints are not as many independent ones as at the start.
@@ -131,6 +131,13 @@ def accelerate(system: System) -> int:
     return FINE
 
 
+@kernel
+def accelerate(system: System) -> int:
+    """`solve_accelerations` as a call, for all that is not on the way of every right-hand side."""
+    prevent_vectorization()
+    return solve_accelerations(system)
+
+
 @inline
 def power_of(system: System) -> float:
     """P = P₀ + p₁·q̈ − λ·b"""
@@ -144,13 +151,13 @@ def power_of(system: System) -> float:
     return float(power)
 
 
-@kernel
+@inline
 def as_free(system: System, out: Floats) -> None:
     """What a model without constraints would say that moves alike: M = 1, f = q̈, P; where q̈ has no value, M says so.
 
     `out` has shape (n (n + 1)/2 + n,) or, where power is fed in, n + 1 more.
     """
-    n, outcome = system.head[DEGREES], accelerate(system)
+    n, outcome = system.head[DEGREES], solve_accelerations(system)
     good = 1.0 if outcome == FINE else (np.nan if outcome == NOT_FINITE else 0.0)
     system.head[LOCKS] = 1 if outcome == LOCKED else 0
     for i in range(n):
@@ -186,6 +193,7 @@ def phase_as_free(system: System, out: Floats) -> None:
 @callback(types.void(types.int64, types.int64, types.int64))
 def constrained_motion(out: int, given: int, data: int) -> None:
     """`as_free` as a compiled model: its address stands for that of a model without constraints."""
+    prevent_vectorization()
     system = block_at(data)
     n = system.head[DEGREES]
     take_inputs(system, given)

@@ -13,7 +13,7 @@ from .compiler import callback, inline, kernel
 from .constraints import accelerate, power_of, respond, weigh
 from .linear import Indices
 from .motion import FINE, LOCKED, NEWTON_FAILED, NOT_FINITE, Floats
-from .pointer import call, doubles_at
+from .pointer import call, doubles_at, prevent_vectorization
 from .ranked import determinant, factor_ranked, solve_ranked
 from .system import (
     COUNT,
@@ -77,6 +77,7 @@ def project(system: System, h: float) -> int:
 
     `accelerate` comes before, and its factors serve all of Newton's corrections, which converge fast from near.
     """
+    prevent_vectorization()
     n, m, holonomic = system.head[DEGREES], system.head[COUNT], system.head[HOLONOMIC]
     rank, of_gaps, gap_order = system.head[RANK], system.share, system.order
     gap_rank = rank
@@ -247,6 +248,7 @@ def finish_step(system: System, t: float, h: float, ends: Ends) -> int:
 
     LOCKED if the constraints lost their independence on the way, KICKED if the step is to be made again by `kick`.
     """
+    prevent_vectorization()
     old, new, _, new_derivative = ends
     n, outcome = system.head[DEGREES], begin_way(system, t, old)
     if outcome == FINE and system.head[IS_KICKED] and system.head[HOLONOMIC] > 0:
