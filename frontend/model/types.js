@@ -72,8 +72,10 @@
  *   positions: Record<string, number[]>, loads: Record<string, number[]>,
  *   energy: {kinetic: number, potential: number, balance: number} | null}} Snapshot
  * @typedef {[number, number]} Pixel
- * @typedef {{key: string, d: string, className: string, at?: Pixel, opacity?: number}} Shape
- * @typedef {{key: string, latex: string, at: Pixel, className: string, start?: boolean, opacity?: number}} Label  start: the label begins at its place instead of being centred
+ * @typedef {[number, number, number, number]} Box  left, top, right, bottom in pixels
+ * @typedef {readonly [Pixel, Pixel]} Strip  a straight line
+ * @typedef {{key: string, d: string, className: string, at?: Pixel, opacity?: number, boxes?: Box[], strips?: Strip[]}} Shape  boxes, strips: what letters keep off, and what they cross only where there is no other place
+ * @typedef {{key: string, latex: string, at: Pixel, className: string, others?: Pixel[], opacity?: number, moves?: number}} Label  others: where it can stand as well, the better ones first; moves: how often it has changed its place
  * @typedef {{shapes: Shape[], labels: Label[]}} Figure
  * @typedef {Contract["ProblemEntry"]} Problem
  * @typedef {Omit<Contract["ProblemDocument"], "type">} Failure

@@ -1,6 +1,7 @@
 /** The drawing on the screen: shapes as SVG paths, labels as formulas above them; both are kept and only moved. */
 
 import { figureOf, withDrawing } from "../model/drawing/figure.js";
+import { placed } from "../model/drawing/placing.js";
 import { stageOf } from "../model/drawing/stage.js";
 import { snapshotAt } from "../model/trajectory.js";
 import { typeset } from "./typesetting.js";
@@ -12,6 +13,9 @@ import { typeset } from "./typesetting.js";
 /** @typedef {import("../model/types.js").Trajectory} Trajectory */
 
 const SVG = "http://www.w3.org/2000/svg";
+/** Milliseconds in which a letter appears at another place. */
+const FADE = 200;
+const still = matchMedia("(prefers-reduced-motion: reduce)");
 
 /**
  * Elements by key: made when first wanted, kept in order, removed when no longer wanted. Each remembers what was
@@ -66,11 +70,14 @@ function updateShape(path, { d, at, opacity }, last) {
 }
 
 /** @param {HTMLElement} element @param {Label} label @param {Partial<Label>} last */
-function updateLabel(element, { latex, at, start, opacity }, last) {
+function updateLabel(element, { latex, at, moves, opacity }, last) {
   if (latex !== last.latex) typeset(element, latex, false, "html");
   if (!same(at, last.at))
-    element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) translate(${start ? "0" : "-50%"}, -50%)`;
+    element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) translate(-50%, -50%)`;
   if (opacity !== last.opacity) element.style.opacity = String(opacity ?? 1);
+  // A letter does not fly over others to another place.
+  if (last.moves !== undefined && moves !== last.moves && opacity !== 0 && !still.matches)
+    element.animate({ opacity: [0, opacity ?? 1] }, FADE);
 }
 
 /**
@@ -84,6 +91,15 @@ export function createSheet(svg, layer) {
     drawShapes(shapes);
     drawLabels(labels);
   };
+}
+
+/** Where numbers lie on the drawing. @param {HTMLElement} frame @returns {import("../model/types.js").Box[]} */
+function reservedIn(frame) {
+  const outer = frame.getBoundingClientRect();
+  return [...frame.querySelectorAll(".readouts > div")].map((line) => {
+    const { left, top, right, bottom } = line.getBoundingClientRect();
+    return [left - outer.left, top - outer.top, right - outer.left, bottom - outer.top];
+  });
 }
 
 /**
@@ -103,7 +119,10 @@ export function createDrawing(frame) {
 
   function measure() {
     const { clientWidth: width, clientHeight: height } = frame;
-    stage = shown && width > 0 ? stageOf(shown.scene, shown.trajectory, { width, height }) : null;
+    const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+    const size = { width, height };
+    stage =
+      shown && width > 0 ? stageOf(shown.scene, shown.trajectory, size, { rem, reserved: reservedIn(frame) }) : null;
     if (!stage) return;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     frame.style.setProperty("--u", `${stage.unit}px`);
@@ -112,7 +131,7 @@ export function createDrawing(frame) {
   /** @param {number} t */
   function draw(t) {
     if (!stage || !shown) return;
-    sheet(figureOf(stage, held ?? snapshotAt(shown.trajectory, t)));
+    sheet(placed(stage, figureOf(stage, held ?? snapshotAt(shown.trajectory, t)), t));
   }
 
   return {

@@ -8,6 +8,7 @@
 import { createInterface } from "node:readline";
 import { figureOf, withDrawing } from "../../frontend/model/drawing/figure.js";
 import { trailOf } from "../../frontend/model/drawing/members.js";
+import { placed } from "../../frontend/model/drawing/placing.js";
 import { stageOf } from "../../frontend/model/drawing/stage.js";
 import { portraitsOf } from "../../frontend/model/figure/phase.js";
 import { picturesOf } from "../../frontend/model/history.js";
@@ -125,6 +126,46 @@ function ofDrawing(scene, drawn, dense) {
   });
 }
 
+/** The pane of the drawing on a laptop, and moments of the motion in a second that are looked at. */
+const PANE = { width: 560, height: 330 };
+const LOOKS = 12;
+/** Letters count as shown from this opacity on. */
+const SEEN = 0.3;
+
+/** The corners of a box from points. @param {number[]} xs @param {number[]} ys */
+const around = (xs, ys) => [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+const meet = (a, b) => Math.min(a[2], b[2]) - Math.max(a[0], b[0]) > 1 && Math.min(a[3], b[3]) - Math.max(a[1], b[1]) > 1;
+
+/** What a letter may not cover: the heads of arrows, which are the last closed part of their paths, and bodies drawn as balls. */
+function forbidden({ d, at, className }) {
+  const numbers = d.slice(d.lastIndexOf("M")).match(/-?[\d.]+/g)?.map(Number) ?? [];
+  if (/pointed|head/.test(className) && d.endsWith("Z")) return [around(numbers.filter((_, i) => i % 2 === 0), numbers.filter((_, i) => i % 2))];
+  const [x, y, r] = [...(at ?? []), -numbers[0]];
+  return /\bbob\b/.test(className) ? [[x - r, y - r, x + r, y + r]] : [];
+}
+
+/** Which letters cover what, and how many there are and are not shown, while the motion runs. */
+function ofLetters(scene, drawn) {
+  const stage = stageOf(withDrawing(scene, drawn), drawn, PANE);
+  const [covers, count] = [{}, { shown: 0, hidden: 0 }];
+  const letter = 0.95 * 16 * 1.21;
+  for (let t = 0; t < endOf(drawn); t += 1 / LOOKS) {
+    const { labels, shapes } = placed(stage, figureOf(stage, snapshotAt(drawn, t)), t);
+    const shown = labels.filter(({ opacity = 1 }) => opacity > SEEN).map(({ latex, at: [x, y] }) => {
+      const half = (0.9 * letter * latex.replace(/\\mathbf|\\[,!]|[{}_]/g, "").replace(/\\[a-z]+/g, "x").length * 0.5) / 2;
+      return [latex, [x - half, y - 0.35 * letter, x + half, y + 0.35 * letter]];
+    });
+    const others = shapes.flatMap(forbidden);
+    shown.forEach(([latex, box], i) => {
+      const covered = [...shown.slice(i + 1).filter(([, other]) => meet(box, other)).map(([other]) => other), ...others.filter((other) => meet(box, other)).map(() => "a head or body")];
+      for (const one of covered) covers[`${latex} on ${one}`] = (covers[`${latex} on ${one}`] ?? 0) + 1;
+    });
+    count.shown += shown.length;
+    count.hidden += labels.filter(({ opacity }) => opacity === 0).length;
+  }
+  return { covers, ...count };
+}
+
 /** The pictures of a handout. */
 function ofHandout(scene, drawn, dense) {
   const values = { ...dense.coordinates, E: dense.energy.kinetic, V: dense.energy.potential };
@@ -144,7 +185,7 @@ async function measure({ scene, changes = {}, method = "" }) {
   const intervals = Math.round(request.t_end / (drawn.t[1] - drawn.t[0]));
   const dense = await simulate({ ...request, samples: Math.min(FINER * intervals, 20000) + 1 });
   const found = [ofPlots, ofPhase, ofDrawing, ofHandout].flatMap((of) => of(scene, drawn, dense));
-  tell({ worst: Object.fromEntries(found), samples: drawn.t.length, coarse: drawn.coarse, end: endsOf(scene, drawn) });
+  tell({ worst: Object.fromEntries(found), samples: drawn.t.length, coarse: drawn.coarse, end: endsOf(scene, drawn), letters: ofLetters(scene, drawn) });
 }
 
 for (let asked = await read(); asked; asked = await read()) await measure(asked);

@@ -15,6 +15,7 @@ import {
   wrapped,
 } from "./geometry.js";
 import { pullOf, verticalOf } from "./sketch.js";
+import { boxAbout } from "./placing.js";
 import { coordinateClass, latexOf, placeOf, sizeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
@@ -33,6 +34,9 @@ const LINED = 0.8;
 /** Shorter arrows are not drawn: their head would lie. */
 const SHORTEST = 0.6;
 
+/** What the head of an arrow takes. @param {Pixel} tip @param {Pixel} along @param {number} size */
+export const tipBox = (tip, along, size) => boxAbout(add(tip, scaled(along, -size / 2)), size / 2);
+
 /**
  * @param {Pixel} from @param {Pixel} vector in pixels @param {string} key @param {string} className @param {number} size
  * @returns {import("../types.js").Shape[]}
@@ -40,10 +44,15 @@ const SHORTEST = 0.6;
 export function arrow(from, vector, key, className, size) {
   const tip = add(from, vector);
   const along = unit(vector);
-  const shaft = line(from, add(tip, scaled(along, -size * 0.7)));
+  const neck = add(tip, scaled(along, -size * 0.7));
   return [
-    { key: `${key}-shaft`, d: shaft, className: `arrow ${className}` },
-    { key: `${key}-head`, d: arrowHead(tip, along, size), className: `head ${className}` },
+    { key: `${key}-shaft`, d: line(from, neck), className: `arrow ${className}`, strips: [[from, neck]] },
+    {
+      key: `${key}-head`,
+      d: arrowHead(tip, along, size),
+      className: `head ${className}`,
+      boxes: [tipBox(tip, along, size)],
+    },
   ];
 }
 
@@ -54,7 +63,9 @@ export function arrow(from, vector, key, className, size) {
  */
 export function solidArrow(from, vector, key, className, size) {
   const [shaft, head] = arrow(from, vector, key, className, LINED * size);
-  return [{ key, d: shaft.d + head.d, className: `pointed ${shaft.className}` }];
+  return [
+    { key, d: shaft.d + head.d, className: `pointed ${shaft.className}`, boxes: head.boxes, strips: shaft.strips },
+  ];
 }
 
 /** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
@@ -73,7 +84,7 @@ export function force(element, stage, now, key) {
   const className = `load load-${load.name}`;
   return {
     shapes: solidArrow(from, vector, key, className, stage.unit),
-    labels: [{ key, latex: forceLatex(load), at: beyond(from, vector, stage.unit * 1.1), className }],
+    labels: [{ key, latex: forceLatex(load), ...aboutArrow(from, vector, stage.unit), className }],
   };
 }
 
@@ -84,9 +95,14 @@ function weights(stage, now, key) {
   return { shapes: figures.flatMap((f) => f.shapes), labels: figures.flatMap((f) => f.labels) };
 }
 
-/** A little past the tip of an arrow. @param {Pixel} from @param {Pixel} vector @param {number} gap */
-function beyond(from, vector, gap) {
-  return add(add(from, vector), scaled(unit(vector), gap));
+/** Where the letter of an arrow can stand: past its tip, or beside it. @param {Pixel} from @param {Pixel} vector @param {number} u @returns {{at: Pixel, others: Pixel[]}} */
+export function aboutArrow(from, vector, u) {
+  const tip = add(from, vector);
+  const [along, across] = [unit(vector), normal(unit(vector))];
+  const beside = [-0.3, -0.5 * (lengthOf(vector) / u)].flatMap((back) =>
+    [1.3, -1.3].map((side) => add(tip, add(scaled(along, back * u), scaled(across, side * u)))),
+  );
+  return { at: add(tip, scaled(along, 1.1 * u)), others: beside };
 }
 
 /** @param {Load} load */
@@ -104,11 +120,17 @@ export function weight(element, stage, now, key) {
   const from = placeOf(stage, now, element.at ?? "");
   const vector = scaled(stage.down, stage.unit * (stage.once("falls", () => falls(stage.scene)) ? 4.2 : -4.2));
   const className = `load load-${load?.name ?? "weight"}`;
-  const label = add(from, add(vector, [stage.unit * 0.65, -stage.unit * 0.5]));
   return {
     shapes: solidArrow(from, vector, key, className, stage.unit),
-    labels: [{ key, latex: weightLatex(element, stage, load), at: label, className, start: true }],
+    labels: [{ key, latex: weightLatex(element, stage, load), ...besideTip(from, vector, stage.unit), className }],
   };
+}
+
+/** Where the letters of a weight can stand: to the right of its tip, to the left, below. @param {Pixel} from @param {Pixel} vector @param {number} u @returns {{at: Pixel, others: Pixel[]}} */
+function besideTip(from, vector, u) {
+  const tip = add(from, vector);
+  const at = (/** @type {number} */ x, /** @type {number} */ y) => add(tip, [x * u, y * u * Math.sign(vector[1])]);
+  return { at: at(2, -0.5), others: [at(-2, -0.5), at(0, 1.1), at(2, -2), at(-2, -2)] };
 }
 
 /** Whether gravity pulls down on the screen: a drawing turned over shows what the scene says. @param {import("../types.js").Scene} scene */
@@ -126,6 +148,12 @@ function weightLatex(element, stage, load) {
   const plain = names.every((name) => name && /^[A-Za-z]\w*$|^\\?\w+(_\{?\w+\}?)?$/.test(name));
   return plain ? names.join("\\,") : "\\mathbf{G}";
 }
+
+/** Where the letter of an arc can stand: outside along it, or within. @param {(part: number, out: number) => Pixel} on @returns {{at: Pixel, others: Pixel[]}} */
+export const aboutArc = (on) => ({
+  at: on(0.5, 1.15),
+  others: [on(0.3, 1.15), on(0.7, 1.15), on(0.5, -1.2), on(0.05, 1.3), on(0.95, 1.3), on(0.5, 2.3)],
+});
 
 /** Radians that the arrow of a moment goes round. */
 const ROUND = 4.2;
@@ -147,14 +175,26 @@ export function moment(element, stage, now, key) {
   const symbol = latexOf(stage.scene, load?.moment) || "M";
   return {
     shapes: [
-      { key: `${key}-arc`, d: arc, className: `arrow ${className}` },
+      {
+        key: `${key}-arc`,
+        d: arc,
+        className: `arrow ${className}`,
+        boxes: [0, 0.25, 0.5, 0.75, 1].map((part) => boxAbout(at(from + part * (back - from)), 0.2 * stage.unit)),
+      },
       {
         key: `${key}-head`,
         d: arrowHead(at(to), scaled(normal(fromDown(to - 0.12)), -1), stage.unit),
         className: `head ${className}`,
       },
     ],
-    labels: [{ key, latex: symbol, at: add(centre, scaled(fromDown(from + 0.5), radius + stage.unit)), className }],
+    labels: [
+      {
+        key,
+        latex: symbol,
+        ...aboutArc((part, out) => add(centre, scaled(fromDown(from + part * (to - from)), radius + out * stage.unit))),
+        className,
+      },
+    ],
   };
 }
 
@@ -188,18 +228,27 @@ export function angle(element, stage, now, key) {
         key: `${key}-arc`,
         d: sliverFrom(zero, centre, radius, short) + arrowHead(end, along, LINED * size),
         className: `pointed mark ${className}`,
+        boxes: [tipBox(end, along, LINED * size)],
+        strips: chords(centre, radius, zero, turn),
       },
     ],
     labels: [
       {
         key,
         latex: latexOf(stage.scene, element.coordinate),
-        at: add(centre, scaled(fromDown(zero + turn / 2), radius + stage.unit * 1.15)),
+        ...aboutArc((part, out) => add(centre, scaled(fromDown(zero + part * turn), radius + out * stage.unit))),
         className,
         opacity: Math.min(1, Math.max(0, (Math.abs(turn) - NARROW) / NARROW)),
       },
     ],
   };
+}
+
+/** An arc as straight lines. @param {Pixel} centre @param {number} radius @param {number} start @param {number} turn @returns {import("../types.js").Strip[]} */
+function chords(centre, radius, start, turn) {
+  const count = Math.ceil(Math.abs(turn) / 0.6);
+  const on = (/** @type {number} */ i) => add(centre, scaled(fromDown(start + (turn * i) / count), radius));
+  return Array.from({ length: count }, (_, i) => [on(i), on(i + 1)]);
 }
 
 /**
@@ -230,10 +279,22 @@ export function dimension(element, stage, now, key) {
         key: `${key}-line`,
         d: line(a, add(b, scaled(unit(span), -size * 0.7))) + (size > 1 ? arrowHead(b, unit(span), LINED * size) : ""),
         className: `pointed mark ${className}`,
+        boxes: [tipBox(b, unit(span), LINED * size)],
+        strips: [[a, b]],
       },
     ],
     labels: [
-      { key, latex: latexOf(stage.scene, element.coordinate), at: add(scaled(add(a, b), 0.5), aside), className },
+      {
+        key,
+        latex: latexOf(stage.scene, element.coordinate),
+        at: add(scaled(add(a, b), 0.5), aside),
+        others: [
+          subtract(scaled(add(a, b), 0.5), aside),
+          add(add(scaled(a, 0.3), scaled(b, 0.7)), aside),
+          add(b, past),
+        ],
+        className,
+      },
     ],
   };
 }

@@ -1,6 +1,20 @@
 /** What a system is made of: rod, spring, bob, cart, block, disc, hoop, and the trail a place leaves. */
 
-import { add, circle, coil, lengthOf, line, normal, polygon, polyline, scaled, subtract, unit } from "./geometry.js";
+import {
+  add,
+  circle,
+  coil,
+  fromDown,
+  lengthOf,
+  line,
+  normal,
+  polygon,
+  polyline,
+  scaled,
+  subtract,
+  unit,
+} from "./geometry.js";
+import { boxAbout } from "./placing.js";
 import { coordinateClass, latexOf, placeOf, sizeOf, unlessMoved } from "./stage.js";
 import { knotsBetween, traced } from "../curve.js";
 import { smoothPath } from "../interpolation.js";
@@ -15,34 +29,42 @@ import { smoothPath } from "../interpolation.js";
 export function rod(element, stage, now, key) {
   const [from, to] = [placeOf(stage, now, element.from ?? ""), placeOf(stage, now, element.to ?? "")];
   return {
-    shapes: [{ key, d: line(from, to), className: "ink rod" }],
-    labels: named(element.label, stage, [from, to], key, 0.9 * stage.unit, outside(from, to)),
+    shapes: [{ key, d: line(from, to), className: "ink rod", strips: [[from, to]] }],
+    labels: named(element.label, stage, [from, to], key, 1.1 * stage.unit, outside(stage, key, from, to)),
   };
 }
 
 /** Where along an element its letter stands: not in the middle, where that of its angle is. */
 const ALONG = 0.7;
 
-/** The letter of a hanging rod goes to its other side while it swings so far, as part of its length. */
-const SWINGS = 0.25;
+/** The letter of a rod goes to its other side when it has swung so far, as part of its length. */
+const SWINGS = 0.2;
 
-/** The side away from the vertical, where no angle is written; upright, a rod has its letter on it. @param {Pixel} from @param {Pixel} to */
-function outside(from, to) {
+/**
+ * The side away from the vertical, where no angle is written, and how often it has changed.
+ * @param {Stage} stage @param {string} key @param {Pixel} from @param {Pixel} to
+ */
+function outside(stage, key, from, to) {
   const [across] = unit(subtract(to, from));
-  return Math.max(-1, Math.min(1, across / SWINGS));
+  const kept = stage.once(`side ${key}`, () => ({ side: Math.sign(across) || 1, moves: 0 }));
+  if (across * kept.side < -SWINGS) Object.assign(kept, { side: -kept.side, moves: kept.moves + 1 });
+  return kept;
 }
 
 /**
  * The letter of a length or a stiffness beside its element.
  * @param {string | undefined} name  of a parameter or coordinate @param {Stage} stage @param {[Pixel, Pixel]} ends
- * @param {string} key @param {number} gap @param {number} [side]  1: to the right of what hangs down @returns {Figure["labels"]}
+ * @param {string} key @param {number} gap @param {{side: number, moves: number}} [beside]  side 1: to the right of what hangs down @returns {Figure["labels"]}
  */
-function named(name, stage, [from, to], key, gap, side = 1) {
+function named(name, stage, [from, to], key, gap, { side, moves } = { side: 1, moves: 0 }) {
   if (!name) return [];
   const along = subtract(to, from);
   if (!(lengthOf(along) > 4 * gap)) return [];
-  const at = add(add(from, scaled(along, ALONG)), scaled(normal(unit(along)), -gap * side));
-  return [{ key, latex: latexOf(stage.scene, name), at, className: coordinateClass(stage.scene, name) || "length" }];
+  const on = (/** @type {number} */ part, /** @type {number} */ aside) =>
+    add(add(from, scaled(along, part)), scaled(normal(unit(along)), -gap * aside));
+  const others = [on(0.5, side), on(0.35, side), on(ALONG, -side), on(0.5, -side), on(0.85, side), on(0.35, -side)];
+  const className = coordinateClass(stage.scene, name) || "length";
+  return [{ key, latex: latexOf(stage.scene, name), at: on(ALONG, side), others, moves, className }];
 }
 
 /**
@@ -57,7 +79,7 @@ export function spring(element, stage, now, key) {
   const ends = beside(element, stage, now);
   const load = element.load ? `load-${element.load}` : "";
   return {
-    shapes: [{ key, d: coil(...ends, stage.unit * 0.72, coils), className: `ink spring ${load}` }],
+    shapes: [{ key, d: coil(...ends, stage.unit * 0.72, coils), className: `ink spring ${load}`, strips: [ends] }],
     labels: named(stiffnessOf(element, stage), stage, ends, key, 1.7 * stage.unit).map((label) => ({
       ...label,
       className: load || label.className,
@@ -112,6 +134,7 @@ export function damper(element, stage, now, key) {
         key,
         d: line(to, piston) + line(add(piston, narrow), subtract(piston, narrow)),
         className: `${className} thick`,
+        strips: [[from, to]],
       },
     ],
     labels: [],
@@ -122,7 +145,30 @@ export function damper(element, stage, now, key) {
 export function bob(element, stage, now, key) {
   const place = placeOf(stage, now, element.at ?? "");
   const className = `ink steel bob body-${element.at}`;
-  return { shapes: [{ key, d: circle(stage.unit * 0.85), className, at: place }], labels: [] };
+  const radius = stage.unit * 0.85;
+  return {
+    shapes: [{ key, d: circle(radius), className, at: place, boxes: [boxAbout(place, radius)] }],
+    labels: massOf(element.at, stage, place, radius),
+  };
+}
+
+/** Directions in which the letter of a mass can stand from its body, in eighths of a turn from the right; the usual first. */
+const SIDES_OF_BODY = [0, 4, 7, 5, 1, 3, 6, 2];
+
+/**
+ * The letter of a body's mass beside it, where its mass is a parameter.
+ * @param {string | undefined} name of the body @param {Stage} stage @param {Pixel} place @param {number} across @param {number} [along] half its size @returns {Figure["labels"]}
+ */
+function massOf(name, stage, place, across, along = across) {
+  const body = stage.scene.bodies.find((candidate) => candidate.name === name);
+  const mass = stage.scene.parameters.find((parameter) => parameter.name === body?.mass);
+  if (!mass) return [];
+  const [first, ...others] = SIDES_OF_BODY.map((eighth) => {
+    const turn = (eighth * Math.PI) / 4;
+    return add(place, [(across + 1.1 * stage.unit) * Math.cos(turn), (along + 1.1 * stage.unit) * Math.sin(turn)]);
+  });
+  const latex = latexOf(stage.scene, mass.name);
+  return [{ key: `mass-${name}`, latex, at: first, others, className: `mass body-${name}` }];
 }
 
 /** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
@@ -132,11 +178,17 @@ export function disc(element, stage, now, key) {
   const angle = now.coordinates[element.coordinate ?? ""];
   const mark = angle === undefined ? "" : line([0, 0], [radius * Math.sin(angle), -radius * Math.cos(angle)]);
   const shapes = [
-    { key, d: circle(radius), className: `ink steel body-${element.at}`, at: place },
+    { key, d: circle(radius), className: `ink steel body-${element.at}`, at: place, strips: rimOf(place, radius) },
     { key: `${key}-mark`, d: mark, className: "ink", at: place },
     { key: `${key}-axle`, d: circle(stage.unit * 0.25), className: "ink paper", at: place },
   ];
-  return { shapes, labels: [] };
+  return { shapes, labels: massOf(element.at, stage, place, radius) };
+}
+
+/** A circle as eight straight lines. @param {Pixel} centre @param {number} radius @returns {import("../types.js").Strip[]} */
+function rimOf(centre, radius) {
+  const on = (/** @type {number} */ i) => add(centre, scaled(fromDown((i * Math.PI) / 4), radius));
+  return Array.from({ length: 8 }, (_, i) => [on(i), on(i + 1)]);
 }
 
 /** Sides of the polygon that a hoop is drawn as. */
@@ -188,9 +240,21 @@ export function cart(element, stage, now, key) {
       ]),
       className: `ink steel body-${element.at}`,
       at: place,
+      strips: outlineOf(place, w, h),
     },
   ];
-  return { shapes, labels: [] };
+  return { shapes, labels: massOf(element.at, stage, place, w, h) };
+}
+
+/** The sides of a box about a place. @param {Pixel} place @param {number} w @param {number} h @returns {import("../types.js").Strip[]} */
+function outlineOf(place, w, h) {
+  const corners = /** @type {Pixel[]} */ ([
+    [-w, -h],
+    [w, -h],
+    [w, h],
+    [-w, h],
+  ]).map((corner) => add(place, corner));
+  return corners.map((corner, i) => [corner, corners[(i + 1) % 4]]);
 }
 
 /** A trail is made of this many pieces of so many seconds, each fainter with age. */

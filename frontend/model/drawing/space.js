@@ -1,6 +1,8 @@
 /** The angles of spherical coordinates, drawn in space and seen as everything in it: from the vertical, and round it. */
 
 import { add, arrowHead, at as pixel, line, polyline, scaled, subtract, unit, wrapped } from "./geometry.js";
+import { aboutArc } from "./marks.js";
+import { boxAbout } from "./placing.js";
 import { coordinateClass, latexOf, sizeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
@@ -147,15 +149,26 @@ function arc(element, stage, { key, centre, on, turn, below }) {
     .reverse()
     .map((point) => `L${pixel(point)}`)
     .join("");
-  const middle = stage.project(on(turn / 2));
-  const outwards = unit(subtract(middle, stage.project(centre)));
+  const hub = stage.project(centre);
+  const beside = (/** @type {number} */ part, /** @type {number} */ out) => {
+    const point = stage.project(on(part * turn));
+    return add(point, scaled(unit(subtract(point, hub)), out * stage.unit));
+  };
   return {
-    shapes: [...below, { key: `${key}-arc`, d: there + back + head, className: `pointed mark ${className}` }],
+    shapes: [
+      ...below,
+      {
+        key: `${key}-arc`,
+        d: there + back + head,
+        className: `pointed mark ${className}`,
+        boxes: [boxAbout(tip, 0.55 * size)],
+      },
+    ],
     labels: [
       {
         key,
         latex: latexOf(stage.scene, element.coordinate),
-        at: add(middle, scaled(outwards, stage.unit * 1.15)),
+        ...aboutArc(beside),
         className,
         opacity: Math.min(1, Math.max(0, (Math.abs(turn) - 0.15) / 0.15)),
       },

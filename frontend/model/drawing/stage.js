@@ -14,6 +14,8 @@
  * @property {Size} size
  * @property {number} unit  the size of small things (bob, arrow head, coil) in pixels
  * @property {number} scale  pixels per metre
+ * @property {number} rem  the size of the page's letters in pixels
+ * @property {readonly import("../types.js").Box[]} reserved  where other things lie on the drawing
  * @property {Pixel} down  unit vector of gravity's usual direction on the screen
  * @property {(position: readonly number[]) => Pixel} project
  * @property {(vector: readonly number[]) => Pixel} direct
@@ -83,9 +85,10 @@ function widened(own, paths) {
 
 /**
  * @param {Scene} scene @param {Trajectory} trajectory @param {Size} size
+ * @param {{rem?: number, reserved?: Stage["reserved"]}} [page]
  * @returns {Stage}
  */
-export function stageOf(scene, trajectory, size) {
+export function stageOf(scene, trajectory, size, { rem = 16, reserved = [] } = {}) {
   const [x0, x1, y0, y1] = viewOf(scene, trajectory);
   const scale = Math.min(size.width / (x1 - x0), size.height / (y1 - y0));
   const sign = scene.drawing?.vertical === "up" ? -1 : 1;
@@ -100,7 +103,7 @@ export function stageOf(scene, trajectory, size) {
     return [size.width / 2 + (x - (x0 + x1) / 2) * scale, size.height / 2 + sign * (y - (y0 + y1) / 2) * scale];
   };
   const unit = Math.max(8, Math.min(48, Math.min(size.width, size.height) / 30));
-  return { scene, trajectory, size, unit, scale, down: [0, 1], project, direct, once: keeper() };
+  return { scene, trajectory, size, unit, scale, rem, reserved, down: [0, 1], project, direct, once: keeper() };
 }
 
 /** Makes each thing when it is first asked for, and keeps it. @returns {Stage["once"]} */

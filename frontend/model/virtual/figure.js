@@ -2,6 +2,7 @@
 
 import { add, lengthOf, scaled, subtract, unit, normal } from "../drawing/geometry.js";
 import { figureOf } from "../drawing/figure.js";
+import { keeper } from "../drawing/stage.js";
 import { arrow } from "../drawing/marks.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
@@ -35,7 +36,8 @@ export function virtualFigure(stage, { varied, later, displacements }) {
 
 /** The members of a drawing at a moment, in a class of their own. @param {Stage} stage @param {Snapshot} then @param {string} kind */
 export function outline(stage, then, kind) {
-  return figureOf(stage, then)
+  const own = stage.once(`stage ${kind}`, () => ({ ...stage, once: keeper() }));
+  return figureOf(own, then)
     .shapes.filter(({ key }) => MEMBERS.test(key))
     .map((shape) => ({ ...shape, key: `${kind} ${shape.key}`, className: `outline ${kind} ${shape.className}` }));
 }
