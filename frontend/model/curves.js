@@ -125,6 +125,7 @@ function reactionRow({ coordinates, parameters }, { t: times, multipliers }, { h
     values,
     times,
     at: smooth(times, values),
+    decimals: decimalsKnown(times, values, []),
     dash: "solid",
     band: false,
     beside: false,
