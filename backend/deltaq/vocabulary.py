@@ -52,6 +52,7 @@ CurlOutcome = Literal[
     "single-in-time",
     "no-closed-form",
     "rates",
+    "generalized",
     "nonconservative",
 ]
 # What one term of an answer has wrong.

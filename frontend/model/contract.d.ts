@@ -3873,7 +3873,7 @@ export interface components {
              * @example conservative
              * @enum {string}
              */
-            outcome: "conservative" | "conservative-in-time" | "single" | "single-in-time" | "no-closed-form" | "rates" | "nonconservative";
+            outcome: "conservative" | "conservative-in-time" | "single" | "single-in-time" | "no-closed-form" | "rates" | "generalized" | "nonconservative";
             /** Has Potential */
             has_potential: boolean;
             /** @description null where there is none, or none that can be written down */
@@ -5634,7 +5634,7 @@ export interface components {
              * @description of load
              * @enum {string}
              */
-            kind: "gravity" | "force" | "moment" | "spring" | "damper" | "dissipation" | "potential" | "distributed";
+            kind: "gravity" | "force" | "moment" | "spring" | "damper" | "dissipation" | "potential" | "generalized-potential" | "distributed";
             /**
              * Acceleration
              * @description of gravity
@@ -5696,7 +5696,7 @@ export interface components {
             function?: string | null;
             /**
              * Energy
-             * @description of a potential
+             * @description of a potential, or U(q, q̇, t) of a generalized one
              */
             energy?: string | null;
             /**

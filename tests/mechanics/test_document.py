@@ -178,6 +178,19 @@ WRONG = [
         Problem("potential-with-rate", "/loads/0/energy", parameters={"coordinate": "phi"}),
         id="potential with a rate",
     ),
+    *(
+        pytest.param(
+            put("/loads/0", {"kind": "generalized-potential", "energy": energy}),
+            Problem(f"generalized-potential-{code}", "/loads/0/energy", parameters=parameters),
+            id=f"generalized potential {code}",
+        )
+        for energy, code, parameters in (
+            ("m*g*phi", "without-rate", {}),
+            ("phi*ddot(phi)", "with-acceleration", {"coordinate": "phi"}),
+            ("m*dot(phi)^2/2", "not-linear", {"coordinate": "phi"}),
+            ("abs(dot(phi))*l", "not-linear", {"coordinate": "phi"}),
+        )
+    ),
     pytest.param(
         put("/loads/0", {"kind": "force", "at": "bop", "force": ["0", "0"]}),
         Problem("unknown-place", "/loads/0/at", parameters={"name": "bop", "suggestion": "bob"}),

@@ -87,9 +87,17 @@ class SceneLoad(Part):
     """What does work; its kind decides which fields it has."""
 
     name: str | None = Field(None, description="as steps and elements call it", examples=["weight"])
-    kind: Literal["gravity", "force", "moment", "spring", "damper", "dissipation", "potential", "distributed"] = Field(
-        description="of load"
-    )
+    kind: Literal[
+        "gravity",
+        "force",
+        "moment",
+        "spring",
+        "damper",
+        "dissipation",
+        "potential",
+        "generalized-potential",
+        "distributed",
+    ] = Field(description="of load")
     acceleration: Vector | None = Field(None, description="of gravity", examples=[["0", "g"]])
     at: str | None = Field(None, description="the point or body that a force acts on")
     force: Vector | None = Field(None, description="components of a force")
@@ -101,7 +109,7 @@ class SceneLoad(Part):
     rest_length: Expression | None = Field(None, description="of a spring; 0 if empty")
     coefficient: Expression | None = Field(None, description="of a damper")
     function: Expression | None = Field(None, description="Rayleigh's dissipation function")
-    energy: Expression | None = Field(None, description="of a potential")
+    energy: Expression | None = Field(None, description="of a potential, or U(q, q̇, t) of a generalized one")
     material: list[MaterialCoordinate] | None = Field(None, description="of a distributed load")
     position: Vector | None = Field(None, description="of a distributed load, by the material coordinates")
     density: Vector | None = Field(None, description="of a distributed load, by unit of the material coordinates")

@@ -19,7 +19,7 @@ from ..language.memory import cached_method
 from ..language.sympy_algebra import rates_of, time_derivative, to_sympy
 from ..language.textbook import given_sums
 from ..language.tree import Node
-from ..mechanics.contributions import DissipationFunction, PotentialEnergy
+from ..mechanics.contributions import DissipationFunction, GeneralizedPotential, PotentialEnergy
 from .effort import Effort
 from .formula import Given, Value
 from .scene_symbols import SceneSymbols
@@ -53,9 +53,9 @@ class Calculus(SceneSymbols):
     def given_sums(self) -> frozenset[sp.Expr]:
         """The sums in positions, energies and dissipation functions as the scene states them: x₂ − x₁, not x₁ − x₂."""
         stated = [
-            load.energy if isinstance(load, PotentialEnergy) else load.function
+            load.function if isinstance(load, DissipationFunction) else load.energy
             for load in self.scene.contributions
-            if isinstance(load, PotentialEnergy | DissipationFunction)
+            if isinstance(load, PotentialEnergy | GeneralizedPotential | DissipationFunction)
         ]
         stated += [component.tree for body in self.scene.bodies for component in body.position]
         return given_sums([self.guided(self.expression(tree)) for tree in stated])

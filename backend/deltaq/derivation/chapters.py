@@ -15,6 +15,7 @@ from .rules import (
     curl_test,
     decomposition,
     generalized_force,
+    generalized_potential,
     guide,
     guided_position,
     lagrange_equation,
@@ -82,6 +83,9 @@ def kinetic_energy(system: System) -> Iterator[Step]:
 def forces(system: System) -> Iterator[Step]:
     """Which loads have a potential, and what is left; then the constraints, released."""
     for load in system.load_names:
+        if system.is_generalized(load):
+            yield generalized_potential.apply(system, load)
+            continue
         yield curl_test.apply(system, load)
         if system.is_conservative(load):
             yield potential.apply(system, load)

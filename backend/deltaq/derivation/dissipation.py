@@ -37,7 +37,7 @@ def dissipation_function(system: System, load: str) -> sp.Expr | None:
 @cached_method
 def dissipative_loads(system: System) -> tuple[str, ...]:
     """The loads without potential that have a dissipation function."""
-    loads = (load for load in system.load_names if not system.is_conservative(load))
+    loads = _outside_lagrangian(system)
     return tuple(load for load in loads if dissipation_function(system, load) is not None)
 
 
@@ -45,7 +45,13 @@ def dissipative_loads(system: System) -> tuple[str, ...]:
 def remaining_loads(system: System) -> tuple[str, ...]:
     """The loads with neither potential nor dissipation function."""
     known = dissipative_loads(system)
-    return tuple(load for load in system.load_names if not system.is_conservative(load) and load not in known)
+    return tuple(load for load in _outside_lagrangian(system) if load not in known)
+
+
+def _outside_lagrangian(system: System) -> tuple[str, ...]:
+    """The loads whose forces come from no potential, generalized ones included."""
+    known = system.sources_of_lagrangian
+    return tuple(load for load in system.load_names if f"load:{load}" not in known)
 
 
 def is_dissipative(system: System, damping: list[arb]) -> bool:

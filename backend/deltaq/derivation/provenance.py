@@ -31,14 +31,30 @@ def of_kinetic_energy(system: System) -> Iterator[Share]:
 
 def of_potential_energy(system: System) -> Iterator[Share]:
     """V = Σ V of each load that has a potential."""
+    yield from _of_static_potentials(system)
+    for load in system.generalized_loads:
+        still = system.at_rest(system.velocity_potential(load))
+        if still != 0:
+            yield f"load:{load}", still
+
+
+def _of_static_potentials(system: System) -> Iterator[Share]:
+    """V of each load that has a potential V(q, t)."""
     for load in filter(system.is_conservative, system.load_names):
         yield f"load:{load}", system.load_potential(load)
 
 
+def _of_rates(system: System) -> Iterator[Share]:
+    """U − U₀ of each load with a generalized potential."""
+    for load in system.generalized_loads:
+        function = system.velocity_potential(load)
+        yield f"load:{load}", function - system.at_rest(function)
+
+
 def of_lagrangian(system: System) -> Iterator[Share]:
-    """E − V"""
+    """E − V − U"""
     yield from of_kinetic_energy(system)
-    for source, energy in of_potential_energy(system):
+    for source, energy in (*of_potential_energy(system), *_of_rates(system)):
         yield source, -energy
 
 
@@ -49,22 +65,26 @@ def of_force(system: System, coordinate: str) -> Iterator[Share]:
 
 
 def of_conservative_force(system: System, coordinate: str) -> Iterator[Share]:
-    """Qᵢᵖ = −∂V/∂qᵢ"""
-    for source, energy in of_potential_energy(system):
+    """Qᵢᵖ = −∂V/∂qᵢ, and the forces of generalized potentials"""
+    for source, energy in _of_static_potentials(system):
         yield source, -diff(energy, system.q(coordinate))
+    for load in system.generalized_loads:
+        yield f"load:{load}", system.load_force(load, coordinate)
 
 
 def of_nonconservative_force(system: System, coordinate: str) -> Iterator[Share]:
     """Qᵢᵈ"""
     for load in system.load_names:
-        if not system.is_conservative(load):
+        if not (system.is_conservative(load) or system.is_generalized(load)):
             yield f"load:{load}", system.load_force(load, coordinate)
 
 
 def of_momentum(system: System, coordinate: str) -> Iterator[Share]:
-    """∂L/∂q̇ᵢ; potentials do not depend on rates."""
+    """∂L/∂q̇ᵢ; of the potentials only generalized ones depend on rates."""
     for source, energy in of_kinetic_energy(system):
         yield source, system.slope(energy, system.rate(coordinate))
+    for source, energy in _of_rates(system):
+        yield source, -system.slope(energy, system.rate(coordinate))
 
 
 def of_jacobi_energy(system: System) -> Iterator[Share]:
@@ -84,6 +104,9 @@ def of_symmetry(system: System, symmetry: Symmetry) -> Iterator[Share]:
         yield source, (moved + time * energy).xreplace(special)
     for source, energy in of_potential_energy(system):
         yield source, (-time * energy).xreplace(special)
+    for source, energy in _of_rates(system):
+        moved = (change * system.slope(energy, system.rate(q)) for q, change in changes.items())
+        yield source, -(sp.Add(*moved) + time * energy).xreplace(special)
 
 
 @cached_method

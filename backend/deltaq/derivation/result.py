@@ -154,7 +154,7 @@ def equations_of(system: System) -> Result:
         kinetic_energy=system.kinetic_energy,
         potential_energy=system.potential_energy,
         total_forces={q: system.generalized_force(q) for q in system.free},
-        conservative_forces={q: system.derivative(-system.potential_energy, system.q(q)) for q in system.free},
+        conservative_forces={q: system.conservative_force(q) for q in system.free},
         nonconservative_forces={q: system.nonconservative_force(q) for q in system.free},
         lagrangian=system.lagrangian,
         equations={q: left_side(system, q) for q in system.free},

@@ -13,7 +13,7 @@ from ..language.memory import cached_method
 from ..language.operations import operations
 from ..language.tree import Node
 from ..mechanics.bodies import Body
-from ..mechanics.contributions import PotentialEnergy
+from ..mechanics.contributions import GeneralizedPotential, PotentialEnergy
 from ..mechanics.kinetics import Distribution, Kinetics, Rotation, Translation
 from .antiderivative import antiderivative, is_finite
 from .formula import Formula, Given, Named, Quantity, Substituted
@@ -99,8 +99,40 @@ class System(Reactions):
         return all(isinstance(part, PotentialEnergy) for part in self.scene.contributions if part.source == load)
 
     def is_conservative(self, load: str) -> bool:
-        """Whether the load's forces have a potential that can be written down."""
-        return self.has_potential(load) and self._potential(load) is not None
+        """Whether the load's forces have a potential V(q, t) that can be written down; generalized ones stay such."""
+        return not self.is_generalized(load) and self.has_potential(load) and self._potential(load) is not None
+
+    @cached_method
+    def is_generalized(self, load: str) -> bool:
+        """Whether the load's forces come from generalized potentials, which depend on rates and stand in L, too."""
+        parts = [part for part in self.scene.contributions if part.source == load]
+        return all(isinstance(part, GeneralizedPotential) for part in parts)
+
+    @property
+    def generalized_loads(self) -> tuple[str, ...]:
+        """The loads with a generalized potential, in the scene's order."""
+        return tuple(load for load in self.load_names if self.is_generalized(load))
+
+    @property
+    def sources_of_lagrangian(self) -> tuple[str, ...]:
+        """Every load whose potential stands in L, as a source of terms."""
+        loads = (load for load in self.load_names if self.is_conservative(load) or self.is_generalized(load))
+        return tuple(f"load:{load}" for load in loads)
+
+    @cached_method
+    def velocity_potential(self, load: str) -> sp.Expr:
+        """U(q, q̇, t) of a load with a generalized potential."""
+        parts = [p for p in self.scene.contributions if p.source == load and isinstance(p, GeneralizedPotential)]
+        return self.display(sp.Add(*map(self.generalized_potential, parts)))
+
+    def at_rest(self, function: sp.Expr) -> sp.Expr:
+        """U₀, what of a generalized potential counts as energy."""
+        return function.xreplace({self.rate(q): self.zero for q in self.free})
+
+    @cached_method
+    def generalized_share(self, coordinate: str) -> sp.Expr:
+        """Σ d/dt ∂U/∂q̇ᵢ − ∂U/∂qᵢ of the loads with a generalized potential."""
+        return self.display(sp.Add(*(self.load_force(load, coordinate) for load in self.generalized_loads)))
 
     @property
     def conservative_sources(self) -> tuple[str, ...]:
@@ -144,21 +176,45 @@ class System(Reactions):
 
     @cached_property
     def potential_energy(self) -> sp.Expr:
-        """V = Σ V of the loads with a potential: load by load, or what they share in front where that is shorter."""
+        """V = Σ V of the loads with a potential: load by load, or what they share in front where that is shorter.
+
+        What of a generalized potential does not depend on rates counts, too.
+        """
+        total = sp.Add(
+            self.static_potential, *(self.at_rest(self.velocity_potential(u)) for u in self.generalized_loads)
+        )
+        return min((total, self.display(total)), key=operations)
+
+    @cached_property
+    def static_potential(self) -> sp.Expr:
+        """V of the loads with a potential V(q, t) alone."""
         loads = (load for load in self.load_names if self.is_conservative(load))
         total = sp.Add(*map(self.load_potential, loads))
         return min((total, self.display(total)), key=operations)
 
     @cached_method
+    def conservative_force(self, coordinate: str) -> sp.Expr:
+        """Qᵢᵖ: −∂V/∂qᵢ, and d/dt ∂U/∂q̇ᵢ − ∂U/∂qᵢ of generalized potentials."""
+        slope = self.derivative(-self.static_potential, self.q(coordinate))
+        return self.display(slope + self.generalized_share(coordinate)) if self.generalized_loads else slope
+
+    @cached_method
     def nonconservative_force(self, coordinate: str) -> sp.Expr:
         """Qᵢᵈ: what is left of Qᵢ when every load with a potential is taken out."""
-        loads = (load for load in self.load_names if not self.is_conservative(load))
+        in_function = self.sources_of_lagrangian
+        loads = (load for load in self.load_names if f"load:{load}" not in in_function)
         return self.display(sp.Add(*(self.load_force(load, coordinate) for load in loads)))
 
     @cached_property
     def lagrangian(self) -> sp.Expr:
-        """L = E − V"""
-        return self.kinetic_energy - self.potential_energy
+        """L = E − V, less what of generalized potentials depends on rates."""
+        return self.kinetic_energy - self.potential_energy - self.potential_of_rates
+
+    @cached_property
+    def potential_of_rates(self) -> sp.Expr:
+        """Σ U − U₀ of the generalized potentials: what stands in L and is no energy."""
+        found = (self.velocity_potential(load) for load in self.generalized_loads)
+        return self.display(sp.Add(*(function - self.at_rest(function) for function in found)))
 
     @cached_method
     def momentum(self, coordinate: str) -> sp.Expr:

@@ -13,6 +13,7 @@ from ..mechanics.contributions import (
     Contribution,
     DissipationFunction,
     DistributedForce,
+    GeneralizedPotential,
     Moment,
     PointForce,
     PotentialEnergy,
@@ -41,6 +42,10 @@ class Work(Kinematics):
         """V(q, t) with the guides put in."""
         return self.display(self.guided(self.expression(load.energy)))
 
+    def generalized_potential(self, load: GeneralizedPotential) -> sp.Expr:
+        """U(q, q̇, t) with the guides put in."""
+        return self.display(self.guided(self.expression(load.energy)))
+
     def dissipation(self, load: DissipationFunction) -> sp.Expr:
         """R(q, q̇, t) with the guides put in."""
         return self.display(self.guided(self.expression(load.function)))
@@ -63,6 +68,8 @@ class Work(Kinematics):
                 work = self.moment(load) * self.vary(self.angle(load))
             case PotentialEnergy():
                 work = -self.vary(self.energy(load))
+            case GeneralizedPotential():
+                work = self._of_generalized(self.generalized_potential(load))
             case DissipationFunction():
                 work = self._dissipated(self.dissipation(load))
             case DistributedForce():
@@ -73,6 +80,10 @@ class Work(Kinematics):
     def _dissipated(self, function: sp.Expr) -> sp.Expr:
         """−∂R/∂q̇ᵢ δqᵢ"""
         return -sp.Add(*(diff(function, self.rate(q)) * self.variation(q) for q in self.free))
+
+    def _of_generalized(self, function: sp.Expr) -> sp.Expr:
+        """(d/dt ∂U/∂q̇ᵢ − ∂U/∂qᵢ) δqᵢ"""
+        return sp.Add(*(self.euler_expression(function, q) * self.variation(q) for q in self.free))
 
     def share(self, load: Contribution, coordinate: str) -> sp.Expr:
         """What the load contributes to Qᵢ: the coefficient of δqᵢ."""

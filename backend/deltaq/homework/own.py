@@ -58,7 +58,7 @@ class OwnSolution(Solution):
     @property
     def lagrangian(self) -> sp.Expr:
         own = self._own("lagrangian")
-        return self.kinetic_energy - self.potential_energy if own is None else own
+        return self.kinetic_energy - self.potential_energy - self.potential_of_rates if own is None else own
 
     def momentum(self, coordinate: str) -> sp.Expr:
         own = self._own(f"momentum:{coordinate}")

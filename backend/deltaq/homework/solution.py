@@ -43,11 +43,15 @@ class Solution(System):
         """∂V/∂q"""
         return self.potential_energy.diff(self.q(coordinate))
 
+    def force_of_rates(self, coordinate: str) -> sp.Expr:
+        """d/dt ∂U/∂q̇ − ∂U/∂q of what of generalized potentials depends on rates."""
+        return self.euler_expression(self.potential_of_rates, coordinate) if self.generalized_loads else self.zero
+
     @cached_method
     def equation(self, coordinate: str) -> sp.Expr:
-        """d/dt ∂E/∂q̇ − ∂E/∂q + ∂V/∂q − Qᵈ − Σ λ a, the left side of `… = 0`."""
+        """d/dt ∂E/∂q̇ − ∂E/∂q + ∂V/∂q − Qᵈ − Σ λ a, the left side of `… = 0`; forces of rates from L are among them."""
         inertia = self.momentum_rate(coordinate) - self.energy_slope(coordinate)
-        forces = self.nonconservative_force(coordinate) + self.reaction(coordinate)
+        forces = self.nonconservative_force(coordinate) + self.reaction(coordinate) + self.force_of_rates(coordinate)
         return inertia + self.potential_slope(coordinate) - forces
 
     @cached_property

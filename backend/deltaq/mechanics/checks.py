@@ -88,5 +88,5 @@ def default_name(kinds: list[str], index: int, joint: str) -> str:
     """A thing without a name is called by its kind, with a number where there are several of the kind: gravity-2,
     particle2; things that are of no kind have no such name.
     """
-    kind = kinds[index]
-    return kind if not kind or kinds.count(kind) < 2 else f"{kind}{joint}{kinds[: index + 1].count(kind)}"
+    kind, name = kinds[index], kinds[index].replace("-", "_")
+    return name if not kind or kinds.count(kind) < 2 else f"{name}{joint}{kinds[: index + 1].count(kind)}"

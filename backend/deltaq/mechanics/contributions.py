@@ -35,6 +35,14 @@ class PotentialEnergy:
 
 
 @dataclass(frozen=True)
+class GeneralizedPotential:
+    """A potential U(q, q̇, t), linear in the rates: δW = (d/dt ∂U/∂q̇ᵢ − ∂U/∂qᵢ) δqᵢ."""
+
+    source: str
+    energy: Node
+
+
+@dataclass(frozen=True)
 class DissipationFunction:
     """Rayleigh's function R(q, q̇, t): δW = −∂R/∂q̇ᵢ δqᵢ."""
 
@@ -53,4 +61,4 @@ class DistributedForce:
     material: tuple[Material, ...]
 
 
-Contribution = PointForce | Moment | PotentialEnergy | DissipationFunction | DistributedForce
+Contribution = PointForce | Moment | PotentialEnergy | GeneralizedPotential | DissipationFunction | DistributedForce

@@ -13,30 +13,31 @@ from fractions import Fraction
 
 @dataclass(frozen=True)
 class Dimension:
-    """A product of powers of kg, m and s, with the scale of the unit in SI (cm: 1/100)."""
+    """A product of powers of kg, m, s and A, with the scale of the unit in SI (cm: 1/100)."""
 
     mass: Fraction = Fraction(0)
     length: Fraction = Fraction(0)
     time: Fraction = Fraction(0)
     scale: float = 1.0
+    current: Fraction = Fraction(0)
 
     def times(self, other: Dimension) -> Dimension:
         """The dimension of a product."""
         exponents = (self.mass + other.mass, self.length + other.length, self.time + other.time)
-        return Dimension(*exponents, self.scale * other.scale)
+        return Dimension(*exponents, self.scale * other.scale, self.current + other.current)
 
     def to(self, exponent: Fraction) -> Dimension:
         """The dimension of a power."""
         exponents = (self.mass * exponent, self.length * exponent, self.time * exponent)
-        return Dimension(*exponents, self.scale ** float(exponent))
+        return Dimension(*exponents, self.scale ** float(exponent), self.current * exponent)
 
     def fits(self, other: Dimension) -> bool:
         """Whether quantities of the two may be added as plain numbers."""
         same = (self.mass, self.length, self.time) == (other.mass, other.length, other.time)
-        return same and abs(self.scale / other.scale - 1) < 1e-9
+        return same and self.current == other.current and abs(self.scale / other.scale - 1) < 1e-9
 
     def __str__(self) -> str:
-        powers = {"kg": self.mass, "m": self.length, "s": self.time}
+        powers = {"kg": self.mass, "m": self.length, "s": self.time, "A": self.current}
         words = [unit if power == 1 else f"{unit}^{power}" for unit, power in powers.items() if power]
         scale = [] if abs(self.scale - 1) < 1e-9 else [f"{self.scale:g}"]
         return " ".join(scale + words) or "1"
@@ -45,8 +46,8 @@ class Dimension:
 ONE = Dimension()
 
 
-def _of(mass: int, length: int, time: int, scale: float = 1.0) -> Dimension:
-    return Dimension(Fraction(mass), Fraction(length), Fraction(time), scale)
+def _of(mass: int, length: int, time: int, scale: float = 1.0, current: int = 0) -> Dimension:
+    return Dimension(Fraction(mass), Fraction(length), Fraction(time), scale, Fraction(current))
 
 
 UNITS: Mapping[str, Dimension] = {
@@ -65,6 +66,10 @@ UNITS: Mapping[str, Dimension] = {
     "J": _of(1, 2, -2),
     "W": _of(1, 2, -3),
     "Pa": _of(1, -1, -2),
+    "A": _of(0, 0, 0, current=1),
+    "C": _of(0, 0, 1, current=1),
+    "V": _of(1, 2, -3, current=-1),
+    "T": _of(1, 0, -2, current=-1),
 }
 PREFIXES: Mapping[str, float] = {"": 1.0, "M": 1e6, "k": 1e3, "d": 1e-1, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "μ": 1e-6}
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
@@ -103,4 +108,4 @@ def _prefixed(symbol: str) -> Dimension | None:
     if prefix not in PREFIXES or base not in UNITS:
         return None
     unit = UNITS[base]
-    return Dimension(unit.mass, unit.length, unit.time, unit.scale * PREFIXES[prefix])
+    return Dimension(unit.mass, unit.length, unit.time, unit.scale * PREFIXES[prefix], unit.current)

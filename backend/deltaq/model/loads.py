@@ -5,7 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import singledispatch
 
-from ..mechanics.contributions import DissipationFunction, DistributedForce, Moment, PointForce, PotentialEnergy
+from ..mechanics.contributions import (
+    DissipationFunction,
+    DistributedForce,
+    GeneralizedPotential,
+    Moment,
+    PointForce,
+    PotentialEnergy,
+)
 from ..mechanics.scene import Scene
 from .functions import Expr
 from .kinetic import ZERO, Vector, components, velocity
@@ -41,6 +48,26 @@ def _work(contribution: object, _scene: Scene, _symbols: Symbols) -> Work:
 def _of_potential(contribution: PotentialEnergy, _scene: Scene, symbols: Symbols) -> Work:
     """δW = −δV"""
     return _conservative(to_symengine(contribution.energy, symbols), symbols)
+
+
+@_work.register
+def _of_generalized_potential(contribution: GeneralizedPotential, _scene: Scene, symbols: Symbols) -> Work:
+    """Q = d/dt ∂U/∂q̇ − ∂U/∂q with U = U₀ + Σ aᵢ q̇ᵢ: Qᵢ = Σ (∂aᵢ/∂qⱼ − ∂aⱼ/∂qᵢ) q̇ⱼ − ∂U₀/∂qᵢ over all that moves.
+
+    What hangs on the rates has no power if the clock is counted among what moves.
+    """
+    function = to_symengine(contribution.energy, symbols)
+    values = tuple(symbols.values[name] for name in symbols.moving)
+    rates = tuple(symbols.rates[name] for name in symbols.moving)
+    slopes = tuple(function.diff(rate) for rate in rates)
+    forces = tuple(
+        sum(
+            ((a.diff(other) - b.diff(value)) * rate for b, other, rate in zip(slopes, values, rates, strict=True)), ZERO
+        )
+        for a, value in zip(slopes, values, strict=True)
+    )
+    still = _conservative(function.subs(dict.fromkeys(rates, 0)), symbols)
+    return Work(still.potential, tuple(a + b for a, b in zip(forces, still.forces, strict=True)), ZERO)
 
 
 @_work.register

@@ -32,6 +32,7 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "moment": ("M{of}", "load-{name}"),
     "angular-velocity": (r"\omega{of}", "body-{name}"),
     "dissipation-function": ("R{of}", "load-{name}"),
+    "generalized-potential": ("U{of}", "load-{name}"),
     "virtual-work": (r"\delta W{of}", "load-{name}"),
     "generalized-force": ("Q_{{{i}}}{part}", ""),
     "nonconservative-force": ("Q_{{{i}}}^{{d}}", ""),

@@ -43,6 +43,7 @@ export const SECTIONS = [
       damper: [...ENDS, field("coefficient", "expression")],
       moment: [field("angle", "expression"), field("moment", "expression")],
       potential: [field("energy", "expression")],
+      "generalized-potential": [field("energy", "expression")],
       dissipation: [field("function", "expression")],
       distributed: [MATERIAL, POSITION, field("density", "vector")],
     },

@@ -17,4 +17,4 @@ def apply(action: Action) -> Step:
     whole = Called(Quantity("integral-functional"), action.on(action.explicit))
     line = Relation((whole, action.on(action.named), action.on(action.explicit)))
     system = action.system
-    return Step(RULE, "", (line,), system.body_sources + system.conservative_sources)
+    return Step(RULE, "", (line,), system.body_sources + system.sources_of_lagrangian)

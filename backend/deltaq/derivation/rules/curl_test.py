@@ -33,6 +33,8 @@ def outcome(system: System, load: str) -> CurlOutcome:
         if len(system.free) > 1:
             return "conservative-in-time" if timed else "conservative"
         return "single-in-time" if timed else "single"
+    if system.is_generalized(load):
+        return "generalized"
     rates = {system.rate(q) for q in system.free}
     moving = any(system.load_force(load, q).free_symbols & rates for q in system.free)
     return "rates" if moving else "nonconservative"

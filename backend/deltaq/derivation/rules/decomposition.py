@@ -9,7 +9,7 @@ from ..dissipation import dissipation_function, dissipative_loads, remaining_loa
 from ..formula import Explicit, Named, Partial, Plus, Quantity, Term, minus
 from ..step import Relation, Step
 from ..system import System
-from . import generalized_force, potential
+from . import generalized_force, generalized_potential, potential
 
 RULE = "decomposition"
 
@@ -21,9 +21,9 @@ def apply(system: System) -> Step:
         Term(Named(Quantity("potential-energy", load), system.load_potential(load)), (f"load:{load}",))
         for load in loads
     )
-    energy = Named(Quantity("potential-energy"), system.potential_energy)
+    energy = Named(Quantity("potential-energy"), system.static_potential)
     sums = (Plus(parts),) if len(parts) > 1 else ()
-    lines = [Relation((energy, *sums, Explicit(system.potential_energy)))]
+    lines = [Relation((energy, *sums, Explicit(system.static_potential)))]
     lines += [_split(system, q, energy) for q in system.free]
     if dissipative_loads(system):
         lines += [_rest(system, q) for q in system.free]
@@ -31,7 +31,8 @@ def apply(system: System) -> Step:
         lines += [_no_rest(system, q) for q in system.free if system.nonconservative_force(q) == 0]
     about = {"outcome": _outcome(system), "load": ", ".join(remaining_loads(system))}
     sources = tuple(f"load:{load}" for load in system.load_names)
-    return Step(RULE, "", tuple(lines), sources, about, premises=_premises(loads))
+    premises = (*_premises(loads), *(f"{generalized_potential.RULE}:{load}" for load in system.generalized_loads))
+    return Step(RULE, "", tuple(lines), sources, about, premises=premises)
 
 
 def _premises(conservative: list[str]) -> tuple[str, ...]:
@@ -39,8 +40,20 @@ def _premises(conservative: list[str]) -> tuple[str, ...]:
     return (generalized_force.RULE, *(f"{potential.RULE}:{load}" for load in conservative))
 
 
+def _of_rates(system: System, coordinate: str) -> tuple[Term, ...]:
+    """d/dt ∂U/∂q̇ᵢ − ∂U/∂qᵢ of every load with a generalized potential that acts on the coordinate."""
+    found: tuple[Term, ...] = ()
+    for load in system.generalized_loads:
+        if system.load_force(load, coordinate) != 0:
+            named = Named(Quantity("generalized-potential", load), system.velocity_potential(load))
+            found += generalized_potential.law(system, named, coordinate).terms
+    return found
+
+
 def _outcome(system: System) -> str:
     """What the rest consists of."""
+    if system.generalized_loads and not dissipative_loads(system):
+        return "generalized-and-rest" if remaining_loads(system) else "generalized"
     if dissipative_loads(system):
         return "dissipation-and-rest" if remaining_loads(system) else "dissipation"
     return "rest" if remaining_loads(system) else "text"
@@ -72,13 +85,14 @@ def _rest(system: System, coordinate: str) -> Relation:
 
 def _split(system: System, coordinate: str, potential: Named) -> Relation:
     total = system.generalized_force(coordinate)
-    conservative = system.derivative(-system.potential_energy, system.q(coordinate))
+    conservative = system.conservative_force(coordinate)
     rest = system.nonconservative_force(coordinate)
     acting = system.force_sources(coordinate)
-    kept = tuple(source for source in acting if source in system.conservative_sources)
+    kept = tuple(source for source in acting if source in system.sources_of_lagrangian)
     others = tuple(source for source in acting if source not in kept)
-    slope = minus(Partial(potential, system.q(coordinate)), *kept)
-    named = Plus((slope, Term(Named(_dissipative(coordinate), rest), others)))
+    static = tuple(source for source in kept if source in system.conservative_sources)
+    slope = minus(Partial(potential, system.q(coordinate)), *static)
+    named = Plus((slope, *_of_rates(system, coordinate), Term(Named(_dissipative(coordinate), rest), others)))
     written = Plus((Term(Explicit(conservative), kept), Term(Explicit(rest), others)))
     return Relation((Named(Quantity("generalized-force", coordinate), total), named, written))
 

@@ -134,6 +134,48 @@ class FollowerForceAsPotential(FaultySolution):
 
 
 @dataclass(frozen=True, eq=False)
+class GeneralizedPotentialLeftOut(FaultySolution):
+    """The generalized potential is left out of L, and its forces, which depend on rates, with it.
+
+    "A force that depends on velocities has no potential", so a magnetic field is thought to have no place in L.
+    """
+
+    id: ClassVar[str] = "generalized-potential-left-out"
+    likely: ClassVar[int] = 3
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
+
+    @classmethod
+    def variants(cls, true: Solution) -> Iterator[Self]:
+        yield from (cls(true.scene, true, load) for load in true.generalized_loads)
+
+    @property
+    def potential_of_rates(self) -> sp.Expr:
+        left_out = self.true.velocity_potential(self.about)
+        return self.true.potential_of_rates - left_out + self.at_rest(left_out)
+
+
+@dataclass(frozen=True, eq=False)
+class MomentumWithoutGeneralizedPotential(FaultySolution):
+    """The momentum is taken as ∂E/∂q̇, without the part of the generalized potential.
+
+    Momentum is remembered as mass times velocity, but p = ∂L/∂q̇, and U depends on the rates, too.
+    """
+
+    id: ClassVar[str] = "momentum-without-generalized-potential"
+    likely: ClassVar[int] = 3
+    evident: ClassVar[frozenset[str] | None] = frozenset({"momentum"})
+    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
+
+    @classmethod
+    def variants(cls, true: Solution) -> Iterator[Self]:
+        if true.generalized_loads:
+            yield cls(true.scene, true)
+
+    def momentum(self, coordinate: str) -> sp.Expr:
+        return self.kinetic_energy.diff(self.rate(coordinate))
+
+
+@dataclass(frozen=True, eq=False)
 class PotentialForceSign(FaultySolution):
     """The force of a potential or spring is taken as +∂V/∂q.
 
