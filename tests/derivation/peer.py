@@ -17,6 +17,8 @@ from deltaq.mechanics.contributions import (
     Contribution,
     DissipationFunction,
     DistributedForce,
+    Friction,
+    GeneralizedPotential,
     Moment,
     PointForce,
     PotentialEnergy,
@@ -104,7 +106,7 @@ class Peer:
         velocity = self.vector(position).diff(T)
         return velocity.dot(velocity)
 
-    def force(self, load: Contribution, coordinate: str) -> Any:
+    def force(self, load: Contribution, coordinate: str) -> Any:  # noqa: PLR0911 - one case for each kind
         """Qᵢ of a load, by its definition."""
         q = self.q[coordinate]
         match load:
@@ -117,6 +119,12 @@ class Peer:
                 return -self.read(energy).diff(q)
             case DissipationFunction(function=function):
                 return -self.read(function).doit().diff(q.diff(T))
+            case GeneralizedPotential(energy=energy):
+                function = self.read(energy).doit()
+                return function.diff(q.diff(T)).diff(T) - function.diff(q)
+            case Friction(coordinate=c, force=force, surface_rate=rate):
+                slipping = self.read(c)
+                return -self.read(force) * sp.sign(slipping.diff(T) - self.read(rate)) * slipping.diff(q)
             case DistributedForce(density=density, position=position, material=material):
                 return self.integrate(self.vector(density).dot(self.vector(position).diff(q)), material)
 

@@ -24,6 +24,7 @@ ROADS = [(scene, road) for scene in scene_ids() for road in formulation_names()]
 # What restates the scene, or a law of its own, rests on nothing that is said before.
 FIRST = {
     "position", "guide", "work-of-potential", "work-of-dissipation", "work-of-moment", "exchange-of-variation",
+    "work-of-generalized-potential", "work-of-friction",
     "generalized-force",  # where nothing acts on the coordinate
 }  # fmt: skip
 

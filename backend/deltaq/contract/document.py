@@ -96,11 +96,15 @@ class SceneLoad(Part):
         "dissipation",
         "potential",
         "generalized-potential",
+        "friction",
         "distributed",
     ] = Field(description="of load")
     acceleration: Vector | None = Field(None, description="of gravity", examples=[["0", "g"]])
     at: str | None = Field(None, description="the point or body that a force acts on")
-    force: Vector | None = Field(None, description="components of a force")
+    force: Vector | Expression | None = Field(None, description="components of a force, or friction while it slips")
+    coordinate: str | None = Field(None, description="that friction acts on", examples=["x"])
+    static: Expression | None = Field(None, description="the most that friction holds with; its force if empty")
+    surface_rate: Expression | None = Field(None, description="rate of the surface that it rubs on; 0 if empty")
     angle: Expression | None = Field(None, description="that a moment does work on")
     moment: Expression | None = Field(None, description="its value")
     start: str | None = Field(None, alias="from", description="where a spring or damper begins")
@@ -146,6 +150,8 @@ class SceneEvent(Part):
     value: Expression = Field(description="that passes through zero")
     title: Text | None = Field(None, description="what happens")
     at: str | None = Field(None, description="the body or point it happens to")
+    then: Literal["end", "bounce"] | None = Field(None, description="what happens then: the motion ends, or an impact")
+    restitution: Expression | None = Field(None, description="of an impact: rate behind over rate before, 0 to 1")
 
 
 class DrawnElement(Part):

@@ -13,6 +13,7 @@ from ..mechanics.contributions import (
     Contribution,
     DissipationFunction,
     DistributedForce,
+    Friction,
     GeneralizedPotential,
     Moment,
     PointForce,
@@ -50,6 +51,19 @@ class Work(Kinematics):
         """R(q, q̇, t) with the guides put in."""
         return self.display(self.guided(self.expression(load.function)))
 
+    def slipping(self, load: Friction) -> sp.Expr:
+        """c(q, t), what slips over the surface, with the guides put in."""
+        return self.display(self.guided(self.expression(load.coordinate)))
+
+    def slip_rate(self, load: Friction) -> sp.Expr:
+        """ċ − u with the guides put in."""
+        rate = self.time_derivative(self.slipping(load))
+        return self.display(rate - self.guided(self.expression(load.surface_rate)))
+
+    def friction_force(self, load: Friction) -> sp.Expr:
+        """−F sgn(ċ − u) with the guides put in."""
+        return -self.guided(self.expression(load.force)) * sp.sign(self.slip_rate(load))
+
     def angle(self, load: Moment) -> sp.Expr:
         """The angle φ(q, t) that a moment turns, with the guides put in."""
         return self.display(self.guided(self.expression(load.angle)))
@@ -72,6 +86,8 @@ class Work(Kinematics):
                 work = self._of_generalized(self.generalized_potential(load))
             case DissipationFunction():
                 work = self._dissipated(self.dissipation(load))
+            case Friction():
+                work = self.friction_force(load) * self.vary(self.slipping(load))
             case DistributedForce():
                 density = self.dot(self.force(load), self.virtual_displacement(load.place))
                 work = self.integrated(density, load.material, load.place)

@@ -51,6 +51,20 @@ class DissipationFunction:
 
 
 @dataclass(frozen=True)
+class Friction:
+    """Coulomb friction against the motion of c(q, t) over a surface: δW = −F sgn(ċ − u) δc, and less where it sticks.
+
+    `force` is F while it slips, `static` the most it holds with, `surface_rate` the rate u(t) of the surface.
+    """
+
+    source: str
+    coordinate: Node
+    force: Node
+    static: Node
+    surface_rate: Node
+
+
+@dataclass(frozen=True)
 class DistributedForce:
     """A force density f over material coordinates: δW = ∫ f · δr d(material). `place` is a body, or the load itself."""
 
@@ -61,4 +75,6 @@ class DistributedForce:
     material: tuple[Material, ...]
 
 
-Contribution = PointForce | Moment | PotentialEnergy | GeneralizedPotential | DissipationFunction | DistributedForce
+Contribution = (
+    PointForce | Moment | PotentialEnergy | GeneralizedPotential | DissipationFunction | Friction | DistributedForce
+)

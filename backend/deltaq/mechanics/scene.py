@@ -11,6 +11,7 @@ from types import MappingProxyType
 
 from ..errors import Problem, escaped
 from ..language.expression import Expression
+from ..language.floats import evaluate
 from ..language.names import Names, Symbol, is_reserved
 from .bodies import Body
 from .checks import demand, load_name_problem
@@ -68,6 +69,8 @@ class Scene:
         yield from _repeated("/loads", [load.name for load in self.loads])
         yield from _repeated("/guides", [guide.coordinate for guide in self.guides])
         yield from _repeated("/events", [event.name for event in self.events])
+        for index, event in enumerate(self.events):
+            yield from self._restitution_problems(f"/events/{index}/restitution", event)
         yield from _repeated("/constraints", [constraint.name for constraint in self.constraints])
         yield from self._multiplier_problems()
         yield from filter(None, (load_name_problem(load.name, f"/loads/{i}/name") for i, load in enumerate(self.loads)))
@@ -77,6 +80,19 @@ class Scene:
             yield from self._guide_problems(f"/guides/{index}", guide)
         if self.free:
             yield from list(self._constraint_problems()) or self._freedom_problems()
+
+    def _restitution_problems(self, pointer: str, event: Event) -> Iterator[Problem]:
+        """Newton's coefficient is a constant from 0 to 1."""
+        if event.restitution is None:
+            return
+        moving = {coordinate.name for coordinate in self.coordinates} | {"t"}
+        found = sorted((event.restitution.names & moving) | event.restitution.rates)
+        if found:
+            yield Problem("restitution-varies", pointer, parameters={"name": found[0]})
+            return
+        value = evaluate(event.restitution.tree, {parameter.name: parameter.value for parameter in self.parameters})
+        if not 0.0 <= value <= 1.0:
+            yield Problem("restitution-outside", pointer, parameters={"value": f"{value:g}"})
 
     def _guide_problems(self, pointer: str, guide: Guide) -> Iterator[Problem]:
         known = tuple(coordinate.name for coordinate in self.coordinates)

@@ -7,7 +7,10 @@ from dataclasses import dataclass, fields
 
 from ..errors import Problem
 from ..language.expression import Expression
+from ..language.floats import evaluate
+from ..language.spelling import spell_rate
 from ..language.tree import Rate, walk
+from .contributions import Friction
 from .definedness import definedness_problems
 from .homogeneity import SECOND, dimension_problems
 from .independence import independence_problems
@@ -32,6 +35,7 @@ def soundness_problems(scene: Scene) -> Iterator[Problem]:
     found = tuple(expressions(scene))
     yield from _idle_parameters(scene, found)
     yield from _units(scene, found)
+    yield from _negative_friction(scene)
     accelerated = tuple(_accelerations(found))
     undefined = tuple(definedness_problems(scene, ((field.pointer, field.expression) for field in found)))
     held = () if undefined else tuple(independence_problems(scene))
@@ -48,6 +52,19 @@ def expressions(scene: Scene) -> Iterator[Field]:
     units = {coordinate.name: coordinate.unit for coordinate in scene.coordinates}
     for index, guide in enumerate(scene.guides):
         yield Field(f"/guides/{index}/value", guide.value, dimension_of(units[guide.coordinate]))
+
+
+def _negative_friction(scene: Scene) -> Iterator[Problem]:
+    """Friction that would push, where the motion begins."""
+    values = {p.name: p.value for p in scene.parameters} | {c.name: c.value for c in scene.coordinates} | {"t": 0.0}
+    values |= {spell_rate(c.name, 1): c.rate for c in scene.coordinates}
+    for index, load in enumerate(scene.loads):
+        for part in (part for part in (load.contributions(scene.places, scene.bodies)) if isinstance(part, Friction)):
+            for key, tree in (("force", part.force), ("static", part.static)):
+                if evaluate(tree, values) < 0.0:
+                    parameters = {"name": load.name, "value": f"{evaluate(tree, values):g}"}
+                    yield Problem("friction-negative", f"/loads/{index}/{key}", parameters=parameters)
+                    break
 
 
 def _fields(pointer: str, thing: object) -> Iterator[Field]:

@@ -82,6 +82,11 @@ def equations(scene: Scene) -> Equations:
     )
 
 
+def guided_into(scene: Scene, expression: Expr) -> Expr:
+    """An expression of the scene with the guides put in, and the clock's rate."""
+    return _Guides.of(scene, Symbols.of(scene)).into((expression,))[0]
+
+
 def _position(place: tuple[Expression, ...], symbols: Symbols) -> Vector:
     return components(tuple(x.tree for x in place), symbols)
 

@@ -8,13 +8,14 @@ from functools import singledispatch
 from ..mechanics.contributions import (
     DissipationFunction,
     DistributedForce,
+    Friction,
     GeneralizedPotential,
     Moment,
     PointForce,
     PotentialEnergy,
 )
 from ..mechanics.scene import Scene
-from .functions import Expr
+from .functions import Expr, sign
 from .kinetic import ZERO, Vector, components, velocity
 from .quadrature import integral
 from .symbols import Symbols
@@ -96,6 +97,15 @@ def _of_dissipation(contribution: DissipationFunction, _scene: Scene, symbols: S
     function = to_symengine(contribution.function, symbols)
     forces = tuple(-function.diff(symbols.rates[name]) for name in symbols.moving)
     return Work(ZERO, forces, _dot(forces, tuple(symbols.rates[name] for name in symbols.moving)))
+
+
+@_work.register
+def _of_friction(contribution: Friction, _scene: Scene, symbols: Symbols) -> Work:
+    """δW = −F sgn(ċ − u) δc; what sticks is told by `modes`."""
+    c = (to_symengine(contribution.coordinate, symbols),)
+    slip = velocity(c, symbols)[0] - to_symengine(contribution.surface_rate, symbols)
+    force = (-to_symengine(contribution.force, symbols) * sign(slip),)
+    return Work(ZERO, _along(force, c, symbols), _dot(force, velocity(c, symbols)))
 
 
 @_work.register

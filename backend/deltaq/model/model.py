@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
@@ -91,6 +91,7 @@ class Model:
     tape: Tape = field(repr=False, compare=False)
     scene: Scene = field(repr=False, compare=False)
     disturbance: float = 0.0  # relative, of every entry of M and f
+    of: Callable[[Scene], Equations] = field(default=equations, repr=False, compare=False)
     usage: Usage = field(default_factory=Usage, init=False, repr=False, compare=False)
 
     @cached_property
@@ -102,12 +103,17 @@ class Model:
     @cached_property
     def disturbed(self) -> Model:
         """The same with every entry of M and f disturbed by about a thousand times its rounding error."""
-        return build(disturbed(equations(self.scene), DISTURBANCE), self.scene, DISTURBANCE)
+        return build(disturbed(self.of(self.scene), DISTURBANCE), self.scene, DISTURBANCE, self.of)
 
     @property
     def _equations(self) -> Equations:
-        found = equations(self.scene)
+        found = self.of(self.scene)
         return disturbed(found, self.disturbance) if self.disturbance else found
+
+    @property
+    def is_in_modes(self) -> bool:
+        """Whether its last parameters are modes, in which runs go on behind events (`modes`)."""
+        return self.of is not equations
 
     def settle(self) -> None:
         """From now on all runs are in the same, thorough code: for those who compare times."""
@@ -149,31 +155,38 @@ def compile_model(scene: Scene) -> Model:
     Scenes that differ only in numbers, names and drawing share theirs. None is kept on disk: what would be worth it is
     machine code, which whoever can write it can run, and compiling takes but 4 ms (22 ms for twelve links).
     """
-    return _compiled_once(_Mechanics(_mechanics(scene), scene))
+    return _compiled_once(Mechanics.of(scene))
 
 
 @dataclass(frozen=True)
-class _Mechanics:
+class Mechanics:
     """A scene, equal to all others with the same mechanics: what the model depends on, and no more."""
 
     content: tuple[object, ...]
     scene: Scene = field(compare=False)
 
+    @classmethod
+    def of(cls, scene: Scene) -> Mechanics:
+        """The mechanics of a scene."""
+        return cls(_mechanics(scene), scene)
+
 
 def _mechanics(scene: Scene) -> tuple[object, ...]:
     names = tuple(c.name for c in scene.coordinates), tuple(p.name for p in scene.parameters)
-    events = tuple(event.value for event in scene.events)
+    events = tuple((event.value, event.then, event.restitution) for event in scene.events)
     constraints = scene.conditions, tuple(symbol.name for symbol in scene.multipliers)
     return scene.dimension, names, scene.points, scene.bodies, scene.loads, scene.guides, events, constraints
 
 
 @lru_cache(maxsize=64)
-def _compiled_once(mechanics: _Mechanics) -> Model:
+def _compiled_once(mechanics: Mechanics) -> Model:
     return build(equations(mechanics.scene), mechanics.scene)
 
 
-def build(eqs: Equations, scene: Scene, disturbance: float = 0.0) -> Model:
-    """The model of a scene whose equations are at hand, compiled quickly."""
+def build(
+    eqs: Equations, scene: Scene, disturbance: float = 0.0, of: Callable[[Scene], Equations] = equations
+) -> Model:
+    """The model of a scene whose equations are at hand, compiled quickly; `of` tells how they are made of the scene."""
     symbols = eqs.symbols
     switches, held = _switches(eqs), eqs.constraints
     layout = Layout(
@@ -202,6 +215,7 @@ def build(eqs: Equations, scene: Scene, disturbance: float = 0.0) -> Model:
         tape_of(symbols.inputs, [*_triangle(eqs), *eqs.forcing, *seen, *_rows(held), *held.accelerations]),
         scene,
         disturbance,
+        of,
     )
 
 

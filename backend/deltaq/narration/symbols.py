@@ -32,6 +32,8 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "moment": ("M{of}", "load-{name}"),
     "angular-velocity": (r"\omega{of}", "body-{name}"),
     "dissipation-function": ("R{of}", "load-{name}"),
+    "friction-force": ("R{of}", "load-{name}"),
+    "slip": ("s{of}", "load-{name}"),
     "generalized-potential": ("U{of}", "load-{name}"),
     "virtual-work": (r"\delta W{of}", "load-{name}"),
     "generalized-force": ("Q_{{{i}}}{part}", ""),

@@ -8,12 +8,15 @@ from functools import cached_property
 
 import numpy as np
 
+from ..model.modes import Modes
 from .audit import USUAL, Audit
 from .estimate import Estimate, estimate, larger, rounding_matters, with_rounding
 from .event import EventOccurrence
+from .going_on import run_on
 from .integration import Flag
 from .kernels.motion import CANCELLED, STEP_LIMIT, STIFF
 from .method import Method
+from .passages import begun
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
 from .refinement import FINER, Refinement
@@ -84,9 +87,18 @@ class Integrator:
     times: Floats
     cancelled: Flag
     tolerance: float
+    modes: Modes | None = None
+    judged: Problem | None = None  # the problem outside of all modes
 
     def _run(self, steps: Steps) -> Run:
+        if self.modes is not None:
+            return run_on(self.problem, self.modes, self.method, self.times, self.cancelled, steps)
         return run(self.problem, self.method, self.times, self.cancelled, steps)
+
+    @property
+    def judge(self) -> Problem:
+        """The problem by which errors are measured."""
+        return self.judged or self.problem
 
     def coarse(self, step: float) -> Attempt:
         """One run with a fixed step in seconds, without an error estimate."""
@@ -103,7 +115,7 @@ class Integrator:
     @cached_property
     def audit(self) -> Audit:
         """What the method can see of the problem."""
-        return Audit(self.problem, self.method)
+        return Audit(self.problem if self.modes is None else begun(self.problem, self.modes).problem, self.method)
 
     def given(self, step: float) -> Attempt:
         """The run with the step given by the user, compared with a finer run that the audit finds nowhere blind."""
@@ -112,7 +124,7 @@ class Integrator:
         def compared(pieces: Pieces) -> Attempt:
             fine = Steps(step, pieces=pieces, ratio=FINER, is_recorded=True)
             runs = self._both(Steps(step, pieces=whole), fine)
-            return Attempt(runs[0], runs, estimate(self.problem, *runs, self.refinement.factor_of_coarse))
+            return Attempt(runs[0], runs, estimate(self.judge, *runs, self.refinement.factor_of_coarse))
 
         found, pieces = self._seen(self.audit.before(USUAL), compared)
         if not pieces.is_whole or self.problem.model.tape.has_choices:
@@ -131,8 +143,8 @@ class Integrator:
         third = self._run(Steps(step, pieces=pieces.scaled(1.0 / FINER), ratio=ratio))
         if found.estimate is None or not third.is_complete:
             return found
-        of_given = estimate(self.problem, found.chosen, third, self.refinement.factor_of_coarse)
-        of_fine = estimate(self.problem, fine, third, self.refinement.factor_of_coarse)
+        of_given = estimate(self.judge, found.chosen, third, self.refinement.factor_of_coarse)
+        of_fine = estimate(self.judge, fine, third, self.refinement.factor_of_coarse)
         return replace(found, estimate=larger(of_given, of_fine), discarded=(*found.discarded, third))
 
     def pair(self, resolution: float, pieces: Pieces, before: Attempt | None = None) -> tuple[Attempt, Pieces]:
@@ -148,9 +160,16 @@ class Integrator:
             of_coarse = replace(coarse, pieces=pieces)
             runs = self._both(of_coarse, of_fine) if known is None else (known, self._run(of_fine))
             factor = self.refinement.factor_of_fine(coarse if known is None else known.steps or coarse, fine)
-            return Attempt(runs[-1], runs, estimate(self.problem, *runs, factor), is_shared=known is not None)
+            return Attempt(runs[-1], runs, estimate(self.judge, *runs, factor), is_shared=known is not None)
 
         return self._seen(pieces, compared)
+
+    def _blind(self, fine: Run, tolerance: float) -> tuple[Stretch, ...]:
+        """Where a run was blind, stretch by stretch in its mode if it went on behind events."""
+        if self.modes is None:
+            return self.audit.after(fine, tolerance)
+        audits = (Audit(each.problem, self.method).after(each, tolerance) for each in fine.meshes)
+        return tuple(blind for found in audits for blind in found)
 
     def _comparable(self, before: Attempt, fine: Steps) -> Run | None:
         """The finer run of an attempt if it can stand for the coarser one of the next."""
@@ -164,7 +183,7 @@ class Integrator:
         for last in (False,) * (ROUNDS - 1) + (True,):
             found = compared(pieces)
             tolerance = min(self.tolerance, np.inf if found.estimate is None else found.estimate.worst)
-            blind = self.audit.after(found.runs[-1], tolerance)
+            blind = self._blind(found.runs[-1], tolerance)
             if last or not blind or not self.is_affordable(blind):
                 break
             discarded += found.own
@@ -177,12 +196,18 @@ class Integrator:
         Where rounding may matter, one more run with a disturbed model measures it.
         """
         fine = found.runs[-1]
-        if found.estimate is None or fine.steps is None or not rounding_matters(self.problem, fine, found.estimate):
+        if found.estimate is None or fine.steps is None or not rounding_matters(self.judge, fine, found.estimate):
             return found
-        problem = replace(self.problem, model=self.problem.model.disturbed)
-        other = run(problem, self.method, self.times, self.cancelled, replace(fine.steps, is_recorded=False))
-        mended = with_rounding(self.problem, found.estimate, fine, other)
+        other = self._disturbed._run(replace(fine.steps, is_recorded=False))  # noqa: SLF001 - its own kind
+        mended = with_rounding(self.judge, found.estimate, fine, other)
         return replace(found, estimate=mended, discarded=(*found.discarded, other))
+
+    @property
+    def _disturbed(self) -> Integrator:
+        """The same with a disturbed model."""
+        if self.modes is not None:
+            return replace(self, modes=replace(self.modes, model=self.modes.model.disturbed))
+        return replace(self, problem=replace(self.problem, model=self.problem.model.disturbed))
 
     def is_affordable(self, blind: tuple[Stretch, ...]) -> bool:
         """Whether steps short enough for the blind stretches stay within the step limit."""
@@ -191,7 +216,7 @@ class Integrator:
     def _both(self, coarse: Steps, fine: Steps) -> tuple[Run, Run]:
         """Two runs; side by side if they may take a while, for kernels hold no lock."""
         work = self.problem.t_end * fine.ratio * self.method.tableau.stages
-        if coarse.tolerance == 0.0 and work < BRIEF * fine.size:
+        if self.modes is not None or (coarse.tolerance == 0.0 and work < BRIEF * fine.size):
             return self._run(coarse), self._run(fine)
         of_fine, of_coarse = side_by_side(lambda: self._run(fine), lambda: self._run(coarse))
         return of_coarse, of_fine
@@ -221,7 +246,7 @@ class Integrator:
         if coarse.steps is None or fine.steps is None:
             return found
         factor = short * self.refinement.factor_of_fine(coarse.steps, fine.steps)
-        return replace(found, estimate=estimate(self.problem, coarse, fine, factor))
+        return replace(found, estimate=estimate(self.judge, coarse, fine, factor))
 
 
 def _excess(attempt: Attempt, tolerance: float) -> float:

@@ -20,7 +20,7 @@ from .kernels.intervals import Ranges, TapeArrays
 from .method import Method
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
-from .run import Run
+from .run import Mesh, Run
 from .sensitivity import sensitivities
 
 # Swings of an argument that a method follows: four radians, or less where its stages lie far apart.
@@ -105,7 +105,7 @@ class Audit:
                     return GuideJump(name, before)
         return None
 
-    def after(self, run: Run, tolerance: float) -> tuple[Stretch, ...]:
+    def after(self, run: Run | Mesh, tolerance: float) -> tuple[Stretch, ...]:
         """The stretches of a recorded run on which it was blind, for a tolerance of the coordinates."""
         path = _path(self.problem, run)
         if len(path.times) < 2:
@@ -202,7 +202,7 @@ def _make_workspace(operations: int) -> AuditWorkspace:
     return AuditWorkspace(*_columns(DEEPEST), looked, flips, np.zeros(operations))
 
 
-def _path(problem: Problem, run: Run) -> Path:
+def _path(problem: Problem, run: Run | Mesh) -> Path:
     """The recorded mesh of a run as a path; q̈ of its cubic jumps at the ends of steps."""
     n, times, states = problem.degrees, run.mesh_times, run.mesh_states
     q, v = np.ascontiguousarray(states[:, :n]), np.ascontiguousarray(states[:, n : 2 * n])

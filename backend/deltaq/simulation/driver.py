@@ -5,8 +5,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from ..model.modes import Modes, modes_of
 from .attempt import Attempt, Integrator
 from .audit import Audit, GuideJump
 from .conclusion import outcome
@@ -14,6 +17,7 @@ from .estimate import Estimate
 from .event import EventOccurrence
 from .integration import Flag
 from .method import Method
+from .passages import Happening
 from .problem import Floats, Problem
 from .reactions import reactions_at
 from .refinement import ByStep, ByTolerance, Refinement
@@ -21,6 +25,7 @@ from .rounding import significant
 from .run import Stop
 from .trajectory import Cost, Trajectory
 
+SPACING = 4e-16  # of numbers, relative
 LEAST_SAMPLES = 200  # intervals that errors are compared on, however few samples are asked for
 
 
@@ -41,10 +46,17 @@ def simulate(
     """
     if (step is None) == (tolerance is None):
         raise ValueError("give either a step or a tolerance")
-    guide_jump = Audit(problem, method).guide_jump()
+    guide_jump, modes = Audit(problem, method).guide_jump(), modes_of(problem.model.scene)
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
     integrator = Integrator(
-        problem, method, _refinement(problem, method, tolerance), _grid(problem, guide_jump), flag, tolerance or np.inf
+        problem if modes is None else replace(problem, model=modes.model),
+        method,
+        _refinement(problem, method, tolerance, modes),
+        _grid(problem, guide_jump),
+        flag,
+        tolerance or np.inf,
+        modes,
+        problem,
     )
     if step is not None:
         attempts = [integrator.rounded(integrator.given(step)) if with_error else integrator.coarse(step)]
@@ -53,10 +65,10 @@ def simulate(
     return _trajectory(problem, method, attempts, tolerance, step, guide_jump)
 
 
-def _refinement(problem: Problem, method: Method, tolerance: float | None) -> Refinement:
+def _refinement(problem: Problem, method: Method, tolerance: float | None, modes: Modes | None) -> Refinement:
     if tolerance is not None and method.is_adaptive:
         return ByTolerance(problem.t_end, method.error_order or method.order)
-    sure = 1 if problem.model.tape.has_choices else method.order
+    sure = 1 if (problem if modes is None else modes).model.tape.has_choices else method.order
     return ByStep(problem.t_end, method.order, problem.step_limit, sure)
 
 
@@ -111,6 +123,21 @@ def _trajectory(
         _event_occurrence(best),
         best.seen_until,
         reactions,
+        _happenings(best),
+    )
+
+
+def _happenings(best: Attempt) -> tuple[Happening, ...]:
+    """The events behind which the motion went on, their times judged by how far the other run's are from them."""
+    found = best.chosen.happenings
+    others = best.runs[0 if best.chosen is best.runs[-1] else -1].happenings
+    is_known = best.estimate is not None and len(best.runs) > 1
+    pairs = zip(found, (*others, *(None,) * len(found)), strict=False)
+    return tuple(
+        replace(one, error=abs(one.time - other.time) + SPACING * one.time)
+        if is_known and other is not None and (other.name, other.kind) == (one.name, one.kind)
+        else one
+        for one, other in pairs
     )
 
 

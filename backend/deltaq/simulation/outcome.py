@@ -13,6 +13,7 @@ from .kernels.motion import (
     FINE,
     HELD,
     LOCKED,
+    MANY_EVENTS,
     NEWTON_FAILED,
     NOT_FINITE,
     SINGULAR,
@@ -20,6 +21,7 @@ from .kernels.motion import (
     STEP_UNDERFLOW,
     STIFF,
     TOO_LARGE,
+    UNSETTLED,
 )
 
 Number = str | int | float
@@ -55,6 +57,8 @@ _WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
         EVENT: ("event", "event"),
         HELD: ("stopped", "stopped"),
         LOCKED: ("singular_constraints", "singular_constraints"),
+        MANY_EVENTS: ("step_limit", "many_events"),
+        UNSETTLED: ("unresolved", "contacts_at_once"),
     }
 )
 

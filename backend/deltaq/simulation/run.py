@@ -8,13 +8,14 @@ from time import perf_counter
 import numpy as np
 
 from .constraints import Reactions, is_locked, pivot_of
-from .event import Approach, Event, approaches, first_event
+from .event import Approach, Event, approaches, first_event, quick_event
 from .integration import Flag, KernelArguments, is_kicked, motion_of, run_kernel, watch_of
 from .kernels.loop import Result
 from .kernels.motion import EVENT, FINE, HELD, LOCKED, SINGULAR, STEP_LIMIT, STIFF
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
 from .method import Method
+from .passages import Happening
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .reactions import reactions_at
@@ -38,13 +39,23 @@ class Stop:
 
 
 @dataclass(frozen=True)
+class Mesh:
+    """The mesh of a stretch between events, as that of a run, and its problem in its mode."""
+
+    problem: Problem
+    mesh_times: Floats
+    mesh_states: Floats
+    stride: int
+
+
+@dataclass(frozen=True)
 class Run:
     """A motion as far as the run came: `times`, shape (samples,), and `states`, shape (samples, width).
 
     A state is (q, q̇) or, where power is fed in, (q, q̇, ∫P dt). `event` is what ended it, if an event did; else
     `approaches` tell how close it came to each of the scene's events. `held` is where friction holds it. `mesh_times`,
     shape (mesh,), and `mesh_states` (q, q̇), shape (mesh, 2n), are the ends of its steps, or of every `stride`-th,
-    where they were recorded.
+    where they were recorded. `happenings` are the events behind which it went on.
     """
 
     times: Floats
@@ -60,6 +71,8 @@ class Run:
     stride: int = 1
     steps: Steps | None = None
     reactions: Reactions | None = None  # where there are constraints
+    happenings: tuple[Happening, ...] = ()
+    meshes: tuple[Mesh, ...] = ()
 
     @property
     def is_complete(self) -> bool:
@@ -175,10 +188,13 @@ def _ended(run: Run, arguments: KernelArguments) -> Run:
     t_end = float(arguments.times[-1])
     if run.held is not None:
         return run
-    event = first_event(arguments.problem, arguments.watch, t_end)
+    in_modes = arguments.problem.model.is_in_modes
+    found = quick_event if in_modes else first_event
+    event = found(arguments.problem, arguments.watch, t_end)
     if event is None:
         fine = run.result._replace(outcome=FINE) if run.result.outcome == EVENT else run.result
-        return replace(run, result=fine, approaches=approaches(arguments.problem, arguments.watch, t_end))
+        close = () if in_modes else approaches(arguments.problem, arguments.watch, t_end)
+        return replace(run, result=fine, approaches=close)
     close = APART * (arguments.times[1] - arguments.times[0])
     count = max(int(np.searchsorted(run.times, event.time - close)), 1)
     result = run.result._replace(outcome=EVENT, reached=event.time, samples=count)

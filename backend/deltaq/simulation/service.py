@@ -24,6 +24,7 @@ from .driver import simulate
 from .event import event_values
 from .library import get_method, method_ids
 from .outcome import Outcome
+from .passages import TOUCHING
 from .problem import Floats, Problem, Released
 from .request import Request, read_request
 from .rounding import short
@@ -74,7 +75,7 @@ def require_no_event(scene: Scene, problem: Problem) -> None:
     problems = [
         errors.Problem("event-at-start", f"/events/{i}/value", parameters=_at_start(event, value))
         for i, (event, value) in enumerate(zip(scene.events, values, strict=True))
-        if not value > 0.0
+        if not (value > 0.0 or (event.bounces and value >= -TOUCHING * max(map(abs, (1.0, *problem.values)))))
     ]
     if problems:
         raise errors.SceneError(*problems)

@@ -155,27 +155,6 @@ class GeneralizedPotentialLeftOut(FaultySolution):
 
 
 @dataclass(frozen=True, eq=False)
-class MomentumWithoutGeneralizedPotential(FaultySolution):
-    """The momentum is taken as ∂E/∂q̇, without the part of the generalized potential.
-
-    Momentum is remembered as mass times velocity, but p = ∂L/∂q̇, and U depends on the rates, too.
-    """
-
-    id: ClassVar[str] = "momentum-without-generalized-potential"
-    likely: ClassVar[int] = 3
-    evident: ClassVar[frozenset[str] | None] = frozenset({"momentum"})
-    traces: ClassVar[frozenset[SlipKind] | None] = frozenset({"missing"})
-
-    @classmethod
-    def variants(cls, true: Solution) -> Iterator[Self]:
-        if true.generalized_loads:
-            yield cls(true.scene, true)
-
-    def momentum(self, coordinate: str) -> sp.Expr:
-        return self.kinetic_energy.diff(self.rate(coordinate))
-
-
-@dataclass(frozen=True, eq=False)
 class PotentialForceSign(FaultySolution):
     """The force of a potential or spring is taken as +∂V/∂q.
 

@@ -15,6 +15,7 @@ Floats = NDArray[np.float64]
 # How a computation ended; `outcome.py` gives each its name.
 FINE, STEP_LIMIT, SINGULAR, NOT_FINITE, TOO_LARGE, STEP_UNDERFLOW, CANCELLED = 0, 1, 2, 3, 4, 5, 6
 NEWTON_FAILED, STIFF, EVENT, HELD, LOCKED = 7, 8, 9, 10, 11
+MANY_EVENTS, UNSETTLED = 12, 13  # of runs that go on behind events
 
 ROUNDING = 2.3e-16  # of a number in double precision, relative to it
 # A pivot smaller than this part of what it is left of is rounding error: M has no inverse there.

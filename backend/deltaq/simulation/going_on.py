@@ -1,0 +1,186 @@
+"""A run that goes on behind events: stretches of smooth motion, one behind the other, each in its mode.
+
+Every stretch is a run of its own, ended where a watched value falls through zero, located on the step's polynomial; so
+no step runs over a kink. Rebounds that pile up end in rest. What an impact takes from the energy goes into ∫P dt.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ..model.modes import Modes
+from .event import Event
+from .integration import Flag
+from .kernels.loop import Result
+from .kernels.motion import FINE, MANY_EVENTS, STEP_LIMIT, UNSETTLED
+from .method import Method
+from .passages import Happening, Moment, UnsettledError, begun, passed
+from .pieces import Pieces
+from .problem import Floats, Problem
+from .run import Mesh, Run, Steps, run
+
+MOST = 5000  # events in one run
+AT_ONCE = 50  # events at the same time, by rounding
+NEAR = 1e-5  # s, of differences
+SAME = 1e-13  # of the time
+
+
+@dataclass
+class _Record:
+    """What the stretches leave: samples, mesh, counts, events."""
+
+    out: Floats
+    filled: int = 1
+    work: float = 0.0
+    steps: int = 0
+    rejected: int = 0
+    evaluations: int = 0
+    conditioning: float = 1.0
+    wall_time: float = 0.0
+    meshes: list[Mesh] = field(default_factory=list)
+    happenings: list[Happening] = field(default_factory=list)
+    last: float = 0.0
+    at_once: int = 0
+
+    def add(self, problem: Problem, found: Run) -> None:
+        """The samples of a stretch behind its first, which is its beginning, and what it took."""
+        states = found.states[1:].copy()
+        if states.size and states.shape[1] % 2:
+            states[:, -1] += self.work
+        self.out[self.filled : self.filled + len(states)] = states
+        self.filled += len(states)
+        self.steps += found.result.steps
+        self.rejected += found.result.rejected
+        self.evaluations += found.result.evaluations
+        self.conditioning = min(self.conditioning, found.conditioning)
+        self.wall_time += found.wall_time
+        self.meshes.append(_mesh(problem, found))
+
+
+def _mesh(problem: Problem, found: Run) -> Mesh:
+    """The mesh of a stretch up to the event that ended it."""
+    event, width = found.event, 2 * problem.degrees
+    times, states = found.mesh_times, found.mesh_states
+    if event is not None and times.size:
+        inside = times < event.time
+        times = np.append(times[inside], event.time)
+        states = np.vstack([states[inside], event.state[None, :width]])
+    return Mesh(problem, times, states, found.stride)
+
+
+def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
+    """The run of a problem in modes, with samples at `times`, shape (samples,), as far as it comes."""
+    moment = begun(problem, modes)
+    record = _Record(np.zeros((times.size, moment.problem.state.size)))
+    record.out[0, : 2 * problem.degrees] = problem.state[: 2 * problem.degrees]
+    while True:
+        stretch, ahead = _problem(moment, record.steps), _ahead(times, moment.time)
+        found = run(stretch, method, ahead, cancelled, _after(steps, moment.time))
+        record.add(stretch, found)
+        if found.event is None or found.result.outcome == STEP_LIMIT:
+            return _whole(record, times, found.result.outcome, float(found.result.reached), found)
+        event = found.event
+        _fill(record, times, event, problem.degrees)
+        if event.index < len(modes.ending):
+            return _ended(record, times, modes, _falling(moment, event), found)
+        try:
+            moment = _next(moment, event, record)
+        except UnsettledError:
+            return _whole(record, times, UNSETTLED, event.time, found)
+        if len(record.happenings) >= MOST or record.at_once >= AT_ONCE:
+            return _whole(record, times, MANY_EVENTS, event.time, found)
+        if moment.time >= times[-1]:
+            return _whole(record, times, FINE, float(times[-1]), found)
+
+
+def _problem(moment: Moment, taken: int) -> Problem:
+    """The problem of the next stretch."""
+    problem = moment.problem
+    own = problem.parameters[: len(problem.parameters) - len(moment.mode.parameters)]
+    return replace(
+        problem,
+        parameters=(*own, *moment.mode.parameters),
+        values=tuple(moment.q.tolist()),
+        rates=tuple(moment.v.tolist()),
+        step_limit=max(problem.step_limit - taken, 1),
+    )
+
+
+def _ahead(times: Floats, start: float) -> Floats:
+    """The samples of a stretch: its beginning and those behind it."""
+    return np.concatenate([[start], times[np.searchsorted(times, start, side="right") :]])
+
+
+def _after(steps: Steps, start: float) -> Steps:
+    """The pieces that are left behind a time."""
+    pieces = steps.pieces
+    if pieces is None or pieces.is_whole or pieces.ends[0] > start:
+        return steps
+    first = next(k for k, end in enumerate(pieces.ends) if end > start)
+    return replace(steps, pieces=Pieces(pieces.ends[first:], pieces.largest[first:]))
+
+
+def _fill(record: _Record, times: Floats, event: Event, degrees: int) -> None:
+    """Samples so close before an event that the stretch left them out are those of the event, moved by its rates."""
+    while record.filled < times.size and times[record.filled] <= event.time:
+        state = event.state.copy()
+        state[:degrees] += (times[record.filled] - event.time) * event.state[degrees : 2 * degrees]
+        if state.size > 2 * degrees:
+            state[-1] += record.work
+        record.out[record.filled] = state
+        record.filled += 1
+
+
+def _next(moment: Moment, event: Event, record: _Record) -> Moment:
+    """The state behind an event; what it is called is recorded, with the energy that it took."""
+    n = len(moment.q)
+    before = replace(moment, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
+    after, name, kind = passed(before, event.index)
+    loss = before.kinetic - after.kinetic if kind in ("impact", "rest") else 0.0
+    record.work += (float(event.state[-1]) if event.state.size > 2 * n else 0.0) - loss
+    is_same = event.time - record.last <= SAME * max(1.0, event.time)
+    record.at_once = record.at_once + 1 if is_same else 0
+    record.last = event.time
+    if kind != "switch":
+        record.happenings.append(Happening(name, after.time, kind, loss))
+    return after
+
+
+def _falling(moment: Moment, event: Event) -> Event:
+    """An event that ends the motion, with the first two derivatives of its value along the motion by differences."""
+    n = len(moment.q)
+    at = replace(moment, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
+    rates = at.accelerations
+    before, now, after = (
+        replace(at, time=at.time + h, q=at.q + h * (at.v + 0.5 * h * rates), v=at.v + h * rates).watched[event.index]
+        for h in (-NEAR, 0.0, NEAR)
+    )
+    return replace(event, fall=(after - before) / (2.0 * NEAR), bend=(after - 2.0 * now + before) / NEAR**2)
+
+
+def _ended(record: _Record, times: Floats, modes: Modes, event: Event, found: Run) -> Run:
+    """The run up to one of the scene's events that end it."""
+    state = event.state.copy()
+    if state.size % 2:
+        state[-1] += record.work
+    ended = _whole(record, times, found.result.outcome, event.time, found)
+    return replace(ended, event=replace(event, index=modes.ending[event.index], state=state))
+
+
+def _whole(record: _Record, times: Floats, outcome: int, reached: float, found: Run) -> Run:
+    """All stretches as one run."""
+    count = record.filled
+    result = Result(outcome, count, record.steps, record.rejected, record.evaluations, reached)
+    return Run(
+        times[:count],
+        record.out[:count],
+        result,
+        record.conditioning,
+        record.wall_time,
+        held=found.held,
+        steps=found.steps,
+        happenings=tuple(record.happenings),
+        meshes=tuple(record.meshes),
+    )

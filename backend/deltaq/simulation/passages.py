@@ -1,0 +1,271 @@
+"""What an event does to a motion that goes on: impacts, sticking and slipping, contacts that rest and open, kinks.
+
+At an impact the momenta jump along the gradient of the gap, p⁺ − p⁻ = Λ ∂g/∂q, such that the gap opens e times as fast
+as it closed: Λ = −(1 + e) ġ/(∂g/∂q M⁻¹ ∂g/∂qᵀ). Which rows are held behind it follows from their reactions: what sticks
+needs no more than F₀, what rests is pushed. Several contacts at once are taken one after the other.
+Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–8.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..model.modes import Modes
+from .problem import Floats, Problem
+
+TOUCHING = 1e-11  # a gap, relative to the coordinates
+STILL = 1e-12  # a rate, relative to the largest
+HEIGHT = 1e-15  # of a rebound, relative to the coordinates, from which on it counts as rest
+ROUNDING = 1e-15
+HARDLY = 1e-13  # of a rate of slipping
+SLACK = 1e-12  # relative, of a friction that holds
+MOST_IMPACTS = 1000  # one after the other at one time
+
+
+@dataclass(frozen=True)
+class Mode:
+    """Signs of kinks and of slipping (−1 or 1), flags of rows (1: held), offsets of watched values."""
+
+    kinks: tuple[float, ...]
+    slips: tuple[float, ...]
+    flags: tuple[float, ...]
+    offsets: tuple[float, ...]
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """As the model reads them, behind the scene's own."""
+        return (*self.kinks, *self.slips, *self.flags, *self.offsets)
+
+
+@dataclass(frozen=True)
+class Happening:
+    """An event behind which the motion went on: its name, time in seconds, kind, and the energy that was lost in J."""
+
+    name: str
+    time: float
+    kind: str
+    loss: float = 0.0
+    error: float | None = None
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What is known at a state: rows a (rows, n), rates w and biases γ (rows,), F₀, gaps, e, kinks and reactions λ."""
+
+    a: Floats
+    w: Floats
+    bias: Floats
+    limits: Floats
+    gaps: Floats
+    restitutions: Floats
+    kinks: Floats
+    reactions: Floats
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A state (q, q̇) at a time, in a mode, of a problem in modes."""
+
+    problem: Problem
+    modes: Modes
+    time: float
+    q: Floats
+    v: Floats
+    mode: Mode
+
+    @property
+    def row(self) -> Floats:
+        """Inputs of the model's functions: shape (1, inputs)."""
+        own = self.problem.parameters[: len(self.problem.parameters) - len(self.mode.parameters)]
+        return np.array([[*self.q, *self.v, self.time, *own, *self.mode.parameters]])
+
+    @cached_property
+    def facts(self) -> Facts:
+        """The rows with the flags of the mode."""
+        n, rows, frictions = len(self.q), self.modes.rows, len(self.modes.frictions)
+        found = self.modes.facts.table(self.row)[0]
+        parts = found[: rows * (n + 2)].reshape(rows, n + 2)
+        rest = found[rows * (n + 2) :]
+        gaps = rest[frictions : frictions + 3 * len(self.modes.contacts)].reshape(-1, 3)
+        end = frictions + gaps.size
+        return Facts(
+            parts[:, :n], parts[:, n], parts[:, n + 1], rest[:frictions], gaps[:, 0], gaps[:, 2],
+            rest[end : end + self.modes.kinks], rest[end + self.modes.kinks :],
+        )  # fmt: skip
+
+    @cached_property
+    def mass(self) -> Floats:
+        """M, shape (n, n)."""
+        n = len(self.q)
+        packed = self.problem.model.motion.table(self.row)[0]
+        found, places = np.zeros((n, n)), np.tril_indices(n)
+        found[places] = packed[: len(places[0])]
+        return found + np.tril(found, -1).T
+
+    @cached_property
+    def accelerations(self) -> Floats:
+        """q̈ in this mode, shape (n,)."""
+        n = len(self.q)
+        packed = self.problem.model.motion.table(self.row)[0]
+        return np.asarray(np.linalg.solve(self.mass, packed[n * (n + 1) // 2 : n * (n + 1) // 2 + n]))
+
+    @property
+    def watched(self) -> Floats:
+        """The values that are positive as long as the mode lasts, with its offsets."""
+        return np.asarray(self.problem.model.events.table(self.row)[0])  # type: ignore[union-attr]
+
+    @property
+    def kinetic(self) -> float:
+        """½ q̇ᵀ M q̇, up to what does not change at an impact."""
+        return float(0.5 * self.v @ self.mass @ self.v)
+
+    def with_flags(self, flags: tuple[float, ...]) -> Moment:
+        """The same state with other rows held."""
+        return replace(self, mode=replace(self.mode, flags=flags))
+
+    def pushed(self, row: int, change: float) -> Moment:
+        """The state behind an impulse along a row that changes its rate w by so much."""
+        along = np.linalg.solve(self.mass, self.facts.a[row])
+        return replace(self, v=self.v + along * (change / (self.facts.a[row] @ along)))
+
+
+class UnsettledError(Exception):
+    """Contacts at once whose impacts one after the other do not end."""
+
+
+def begun(problem: Problem, modes: Modes) -> Moment:
+    """The initial state in its mode."""
+    n = problem.degrees
+    state, empty = problem.state, Mode(
+        (1.0,) * modes.kinks, (1.0,) * len(modes.frictions), (0.0,) * modes.rows, (0.0,) * modes.watched
+    )  # fmt: skip
+    own = replace(problem, parameters=(*problem.parameters, *empty.parameters))
+    moment = Moment(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
+    kinks = tuple(-1.0 if kink < 0.0 else 1.0 for kink in moment.facts.kinks)
+    moment = replace(moment, mode=replace(empty, kinks=kinks))
+    closed = [j for j, gap in enumerate(moment.facts.gaps) if gap <= TOUCHING * _size(moment.q)]
+    return _resolved(_after_impacts(moment, closed[0]) if closed else moment, frozenset(closed), None)
+
+
+def passed(moment: Moment, watched: int) -> tuple[Moment, str, str]:
+    """The state behind an event of a watched value that goes on, the name of what it happened to, and its kind."""
+    modes, ending, mode = moment.modes, len(moment.modes.ending), moment.mode
+    place = watched - ending
+    if place < modes.kinks:
+        kinks = tuple(-sign if k == place else sign for k, sign in enumerate(mode.kinks))
+        return _resolved(replace(moment, mode=replace(mode, kinks=kinks)), frozenset(), None), "", "switch"
+    place -= modes.kinks
+    frictions = len(modes.frictions)
+    if place < 2 * frictions:
+        k = place // 2
+        if mode.flags[k]:
+            found = _resolved(moment, frozenset(), k)
+            return found, modes.frictions[k], "slip"
+        facts = moment.facts
+        sign, rate = mode.slips[k], float(facts.a[k] @ moment.accelerations + facts.bias[k])
+        stopped = _at_zero(moment, sign * float(facts.w[k]), sign * rate)
+        stopped = stopped.pushed(k, -float(stopped.facts.w[k]))
+        found = _resolved(stopped, frozenset(), None)
+        return found, modes.frictions[k], "stick" if found.mode.flags[k] else "turn"
+    j = place - 2 * frictions
+    name = modes.scene.events[modes.contacts[j]].name
+    if mode.flags[frictions + j]:
+        return _resolved(moment, frozenset(), frictions + j), name, "release"
+    closed = _at_zero(moment, float(moment.facts.gaps[j]), float(moment.facts.w[frictions + j]))
+    found = _resolved(_after_impacts(closed, j), frozenset({j}), None)
+    return found, name, "rest" if found.mode.flags[frictions + j] else "impact"
+
+
+def _at_zero(moment: Moment, value: float, rate: float) -> Moment:
+    """The state when the value that fell was zero, without the offset that it was watched with."""
+    late = value / rate if rate < 0.0 else 0.0
+    if not 0.0 < late < 1e-9:
+        return moment
+    q, v = moment.q - late * moment.v, moment.v - late * moment.accelerations
+    return replace(moment, time=moment.time - late, q=q, v=v)
+
+
+def _after_impacts(moment: Moment, first: int) -> Moment:
+    """The state behind the impact of a contact, and of others that it closes or that touch, one after the other."""
+    frictions = len(moment.modes.frictions)
+    free = moment.with_flags((0.0,) * moment.modes.rows)
+    resting = {j for j in range(len(moment.modes.contacts)) if moment.mode.flags[frictions + j]}
+    touching = {first} | resting | {j for j, gap in enumerate(free.facts.gaps) if gap <= TOUCHING * _size(free.q)}
+    for _ in range(MOST_IMPACTS):
+        rates = {j: float(free.facts.w[frictions + j]) for j in touching}
+        j = min(rates, key=lambda each: rates[each])
+        if rates[j] >= -STILL * _size(free.v):
+            return replace(free, mode=moment.mode)
+        e = 0.0 if _rests(free, frictions + j, j) else float(free.facts.restitutions[j])
+        free = free.pushed(frictions + j, -(1.0 + e) * rates[j])
+    raise UnsettledError
+
+
+def _rests(moment: Moment, row: int, contact: int) -> bool:
+    """Whether the rebound would be lower than can be told from rest."""
+    facts = moment.facts
+    rebound = float(facts.restitutions[contact] * facts.w[row])
+    pull = -float(facts.a[row] @ moment.accelerations + facts.bias[row])
+    return pull > 0.0 and rebound**2 <= 2.0 * pull * HEIGHT * _size(moment.q)
+
+
+def _resolved(moment: Moment, closed: frozenset[int], released: int | None) -> Moment:
+    """The mode that a state goes on in: rows at rest are held as long as their reactions can, the rest moves."""
+    modes, frictions = moment.modes, len(moment.modes.frictions)
+    facts, size = moment.facts, _size(moment.v)
+    slips = [
+        s if abs(w) <= HARDLY * size else float(np.sign(w)) for s, w in zip(moment.mode.slips, facts.w, strict=False)
+    ]
+    held = [abs(float(facts.w[k])) <= HARDLY * size for k in range(frictions)]
+    for j in range(len(modes.contacts)):
+        row = frictions + j
+        touches = j in closed or moment.mode.flags[row] or facts.gaps[j] <= TOUCHING * _size(moment.q)
+        held.append(bool(touches and abs(float(facts.w[row])) <= 10.0 * STILL * size))
+    if released is not None:
+        held[released] = False
+        if released < frictions:
+            slips[released] = -float(np.sign(facts.reactions[released])) or 1.0
+    for row in range(modes.rows):
+        if held[row] and facts.w[row] != 0.0:
+            moment = moment.pushed(row, -float(facts.w[row]))
+            facts = moment.facts
+    for _ in range(2 * modes.rows + 2):
+        flags = tuple(float(h) for h in held)
+        trial = replace(moment, mode=replace(moment.mode, flags=flags, slips=tuple(slips)))
+        lost = _lost(trial, held)
+        if lost is None:
+            break
+        held[lost] = False
+        if lost < frictions:
+            slips[lost] = -float(np.sign(trial.facts.reactions[lost]))
+    return _offset(replace(moment, mode=replace(moment.mode, flags=tuple(map(float, held)), slips=tuple(slips))))
+
+
+def _lost(moment: Moment, held: list[bool]) -> int | None:
+    """The first row that is not held after all: friction that is too small, a contact that would pull."""
+    facts, frictions = moment.facts, len(moment.modes.frictions)
+    for k in range(frictions):
+        if held[k] and abs(float(facts.reactions[k])) > float(facts.limits[k]) * (1.0 + SLACK):
+            return k
+    return next((row for row in range(frictions, moment.modes.rows) if held[row] and facts.reactions[row] <= 0.0), None)
+
+
+def _offset(moment: Moment) -> Moment:
+    """Offsets that make all watched values positive: what has just happened does not happen again at once."""
+    modes = moment.modes
+    plain = replace(moment, mode=replace(moment.mode, offsets=(0.0,) * modes.watched))
+    ending, frictions = len(modes.ending), len(modes.frictions)
+    first, last = ending + modes.kinks, ending + modes.kinks + 2 * frictions
+    offsets = []
+    for place, value in enumerate(plain.watched):
+        room = HARDLY * _size(moment.v) if first <= place < last else ROUNDING * _size(moment.q)
+        offsets.append(0.0 if place < ending or value > room else room - min(float(value), 0.0))
+    return replace(moment, mode=replace(moment.mode, offsets=tuple(offsets)))
+
+
+def _size(values: Floats) -> float:
+    """The largest absolute value, 1 at least."""
+    return max(1.0, float(np.max(np.abs(values), initial=0.0)))
