@@ -4546,6 +4546,39 @@ export interface components {
             coordinate: string;
         };
         /**
+         * PassageAnswer
+         * @description An event behind which the motion went on: an impact, rest, release, sticking, slipping, a turn of slipping.
+         */
+        PassageAnswer: {
+            /**
+             * Name
+             * @description of the event, or of the load with friction
+             * @example impact
+             */
+            name: string;
+            /**
+             * Time
+             * @description in seconds
+             */
+            time: number;
+            /**
+             * Kind
+             * @description what happened
+             * @enum {string}
+             */
+            kind: "impact" | "rest" | "release" | "stick" | "slip" | "turn";
+            /**
+             * Loss
+             * @description energy that it took, in J
+             */
+            loss: number;
+            /**
+             * Error
+             * @description estimated error of the time in seconds; null where it is not known
+             */
+            error: number | null;
+        };
+        /**
          * PointScheme
          * @description How points are given.
          */
@@ -5586,6 +5619,16 @@ export interface components {
              * @description the body or point it happens to
              */
             at?: string | null;
+            /**
+             * Then
+             * @description what happens then: the motion ends, or an impact
+             */
+            then?: ("end" | "bounce") | null;
+            /**
+             * Restitution
+             * @description of an impact: rate behind over rate before, 0 to 1
+             */
+            restitution?: string | null;
         };
         /**
          * SceneGuide
@@ -5634,7 +5677,7 @@ export interface components {
              * @description of load
              * @enum {string}
              */
-            kind: "gravity" | "force" | "moment" | "spring" | "damper" | "dissipation" | "potential" | "generalized-potential" | "distributed";
+            kind: "gravity" | "force" | "moment" | "spring" | "damper" | "dissipation" | "potential" | "generalized-potential" | "friction" | "distributed";
             /**
              * Acceleration
              * @description of gravity
@@ -5651,9 +5694,25 @@ export interface components {
             at?: string | null;
             /**
              * Force
-             * @description components of a force
+             * @description components of a force, or friction while it slips
              */
-            force?: string[] | null;
+            force?: string | string[] | null;
+            /**
+             * Coordinate
+             * @description that friction acts on
+             * @example x
+             */
+            coordinate?: string | null;
+            /**
+             * Static
+             * @description the most that friction holds with; its force if empty
+             */
+            static?: string | null;
+            /**
+             * Surface Rate
+             * @description rate of the surface that it rubs on; 0 if empty
+             */
+            surface_rate?: string | null;
             /**
              * Angle
              * @description that a moment does work on
@@ -5865,6 +5924,12 @@ export interface components {
             remedy: string;
             /** @description the event that ended it; its time is the last of t */
             event?: components["schemas"]["EventAnswer"] | null;
+            /**
+             * Events
+             * @description events behind which it went on, in their order
+             * @default []
+             */
+            events: components["schemas"]["PassageAnswer"][];
             /**
              * Method
              * @example dop853

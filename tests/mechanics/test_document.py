@@ -33,6 +33,15 @@ def test_reads_what_it_writes() -> None:
     assert read_scene(json.loads(json.dumps(write_scene(scene)))) == scene
 
 
+def test_an_impact_needs_its_coefficient() -> None:
+    event = {"name": "hit", "value": "1 - phi", "then": "bounce"}
+    with pytest.raises(SceneError) as caught:
+        read_scene({**PENDULUM, "events": [event]})
+    assert [p.pointer for p in caught.value.problems] == ["/events/0/restitution"]
+    whole = {**event, "restitution": "1/2", "title": {"en": "hit"}}
+    assert write_scene(read_scene({**PENDULUM, "events": [whole]}))["events"] == [whole]
+
+
 def test_events_are_written_where_there_are_any() -> None:
     event = {"name": "slack", "value": "m*(g*cos(phi) + l*dot(phi)^2)", "title": {"en": "slack"}, "at": "bob"}
     scene = read_scene({**PENDULUM, "events": [event]})
@@ -180,6 +189,46 @@ WRONG = [
     ),
     *(
         pytest.param(
+            put("/loads/0", {"kind": "friction", "coordinate": "phi", "force": "m*g", **wrong}),
+            Problem(code, f"/loads/0/{key}", parameters=parameters),
+            id=f"friction: {code}",
+        )
+        for wrong, code, key, parameters in (
+            ({"coordinate": "psi"}, "unknown-coordinate", "coordinate", {"name": "psi", "known": "phi"}),
+            ({"force": "m*ddot(phi)"}, "friction-with-acceleration", "force", {"coordinate": "phi"}),
+            ({"surface_rate": "g*phi"}, "surface-rate-by-coordinate", "surface_rate", {"name": "phi"}),
+        )
+    ),
+    *(
+        pytest.param(
+            put("/events", [{"name": "hit", "value": "1 - phi", "then": "bounce", "restitution": "1/2", **wrong}]),
+            problem,
+            id=f"impact: {problem.code}",
+        )
+        for wrong, problem in (
+            ({"then": "explode"}, Problem("unknown-ending", "/events/0/then", parameters={"name": "explode"})),
+            ({"then": "end"}, Problem("restitution-without-bounce", "/events/0/restitution")),
+            (
+                {"restitution": "3/2"},
+                Problem("restitution-outside", "/events/0/restitution", parameters={"value": "1.5"}),
+            ),
+            (
+                {"restitution": "-m"},
+                Problem("restitution-outside", "/events/0/restitution", parameters={"value": "-1"}),
+            ),
+            (
+                {"restitution": "phi"},
+                Problem("restitution-varies", "/events/0/restitution", parameters={"name": "phi"}),
+            ),
+            (
+                {"value": "1 - dot(phi)"},
+                Problem("bounce-with-rate", "/events/0/value", parameters={"coordinate": "phi"}),
+            ),
+            ({"value": "1 - abs(phi)"}, Problem("bounce-not-smooth", "/events/0/value", 4, 8, {"function": "abs"})),
+        )
+    ),
+    *(
+        pytest.param(
             put("/loads/0", {"kind": "generalized-potential", "energy": energy}),
             Problem(f"generalized-potential-{code}", "/loads/0/energy", parameters=parameters),
             id=f"generalized potential {code}",
@@ -263,7 +312,7 @@ WRONG = [
             ),
             (
                 {"value": "g", "when": "0"},
-                Problem("unknown-field", "/events/0/when", parameters={"field": "when", "suggestion": ""}),
+                Problem("unknown-field", "/events/0/when", parameters={"field": "when", "suggestion": "then"}),
             ),
         )
     ),

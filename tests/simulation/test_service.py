@@ -26,7 +26,7 @@ from deltaq.simulation.outcome import codes
 from deltaq.simulation.service import problem_of, run, warm
 
 FIELDS = {
-    *("status", "reason", "remedy", "event", "method", "choice", "columns", "t"),
+    *("status", "reason", "remedy", "event", "events", "method", "choice", "columns", "t"),
     *("t_reached", "trusted_until", "condition", "cost"),
     *("coordinates", "rates", "positions", "loads", "energy", "error"),
 }

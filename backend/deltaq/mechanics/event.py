@@ -40,7 +40,7 @@ class Event:
         if self.then not in (None, "end", "bounce"):
             yield Problem("unknown-ending", "/then", parameters={"name": str(self.then)[:40]})
         if not self.bounces:
-            if self.restitution is not None:
+            if self.restitution is not None and self.then in (None, "end"):
                 yield Problem("restitution-without-bounce", "/restitution")
             return
         if self.restitution is None:

@@ -61,10 +61,12 @@ class Modes:
 
     @property
     def rows(self) -> int:
+        """How many rows may be held: frictions, then contacts."""
         return len(self.frictions) + len(self.contacts)
 
     @property
     def watched(self) -> int:
+        """How many values are watched."""
         return len(self.ending) + self.kinks + 2 * len(self.frictions) + len(self.contacts)
 
 
@@ -168,7 +170,7 @@ class _Assembly:
             found = [
                 piece
                 for piece in sorted(expression.atoms(se.Piecewise), key=str)
-                if not any(part.atoms(se.Piecewise) for part in _branches(piece)) and _margin(piece) is not None
+                if not any(part.atoms(se.Piecewise) for part in _branches(piece)) and _is_choice(piece)
             ]
             chosen = next((p for p in found if _is_switched(p, states, rates)), None)
             if chosen is None:
@@ -292,7 +294,7 @@ class _Extended(Symbols):
     modes: tuple[Expr, ...] = ()
 
     @property
-    def inputs(self) -> tuple[Expr, ...]:  # type: ignore[override]
+    def inputs(self) -> tuple[Expr, ...]:
         own = Symbols(self.free, self.guided, self.parameters[: len(self.parameters) - len(self.modes)])
         return (*own.inputs, *self.modes)
 
@@ -301,10 +303,15 @@ def _branches(piece: Expr) -> tuple[Expr, ...]:
     return tuple(piece.args[::2])
 
 
-def _margin(piece: Expr) -> Expr | None:
-    """What is positive where the first branch holds; None for what is no choice between two."""
-    condition = piece.args[1]
-    return condition.args[1] - condition.args[0] if len(condition.args) == 2 else None
+def _is_choice(piece: Expr) -> bool:
+    """Whether its condition compares two numbers."""
+    return len(piece.args[1].args) == 2
+
+
+def _margin(piece: Expr) -> Expr:
+    """What is positive where the first branch holds."""
+    smaller, larger = piece.args[1].args
+    return larger - smaller
 
 
 def _is_switched(piece: Expr, states: set[Expr], rates: set[Expr]) -> bool:

@@ -13,6 +13,7 @@ from .choice import Choice
 from .columns import WRITERS, Column
 from .derivatives import power
 from .outcome import Outcome
+from .passages import Happening
 from .problem import Floats, Moved, Problem
 from .request import Request
 from .rounding import rounded, short, significant
@@ -20,6 +21,7 @@ from .trajectory import Trajectory
 
 Document = dict[str, object]
 NOTICED = 1e-9  # a change of an initial value, relative to it or to 1, that is worth telling
+MOST_TOLD = 1000  # events in an answer
 UNKNOWN_ERROR = 1e-12  # to round by where no error estimate was asked for
 
 
@@ -43,6 +45,7 @@ def answer(
         "reason": _told(trajectory.outcome),
         "remedy": _told(trajectory.outcome),
         "event": _event(request, trajectory),
+        "events": [_passage(each) for each in trajectory.happenings[:MOST_TOLD]],
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
         "columns": request.columns,
@@ -102,6 +105,18 @@ def _event(request: Request, trajectory: Trajectory) -> Document | None:
     time, doubt = np.array([found.time]), np.array([found.error or UNKNOWN_ERROR])
     error = None if found.error is None else short(found.error)
     return {"name": event.name, "title": plainly(event.title), "t": float(rounded(time, doubt)[0]), "error": error}
+
+
+def _passage(found: Happening) -> Document:
+    """An event behind which the motion went on; its time is rounded to what its error supports."""
+    time, doubt = np.array([found.time]), np.array([found.error or UNKNOWN_ERROR])
+    return {
+        "name": found.name,
+        "time": float(rounded(time, doubt)[0]),
+        "kind": found.kind,
+        "loss": short(found.loss, 6),
+        "error": None if found.error is None else short(found.error),
+    }
 
 
 def _energy(

@@ -10,6 +10,7 @@ import math
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -137,7 +138,7 @@ def quick_event(problem: Problem, watch: Watch, t_end: float) -> Event | None:
         return first_event(problem, watch, t_end)
     look = _Look(problem, watch)
     a, b = float(watch.nodes[last - 1]), float(watch.nodes[last])
-    roots = [(look.root(j, a, b, watch.values[last - 1, j], watch.values[last, j]), int(j)) for j in indices]
+    roots = [(look.root(int(j), a, b, watch.values[last - 1, j], watch.values[last, j]), int(j)) for j in indices]
     x, index = min(roots)
     time = look.time(x)
     return Event(index, time, look.state(x), 0.0, 0.0) if time <= t_end else None
@@ -152,8 +153,7 @@ class _Look:
         self._weights[[0, -1]] *= 0.5
         self._row = problem.inputs(watch.times[:1], watch.states[:1])[0]
         self._width = 2 * problem.degrees
-        function = problem.model.events
-        self._function = function.function if function is not None else None
+        self._function: Any = problem.model.events.function if problem.model.events is not None else None
 
     def time(self, x: float) -> float:
         return float(self._times[0] + (self._times[-1] - self._times[0]) * x)

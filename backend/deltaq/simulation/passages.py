@@ -53,7 +53,11 @@ class Happening:
 
 @dataclass(frozen=True)
 class Facts:
-    """What is known at a state: rows a (rows, n), rates w and biases γ (rows,), F₀, gaps, e, kinks and reactions λ."""
+    """What is known at a state.
+
+    Of the rows `a`, shape (rows, n), the rates `w`, γ in `bias`, and λ in `reactions`, shape (rows,) each; F₀ in
+    `limits`, shape (frictions,); `gaps` and e in `restitutions`, shape (contacts,); the values of `kinks`, shape (kinks,).
+    """
 
     a: Floats
     w: Floats
@@ -67,7 +71,7 @@ class Facts:
 
 @dataclass(frozen=True)
 class Moment:
-    """A state (q, q̇) at a time, in a mode, of a problem in modes."""
+    """A state (q, q̇) at a time, in a mode, of a problem in modes; `q` and `v` have shape (n,)."""
 
     problem: Problem
     modes: Modes
@@ -114,7 +118,7 @@ class Moment:
 
     @property
     def watched(self) -> Floats:
-        """The values that are positive as long as the mode lasts, with its offsets."""
+        """The values that are positive as long as the mode lasts, with its offsets: shape (watched,)."""
         return np.asarray(self.problem.model.events.table(self.row)[0])  # type: ignore[union-attr]
 
     @property

@@ -40,7 +40,10 @@ class Stop:
 
 @dataclass(frozen=True)
 class Mesh:
-    """The mesh of a stretch between events, as that of a run, and its problem in its mode."""
+    """The mesh of a stretch between events, as that of a run, and its problem in its mode.
+
+    `mesh_times` has shape (mesh,), `mesh_states` shape (mesh, 2n).
+    """
 
     problem: Problem
     mesh_times: Floats

@@ -36,15 +36,15 @@ class DryFriction:
 
     @classmethod
     def read(cls, table: Reader) -> DryFriction:
-        coordinate, force = table.expression("coordinate"), table.expression("force")
-        static = table.expression("static") if "static" in table.table else None
-        surface = table.expression("surface_rate", "0")
         symbols = {symbol.name: symbol.kind for symbol in table.named.names.symbols}
         moving = {name for name, kind in symbols.items() if kind == "coordinate"}
-        if "coordinate" in table.table and coordinate.text.strip() not in moving:
-            table.complain(
-                "unknown-coordinate", "coordinate", name=coordinate.text[:40], known=", ".join(sorted(moving))
-            )
+        name = table.text("coordinate").strip()
+        if name and name not in moving:
+            table.complain("unknown-coordinate", "coordinate", name=name[:40], known=", ".join(sorted(moving)))
+        coordinate = table.parsed(name, "coordinate") if name in moving else NOTHING
+        force = table.expression("force")
+        static = table.expression("static") if "static" in table.table else None
+        surface = table.expression("surface_rate", "0")
         for name in sorted((surface.names & moving) | surface.rates):
             table.complain("surface-rate-by-coordinate", "surface_rate", name=name)
         return cls(table.name(), coordinate, force, static, surface)

@@ -1,0 +1,192 @@
+"""Motions that go on behind events, against closed forms: impacts, rest, strings, sticking and slipping, kinks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from deltaq.mechanics.changes import change
+from deltaq.mechanics.document import read_scene
+from deltaq.mechanics.library import load_scene
+from deltaq.mechanics.scene import Scene
+from deltaq.simulation.driver import simulate
+from deltaq.simulation.library import get_method
+from deltaq.simulation.service import problem_of, run
+from deltaq.simulation.trajectory import Trajectory
+
+G = 9.81
+
+
+def motion(scene: Scene, t_end: float, tolerance: float = 1e-10, method: str = "dop853") -> Trajectory:
+    return simulate(problem_of(scene, t_end), get_method(method), tolerance=tolerance)
+
+
+def kinds(found: Trajectory) -> list[str]:
+    return [each.kind for each in found.happenings]
+
+
+def on_line(loads: Sequence[dict[str, Any]], events: Sequence[dict[str, Any]] = (), **start: float) -> Scene:
+    """A unit mass on a line, in the plane."""
+    return read_scene(
+        {
+            "format": 1,
+            "id": "line",
+            "title": "line",
+            "dimension": 2,
+            "coordinates": [{"name": "x", **start}],
+            "parameters": [{"name": "m", "value": 1.0}],
+            "bodies": [{"name": "p", "kind": "particle", "mass": "m", "position": ["x", "0"]}],
+            "loads": list(loads),
+            "events": list(events),
+        }
+    )
+
+
+def test_twenty_impacts_on_a_table_at_rest() -> None:
+    """Times of flight are 2v/g, and v falls by e; with every impact the part 1 − e² of the energy is lost."""
+    found = motion(change(load_scene("bouncing-ball"), parameters={"a": 0.0}), 4.02)
+    speed, times = math.sqrt(2.0 * G), [math.sqrt(2.0 / G)]
+    while len(times) < 20:
+        speed *= 0.8
+        times.append(times[-1] + 2.0 * speed / G)
+    assert kinds(found)[:20] == ["impact"] * 20
+    assert np.abs(np.array([each.time for each in found.happenings[:20]]) - times).max() < 1e-13
+    assert [each.loss for each in found.happenings[:20]] == pytest.approx(
+        [G * 0.36 * 0.64**k for k in range(20)], rel=1e-10
+    )
+    balance = 0.5 * found.rates[:, 0] ** 2 + G * found.values[:, 0] - found.work
+    assert np.ptp(balance) < 1e-12
+
+
+def test_rebounds_that_pile_up_end_in_rest() -> None:
+    """All rebounds together last √(2h/g) (1 + e)/(1 − e)."""
+    found = motion(change(load_scene("bouncing-ball"), parameters={"a": 0.0, "e": 0.5}), 3.0)
+    assert found.outcome.status == "ok"
+    assert kinds(found)[-1] == "rest"
+    assert kinds(found).count("rest") == 1
+    assert found.happenings[-1].time == pytest.approx(3.0 * math.sqrt(2.0 / G), abs=1e-7)
+    late = found.times > found.happenings[-1].time
+    assert np.abs(found.values[late]).max() < 1e-14
+    assert not found.rates[late].any()
+
+
+def test_a_table_that_falls_faster_than_the_ball_lets_it_go() -> None:
+    """z = a sin ωt rests on the table until −aω² sin ωt = −g, then it flies."""
+    scene = change(load_scene("bouncing-ball"), parameters={"e": 0.0, "a": 0.05, "omega": 20.0})
+    found = motion(scene, 1.2)
+    assert kinds(found)[:2] == ["rest", "release"]
+    leaves = found.happenings[1].time
+    turn = math.asin(G / (0.05 * 400.0))
+    assert (20.0 * leaves - turn) % (2.0 * math.pi) == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("method", ["dop853", "dormand-prince-54", "radau-5", "gauss-6"])
+def test_an_estimate_stays_true_across_impacts(method: str) -> None:
+    """Against a much more accurate run, on the vibrating table."""
+    scene = load_scene("bouncing-ball")
+    found, truth = motion(scene, 2.0, 1e-6, method), motion(scene, 2.0, 1e-12)
+    assert found.estimate is not None
+    assert (np.abs(found.values - truth.values)[:, 0] <= found.estimate.errors + 1e-12).all()
+    for one, other in zip(found.happenings, truth.happenings, strict=True):
+        assert one.error is not None
+        assert abs(one.time - other.time) <= 2.0 * one.error + 1e-12
+
+
+def test_a_string_goes_slack_and_catches() -> None:
+    """Slack where v0² = 3 g y + 2 g l, a parabola from there; the jerk takes what went along the string."""
+    found = motion(load_scene("catching-pendulum"), 1.4)
+    assert kinds(found)[:2] == ["release", "rest"]
+    slack, taut = (each.time for each in found.happenings[:2])
+    y = (5.8**2 - 2.0 * G) / (3.0 * G)
+    x, speed = math.sqrt(1.0 - y * y), math.sqrt(G * y)
+    vx, vy = -speed * y, speed * x
+    flight = 4.0 * vy / G - 0.0  # of x² + y² = l² along the parabola: t = 4 v_y/g for a start with v² = g y
+    assert taut - slack == pytest.approx(flight, rel=1e-8)
+    late = vx**2 + (vy - G * flight) ** 2
+    end = np.array([x + vx * flight, y + vy * flight - 0.5 * G * flight**2])
+    along = float(end @ [vx, vy - G * flight])
+    assert found.happenings[1].loss == pytest.approx(0.5 * along**2, rel=1e-7)
+    assert late > along**2
+    assert np.hypot(*found.values.T).max() < 1.0 + 1e-9
+
+
+def test_dry_friction_shifts_the_centre_of_every_half_swing() -> None:
+    """Den Hartog: cosines about ±μ m g/k, until the spring no longer gets away."""
+    found = motion(load_scene("braked-oscillator"), 6.0, 1e-9)
+    omega, shift = math.sqrt(20.0), 0.15 * G / 20.0
+    half, start, truth = math.pi / omega, 1.0, np.zeros(len(found.times))
+    stop = found.times[-1]
+    for k in range(100):
+        side = math.copysign(shift, start)
+        inside = (found.times >= k * half) & (found.times <= (k + 1) * half)
+        truth[inside] = side + (start - side) * np.cos(omega * (found.times[inside] - k * half))
+        start = 2.0 * side - start
+        if abs(start) <= shift:
+            stop = (k + 1) * half
+            break
+    truth[found.times > stop] = start
+    assert kinds(found) == ["turn"] * 6 + ["stick"]
+    assert found.happenings[-1].time == pytest.approx(stop, abs=1e-10)
+    assert np.abs(found.values[:, 0] - truth).max() < 1e-9
+    assert found.outcome.status == "ok"
+
+
+def test_a_block_on_a_belt_sticks_until_the_spring_pulls_it_off() -> None:
+    """With constant sliding friction every phase is known (Den Hartog): it sticks for 2 (F₀ − F)/(k v)."""
+    load = {"kind": "friction", "name": "belt", "coordinate": "x", "force": "1", "static": "3", "surface_rate": "1/2"}
+    spring = {"kind": "potential", "name": "spring", "energy": "2*x^2"}
+    found = motion(on_line([spring, load], value=0.75, rate=0.5), 8.0, 1e-11)
+    assert kinds(found)[:4] == ["slip", "stick", "slip", "stick"]
+    slips = [each.time for each in found.happenings if each.kind == "slip"]
+    sticks = [each.time for each in found.happenings if each.kind == "stick"]
+    assert slips[0] == pytest.approx(0.0, abs=1e-12)
+    assert slips[1] - sticks[0] == pytest.approx(2.0 * (3.0 - 1.0) / (4.0 * 0.5), abs=1e-10)
+    slide = (math.pi + 2.0 * math.atan2(0.5, 2.0 * (3.0 - 1.0) / 4.0)) / 2.0  # about x = 1/4 with ω = 2
+    assert sticks[0] - slips[0] == pytest.approx(slide, abs=1e-10)
+
+
+def test_two_frictions_stick_and_slip_by_themselves() -> None:
+    """Two blocks on one spring: the heavier friction holds, the other block swings against its own."""
+    block = {"kind": "particle", "mass": "m"}
+    scene = read_scene(
+        {
+            "format": 1, "id": "two", "title": "two", "dimension": 2,
+            "coordinates": [{"name": "x", "value": -1.0}, {"name": "y", "value": 1.0}],
+            "parameters": [{"name": "m", "value": 1.0}],
+            "bodies": [{"name": "a", **block, "position": ["x", "0"]}, {"name": "b", **block, "position": ["y", "0"]}],
+            "loads": [
+                {"kind": "potential", "name": "spring", "energy": "2*(y - x)^2"},
+                {"kind": "friction", "name": "heavy", "coordinate": "x", "force": "9"},
+                {"kind": "friction", "name": "light", "coordinate": "y", "force": "1"},
+            ],
+        }
+    )  # fmt: skip
+    found = motion(scene, 4.0, 1e-10)
+    assert (found.values[:, 0] == -1.0).all()  # the spring pulls with 8 at most
+    t = found.times[found.times < math.pi / 2.0]
+    assert found.values[: len(t), 1] == pytest.approx(-0.75 + 1.75 * np.cos(2.0 * t), abs=1e-9)
+    assert [(each.name, each.kind) for each in found.happenings] == [("light", "turn")] * 2
+
+
+def test_no_step_runs_over_the_kink_of_a_spring_on_one_side() -> None:
+    """A buffer k max(0, −x): free flight, then half a period π/ω in it, and back as fast as it came."""
+    buffer = {"kind": "potential", "name": "buffer", "energy": "8*max(-x, 0)^2"}
+    found = motion(on_line([buffer], value=1.0, rate=-2.0), 3.0, 1e-12)
+    t, truth = found.times, np.zeros(len(found.times))
+    hits, leaves = 0.5, 0.5 + math.pi / 4.0
+    truth = np.where(t < hits, 1.0 - 2.0 * t, np.where(t < leaves, -0.5 * np.sin(4.0 * (t - hits)), 2.0 * (t - leaves)))
+    assert np.abs(found.values[:, 0] - truth).max() < 1e-13
+    assert found.happenings == ()
+
+
+def test_the_answer_tells_events() -> None:
+    found = run({"scene": "braked-oscillator", "t_end": 6, "tolerance": 1e-6})
+    assert found["status"] == "ok"
+    events = found["events"]
+    assert isinstance(events, list)
+    assert [each["kind"] for each in events] == ["turn"] * 6 + ["stick"]
+    assert {each["name"] for each in events} == {"friction"}
