@@ -56,7 +56,7 @@ class Facts:
     """What is known at a state.
 
     Of the rows `a`, shape (rows, n), the rates `w`, γ in `bias`, and λ in `reactions`, shape (rows,) each; F₀ in
-    `limits`, shape (frictions,); `gaps` and e in `restitutions`, shape (contacts,); the values of `kinks`, shape (kinks,).
+    `limits`, shape (frictions,); `gaps` and e in `restitutions`, shape (contacts,); values of `kinks`, shape (kinks,).
     """
 
     a: Floats

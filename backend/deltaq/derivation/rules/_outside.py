@@ -30,7 +30,7 @@ def outside_terms(system: System, coordinate: str) -> tuple[Term, ...]:
 
 def other_sources(system: System, coordinate: str) -> tuple[str, ...]:
     """The loads without potential that act on a coordinate."""
-    return tuple(source for source in system.force_sources(coordinate) if source not in system.conservative_sources)
+    return tuple(source for source in system.force_sources(coordinate) if source not in system.sources_of_lagrangian)
 
 
 def _other_force(system: System, coordinate: str) -> Named:
