@@ -152,6 +152,20 @@ export function layoutOf(rows, end, palette, lang, height, em, from = 0) {
   };
 }
 
+/** Marks of more events than these would be a grey ground. */
+const MOST_MARKS = 80;
+
+/**
+ * Plotly shapes: a dotted line at each event behind which the motion went on (impacts, sticking, slipping).
+ * @param {Trajectory} trajectory @param {Palette} palette
+ */
+export function marksOf(trajectory, palette) {
+  const times = (trajectory.events ?? []).map(({ time }) => time);
+  const line = { color: palette.muted, width: 1, dash: "dot" };
+  const across = { type: "line", xref: "x", yref: "paper", y0: 0, y1: 1, layer: "below", opacity: 0.5, line };
+  return times.length > MOST_MARKS ? [] : times.map((time) => ({ ...across, x0: time, x1: time }));
+}
+
 /**
  * A little room on both sides; a constant curve gets a range that shows it as constant.
  * @param {Row} row

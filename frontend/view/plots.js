@@ -2,7 +2,7 @@
 
 import { rowsOf } from "../model/curves.js";
 import { readLook, spanOf } from "../model/look.js";
-import { domainsOf, isShown, layoutOf, marginsOf, scalesOf, timeScale, tracesOf } from "../model/plots.js";
+import { domainsOf, isShown, layoutOf, marksOf, marginsOf, scalesOf, timeScale, tracesOf } from "../model/plots.js";
 import { trustedUntil } from "../model/trajectory.js";
 import { script } from "./bring.js";
 import { whenIdle } from "./frames.js";
@@ -71,6 +71,7 @@ function createCurves(root) {
         ...layoutOf(rows, to, palette, lang, root.clientHeight, em, from),
         width: frame.width,
         height: frame.height,
+        shapes: marksOf(trajectory, palette),
       };
       const traces = tracesOf(rows, trajectory, palette, frame);
       await globalThis.Plotly.react(canvas, traces, layout, { staticPlot: true, displayModeBar: false });

@@ -1,7 +1,7 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
 import { rowsOf } from "../../frontend/model/curves.js";
-import { domainsOf, layoutOf, marginsOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
+import { domainsOf, layoutOf, marginsOf, marksOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
 import { scene, trajectory } from "./fixtures.js";
 
 const palette = { ink: "black", muted: "gray", grid: "silver", paper: "white", of: (/** @type {string} */ name) => `colour of ${name}` };
@@ -41,6 +41,13 @@ for (const [name, ranges, rows] of /** @type {[string, number[], string[][]][]} 
     const others = { ...motion, coordinates: { a: values.a, b: values.a, c: values.a } };
     assert.deepEqual(told(motion, [others]).map(({ curves }) => curves.map(({ key }) => key)), rows.map((row) => [...row, ...row]), "runs beside it keep to its rows");
   });
+
+test("events behind which the motion went on are dotted lines, as long as they can be told apart", () => {
+  const impact = (/** @type {number} */ time) => ({ name: "floor", time, kind: /** @type {const} */ ("impact"), loss: 1, error: null });
+  const at = (/** @type {number} */ count) => marksOf({ ...trajectory, events: Array.from({ length: count }, (_, i) => impact(i / 100)) }, palette);
+  assert.deepEqual(at(3).map(({ x0, x1, line }) => [x0, x1, line.dash]), [[0, 0, "dot"], [0.01, 0.01, "dot"], [0.02, 0.02, "dot"]]);
+  assert.deepEqual([marksOf(trajectory, palette), at(100)], [[], []]);
+});
 
 test("rows fill the height from the top, without overlap", () => {
   const domains = domainsOf(3, 300, 16);

@@ -45,6 +45,12 @@ export const SECTIONS = [
       potential: [field("energy", "expression")],
       "generalized-potential": [field("energy", "expression")],
       dissipation: [field("function", "expression")],
+      friction: [
+        field("coordinate", "coordinate"),
+        field("force", "expression"),
+        optional("static", "expression"),
+        optional("surface_rate", "expression"),
+      ],
       distributed: [MATERIAL, POSITION, field("density", "vector")],
     },
   },
@@ -57,7 +63,10 @@ export const SECTIONS = [
       distance: [...ENDS, field("length", "expression"), optional("multiplier", "text")],
     },
   },
-  { key: "events", fields: [NAME, field("value", "expression")] },
+  {
+    key: "events",
+    fields: [NAME, field("value", "expression"), optional("then", "text"), optional("restitution", "expression")],
+  },
 ];
 
 /** In space a rigid body has three principal moments, and an angular velocity in place of an angle. */
