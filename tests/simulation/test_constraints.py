@@ -2,17 +2,33 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.special import ellipj
-from tests.simulation.constrained import G, double_pendulum, four_bar, parallelogram, pendulum, sleigh
+from tests.simulation.constrained import (
+    G,
+    double_pendulum,
+    four_bar,
+    parallelogram,
+    particle,
+    pendulum,
+    rod,
+    scene,
+    sleigh,
+)
 
 from deltaq.errors import SceneError
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
+from deltaq.model.constraints import ConstraintEquations
+from deltaq.model.equations import equations
+from deltaq.model.model import build
+from deltaq.simulation.consistency import consistent
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method, method_ids
-from deltaq.simulation.problem import Floats
+from deltaq.simulation.problem import Floats, Problem
 from deltaq.simulation.service import problem_of
 from deltaq.simulation.trajectory import Trajectory
 
@@ -141,3 +157,62 @@ def test_parts_that_do_not_fit_are_refused_at_their_constraint() -> None:
     assert [(problem.code, problem.pointer) for problem in caught.value.problems] == [
         ("constraint-not-met", "/constraints/0")
     ]
+
+
+def doubled(scene: Scene, t_end: float) -> Problem:
+    """The problem with its first constraint said twice: a rod beside the rod."""
+    eqs = equations(scene)
+    held, plain = eqs.constraints, problem_of(scene, t_end, 51)
+    twice = ConstraintEquations(
+        (*held.places, 0),
+        (*held.names, "twin"),
+        (*held.gaps, held.gaps[0]),
+        (*held.slips, held.slips[0]),
+        (*held.jacobian, held.jacobian[0]),
+        (*held.accelerations, held.accelerations[0]),
+        (*held.drives, held.drives[0]),
+    )
+    return consistent(replace(plain, model=build(replace(eqs, constraints=twice), scene)))
+
+
+def test_a_rod_beside_a_rod_changes_no_motion_and_has_no_force_of_its_own() -> None:
+    problem = doubled(pendulum(), 3.0)
+    found = simulate(problem, get_method("dop853"), tolerance=1e-11)
+    angle, _ = swing(found.times)
+    assert problem.rank == 1
+    assert problem.moved is not None
+    assert problem.moved.undetermined == ("S", "twin")
+    assert np.abs(found.values - np.column_stack([np.sin(angle), -np.cos(angle)])).max() < 1e-10
+
+
+# Kicks are of order 2: methods of higher order are projected.
+LOW = [name for name in method_ids() if get_method(name).is_symplectic and get_method(name).order <= 2]
+
+
+@pytest.mark.parametrize("method", LOW)
+def test_kicks_keep_a_symplectic_method_of_low_order_one(method: str) -> None:
+    """Over a thousand times its step the energy errs no more than over a hundred; projection alone lets it drift."""
+    swinging, spans = pendulum(), []
+    for t_end in (10.0, 100.0):
+        found = simulate(problem_of(swinging, t_end, 201), get_method(method), step=0.02, with_error=False)
+        spans.append(balance(swinging, found))
+    assert spans[1] < 1.2 * spans[0], spans
+
+
+def test_a_fast_force_on_a_held_particle_is_seen() -> None:
+    """A blow of a millisecond, between steps that a resting pendulum would let grow: m Δv = ∫F dt sets it swinging."""
+    blow = {"name": "blow", "kind": "force", "at": "bob", "force": ["F*exp(-((t - c)/w)^2)", "0"]}
+    force, width = 1000.0, 0.001
+    resting = scene(
+        {"x": (0.0, 0.0), "y": (-1.0, 0.0)},
+        {"m": 1.0, "l": 1.0, "g": G, "F": force, "c": 1.37, "w": width},
+        [particle("bob", "x", "y")],
+        [rod("S", "pivot", "bob")],
+        points={"pivot": ["0", "0"]},
+        loads=[blow],
+    )
+    found = moved(resting, 3.0, 1e-8, samples=301)
+    speed = force * width * np.sqrt(np.pi)
+    highest = found.values[:, 1].max()
+    assert found.outcome.is_ok
+    assert highest == pytest.approx(-1.0 + speed**2 / (2.0 * G), abs=1e-4)
