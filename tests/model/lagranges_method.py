@@ -11,11 +11,12 @@ from deltaq.mechanics.scene import Scene
 
 
 def lagranges_method(scene: Scene) -> tuple[list[Any], Any, Any]:
-    """The inputs (q, q̇, t, parameters) as symbols, M and f."""
+    """The inputs (q, q̇, t, parameters) as symbols, M and f, which is without reactions."""
     names = [coordinate.name for coordinate in scene.free]
     equations = sp.Matrix(Peer(scene).equations())
     accelerations = [sp.Symbol(f"ddot({name})") for name in names]
     motion = [sp.Symbol(name) for name in names] + [sp.Symbol(f"dot({name})") for name in names] + [sp.Symbol("t")]
     parameters = [sp.Symbol(parameter.name, positive=True) for parameter in scene.parameters]
-    forcing = -equations.subs(dict.fromkeys(accelerations, 0))
+    multipliers = [sp.Symbol(symbol.name) for symbol in scene.multipliers]
+    forcing = -equations.subs(dict.fromkeys((*accelerations, *multipliers), 0))
     return [*motion, *parameters], equations.jacobian(accelerations), forcing

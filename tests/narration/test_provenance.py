@@ -44,6 +44,7 @@ def value(system: System, text: str) -> sp.Expr:
 def test_terms_sum_to_the_expression(scene: str) -> None:
     system = derived(scene)[0]
     known = {f"body:{body.name}" for body in system.scene.bodies} | {f"load:{load}" for load in system.load_names}
+    known |= set(system.constraint_sources)
     found = dict(sums(told(scene, "de")["result"]))
     assert {
         "/virtual_work",

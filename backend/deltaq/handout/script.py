@@ -128,15 +128,20 @@ def right_hand_side(t, state):
     return np.concatenate([v, accelerations_and_multipliers(t, q, v)[0]])
 
 
+def correction(t, q, rows, gap):  # the least change in the metric of M that closes the gap
+    moved = np.linalg.solve(mass_matrix(t, q), rows.T)
+    return moved @ np.linalg.solve(rows @ moved, gap)
+
+
 def projected(t, state):  # the nearest state that keeps the constraints, by Newton's method
     q, v = np.split(state, 2)
     for _ in range(20):
         gap = conditions(t, q)
         if gap.size == 0 or np.abs(gap).max() < 1e-14:
             break
-        q = q - np.linalg.lstsq(constraint_matrix(t, q)[HOLONOMIC], gap, rcond=None)[0]
+        q = q - correction(t, q, constraint_matrix(t, q)[HOLONOMIC], gap)
     rows = constraint_matrix(t, q)
-    v = v - np.linalg.lstsq(rows, rows @ v + constraint_offset(t, q), rcond=None)[0]
+    v = v - correction(t, q, rows, rows @ v + constraint_offset(t, q))
     return np.concatenate([q, v])
 
 

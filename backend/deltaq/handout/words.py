@@ -20,8 +20,9 @@ OF_CONSTRAINTS = {
     "constraint_drift",
     "projected",
     "multipliers",
+    "correction",
 }
-LOCAL_THERE = {"accelerations_and_multipliers", "mass", "rows", "whole", "gap", "states", "begin", "end"}
+LOCAL_THERE = {"accelerations_and_multipliers", "mass", "rows", "whole", "gap", "moved", "states", "begin", "end"}
 LOCAL = {"t", "q", "v", "state", "times", "found", "start", "name", "curve", "row", "value", "t_end", "samples"}
 CONSTANTS = {"COORDINATES", "VALUES", "RATES", "T_END", "SAMPLES", "MULTIPLIERS", "HOLONOMIC"}
 OF_NUMPY = {"arcsin", "arccos", "arctan", "arctan2", "arcsinh", "arccosh", "arctanh", "pi"}
