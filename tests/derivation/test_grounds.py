@@ -26,6 +26,8 @@ FIRST = {
     "position", "guide", "work-of-potential", "work-of-dissipation", "work-of-moment", "exchange-of-variation",
     "work-of-generalized-potential", "work-of-friction",
     "generalized-force",  # where nothing acts on the coordinate
+    "virtual-work",  # where no load acts
+    "constraint",
 }  # fmt: skip
 
 

@@ -41,8 +41,6 @@ DIMENSIONS: Mapping[str, Mapping[str, tuple[int, int, int]]] = {
     "moment": {"moment": (2, -2, 1), "angle": (0, 0, 0)},
     "distributed": {"position": (1, 0, 0), "density": (1, -2, 1)},
     "events": {"value": (0, 0, 0)},
-    "distance": {"length": (1, 0, 0)},
-    "equation": {},
 }
 
 
@@ -80,8 +78,6 @@ class _Rewriting:
         document["parameters"] = [*document["parameters"], *self._constants()]
         for section in ("points", "bodies", "loads", "events"):
             document[section] = [self._things(each, each.get("kind", section)) for each in document.get(section, [])]
-        if self.old.constraints:
-            document["constraints"] = [self._constraint(each) for each in document["constraints"]]
         document["guides"] = [self._guide(each) for each in document["guides"]]
         return read_scene(document)
 
@@ -119,11 +115,6 @@ class _Rewriting:
         unit = next(each.unit for each in self.old.coordinates if each.name == guide["coordinate"])
         told = f"{self._scale(unit)[0]}*({self._read(guide['value'])} + o_{guide['coordinate']})"
         return guide | {"value": told}
-
-    def _constraint(self, one: dict[str, Any]) -> dict[str, Any]:
-        """An equation says the same of the new coordinates, in old units on both sides."""
-        sides = (self._read(side) for side in one.get("equation", "").split("="))
-        return self._things(one, one["kind"]) | ({"equation": " = ".join(sides)} if "equation" in one else {})
 
     def _things(self, thing: dict[str, Any], kind: str) -> dict[str, Any]:
         found = {key: self._told(thing[key], powers) for key, powers in DIMENSIONS[kind].items() if key in thing}

@@ -14,6 +14,8 @@ from deltaq.mechanics.document import examine, read_scene
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.simulation.service import run
 
+# Experiments with the ladder refuse scenes with constraints, which do not let coordinates be moved at will.
+CLIMBED = [name for name in scene_ids() if not load_scene(name).constraints]
 SPAN = 2.0
 
 
@@ -23,7 +25,7 @@ def own(identifier: str) -> Climbed:
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("identifier", scene_ids())
+@pytest.mark.parametrize("identifier", CLIMBED)
 def test_another_observer_says_the_same(identifier: str) -> None:
     """In other units, from other origins and in a moving frame."""
     scene = load_scene(identifier)
@@ -33,7 +35,7 @@ def test_another_observer_says_the_same(identifier: str) -> None:
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("identifier", scene_ids())
+@pytest.mark.parametrize("identifier", CLIMBED)
 def test_scene_climbs(identifier: str) -> None:
     found = own(identifier)
     rungs = found.ladder.rungs
