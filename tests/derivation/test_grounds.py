@@ -27,7 +27,7 @@ FIRST = {
     "work-of-generalized-potential", "work-of-friction",
     "generalized-force",  # where nothing acts on the coordinate
     "virtual-work",  # where no load acts
-    "constraint",
+    "constraint", "left-out",
 }  # fmt: skip
 
 
