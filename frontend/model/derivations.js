@@ -1,10 +1,11 @@
 /** The derivation on the page: that of its scene, in its language, by its formulation. */
 
 import { ApiError } from "./api.js";
-import { OWN } from "./own.js";
+import { completed, OWN } from "./own.js";
 import { sceneOf } from "./request.js";
 import { linesOf, moved } from "./reveal.js";
 import { mover } from "./store.js";
+import { markerOf, withSymbols } from "./symbols.js";
 
 /** @typedef {import("./types.js").Derivation} Derivation */
 
@@ -16,6 +17,17 @@ export const isUnderWay = (derivation) => missingIn(derivation)?.reason === "lat
 
 /** Chapters that were there at once, and those that came later. @param {Derivation} first @param {Derivation} rest @returns {Derivation} */
 const joined = (first, rest) => ({ ...rest, chapters: [...first.chapters, ...rest.chapters] });
+
+/** With the symbols of the scene marked, by which they are found in the drawing. @param {Derivation} derivation @param {import("./types.js").Scene | null} scene @returns {Derivation} */
+function marked(derivation, scene) {
+  if (!scene) return derivation;
+  const mark = markerOf(scene);
+  const within = (/** @type {import("./types.js").Chapter} */ chapter) => ({
+    ...chapter,
+    steps: chapter.steps.map((step) => withSymbols(step, mark)),
+  });
+  return { ...derivation, chapters: derivation.chapters.map(within) };
+}
 
 /** The equations stay when nothing comes behind them. @param {Derivation} first @param {unknown} error @returns {Derivation} */
 function cut(first, error) {
@@ -41,8 +53,22 @@ export function createDerivations(store, api, attempt) {
     if (!isUnderWay(derivation)) move({ step: moved(lines, get().place.step, 0) });
   }
 
-  return async function derive() {
+  /** @param {Promise<import("./types.js").Scene>} [document] of the scene, where it is not there yet */
+  return async function derive(document) {
     const scene = sceneOf(get());
+    const { own, place: asked } = get();
+    let described = asked.scene === OWN ? own && completed(own) : get().scene;
+    /** @type {Derivation | null} */
+    let told = null;
+    const tell = (/** @type {Derivation} */ derivation) => isWanted() && show(marked((told = derivation), described));
+    // The scene is there first, as a rule: where it is not, nobody waits for it.
+    void document?.then(
+      (scene) => {
+        described = scene;
+        if (told) tell(told);
+      },
+      () => {},
+    );
     const { lang, formulation, n, more, release } = get().place;
     const isWanted = () => {
       const { place } = get();
@@ -59,13 +85,13 @@ export function createDerivations(store, api, attempt) {
     };
     await attempt("derivation", async () => {
       const first = await api.derive({ ...question, chapters: "ready" });
-      if (isWanted()) show(first);
+      tell(first);
       if (!isWanted() || !isUnderWay(first)) return;
       const whole = await api.derive({ ...question, chapters: "model" }).then(
         (rest) => joined(first, rest),
         (error) => cut(first, error),
       );
-      if (isWanted()) show(whole);
+      tell(whole);
     });
   };
 }

@@ -9,7 +9,7 @@ import { readChanges, UNCHANGED } from "./values.js";
  * @param {import("./state.js").Store} store
  * @param {import("./api.js").Api} api
  * @param {import("./state.js").Attempt} attempt
- * @param {{derive: () => Promise<void>, rewind: () => void, simulations: {ask: () => void, cancel: () => void}}} about  what is told of the scene
+ * @param {{derive: (document?: Promise<import("./types.js").Scene>) => Promise<void>, rewind: () => void, simulations: {ask: () => void, cancel: () => void}}} about  what is told of the scene
  */
 export function createSubject(store, api, attempt, { derive, rewind, simulations }) {
   const { get, set } = store;
@@ -38,7 +38,7 @@ export function createSubject(store, api, attempt, { derive, rewind, simulations
     simulations.ask();
     await attempt("scene", async () => {
       const document = id === OWN ? get().own && completed(get().own ?? {}) : api.scene(id, get().place.lang, n);
-      const [scene] = await Promise.all([document, derive()]);
+      const [scene] = await Promise.all([document, derive(document instanceof Promise ? document : undefined)]);
       if (get().place.scene === id && get().place.n === n) set({ scene });
     });
   }

@@ -47,7 +47,7 @@
  * @typedef {Contract["ScenePoint"]} Point
  * @typedef {Having<Contract["SceneBody"], "name">} Body
  * @typedef {WithoutNull<Having<Contract["SceneLoad"], "name">> & {latex?: string}} Load
- * @typedef {WithoutNull<Contract["DrawnElement"]>} Element
+ * @typedef {WithoutNull<Contract["DrawnElement"]> & {marks?: string}} Element  marks: the classes of the symbols that it shows
  * @typedef {Omit<Contract["SceneDrawing"], "elements"> & {elements?: Element[] | null}} Drawing
  * @typedef {Record<string, string>} Texts  text by language
  * @typedef {Exclude<Contract["DerivationRequest"]["lang"], null | undefined>} Lang

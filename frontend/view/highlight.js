@@ -1,16 +1,17 @@
 /** Pointing at a quantity lights it up wherever it stands: in formulas, drawing, plots and sliders. */
 
-const QUANTITY = /^(q-\d+|load-.+|body-.+|energy-(kinetic|potential)|time-term)$/;
+const QUANTITY = /^([pq]-\d+|load-.+|body-.+|energy-(kinetic|potential)|time-term)$/;
 const SOURCE = /^(load|body)-/;
+const TOGETHER = /^(load|body|p)-/;
 
 /**
- * The innermost quantity at an element: one name, or all bodies and loads that a term comes from.
+ * The innermost quantity at an element: one name, or all bodies and loads that a term comes from, with their parameters.
  * @param {Element | null} element @returns {string[]}
  */
 function quantitiesAt(element) {
   for (let node = element; node && node.id !== "page"; node = node.parentElement) {
     const names = [...node.classList].filter((candidate) => QUANTITY.test(candidate));
-    const sources = names.filter((name) => SOURCE.test(name));
+    const sources = names.some((name) => SOURCE.test(name)) ? names.filter((name) => TOGETHER.test(name)) : [];
     if (names.length) return sources.length ? sources : names.slice(0, 1);
   }
   return [];

@@ -4,6 +4,7 @@ import { figureOf, KINDS, withDrawing } from "../../frontend/model/drawing/figur
 import { arcFrom, coil, sliverFrom, wrapped } from "../../frontend/model/drawing/geometry.js";
 import { forceLatex } from "../../frontend/model/drawing/marks.js";
 import { stageOf, viewOf } from "../../frontend/model/drawing/stage.js";
+import { markerOf } from "../../frontend/model/symbols.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
 import { scene, square, trajectory } from "./fixtures.js";
 
@@ -16,7 +17,7 @@ const numbers = (/** @type {string | undefined} */ d) => (d ?? "").match(/-?[\d.
 
 /** What an element draws by itself: without the axes, and the weights that every drawing has. @param {import("../../frontend/model/types.js").Figure} figure */
 const alone = ({ shapes, labels }) => {
-  const is = (/** @type {{key: string, className: string}} */ { key, className }) => key !== "origin" && !/axes|load-weight/.test(className);
+  const is = (/** @type {{key: string, className: string}} */ { key, className }) => key !== "origin" && !key.startsWith("coordinate") && !/axes|load-weight/.test(className);
   return { shapes: shapes.filter(is), labels: labels.filter(is) };
 };
 
@@ -104,8 +105,9 @@ test("every kind of element draws something, with finite numbers", () => {
 
 test("a size that is the name of a parameter is its value, for every kind that has it", () => {
   const named = { ...scene, parameters: [...scene.parameters, { name: "size", latex: "s", unit: "m", value: 0.37 }] };
+  const paths = (/** @type {import("../../frontend/model/types.js").Shape[]} */ shapes) => JSON.stringify(shapes.map(({ key, d, at }) => [key, d, at]));
   const drawn = (/** @type {string} */ kind, /** @type {string} */ size, /** @type {unknown} */ given) =>
-    JSON.stringify(figureAt(0.25, /** @type {any} */ ({ ...named, drawing: { ...scene.drawing, elements: [{ kind, at: "bob", from: "pivot", to: "bob", coordinate: "y", load: "F", [size]: given }] } })).shapes);
+    paths(figureAt(0.25, /** @type {any} */ ({ ...named, drawing: { ...scene.drawing, elements: [{ kind, at: "bob", from: "pivot", to: "bob", coordinate: "y", load: "F", [size]: given }] } })).shapes);
   /** @type {Record<string, string[]>} */
   const found = {};
   for (const size of ["radius", "width", "height", "offset"]) {
@@ -174,7 +176,7 @@ test("a dashpot keeps its cup and moves its piston; beside a spring it stands as
 test("a moment goes round its place with its symbol, in the colour of its load", () => {
   const turned = { ...scene, parameters: [...scene.parameters, { name: "M", latex: "M_0", unit: "N*m", value: 1 }], loads: [...scene.loads, { kind: "moment", name: "drive", moment: "M" }], drawing: { ...scene.drawing, elements: [{ kind: "moment", at: "pivot", load: "drive" }] } };
   const { shapes, labels } = alone(figureAt(1, turned));
-  assert.deepEqual(shapes.map(({ className }) => className), ["arrow load load-drive", "head load load-drive"]);
+  assert.deepEqual(shapes.map(({ className }) => className), ["arrow load load-drive p-2", "head load load-drive p-2"]);
   assert.equal(labels[0].latex, "M_0");
 });
 
@@ -293,4 +295,31 @@ test("the spoke of a top turns with its spin, on a rim that is level along the l
     const found = spoke(spin);
     assert.ok(Math.hypot(found[2] - x, found[3] - y) < 0.02, `${spin}: ${found}`);
   }
+});
+
+test("a coordinate that the drawing does not show is shown, from zero to its value, in its colour", () => {
+  const swung = { ...scene, dimension: 2, coordinates: [{ name: "y", latex: "y", unit: "rad", value: 0 }], bodies: [{ ...scene.bodies[0], position: ["sin(y)", "cos(y)"] }], drawing: { ...scene.drawing, elements: [{ kind: "bob", at: "bob" }] } };
+  const moved = { ...trajectory, coordinates: { y: trajectory.t.map(() => 1.2) } };
+  const { shapes, labels } = figureOf(stageOf(/** @type {any} */ (swung), /** @type {any} */ (moved), square(400)), snapshotAt(/** @type {any} */ (moved), 0));
+  const letter = labels.find(({ key }) => key.startsWith("coordinate"));
+  assert.deepEqual([letter?.latex, letter?.className.split(" ")[0]], ["y", "q-0"]);
+  const [x, y] = numbers(shapes.find(({ key }) => /^coordinate.*-side$/.test(key))?.d).slice(2);
+  assert.ok(Math.abs(Math.atan2(x - 200, y - 200) - 1.2) < 0.01);
+});
+
+test("the arc about a disc ends at the mark that turns with it", () => {
+  const turned = { ...scene, dimension: 2, coordinates: [{ name: "y", latex: "y", unit: "rad", value: 0 }], bodies: [{ ...scene.bodies[0], position: ["0", "1"], angular_velocity: ["0", "0", "y"], angle: "y" }], drawing: { ...scene.drawing, elements: [{ kind: "disc", at: "bob", coordinate: "y", radius: 0.4 }] } };
+  for (const a of [0.7, 2.5, -1.1]) {
+    const moved = { ...trajectory, coordinates: { y: trajectory.t.map(() => a) }, positions: { bob: trajectory.t.map(() => [0, 1]) } };
+    const { shapes } = figureOf(stageOf(/** @type {any} */ ({ ...turned, points: [] }), /** @type {any} */ (moved), square(400)), snapshotAt(/** @type {any} */ (moved), 0));
+    const [mx, my] = numbers(shapes.find(({ key }) => key === "disc0-mark")?.d).slice(2);
+    const arrow = shapes.find(({ key }) => /^coordinate.*-arc$/.test(key))?.d ?? "";
+    const [tx, ty] = numbers(arrow.slice(arrow.lastIndexOf("M")));
+    assert.ok(Math.abs(Math.atan2(tx - 200, ty - 300) - Math.atan2(mx, my)) < 0.02, `at ${a}`);
+  }
+});
+
+test("parameters are marked in formulas where they stand alone, and nothing that only looks like them", () => {
+  const mark = markerOf({ parameters: /** @type {any} */ ([{ name: "m", latex: "" }, { name: "l", latex: "\\ell" }]) });
+  assert.equal(mark("m\\ell^2 + m_1 x^m \\dot m \\mathrm{m}"), "\\htmlClass{p-0}{m}\\htmlClass{p-1}{\\ell^2} + m_1 x^m \\dot m \\mathrm{m}");
 });

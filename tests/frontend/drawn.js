@@ -7,7 +7,7 @@
 
 import { createInterface } from "node:readline";
 import { figureOf, withDrawing } from "../../frontend/model/drawing/figure.js";
-import { trailOf } from "../../frontend/model/drawing/members.js";
+import { trailOf } from "../../frontend/model/drawing/trail.js";
 import { placed } from "../../frontend/model/drawing/placing.js";
 import { stageOf } from "../../frontend/model/drawing/stage.js";
 import { portraitsOf } from "../../frontend/model/figure/phase.js";

@@ -2,11 +2,14 @@
 
 import { axesOf } from "./axes.js";
 import { circle } from "./geometry.js";
+import { coordinate, unshown } from "./coordinates.js";
+import { homesOf } from "./homes.js";
 import { ground, guide, pivot, wall, wire } from "./supports.js";
-import { bob, cart, damper, disc, hoop, rod, spring, trail } from "./members.js";
+import { bob, cart, damper, disc, hoop, rod, spring } from "./members.js";
 import { angle, dimension, force, moment, weight } from "./marks.js";
 import { sketchOf, verticalOf } from "./sketch.js";
 import { azimuth, polar, top } from "./space.js";
+import { trail } from "./trail.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
 /** @typedef {import("../types.js").Snapshot} Snapshot */
@@ -20,6 +23,7 @@ export const KINDS = {
   trail,
   dimension,
   angle,
+  coordinate,
   polar,
   azimuth,
   guide,
@@ -61,19 +65,22 @@ function ending({ scene, trajectory, project, unit }) {
   return place ? [{ key: "event", d: circle(unit * 1.6), className: "reference", at: project(place) }] : [];
 }
 
-/** What a drawing says, and the weights of its bodies unless it shows some itself. @param {Stage} stage */
+/** What a drawing says, with the coordinates and the weights that it does not show itself. @param {Stage} stage */
 function elementsOf({ scene }) {
   const elements = scene.drawing?.elements ?? [];
   const gravity = scene.loads.find(({ kind }) => kind === "gravity")?.name;
   const shown = elements.some(({ kind, load }) => kind === "weight" || (kind === "force" && load === gravity));
-  return gravity && !shown ? [...elements, { kind: "force", load: gravity }] : elements;
+  const weights = gravity && !shown ? [{ kind: "force", load: gravity }] : [];
+  return [...elements, ...unshown(scene, elements), ...weights];
 }
 
 /** @param {Stage} stage */
 function inOrder(stage) {
-  return elementsOf(stage)
+  const elements = elementsOf(stage);
+  const homes = homesOf(stage.scene, elements);
+  return elements
     .map((element, index) => ({
-      element,
+      element: homes[index] ? { ...element, marks: homes[index] } : element,
       key: `${element.kind}${index}`,
       draw: KINDS[/** @type {keyof typeof KINDS} */ (element.kind)],
     }))

@@ -65,6 +65,13 @@ export const fromDown = (angle) => [Math.sin(angle), Math.cos(angle)];
 /** The same angle between −π and π. @param {number} angle */
 export const wrapped = (angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
 
+/** An arc as straight lines. @param {Pixel} centre @param {number} radius @param {number} start @param {number} turn @returns {import("../types.js").Strip[]} */
+export function chords(centre, radius, start, turn) {
+  const count = Math.ceil(Math.abs(turn) / 0.6);
+  const on = (/** @type {number} */ i) => add(centre, scaled(fromDown(start + (turn * i) / count), radius));
+  return Array.from({ length: count }, (_, i) => [on(i), on(i + 1)]);
+}
+
 /** Head of an arrow with its tip at `tip`. @param {Pixel} tip @param {Pixel} along @param {number} size */
 export function arrowHead(tip, along, size) {
   const back = add(tip, scaled(along, -size));

@@ -4,6 +4,7 @@ import {
   add,
   arrowHead,
   at as pixel,
+  chords,
   fromDown,
   lengthOf,
   line,
@@ -16,7 +17,8 @@ import {
 } from "./geometry.js";
 import { pullOf, verticalOf } from "./sketch.js";
 import { boxAbout } from "./placing.js";
-import { coordinateClass, latexOf, placeOf, sizeOf } from "./stage.js";
+import { massCentre } from "./matter.js";
+import { coordinateClass, latexOf, marked, placeOf, sizeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
@@ -71,7 +73,7 @@ export function solidArrow(from, vector, key, className, size) {
 /** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
 export function force(element, stage, now, key) {
   const load = stage.scene.loads.find((candidate) => candidate.name === element.load);
-  if (load?.kind === "gravity") return weights(stage, now, key);
+  if (load?.kind === "gravity") return weights(element, stage, now, key);
   const samples = stage.trajectory.loads?.[element.load ?? ""];
   const value = now.loads[element.load ?? ""];
   if (!load || !samples || !value) return { shapes: [], labels: [] };
@@ -81,17 +83,18 @@ export function force(element, stage, now, key) {
   const vector = scaled(stage.direct(value), (LONGEST * stage.unit) / largest);
   if (!(lengthOf(vector) > SHORTEST * stage.unit)) return { shapes: [], labels: [] };
   const from = placeOf(stage, now, load.at ?? "");
-  const className = `load load-${load.name}`;
+  const className = marked(`load load-${load.name}`, element);
   return {
     shapes: solidArrow(from, vector, key, className, stage.unit),
     labels: [{ key, latex: forceLatex(load), ...aboutArrow(from, vector, stage.unit), className }],
   };
 }
 
-/** Gravity acts on every body; where a continuum's centre is, nobody says. @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
-function weights(stage, now, key) {
-  const bodies = stage.scene.bodies.filter(({ kind }) => kind !== "continuum");
-  const figures = bodies.map((body) => weight({ kind: "weight", at: body.name }, stage, now, `${key}-${body.name}`));
+/** Gravity acts on every body. @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
+function weights(element, stage, now, key) {
+  const figures = stage.scene.bodies.map((body) =>
+    weight({ kind: "weight", at: body.name, marks: element.marks }, stage, now, `${key}-${body.name}`),
+  );
   return { shapes: figures.flatMap((f) => f.shapes), labels: figures.flatMap((f) => f.labels) };
 }
 
@@ -117,9 +120,11 @@ export function forceLatex(load) {
 /** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
 export function weight(element, stage, now, key) {
   const load = stage.scene.loads.find((candidate) => candidate.kind === "gravity");
-  const from = placeOf(stage, now, element.at ?? "");
+  const centre = massCentre(stage, now, element.at ?? "");
+  if (!centre) return { shapes: [], labels: [] };
+  const from = stage.project(centre);
   const vector = scaled(stage.down, stage.unit * (stage.once("falls", () => falls(stage.scene)) ? 4.2 : -4.2));
-  const className = `load load-${load?.name ?? "weight"}`;
+  const className = marked(`load load-${load?.name ?? "weight"}`, element);
   return {
     shapes: solidArrow(from, vector, key, className, stage.unit),
     labels: [{ key, latex: weightLatex(element, stage, load), ...besideTip(from, vector, stage.unit), className }],
@@ -170,7 +175,7 @@ export function moment(element, stage, now, key) {
   const at = (/** @type {number} */ turn) => add(centre, scaled(fromDown(turn), radius));
   const [from, to] = [-ROUND / 2, ROUND / 2].map((turn) => turn + 0.6);
   const back = to - 0.25;
-  const className = `load load-${element.load}`;
+  const className = marked(`load load-${element.load}`, element);
   const arc = `M${pixel(at(from))}A${radius} ${radius} 0 1 0 ${pixel(at(back))}`;
   const symbol = latexOf(stage.scene, load?.moment) || "M";
   return {
@@ -210,7 +215,7 @@ export function angle(element, stage, now, key) {
   const sense = element.direction === "clockwise" ? -1 : 1;
   const turn = sense * wrapped(now.coordinates[element.coordinate ?? ""] ?? 0);
   const radius = stage.unit * 4.8;
-  const className = coordinateClass(stage.scene, element.coordinate);
+  const className = marked(coordinateClass(stage.scene, element.coordinate), element);
   const reference = {
     key: `${key}-axis`,
     d: line(centre, add(centre, scaled(fromDown(zero), radius * 1.08))),
@@ -244,13 +249,6 @@ export function angle(element, stage, now, key) {
   };
 }
 
-/** An arc as straight lines. @param {Pixel} centre @param {number} radius @param {number} start @param {number} turn @returns {import("../types.js").Strip[]} */
-function chords(centre, radius, start, turn) {
-  const count = Math.ceil(Math.abs(turn) / 0.6);
-  const on = (/** @type {number} */ i) => add(centre, scaled(fromDown(start + (turn * i) / count), radius));
-  return Array.from({ length: count }, (_, i) => [on(i), on(i + 1)]);
-}
-
 /**
  * A dimension line beside its two places, so far to the left as its element says, with extension lines; the arrow points
  * from the first to the second.
@@ -267,7 +265,7 @@ export function dimension(element, stage, now, key) {
     add(/** @type {Pixel} */ (horizontal ? [to[0], from[1]] : [from[0], to[1]]), offset),
   ];
   const span = subtract(b, a);
-  const className = coordinateClass(stage.scene, element.coordinate);
+  const className = marked(coordinateClass(stage.scene, element.coordinate), element);
   const past = scaled(unit(offset), stage.unit * 0.5);
   const size = Math.min(stage.unit * 0.8, lengthOf(span) * 0.6);
   const aside = scaled(unit(offset), stage.unit * 1.4);

@@ -1,4 +1,4 @@
-/** What a system is made of: rod, spring, bob, cart, block, disc, hoop, and the trail a place leaves. */
+/** What a system is made of: rod, spring, bob, cart, block, disc, hoop. */
 
 import {
   add,
@@ -15,9 +15,7 @@ import {
   unit,
 } from "./geometry.js";
 import { boxAbout } from "./placing.js";
-import { coordinateClass, latexOf, placeOf, sizeOf, unlessMoved } from "./stage.js";
-import { knotsBetween, traced } from "../curve.js";
-import { smoothPath } from "../interpolation.js";
+import { latexOf, letterClass, marked, placeOf, sizeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
@@ -29,7 +27,7 @@ import { smoothPath } from "../interpolation.js";
 export function rod(element, stage, now, key) {
   const [from, to] = [placeOf(stage, now, element.from ?? ""), placeOf(stage, now, element.to ?? "")];
   return {
-    shapes: [{ key, d: line(from, to), className: "ink rod", strips: [[from, to]] }],
+    shapes: [{ key, d: line(from, to), className: marked("ink rod", element), strips: [[from, to]] }],
     labels: named(element.label, stage, [from, to], key, 1.1 * stage.unit, outside(stage, key, from, to)),
   };
 }
@@ -63,7 +61,7 @@ function named(name, stage, [from, to], key, gap, { side, moves } = { side: 1, m
   const on = (/** @type {number} */ part, /** @type {number} */ aside) =>
     add(add(from, scaled(along, part)), scaled(normal(unit(along)), -gap * aside));
   const others = [on(0.5, side), on(0.35, side), on(ALONG, -side), on(0.5, -side), on(0.85, side), on(0.35, -side)];
-  const className = coordinateClass(stage.scene, name) || "length";
+  const className = `length ${letterClass(stage.scene, name)}`;
   return [{ key, latex: latexOf(stage.scene, name), at: on(ALONG, side), others, moves, className }];
 }
 
@@ -79,10 +77,17 @@ export function spring(element, stage, now, key) {
   const ends = beside(element, stage, now);
   const load = element.load ? `load-${element.load}` : "";
   return {
-    shapes: [{ key, d: coil(...ends, stage.unit * 0.72, coils), className: `ink spring ${load}`, strips: [ends] }],
+    shapes: [
+      {
+        key,
+        d: coil(...ends, stage.unit * 0.72, coils),
+        className: marked(`ink spring ${load}`, element),
+        strips: [ends],
+      },
+    ],
     labels: named(stiffnessOf(element, stage), stage, ends, key, 1.7 * stage.unit).map((label) => ({
       ...label,
-      className: load || label.className,
+      className: `${label.className} ${load}`,
     })),
   };
 }
@@ -120,7 +125,7 @@ export function damper(element, stage, now, key) {
   const [bottom, rim] = [scaled(along, depth * 0.7), scaled(along, depth * 1.7)].map((reach) => add(from, reach));
   const piston = subtract(to, scaled(along, depth * 1.4));
   const narrow = scaled(wide, 0.8);
-  const className = `ink ${element.load ? `load-${element.load}` : ""}`;
+  const className = marked(`ink ${element.load ? `load-${element.load}` : ""}`, element);
   return {
     shapes: [
       {
@@ -144,7 +149,7 @@ export function damper(element, stage, now, key) {
 /** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
 export function bob(element, stage, now, key) {
   const place = placeOf(stage, now, element.at ?? "");
-  const className = `ink steel bob body-${element.at}`;
+  const className = marked(`ink steel bob body-${element.at}`, element);
   const radius = stage.unit * 0.85;
   return {
     shapes: [{ key, d: circle(radius), className, at: place, boxes: [boxAbout(place, radius)] }],
@@ -168,7 +173,15 @@ function massOf(name, stage, place, across, along = across) {
     return add(place, [(across + 1.1 * stage.unit) * Math.cos(turn), (along + 1.1 * stage.unit) * Math.sin(turn)]);
   });
   const latex = latexOf(stage.scene, mass.name);
-  return [{ key: `mass-${name}`, latex, at: first, others, className: `mass body-${name}` }];
+  return [
+    {
+      key: `mass-${name}`,
+      latex,
+      at: first,
+      others,
+      className: `mass ${letterClass(stage.scene, mass.name)} body-${name}`,
+    },
+  ];
 }
 
 /** @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
@@ -178,7 +191,13 @@ export function disc(element, stage, now, key) {
   const angle = now.coordinates[element.coordinate ?? ""];
   const mark = angle === undefined ? "" : line([0, 0], [radius * Math.sin(angle), -radius * Math.cos(angle)]);
   const shapes = [
-    { key, d: circle(radius), className: `ink steel body-${element.at}`, at: place, strips: rimOf(place, radius) },
+    {
+      key,
+      d: circle(radius),
+      className: marked(`ink steel body-${element.at}`, element),
+      at: place,
+      strips: rimOf(place, radius),
+    },
     { key: `${key}-mark`, d: mark, className: "ink", at: place },
     { key: `${key}-axle`, d: circle(stage.unit * 0.25), className: "ink paper", at: place },
   ];
@@ -213,7 +232,10 @@ export function hoop(element, stage, now, key) {
   });
   const upright = [-1.2, 1.2].map((reach) => stage.project(centre.map((x, c) => (c === 2 ? x + reach * radius : x))));
   const axis = centre.length < 3 ? [] : [{ key: `${key}-axis`, d: line(upright[0], upright[1]), className: "axis" }];
-  return { shapes: [...axis, { key, d: polyline(ring), className: `ink body-${element.at}` }], labels: [] };
+  return {
+    shapes: [...axis, { key, d: polyline(ring), className: marked(`ink body-${element.at}`, element) }],
+    labels: [],
+  };
 }
 
 /** A box on two wheels, or (as `block`) without. @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure} */
@@ -238,7 +260,7 @@ export function cart(element, stage, now, key) {
         [w, h],
         [-w, h],
       ]),
-      className: `ink steel body-${element.at}`,
+      className: marked(`ink steel body-${element.at}`, element),
       at: place,
       strips: outlineOf(place, w, h),
     },
@@ -255,45 +277,4 @@ function outlineOf(place, w, h) {
     [-w, h],
   ]).map((corner) => add(place, corner));
   return corners.map((corner, i) => [corner, corners[(i + 1) % 4]]);
-}
-
-/** A trail is made of this many pieces of so many seconds, each fainter with age. */
-const PIECES = 10;
-const PIECE = 0.16;
-const STRONGEST = 0.55;
-/** Opacity changes by whole steps of this, so that few pieces are touched in one frame. */
-const SHADE = 0.05;
-
-/** The path of a place from one time to a later one. @param {Stage} stage @param {string} place @param {number} from @param {number} to */
-export function trailOf({ trajectory, project, once }, place, from, to) {
-  const { t: times, positions } = trajectory;
-  if (!positions[place] || to <= from) return "";
-  const path = once(`path ${place}`, () => smoothPath(times, positions[place]));
-  return polyline(traced((t) => project(path(t)), knotsBetween(times, from, to)).points);
-}
-
-/**
- * Pieces are cut at fixed times: all but the newest stay as they are while they fade.
- * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
- * @returns {Figure}
- */
-export function trail(element, stage, now, key) {
-  const newest = Math.floor(now.t / PIECE);
-  const path = (/** @type {number} */ n, /** @type {number} */ end) =>
-    n < 0 ? "" : trailOf(stage, element.at ?? "", n * PIECE, end);
-  const shapes = Array.from({ length: PIECES }, (_, i) => {
-    const n = newest - ((((newest - i) % PIECES) + PIECES) % PIECES);
-    const fresh = Math.max(0, 1 - (now.t - n * PIECE) / (PIECES * PIECE));
-    const shade = Math.round((fresh ** 1.6 * STRONGEST) / SHADE);
-    const piece = (/** @type {number} */ end) => ({
-      key: `${key}-${i}`,
-      d: path(n, end),
-      className: "trail",
-      opacity: shade * SHADE,
-    });
-    return n === newest
-      ? piece(now.t)
-      : unlessMoved(stage, `${key}-${i}`, `${n} ${shade}`, () => piece((n + 1) * PIECE));
-  });
-  return { shapes, labels: [] };
 }

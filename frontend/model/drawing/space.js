@@ -3,7 +3,7 @@
 import { add, arrowHead, at as pixel, line, polyline, scaled, subtract, unit, wrapped } from "./geometry.js";
 import { aboutArc } from "./marks.js";
 import { boxAbout } from "./placing.js";
-import { coordinateClass, latexOf, sizeOf } from "./stage.js";
+import { coordinateClass, latexOf, marked, sizeOf } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
@@ -11,7 +11,7 @@ import { coordinateClass, latexOf, sizeOf } from "./stage.js";
 /** @typedef {import("../types.js").Snapshot} Snapshot */
 /** @typedef {import("./stage.js").Stage} Stage */
 /** @typedef {[number, number, number]} Place */
-/** @typedef {(turn: number) => Place} Circle  the place on a circle in space at an angle */
+/** @typedef {(turn: number) => number[]} Circle  the place on a circle in space at an angle */
 
 /** @type {Figure} */
 const NOTHING = { shapes: [], labels: [] };
@@ -110,7 +110,7 @@ export function top(element, stage, now, key) {
   return {
     shapes: [
       { key: `${key}-cone`, d: polyline([edges[0], apex, /** @type {Pixel} */ (edges.at(-1))]), className: "ink" },
-      { key, d: `${polyline(rim)}Z`, className: `ink steel body-${element.to}` },
+      { key, d: `${polyline(rim)}Z`, className: marked(`ink steel body-${element.to}`, element) },
       {
         key: `${key}-spoke`,
         d: line(middle, tip),
@@ -131,12 +131,12 @@ export function top(element, stage, now, key) {
 /**
  * An arc with its head and its letter.
  * @param {Element} element @param {Stage} stage
- * @param {{key: string, centre: Place, on: Circle, turn: number, below: Figure["shapes"]}} about
+ * @param {{key: string, centre: readonly number[], on: Circle, turn: number, below: Figure["shapes"]}} about
  * @returns {Figure}
  */
-function arc(element, stage, { key, centre, on, turn, below }) {
+export function arc(element, stage, { key, centre, on, turn, below }) {
   if (!(Math.abs(turn) > LEAST)) return { shapes: below, labels: [] };
-  const className = coordinateClass(stage.scene, element.coordinate);
+  const className = marked(coordinateClass(stage.scene, element.coordinate), element);
   const count = Math.max(3, Math.ceil(Math.abs(turn) * FINENESS));
   const points = Array.from({ length: count + 1 }, (_, i) => stage.project(on((turn * i) / count)));
   const tip = points[count];

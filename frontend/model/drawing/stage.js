@@ -1,5 +1,7 @@
 /** From metres to pixels: what part of the plane is shown, and where a place stands on the screen. */
 
+import { parameterClass } from "../symbols.js";
+
 /** @typedef {import("../types.js").Scene} Scene */
 /** @typedef {import("../types.js").Trajectory} Trajectory */
 /** @typedef {import("../types.js").Snapshot} Snapshot */
@@ -144,6 +146,12 @@ export function coordinateClass(scene, name) {
   const index = scene.coordinates.findIndex((coordinate) => coordinate.name === name);
   return index < 0 ? "" : `q-${index}`;
 }
+
+/** Classes of a mark, with those of the symbols that are at home in its element. @param {string} own @param {import("../types.js").Element} element */
+export const marked = (own, { marks }) => (marks ? `${own} ${marks}` : own);
+
+/** The class of a letter: that of its coordinate or parameter. @param {Scene} scene @param {string | undefined} name */
+export const letterClass = (scene, name) => coordinateClass(scene, name) || parameterClass(scene, name);
 
 /** The LaTeX of a coordinate or parameter. @param {Scene} scene @param {string | undefined} name */
 export function latexOf(scene, name) {

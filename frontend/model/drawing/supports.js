@@ -4,7 +4,7 @@ import { traced } from "../curve.js";
 import { evaluator } from "../kinematics/expression.js";
 import { coordinateRange } from "../values.js";
 import { add, at, circle, hatching, lengthOf, line, normal, polygon, polyline, scaled, subtract } from "./geometry.js";
-import { placeOf, sizeOf, unlessMoved } from "./stage.js";
+import { marked, placeOf, sizeOf, unlessMoved } from "./stage.js";
 
 /** @typedef {import("../types.js").Element} Element */
 /** @typedef {import("../types.js").Figure} Figure */
@@ -100,7 +100,12 @@ export function guide(element, stage, now, key) {
   const u = stage.unit;
   const middle = scaled(across, dot(place, across));
   const rails = unlessMoved(stage, key, at(middle), () => railsAbout(middle, along, element, stage, key));
-  const block = { key: `${key}-block`, d: box(along, across, u * 1.05, u * 0.8), className: "ink steel", at: place };
+  const block = {
+    key: `${key}-block`,
+    d: box(along, across, u * 1.05, u * 0.8),
+    className: marked("ink steel", element),
+    at: place,
+  };
   return { shapes: [...rails, block], labels: [] };
 }
 
@@ -163,7 +168,10 @@ export function wire(element, stage, now, key) {
       stage.project(field.parts.map((part) => part({ ...given, [coordinate.name]: q })));
     const [low, high] = coordinateRange(coordinate);
     const knots = Array.from({ length: PIECES + 1 }, (_, i) => low + ((high - low) * i) / PIECES);
-    return { shapes: [{ key, d: polyline(traced(place, knots).points), className: "ink wire" }], labels: [] };
+    return {
+      shapes: [{ key, d: polyline(traced(place, knots).points), className: marked("ink wire", element) }],
+      labels: [],
+    };
   });
 }
 

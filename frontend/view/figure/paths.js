@@ -1,6 +1,6 @@
 /** The whole path of every body, as a line that stays. */
 
-import { trailOf } from "../../model/drawing/members.js";
+import { trailOf } from "../../model/drawing/trail.js";
 import { endOf } from "../../model/trajectory.js";
 
 /** @param {import("./open.js").Bench} bench @param {ReturnType<typeof import("./layer.js").layerIn>} layer */
