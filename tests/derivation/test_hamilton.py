@@ -52,9 +52,10 @@ def test_the_factor_of_each_variation_is_the_equation_of_motion(
 
 CHAPTERS = {
     "dalembert-lagrange": (
-        "configuration variation virtual-work kinetic-energy dalembert-to-lagrange decomposition lagrange model"
+        "configuration variation virtual-work kinetic-energy dalembert-to-lagrange decomposition lagrange constraints"
+        " model"
     ),
-    "hamilton": "configuration kinetic-energy variation virtual-work decomposition hamilton lagrange model",
+    "hamilton": "configuration kinetic-energy variation virtual-work decomposition hamilton lagrange constraints model",
 }
 
 

@@ -44,7 +44,7 @@ def test_bounds_hold_every_value_inside(name: str) -> None:
     """Random boxes, random points in them, against SymEngine's own evaluation."""
     source = Random(name)
     function = FUNCTIONS[name]
-    expression = function(X, Y) if name == "atan2" else function(X) * Y + function(X) ** 2
+    expression = function(X, Y) if name in {"atan2", "max", "min"} else function(X) * Y + function(X) ** 2
     value = se.Lambdify([X, Y], [expression], backend="llvm")
     tape = tape_of([X, Y], [expression])
     start = 1.0 if name == "acosh" else -0.99 if name in {"asin", "acos", "atanh"} else 1e-3
