@@ -5160,6 +5160,12 @@ export interface components {
             kind: "length" | "angle" | "guide";
             /** Latex */
             latex: string;
+            /**
+             * Spoken
+             * @description the same in words
+             * @default
+             */
+            spoken: string;
         };
         /**
          * RouthFunction

@@ -77,7 +77,8 @@ function ofPlots(scene, drawn, dense) {
   const scales = scalesOf(rows, FRAME);
   const layout = layoutOf(rows, FRAME.duration, PALETTE, "en", FRAME.height, FRAME.em);
   const traces = tracesOf(rows, drawn, PALETTE, FRAME).filter((trace) => !("fill" in trace));
-  const values = { ...dense.coordinates, ...dense.energy };
+  const reactions = Object.entries(dense.multipliers ?? {}).map(([name, column]) => [`reaction-${name}`, column]);
+  const values = { ...dense.coordinates, ...dense.energy, ...Object.fromEntries(reactions) };
   return traces.map(({ name, x, y, yaxis }) => {
     const r = Number(yaxis.slice(1) || 1) - 1;
     const [low, high] = layout[r ? `yaxis${r + 1}` : "yaxis"].range;

@@ -152,6 +152,7 @@ class Releasable(Answer):
     name: str = Field(examples=["l"])
     kind: HoldKind
     latex: str
+    spoken: str = Field("", description="the same in words")
 
 
 class Curl(Formula):

@@ -36,7 +36,10 @@ def reaction(release: Release, write: ExpressionWriter) -> Document:
     }
 
 
-def releasable(scene: Scene) -> list[Document]:
+def releasable(scene: Scene, write: ExpressionWriter) -> list[Document]:
     """What the scene holds fixed."""
     symbols = {symbol.name: symbol.typeset for symbol in scene.names.symbols}
-    return [{"name": each.name, "kind": each.kind, "latex": symbols[each.name]} for each in held(scene)]
+    return [
+        {"name": each.name, "kind": each.kind, "latex": symbols[each.name], "spoken": write.speech.name(each.name)}
+        for each in held(scene)
+    ]

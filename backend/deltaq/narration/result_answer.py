@@ -50,7 +50,7 @@ def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write:
         "symbols": own_symbols(result, write),
         "constraints": [constraint(each, write) for each in result.constraints],
         "reactions": [reaction(each, write) for each in result.reactions],
-        "releasable": releasable(result.scene),
+        "releasable": releasable(result.scene, write),
         "routh": routh(result.routh, write),
         "relative_equilibria": [steady(each, number, write) for number, each in enumerate(result.steady, 1)],
     }
