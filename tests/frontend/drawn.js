@@ -71,14 +71,19 @@ function departure(points, corners) {
 /** Corners of a path "M1 2L3 4". */
 const cornersOf = (d) => d.slice(1).split("L").map((pair) => pair.split(" ").map(Number));
 
+/** All that has a curve over time, by its key. */
+function valuesOf({ coordinates, energy, multipliers }) {
+  const reactions = Object.entries(multipliers ?? {}).map(([name, column]) => [`reaction-${name}`, column]);
+  return { ...coordinates, ...energy, ...Object.fromEntries(reactions) };
+}
+
 /** Curves over time, as they are handed to Plotly. */
 function ofPlots(scene, drawn, dense) {
   const rows = rowsOf(scene, drawn);
   const scales = scalesOf(rows, FRAME);
   const layout = layoutOf(rows, FRAME.duration, PALETTE, "en", FRAME.height, FRAME.em);
   const traces = tracesOf(rows, drawn, PALETTE, FRAME).filter((trace) => !("fill" in trace));
-  const reactions = Object.entries(dense.multipliers ?? {}).map(([name, column]) => [`reaction-${name}`, column]);
-  const values = { ...dense.coordinates, ...dense.energy, ...Object.fromEntries(reactions) };
+  const values = valuesOf(dense);
   return traces.map(({ name, x, y, yaxis }) => {
     const r = Number(yaxis.slice(1) || 1) - 1;
     const [low, high] = layout[r ? `yaxis${r + 1}` : "yaxis"].range;
@@ -169,11 +174,11 @@ function ofLetters(scene, drawn) {
 
 /** The pictures of a handout. */
 function ofHandout(scene, drawn, dense) {
-  const values = { ...dense.coordinates, E: dense.energy.kinetic, V: dense.energy.potential };
-  const named = Object.fromEntries(scene.coordinates.map(({ name, latex }) => [latex || name, name]));
+  const values = valuesOf(dense);
+  const keys = Object.fromEntries(rowsOf(scene, drawn).flatMap(({ curves }) => curves.map(({ latex, key }) => [latex, key])));
   return picturesOf(scene, drawn).filter(({ rows }) => rows.length > 1).flatMap(({ lines, columns, rows }) => lines.map(({ latex, path }) => {
     const [x, y] = [axisOf(columns), axisOf(rows)];
-    return [`handout ${latex}`, departure(dense.t.map((t, i) => [x(t), y(values[named[latex] ?? latex][i])]), cornersOf(path))];
+    return [`handout ${latex}`, departure(dense.t.map((t, i) => [x(t), y(values[keys[latex]][i])]), cornersOf(path))];
   }));
 }
 
