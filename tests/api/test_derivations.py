@@ -58,6 +58,9 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "relative_equilibria",
         "loads",
         "symbols",
+        "constraints",
+        "reactions",
+        "releasable",
     }
 
 

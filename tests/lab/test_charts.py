@@ -26,7 +26,7 @@ from deltaq.lab.peers import PEERS
 from deltaq.lab.report import Report
 from deltaq.lab.subject import subject_of
 from deltaq.narration.catalog import keys, text
-from deltaq.simulation.kernels.motion import HELD
+from deltaq.simulation.kernels.motion import UNSETTLED
 from deltaq.simulation.library import method_ids
 from deltaq.simulation.outcome import outcome_of
 
@@ -158,7 +158,7 @@ def test_peers_are_told_apart_by_symbol() -> None:
 
 
 def test_every_way_to_end_has_its_words_and_no_word_is_left_over() -> None:
-    ends = {outcome_of(kernel, {}).status for kernel in range(HELD + 1)}
+    ends = {outcome_of(kernel, {}).status for kernel in range(UNSETTLED + 1)}
     seen = {"unresolved", "step_blind", "guide_jumps", "horizon_reached", "tolerance_missed", "too_slow"}
     assert set(keys("en", "labs.status")) == ends | seen
 

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import pytest
+
 from deltaq.contract.experiment import ExperimentRequest
-from deltaq.lab.library import get_experiment
+from deltaq.errors import Problem, RequestError
+from deltaq.lab.library import experiment_ids, get_experiment
 from deltaq.lab.subject import subject_of
 
 
@@ -13,3 +18,30 @@ def test_experiments_follow_the_equations_as_if_no_event_ended_them() -> None:
     assert subject.problem.model.events is None
     *_, last = get_experiment("convergence").run({"scene": "string-pendulum", "t_end": 5.0, "methods": ["rk4"]})
     assert "event" not in str(last.result)
+
+
+JUMPS: dict[str, dict[str, Any]] = {
+    "an impact": {"events": [{"name": "wall", "value": "2 - x", "then": "bounce", "restitution": "0.5"}]},
+    "dry friction": {"loads": [{"name": "rubbing", "kind": "friction", "coordinate": "x", "force": "m"}]},
+}
+
+
+AXES = {axis: {"parameter": "m", "from": 1.0, "to": 2.0, "count": 8} for axis in "xy"}
+
+
+@pytest.mark.parametrize("jump", JUMPS)
+@pytest.mark.parametrize("experiment", experiment_ids())
+def test_no_experiment_follows_one_set_of_equations_where_there_are_several(experiment: str, jump: str) -> None:
+    line = {
+        "format": 1,
+        "id": "line",
+        "title": "line",
+        "dimension": 2,
+        "coordinates": [{"name": "x", "rate": 1.0}],
+        "parameters": [{"name": "m"}],
+        "bodies": [{"name": "p", "kind": "particle", "mass": "m", "position": ["x", "0"]}],
+    }
+    asked = AXES if experiment == "stability-map" else {}
+    with pytest.raises(RequestError) as caught:
+        list(get_experiment(experiment).run({"scene": line | JUMPS[jump], "t_end": 5.0} | asked))
+    assert caught.value.problems == (Problem("lab-jumps", "/scene"),)

@@ -12,6 +12,7 @@ from ..language.spelling import in_unicode, latex_of
 from ..mechanics.requests import begun_scene, inside
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import plainly
+from ..model.modes import modes_of
 from ..simulation.library import get_method, method_ids
 from ..simulation.method import Method
 from ..simulation.problem import Problem
@@ -49,8 +50,16 @@ def _names(scene: Scene) -> Document:
 
 
 def subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:
-    """The subject that a request names. Raises InputError where there is no such scene, or none with these values."""
-    scene = replace(begun_scene(request), events=())  # it is about the equations, as if nothing ended the motion
+    """The subject that a request names.
+
+    Raises InputError where there is no such scene, or none with these values, and RequestError for a scene with impacts
+    or dry friction: experiments follow one set of equations, and motions that jump or stick follow several.
+    """
+    begun = begun_scene(request)
+    modes = modes_of(begun)
+    if modes and modes.rows:
+        raise RequestError(Mistake("lab-jumps", "/scene"))
+    scene = replace(begun, events=())  # it is about the equations, as if nothing ended the motion
     with inside("/scene"):
         return Subject(scene, problem_of(scene, request.t_end, samples))
 

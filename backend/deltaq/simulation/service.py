@@ -47,10 +47,9 @@ def run(document: Mapping[str, object]) -> Document:
     compile_time = perf_counter() - start
     with inside("/scene"):
         problem = problem_of(request.scene, request.t_end, request.samples)
-    if request.release:
-        released = Released(request.release, reactions(request.scene, request.release))
-        problem = replace(problem, released=released)
         require_no_event(request.scene, problem)
+    if request.release:
+        problem = replace(problem, released=Released(request.release, reactions(request.scene, request.release)))
     choice = choose(request.method, request.scene, problem, request.step, request.tolerance)
     return _simulated(request, choice, problem, compile_time)
 
