@@ -136,12 +136,12 @@ function penEntry(view) {
 }
 
 /** @param {import("../model/types.js").Scene} scene */
-const freedomsOf = (scene) => scene.coordinates.length - (scene.guides ?? []).length;
+const degreesOf = (scene) => scene.coordinates.length - (scene.guides ?? []).length;
 
 /** The built-in scenes, and the viewer's own if it is there. @param {View["state"]} state */
 function entriesOf({ scenes, scene, place }) {
   if (place.scene !== OWN || !scene) return scenes;
-  return [{ id: OWN, title: scene.title, summary: scene.summary, degrees_of_freedom: freedomsOf(scene) }, ...scenes];
+  return [{ id: OWN, title: scene.title, summary: scene.summary, degrees_of_freedom: degreesOf(scene) }, ...scenes];
 }
 
 /** Whether a title may still come: nobody is asked to choose what has been chosen. @param {View["state"]} state */
@@ -157,7 +157,7 @@ function sceneChooser({ state, session, t }) {
     session.move({ edit: "" });
     void session.choose(id);
   };
-  const freedoms = shown ? freedomsOf(shown) : (entry?.degrees_of_freedom ?? 0);
+  const freedoms = shown ? degreesOf(shown) : (entry?.degrees_of_freedom ?? 0);
   const about = inLanguage(state.scene?.summary, lang);
   const titleOf = (/** @type {import("../model/types.js").SceneEntry} */ one) =>
     inLanguage((one.id === scene && shown?.title) || one.title, lang);

@@ -36,7 +36,7 @@ async def test_list_has_every_scene_file(client: httpx.AsyncClient) -> None:
     for entry in entries:
         assert entry.keys() - {"family"} == {"id", "title", "summary", "degrees_of_freedom"}
         assert entry["title"].keys() == entry["summary"].keys() == {"de", "en"}
-        assert entry["degrees_of_freedom"] == len(load_scene(entry["id"]).free)
+        assert entry["degrees_of_freedom"] == load_scene(entry["id"]).degrees_of_freedom
 
 
 async def test_list_without_summaries(client: httpx.AsyncClient) -> None:

@@ -24,4 +24,4 @@ def run(options: argparse.Namespace) -> None:
     width = max(map(len, scene_ids()))
     for identifier in scene_ids():
         scene = load_scene(identifier)
-        print(f"{identifier:{width}}  {len(scene.free)}  {in_language(scene.title, options.lang).line}")
+        print(f"{identifier:{width}}  {scene.degrees_of_freedom}  {in_language(scene.title, options.lang).line}")

@@ -39,7 +39,7 @@ def _entries() -> tuple[dict[str, Any], ...]:
 def _entry(scene: Scene) -> dict[str, Any]:
     """What the list says of a scene; of a family also which whole number chooses its member, with its bounds."""
     titles = {"title": plainly(scene.title), "summary": plainly(scene.summary)}
-    entry = {"id": scene.id, **titles, "degrees_of_freedom": len(scene.free)}
+    entry = {"id": scene.id, **titles, "degrees_of_freedom": scene.degrees_of_freedom}
     family = family_of(scene.id)
     if family is None:
         return entry
