@@ -45,7 +45,8 @@ export function inLanguage(texts, lang) {
  */
 export function called(labels, name, lang, t) {
   const label = inLanguage(labels?.[name], lang);
-  const [, kind, number = ""] = /^([a-z]+)-?(\d*)$/.exec(name) ?? [];
+  const [, named, number = ""] = /^([a-z]+(?:_[a-z]+)*)-?(\d*)$/.exec(name) ?? [];
+  const kind = named?.replaceAll("_", "-");
   const word = t(`kinds.${kind}`);
   return label || (word === `kinds.${kind}` ? name : `${word} ${number}`.trim());
 }

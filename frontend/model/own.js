@@ -156,8 +156,9 @@ export const asWritten = (given) => /** @type {Scene} */ (given);
 /** Loads without a name are called by their kind, and counted if there are more. @param {SceneDocument[]} loads */
 function named(loads) {
   return loads.map((load, i) => {
+    const kind = String(load.kind ?? "").replaceAll("-", "_");
     const alike = loads.filter((other) => other.kind === load.kind).length;
     const count = loads.slice(0, i + 1).filter((other) => other.kind === load.kind).length;
-    return { name: alike > 1 ? `${load.kind}-${count}` : load.kind, ...load };
+    return { name: alike > 1 ? `${kind}-${count}` : kind, ...load };
   });
 }

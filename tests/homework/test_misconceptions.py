@@ -11,7 +11,7 @@ from deltaq.homework.workbook import workbook_of
 from deltaq.mechanics.writing import write_scene
 from deltaq.narration.catalog import catalog
 
-SCENES = [*SHORT, "spring-pendulum", "rolling-disc", "coupled-pendulums"]
+SCENES = [*SHORT, "spring-pendulum", "rolling-disc", "coupled-pendulums", "charged-particle"]
 
 
 @pytest.mark.one_in(3)

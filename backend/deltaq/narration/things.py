@@ -10,7 +10,7 @@ from .catalog import catalog
 from .prose import CatalogText, words
 
 # What has no name is called by its kind, with a number where there are several: gravity, spring-2, particle2.
-NAMELESS = re.compile(r"([a-z]+)-?(\d*)")
+NAMELESS = re.compile(r"([a-z]+(?:_[a-z]+)*)-?(\d*)")
 
 
 def called(scene: Scene, name: str, language: str) -> CatalogText:
@@ -18,5 +18,5 @@ def called(scene: Scene, name: str, language: str) -> CatalogText:
     label = scene.labels.get(name, {}).get(language)
     match = NAMELESS.fullmatch(name)
     kinds = catalog(language)["page"]
-    word = kinds.get(f"kinds.{match[1]}") if match and isinstance(kinds, Mapping) else None
+    word = kinds.get(f"kinds.{match[1].replace('_', '-')}") if match and isinstance(kinds, Mapping) else None
     return words(label or (f"{word} {match[2]}".strip() if match and word else name))
