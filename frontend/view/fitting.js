@@ -4,6 +4,8 @@ import { bearableIn, resize, typeset } from "./typesetting.js";
 
 /** LaTeX of more letters is typeset row by row. */
 const LONG = 600;
+/** What marks symbols takes no room. */
+const MARKS = /\\htmlClass\{p-\d+\}/g;
 
 /** What a long step has out of sight has a size, but its content has none yet. @param {HTMLElement} element */
 const laidOut = ({ firstElementChild: content }) =>
@@ -45,7 +47,7 @@ export class Fitting {
   /** @param {HTMLElement} element @param {string} latex @param {boolean} atOnce  it is seen now */
   show(element, latex, atOnce) {
     this.#sources.set(element, latex);
-    const inTurn = latex.length > LONG || this.#inRows.has(element);
+    const inTurn = latex.replace(MARKS, "").length > LONG || this.#inRows.has(element);
     if (!inTurn || (atOnce && !this.#rows)) typeset(element, latex, true);
     if (inTurn) void this.#giveRows(element);
     else this.fitSoon(element);

@@ -36,7 +36,7 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
     answer = DerivationAnswer.model_validate(response.json())
     chapters = [chapter.id for chapter in answer.chapters]
     constrained = bool(load_scene(scene).constraints)
-    assert chapters == (CHAPTERS[:-1] + ["constraints", "model"] if constrained else CHAPTERS)
+    assert chapters == ([*CHAPTERS[:-1], "constraints", "model"] if constrained else CHAPTERS)
     assert all(chapter.steps for chapter in answer.chapters)
     assert answer.result.model_dump().keys() == {
         "positions",
