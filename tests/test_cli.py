@@ -221,7 +221,7 @@ def test_scenes_are_listed_with_their_degrees_of_freedom() -> None:
     ended = command("scenes", "--lang", "de")
     assert (ended.returncode, ended.stderr) == (0, "")
     assert re.search(r"^double-pendulum +2  Doppelpendel$", ended.stdout, re.MULTILINE)
-    assert re.search(r"^double-pendulum-by-rods +2  ", ended.stdout, re.MULTILINE)  # four coordinates, two rods
+    assert re.search(r"^cartesian-pendulum +1  ", ended.stdout, re.MULTILINE)  # two coordinates, a rod
 
 
 @pytest.mark.parametrize(

@@ -87,26 +87,17 @@ def test_a_tolerance_is_the_error_of_the_answer(name: str, identifier: str, tole
     assert np.all(found.estimate.errors <= tolerance * np.maximum(1.0, np.abs(found.values).max()))
 
 
-@pytest.mark.parametrize(
-    ("constrained", "share"),
-    [
-        pytest.param(False, 0.9, id="nine of ten"),
-        pytest.param(True, 0.85, id="not so many with constraints: coordinates that hang together err less than each"),
-    ],
-)
-def test_the_estimate_is_rarely_a_hundred_times_too_large(constrained: bool, share: float) -> None:
-    """In so many runs it is within a factor of 100 at the middle sample."""
+def test_the_estimate_is_rarely_a_hundred_times_too_large() -> None:
+    """In at least nine of ten runs it is within a factor of 100 at the middle sample."""
     ratios = []
     for name in SCENES:
-        if bool(get_scene(name).constraints) != constrained:
-            continue
         trusted = reference_of(name)
         for identifier in ADAPTIVE:
             for tolerance in TOLERANCES[identifier]:
                 found = simulated(get_scene(name), identifier, 10.0, tolerance=tolerance)
                 true = np.maximum(trusted.errors_of(found), trusted.errors)[1:]
                 ratios.append(np.median(found.estimate.errors[1:] / true))
-    assert np.mean(np.array(ratios) <= 100) >= share
+    assert np.mean(np.array(ratios) <= 100) >= 0.9
 
 
 def test_what_double_precision_cannot_give_is_not_promised() -> None:

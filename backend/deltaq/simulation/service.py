@@ -14,6 +14,7 @@ from ..mechanics.library import load_scene
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..model.model import Observation, compile_model
+from ..model.modes import modes_of
 from ..model.reactions import reactions
 from .answer import Document, answer
 from .auto import choose
@@ -49,6 +50,7 @@ def run(document: Mapping[str, object]) -> Document:
         problem = problem_of(request.scene, request.t_end, request.samples)
         require_no_event(request.scene, problem)
     if request.release:
+        require_one_mode(request.scene)
         problem = replace(problem, released=Released(request.release, reactions(request.scene, request.release)))
     choice = choose(request.method, request.scene, problem, request.step, request.tolerance)
     return _simulated(request, choice, problem, compile_time)
@@ -66,6 +68,13 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
     seen = problem.model.observe(problem.inputs(trajectory.times, states))
     watts = power(problem, trajectory.times, states)
     return answer(request, choice, problem, *_finite(trajectory, seen, watts), compile_time)
+
+
+def require_one_mode(scene: Scene) -> None:
+    """Raises RequestError for a release where motions jump or stick: q̈ there is not that of one set of equations."""
+    modes = modes_of(scene)
+    if modes and modes.rows:
+        raise errors.RequestError(errors.Problem("release-with-jumps", "/release"))
 
 
 def require_no_event(scene: Scene, problem: Problem) -> None:
