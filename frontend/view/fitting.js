@@ -3,9 +3,9 @@
 import { bearableIn, resize, typeset } from "./typesetting.js";
 
 /** LaTeX of more letters is typeset row by row. */
-const LONG = 600;
-/** What marks symbols takes no room. */
-const MARKS = /\\htmlClass\{p-\d+\}/g;
+const LONG = 350;
+/** What marks terms and symbols takes no room. */
+const MARKS = /\\htmlClass\{[^}]*\}/g;
 
 /** What a long step has out of sight has a size, but its content has none yet. @param {HTMLElement} element */
 const laidOut = ({ firstElementChild: content }) =>

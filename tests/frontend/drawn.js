@@ -142,12 +142,14 @@ const SEEN = 0.3;
 const around = (xs, ys) => [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
 const meet = (a, b) => Math.min(a[2], b[2]) - Math.max(a[0], b[0]) > 1 && Math.min(a[3], b[3]) - Math.max(a[1], b[1]) > 1;
 
-/** What a letter may not cover: the heads of arrows, which are the last closed part of their paths, and bodies drawn as balls. */
+/** What a letter may not cover: the heads of arrows, which are the last closed part of their paths, and bodies: balls, discs, carts and blocks. */
 function forbidden({ d, at, className }) {
   const numbers = d.slice(d.lastIndexOf("M")).match(/-?[\d.]+/g)?.map(Number) ?? [];
   if (/pointed|head/.test(className) && d.endsWith("Z")) return [around(numbers.filter((_, i) => i % 2 === 0), numbers.filter((_, i) => i % 2))];
-  const [x, y, r] = [...(at ?? []), -numbers[0]];
-  return /\bbob\b/.test(className) ? [[x - r, y - r, x + r, y + r]] : [];
+  if (!at || !/^ink steel .*\bbody-/.test(className)) return [];
+  const [x, y] = at;
+  const [left, top] = [-numbers[0], -Math.abs(numbers[1] || numbers[0])];
+  return [[x - left, y + top, x + left, y - top]];
 }
 
 /** Which letters cover what, and how many there are and are not shown, while the motion runs. */

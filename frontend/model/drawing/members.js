@@ -1,19 +1,6 @@
 /** What a system is made of: rod, spring, bob, cart, block, disc, hoop. */
 
-import {
-  add,
-  circle,
-  coil,
-  fromDown,
-  lengthOf,
-  line,
-  normal,
-  polygon,
-  polyline,
-  scaled,
-  subtract,
-  unit,
-} from "./geometry.js";
+import { add, circle, coil, lengthOf, line, normal, polygon, polyline, scaled, subtract, unit } from "./geometry.js";
 import { boxAbout } from "./placing.js";
 import { latexOf, letterClass, marked, placeOf, sizeOf } from "./stage.js";
 
@@ -196,18 +183,12 @@ export function disc(element, stage, now, key) {
       d: circle(radius),
       className: marked(`ink steel body-${element.at}`, element),
       at: place,
-      strips: rimOf(place, radius),
+      boxes: [boxAbout(place, radius)],
     },
     { key: `${key}-mark`, d: mark, className: "ink", at: place },
     { key: `${key}-axle`, d: circle(stage.unit * 0.25), className: "ink paper", at: place },
   ];
   return { shapes, labels: massOf(element.at, stage, place, radius) };
-}
-
-/** A circle as eight straight lines. @param {Pixel} centre @param {number} radius @returns {import("../types.js").Strip[]} */
-function rimOf(centre, radius) {
-  const on = (/** @type {number} */ i) => add(centre, scaled(fromDown((i * Math.PI) / 4), radius));
-  return Array.from({ length: 8 }, (_, i) => [on(i), on(i + 1)]);
 }
 
 /** Sides of the polygon that a hoop is drawn as. */
@@ -262,19 +243,8 @@ export function cart(element, stage, now, key) {
       ]),
       className: marked(`ink steel body-${element.at}`, element),
       at: place,
-      strips: outlineOf(place, w, h),
+      boxes: [boxAbout(place, w, h)],
     },
   ];
   return { shapes, labels: massOf(element.at, stage, place, w, h) };
-}
-
-/** The sides of a box about a place. @param {Pixel} place @param {number} w @param {number} h @returns {import("../types.js").Strip[]} */
-function outlineOf(place, w, h) {
-  const corners = /** @type {Pixel[]} */ ([
-    [-w, -h],
-    [w, -h],
-    [w, h],
-    [-w, h],
-  ]).map((corner) => add(place, corner));
-  return corners.map((corner, i) => [corner, corners[(i + 1) % 4]]);
 }
