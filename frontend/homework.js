@@ -15,6 +15,7 @@ import { createTrail, retrace } from "./model/homework/trail.js";
 import { begin } from "./model/homework/state.js";
 import { createWorking } from "./model/homework/working.js";
 import { documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
+import { createLater } from "./model/later.js";
 import { createStore } from "./model/store.js";
 import { startLanguage } from "./model/url.js";
 import { api as server } from "./server.js";
@@ -26,6 +27,7 @@ import { offer } from "./view/files.js";
 import { fetchMathLive, low, offerKeys } from "./view/homework/mathfield.js";
 import { page } from "./view/homework/page.js";
 import { createReach, createStaging } from "./view/homework/staging.js";
+import { missed } from "./view/missed.js";
 import { keeper, windowKeeper } from "./view/keeper.js";
 
 /** Milliseconds after which the field for formulas has waited long enough. */
@@ -52,12 +54,6 @@ const switchTo = createConversion(store, api, answering);
 
 let formulas = false;
 let fragment = "";
-/** @type {import("./view/homework/page.js").HomeworkView["classroom"]} */
-let classroom = null;
-/** @type {import("./view/homework/page.js").HomeworkView["picker"]} */
-let picker = null;
-/** @type {import("./view/homework/page.js").HomeworkView["practice"]} */
-let practice = null;
 const staging = createStaging(root, clock);
 const reach = createReach(root);
 
@@ -150,9 +146,9 @@ function view() {
     download,
     upload,
     formulas,
-    classroom,
-    picker,
-    practice,
+    classroom: classroom.part,
+    picker: picker.part,
+    practice: practice.part,
     practise,
     progress,
     notice: (key) => set({ notice: key, asked: { ...get().asked } }),
@@ -181,33 +177,36 @@ async function questions(reference) {
   return response?.ok ? response.text() : null;
 }
 
-async function openClassroom() {
-  if (classroom) return;
+const classroom = createLater(async () => {
   const { open } = await import("./view/homework/open-classroom.js");
-  classroom = open({ send: fetch.bind(globalThis), state: get, changed: update, questions });
-  update();
-}
+  return open({ send: fetch.bind(globalThis), state: get, changed: update, questions });
+}, update);
 
-async function openPicker() {
-  if (picker) return;
+const picker = createLater(async () => {
   const { open: opening } = await import("./view/homework/open-picker.js");
-  picker = opening({ api, state: get, keeper: keeper(), changed: update });
-  update();
-}
+  return opening({ api, state: get, keeper: keeper(), changed: update });
+}, update);
 
-/** @type {Promise<typeof import("./view/homework/open-practice.js")> | null} */
-let fetching = null;
-async function openPractice() {
-  fetching ??= import("./view/homework/open-practice.js");
-  const { open: opening } = await fetching;
-  practice ??= opening({ api, keeper: keeper(), changed: update });
-  return practice;
+const practice = createLater(async () => {
+  const { open: opening } = await import("./view/homework/open-practice.js");
+  return opening({ api, keeper: keeper(), changed: update });
+}, update);
+
+/** @returns {import("./view/missed.js").Missable[]} */
+function tools() {
+  const { side } = get().asked;
+  return [
+    { says: "missed.classroom", later: classroom, wanted: side === "class" },
+    { says: "missed.picker", later: picker, wanted: side === "sheet" },
+    // Its side is turned to only when it is there.
+    { says: "missed.practice", later: { failed: practice.failed, again: practise }, wanted: true },
+  ];
 }
 
 /** On to the exercise at hand, or to the next one. */
 async function practise() {
-  const opened = await openPractice();
-  await exercise.drill(opened.session.resumed());
+  const opened = await practice.again();
+  if (opened) await exercise.drill(opened.session.resumed());
 }
 
 async function fetchFormulas() {
@@ -227,13 +226,13 @@ function update() {
   if (!catalog.page) return;
   const current = view();
   document.title = `δq · ${current.t("place.homework")}`;
-  render(page(current), root);
+  render([page(current), missed(tools(), current.t)], root);
   staging.show(get(), still.matches);
   reach(get(), still.matches);
   trail(current.link({}), entry?.key ?? "");
-  if (side === "class") void openClassroom();
-  if (side === "sheet") void openPicker();
-  if (side === "practice") void openPractice().then(({ session }) => session.observe(get()));
+  if (side === "class") void classroom.want();
+  if (side === "sheet") void picker.want();
+  if (side === "practice") void practice.want().then((opened) => opened?.session.observe(get()));
   if (!entry || wanted) return;
   wanted = true;
   whenIdle(() => void fetchFormulas(), PATIENCE);
@@ -260,7 +259,7 @@ async function start() {
   const own = sent ?? (asked.place.scene === OWN && !assignment ? (readDraft(keeper())?.document ?? null) : null);
   fragment = own ? await fragmentOf(own) : location.hash;
   const { side, drill } = asked;
-  const chosen = side === "practice" && !drill.number ? (await openPractice()).session.resumed() : drill;
+  const chosen = side === "practice" && !drill.number ? ((await practice.want())?.session.resumed() ?? drill) : drill;
   const scene = own ? OWN : asked.place.scene === OWN ? "" : asked.place.scene;
   await Promise.all([
     speak(asked.place.lang),

@@ -29,6 +29,7 @@ import { keeper } from "./view/keeper.js";
 import { createMotion } from "./view/labs/motion.js";
 import { page, showOpen } from "./view/labs/page.js";
 import { createCharts } from "./view/labs/plotly.js";
+import { missed } from "./view/missed.js";
 
 /** @typedef {import("./model/labs/chart.js").Chart} Chart */
 
@@ -76,7 +77,7 @@ function usual(question) {
 }
 
 const motion = createMotion(root, () => still.matches);
-const charts = createCharts(root, pressed);
+const charts = createCharts(root, pressed, () => update());
 const watching = createWatch(api);
 
 /** @param {Chart} chart @param {number} x @param {number} y */
@@ -174,29 +175,32 @@ function update() {
   document.title = `δq · ${t("place.labs")}`;
   const now = chartsNow();
   render(
-    page({
-      state: { place: { ...place, scene: bench.get().question.scene } },
-      session,
-      t,
-      bench: bench.get(),
-      benches: starting,
-      labs: labs(),
-      known,
-      scenes,
-      charts: now,
-      dial,
-      play,
-      methodTitle,
-      fetchFile: (accept) => void fetchFile(accept),
-      link,
-      open: (scene) => void open(scene),
-      watch,
-      turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
-      cursor: get().cursor,
-      point: (cursor) => set({ cursor }),
-      press: pressed,
-      save: (chart, format) => void charts.save(chart, format),
-    }),
+    [
+      page({
+        state: { place: { ...place, scene: bench.get().question.scene } },
+        session,
+        t,
+        bench: bench.get(),
+        benches: starting,
+        labs: labs(),
+        known,
+        scenes,
+        charts: now,
+        dial,
+        play,
+        methodTitle,
+        fetchFile: (accept) => void fetchFile(accept),
+        link,
+        open: (scene) => void open(scene),
+        watch,
+        turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
+        cursor: get().cursor,
+        point: (cursor) => set({ cursor }),
+        press: pressed,
+        save: (chart, format) => void charts.save(chart, format),
+      }),
+      missed([{ says: "missed.plots", later: charts.library, wanted: true }], t),
+    ],
     root,
   );
   motion.arrange();

@@ -21,11 +21,13 @@ import { createLater } from "./model/later.js";
 import { createStore, mover } from "./model/store.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
 import { api } from "./server.js";
-import { sheet } from "./view/bring.js";
+import { styled } from "./view/bring.js";
 import { offer, toClipboard } from "./view/files.js";
 import { dressed } from "./view/header.js";
 import { keeper } from "./view/keeper.js";
 import { page } from "./view/lectures/page.js";
+import { openWindow } from "./view/lectures/window.js";
+import { missed } from "./view/missed.js";
 import { paper } from "./view/lectures/notes.js";
 
 /** @typedef {import("./model/lectures/lecture.js").Lecture} Lecture */
@@ -55,10 +57,9 @@ const texts = () => {
   const { page: everywhere, start, lecture, lectures } = get().catalog;
   return translator({ ...everywhere, ...start, ...lecture, ...lectures });
 };
-const hall = createLater(async () => {
-  const [part] = await Promise.all([import("./view/lectures/open-hall.js"), sheet("hall")]);
-  return part;
-}, update);
+const hall = createLater(() => styled(import("./view/lectures/open-hall.js"), "hall"), update);
+/** The stop at which a lecture was to begin. */
+let first = 0;
 
 /** @param {import("./model/types.js").Lang} lang */
 async function speak(lang) {
@@ -219,9 +220,10 @@ function address(index) {
 
 /** @param {number} index */
 async function give(index) {
-  const { openHall } = await hall.want();
+  first = index;
+  const part = await hall.again();
+  if (!part) return;
   const { place, outline } = get();
-  const { lecture } = outline;
   giving = true;
   render(null, root);
   address(index);
@@ -231,10 +233,10 @@ async function give(index) {
     address(null);
     update();
   };
-  openHall({
+  part.openHall({
     root,
-    lecture,
-    reader: { lang: lecture.lang ?? place.lang, theme: place.theme },
+    lecture: outline.lecture,
+    reader: { lang: outline.lecture.lang ?? place.lang, theme: place.theme },
     at: index,
     t: texts(),
     moved: address,
@@ -260,6 +262,7 @@ function update() {
         undoable: outline.past.length > 0,
         acts,
       }),
+      missed([{ says: "missed.hall", later: { failed: hall.failed, again: () => give(first) }, wanted: true }], t),
       state.printing ? paper(outline.lecture, t) : null,
     ],
     root,
@@ -293,6 +296,5 @@ const desk = query.get("with");
 if (isId(desk)) {
   await speak(get().place.lang);
   dressed(get().place, dark.matches);
-  const [{ openDesk }] = await Promise.all([import("./view/lectures/open-desk.js"), sheet("hall")]);
-  openDesk({ root, id: /** @type {string} */ (desk), reader: get().place, t: texts() });
+  void openWindow({ root, id: /** @type {string} */ (desk), reader: get().place, t: texts() });
 } else void begin();

@@ -12,6 +12,7 @@ import { follow } from "./view/links.js";
 import { enterFullscreen, toggleFullscreen } from "./view/fullscreen.js";
 import { dressed } from "./view/header.js";
 import { listen } from "./view/keys.js";
+import { missed } from "./view/missed.js";
 import { openDialog, overlays } from "./view/overlays.js";
 import { page } from "./view/proof.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
@@ -65,11 +66,17 @@ function enterLecture() {
 /** The presenter's window belongs to a lecture. */
 async function present() {
   session.move({ view: "lecture" });
-  (await lecture.want()).present();
+  (await lecture.want())?.present();
 }
 
 /** What lies above the page. @param {import("./view/proof.js").ProofView} view */
 const above = (view) => (view.state.overlay === "share" ? sharing.part?.shareProof(view, PROOF) : overlays(view));
+
+/** @returns {import("./view/missed.js").Missable[]} */
+const tools = () => [
+  { says: "missed.lecture", later: lecture, wanted: Boolean(store.get().place.view) },
+  { says: "missed.sharing", later: sharing, wanted: store.get().overlay === "share" },
+];
 
 /** What keys mean in a lecture; nothing stands beside a proof that D could change, and its steps are laws themselves. */
 function more() {
@@ -85,7 +92,20 @@ function update() {
   const t = texts();
   document.title = `δq · ${t("place.proof")}`;
   render(
-    page({ state, session, link, follow, t, fullscreen: toggleFullscreen, enterLecture, lecture: lecturing(), above }),
+    [
+      page({
+        state,
+        session,
+        link,
+        follow,
+        t,
+        fullscreen: toggleFullscreen,
+        enterLecture,
+        lecture: lecturing(),
+        above,
+      }),
+      missed(tools(), t),
+    ],
     root,
   );
   if (overlay === "share") void sharing.want();
@@ -101,7 +121,7 @@ function update() {
 /** Lecture mode is wanted and not there yet: its keys are not lost meanwhile. */
 function awaitsLecture() {
   const { place, failure } = store.get();
-  return Boolean(place.view) && !failure && !lecturing();
+  return Boolean(place.view) && !failure && !lecture.failed && !lecturing();
 }
 
 store.subscribe(update);

@@ -21,6 +21,7 @@ import { listen } from "./view/keys.js";
 import { linkHighlights } from "./view/highlight.js";
 import { createAside } from "./view/aside.js";
 import { createMotion } from "./view/motion.js";
+import { missed } from "./view/missed.js";
 import { page } from "./view/page.js";
 
 /** Pixels across a printed page. */
@@ -48,7 +49,7 @@ function enterLecture() {
 /** The presenter's window belongs to a lecture. */
 async function present() {
   session.move({ view: "lecture", edit: "" });
-  (await aside.lecture.want()).present();
+  (await aside.lecture.want())?.present();
 }
 
 function view() {
@@ -69,6 +70,7 @@ function view() {
     editor: aside.editor.part,
     lecture: aside.lecturing(),
     overlays: aside.overlays(),
+    missed: (t) => missed([...motion.tools(), ...aside.tools()], t),
     t: translator({ ...section("page"), ...section("editor"), ...section("lecture"), ...section("figure") }),
     methodTitle: (id) =>
       [methods(`${id}.title`), state.methods.find((m) => m.id === id)?.title].find((x) => x && x !== `${id}.title`) ??
@@ -89,7 +91,7 @@ function update() {
   const { place } = state;
   const theme = dressed(place, dark.matches);
   // A page that opens as a lecture shows nothing before that would move.
-  if (place.view && !current.lecture && !state.failures.page && !root.querySelector("main"))
+  if (place.view && !current.lecture && !aside.lecture.failed && !state.failures.page && !root.querySelector("main"))
     return void aside.lecture.want();
   if (!state.catalog.page && !state.failures.page) return;
   clock.setSpeed(place.speed);
@@ -105,7 +107,7 @@ function update() {
 /** Lecture mode is wanted and not there yet: its keys are not lost meanwhile. */
 function awaitsLecture() {
   const { place, failures } = store.get();
-  return Boolean(place.view) && !failures.page && !aside.lecturing();
+  return Boolean(place.view) && !failures.page && !aside.lecture.failed && !aside.lecturing();
 }
 
 for (const event of ["pointermove", "keydown", "focusin"]) document.addEventListener(event, expectLong, { once: true });

@@ -10,6 +10,8 @@ import { keeper } from "./keeper.js";
 /** @typedef {import("./page.js").View} View */
 /** Milliseconds after which a motion is told: not while a slider moves. */
 const REST = 1200;
+/** A motion is shown all the same. */
+const UNTOLD = { summary: () => "" };
 
 /** @typedef {ReturnType<typeof import("../model/store.js").createStore<import("../model/state.js").State>>} Store */
 
@@ -40,11 +42,12 @@ export function createAside({ root, store, api, session, send, changed, play }) 
     return api.poll({ scene: sceneOf(get()) ?? OWN, ...parameters, step, lang: place.lang });
   }
   const sharing = createLater(async () => {
-    const [{ share }, { createExports }] = await Promise.all([
+    const [{ share }, { createExports }, dialogs] = await Promise.all([
       import("./share.js"),
       import("../model/share.js"),
-      above.want(),
+      above.again(),
     ]);
+    if (!dialogs) throw new Error("no dialogs to share in");
     const take = createExports(send, store);
     return (/** @type {View} */ view) => share(view, take);
   }, changed);
@@ -60,7 +63,7 @@ export function createAside({ root, store, api, session, send, changed, play }) 
     told = trajectory;
     clearTimeout(telling);
     telling = window.setTimeout(async () => {
-      const { summary } = await import("./summary.js");
+      const { summary } = await import("./summary.js").catch(() => UNTOLD);
       const { scene, trajectory: settled, catalog, place } = get();
       const words = translator(catalog.page ?? {});
       const element = root.querySelector("#motion");
@@ -84,6 +87,16 @@ export function createAside({ root, store, api, session, send, changed, play }) 
       const { catalog, overlay } = get();
       if (!catalog.lecture) return undefined;
       return (overlay === "share" ? sharing.part : above.part?.overlays) ?? undefined;
+    },
+    /** @returns {import("./missed.js").Missable[]} */
+    tools() {
+      const { overlay, place } = get();
+      return [
+        { says: "missed.editor", later: editor, wanted: Boolean(place.edit) },
+        { says: "missed.lecture", later: lecture, wanted: Boolean(place.view) },
+        { says: "missed.sharing", later: sharing, wanted: overlay === "share" },
+        { says: "missed.overlays", later: above, wanted: overlay !== "" && overlay !== "share" },
+      ];
     },
     /** Called after each rendering: fetches what is wanted now. */
     update() {

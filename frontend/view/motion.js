@@ -40,15 +40,15 @@ export function createMotion({ root, state, clock, session, send, still, update 
   function assemble() {
     const made = {
       drawing: createDrawing(find(".drawing")),
-      plots: createPlots(find(".plots"), { seek: scrub }),
+      plots: createPlots(find(".plots"), { seek: scrub, changed: update }),
       readouts: createReadouts(find(".readouts")),
       transport: createTransport(find(".player")),
     };
     new ResizeObserver(() => made.drawing.resize(clock.time)).observe(find(".drawing"));
     // Not pointerover: browsers send it for a mouse that rests while the page is laid out under it.
     for (const event of ["pointermove", "pointerdown", "focusin", "keydown"])
-      document.addEventListener(event, instruments.want, { once: true });
-    setTimeout(instruments.want, isGuest() ? 0 : PATIENCE);
+      document.addEventListener(event, () => void instruments.want(), { once: true });
+    setTimeout(() => void instruments.want(), isGuest() ? 0 : PATIENCE);
     return made;
   }
 
@@ -97,6 +97,11 @@ export function createMotion({ root, state, clock, session, send, still, update 
     get instruments() {
       return instruments.part;
     },
+    /** @returns {import("./missed.js").Missable[]} */
+    tools: () => [
+      { says: "missed.instruments", later: instruments, wanted: true },
+      ...(parts ? [{ says: "missed.plots", later: parts.plots.library, wanted: true }] : []),
+    ],
     /** What the page holds, after it has been rendered. @param {string} theme */
     show(theme) {
       const { scene, trajectory, runs, place, lines, failures } = state();

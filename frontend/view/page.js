@@ -34,6 +34,7 @@ import { FORMULATIONS, oneOf } from "../model/url.js";
  * @property {{view: (view: View) => unknown, copy: () => void} | null} editor  once it has been opened
  * @property {() => void} enterLecture
  * @property {import("./lecture/open.js").Lecture | null} lecture  while lecture mode is on
+ * @property {(t: import("../model/catalog.js").Translate) => unknown} missed  the tools that could not be fetched
  */
 
 const PANELS = /** @type {const} */ (["derivation", "plots", "values"]);
@@ -59,7 +60,7 @@ export function page(view) {
       </section>
     </main>
     ${panels(view)}
-    ${view.overlays?.(view)}
+    ${view.overlays?.(view)} ${view.missed(t)}
   `;
 }
 

@@ -1,6 +1,7 @@
 /** The plots: curves drawn once by Plotly, and above them the moment. */
 
 import { rowsOf } from "../model/curves.js";
+import { createLater } from "../model/later.js";
 import { readLook, spanOf } from "../model/look.js";
 import { domainsOf, isShown, layoutOf, marksOf, marginsOf, scalesOf, timeScale, tracesOf } from "../model/plots.js";
 import { trustedUntil } from "../model/trajectory.js";
@@ -35,12 +36,15 @@ function coloured(root) {
   return { ...palette, of: (name) => colours[classes.indexOf(name)] ?? palette.ink };
 }
 
-/** Curves, drawn by Plotly into `.canvas` with their names in `.rows` above. @param {HTMLElement} root */
-function createCurves(root) {
+/** Curves, drawn by Plotly into `.canvas` with their names in `.rows` above. @param {HTMLElement} root @param {() => void} came */
+function createCurves(root, came) {
   const part = (/** @type {string} */ name) => /** @type {HTMLElement} */ (root.querySelector(`.${name}`));
   const [canvas, names, beyond] = ["canvas", "rows", "beyond"].map(part);
-  /** Fetched when the first plot is wanted. @type {Promise<boolean> | null} */
-  let plotly = null;
+  /** Fetched when the first plot is wanted. A slow processor has enough to do with it: the curves are drawn in another task. */
+  const library = createLater(async () => {
+    await script(SOURCE);
+    return new Promise((/** @type {(come: boolean) => void} */ resolve) => setTimeout(resolve, 0, true));
+  }, came);
 
   /** @param {import("../model/curves.js").Row[]} rows @param {number} em */
   function label(rows, em) {
@@ -52,8 +56,7 @@ function createCurves(root) {
   }
 
   return {
-    /** False if it cannot be had. A slow processor has enough to do with it: the curves are drawn in another task. */
-    library: () => (plotly ??= script(SOURCE).then((come) => new Promise((resolve) => setTimeout(resolve, 0, come)))),
+    library,
     /** @param {Shown} shown @returns {Promise<Drawn>} */
     async draw({ scene, trajectory, runs, duration, lang, look: text }) {
       const palette = coloured(root);
@@ -88,9 +91,9 @@ function createCurves(root) {
 
 /**
  * @param {HTMLElement} root  holds .canvas, .rows, .cursor, .ghost and .beyond
- * @param {{seek: (t: number) => void}} actions
+ * @param {{seek: (t: number) => void, changed: () => void}} actions  changed: Plotly is there, or it could not be had
  */
-export function createPlots(root, { seek }) {
+export function createPlots(root, { seek, changed }) {
   /** @type {Shown | null} */
   let shown = null;
   let visible = false;
@@ -99,13 +102,19 @@ export function createPlots(root, { seek }) {
   let drawn = null;
   /** @type {() => void} */
   let told = () => {};
-  const curves = createCurves(root);
+  /** Plotly could not be had when something was to be drawn. */
+  let owed = false;
+  const curves = createCurves(root, () => {
+    if (owed) schedule();
+    changed();
+  });
   const moment = createMoment(root, { seek, lang: () => shown?.lang ?? "" });
 
   async function redraw() {
     due = 0;
     if (!shown || !visible || root.clientWidth === 0) return;
-    if (!(await curves.library()) || !shown) return;
+    owed = !(await curves.library.want());
+    if (owed || !shown) return;
     drawn = await curves.draw(shown);
     moment.fit(drawn.scale);
     root.classList.add("ready");
@@ -127,6 +136,7 @@ export function createPlots(root, { seek }) {
 
   return {
     move: moment.move,
+    library: curves.library,
     /** Null before there is anything. */
     get drawn() {
       return drawn;

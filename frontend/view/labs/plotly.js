@@ -2,6 +2,7 @@
 
 import { mapOf, seenAt } from "../../model/labs/cursor.js";
 import { themed } from "../../model/labs/figure.js";
+import { createLater } from "../../model/later.js";
 import { script } from "../bring.js";
 import { paletteOf } from "../palette.js";
 
@@ -13,8 +14,8 @@ const SOURCE = import.meta.resolve("plotly-with-maps");
 const CONFIG = { displayModeBar: false, displaylogo: false, responsive: false };
 const FILE = { width: 1200, height: 800, scale: 2 };
 
-/** @param {HTMLElement} root @param {(chart: Chart, x: number, y: number) => void} press  a place on a map was pressed */
-export function createCharts(root, press) {
+/** @param {HTMLElement} root @param {(chart: Chart, x: number, y: number) => void} press  a place on a map was pressed @param {() => void} changed  Plotly is there, or it could not be had */
+export function createCharts(root, press, changed) {
   /** What each canvas shows, so that nothing is drawn twice. @type {WeakMap<HTMLElement, string>} */
   const shown = new WeakMap();
   /** The chart in each canvas. @type {WeakMap<HTMLElement, Chart>} */
@@ -22,9 +23,7 @@ export function createCharts(root, press) {
   /** A number for each chart that was made. @type {WeakMap<Chart, number>} */
   const stamps = new WeakMap();
   let made = 0;
-  /** @type {Promise<boolean> | null} */
-  let plotly = null;
-  const library = () => (plotly ??= script(SOURCE));
+  const library = createLater(() => script(SOURCE).then(() => true), changed);
 
   /** @param {HTMLElement} canvas @param {Chart} chart @param {string} look @param {string} lang */
   async function draw(canvas, chart, look, lang) {
@@ -47,10 +46,11 @@ export function createCharts(root, press) {
   }
 
   return {
+    library,
     /** @param {Chart[]} charts @param {string} theme @param {string} lang */
     async show(charts, theme, lang) {
       if (!charts.length) return;
-      if (!(await library())) return;
+      if (!(await library.want())) return;
       for (const chart of charts) {
         const canvas = /** @type {HTMLElement | null} */ (root.querySelector(`[data-chart="${chart.id}"] .canvas`));
         if (!canvas || canvas.clientWidth === 0) continue;
@@ -70,7 +70,7 @@ export function createCharts(root, press) {
     },
     /** As it was made, dark on light. @param {Chart} chart @param {"png" | "svg"} format */
     async save(chart, format) {
-      if (!(await library())) return;
+      if (!(await library.want())) return;
       await globalThis.Plotly.downloadImage(
         {
           data: chart.data,

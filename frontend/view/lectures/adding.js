@@ -12,8 +12,9 @@ let telling = 0;
  * @param {string} title @param {import("../../model/catalog.js").Translate} t
  */
 async function add(title, t) {
-  const { append } = await import("./append.js");
-  const number = append(title);
+  const part = await import("./append.js").catch(() => null);
+  if (!part) return tell(t("adding.missed"), t);
+  const number = part.append(title);
   tell(number ? t("adding.added", { number }) : t("adding.failed"), t);
 }
 
