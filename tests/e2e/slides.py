@@ -1,7 +1,8 @@
 """How large the formulas of slides are: `python -m tests.e2e.slides http://127.0.0.1:8000/ [scene …]`.
 
 At each size of projector, for all steps of all scenes (or of those named): how many have letters of at least 5 % of the
-height of the screen, how many do not fit on one screen, and how small the smallest are. Judges nothing.
+height of the screen, how many do not fit on one screen or scroll sideways, and how small the smallest are. Judges
+nothing.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ MEASURE = """() => {
     const size = letters.length ? Math.max(...letters) : 0;
     return {step: slide.querySelector('.step').dataset.step, size: size / innerHeight,
         fits: scroll.scrollHeight <= scroll.clientHeight + 1,
+        sideways: [...slide.querySelectorAll('.scroll, .given ul, .given .formula, .scroll .formula')]
+            .filter(one => one.scrollWidth > one.clientWidth + 1).length,
         root: parseFloat(getComputedStyle(document.documentElement).fontSize)};
 }"""
 AT_REST = """step =>
@@ -35,11 +38,15 @@ AT_REST = """step =>
 
 @dataclass(frozen=True)
 class Slide:
-    """A step as it is shown: its letters as a part of the height of the screen (0 without a formula)."""
+    """A step as it is shown: its letters as a part of the height of the screen (0 without a formula).
+
+    `sideways` counts what scrolls sideways, premises among it.
+    """
 
     step: str
     size: float
     fits: bool
+    sideways: int
     root: float
 
 
@@ -83,13 +90,17 @@ def survey(browser: Browser, address: str, scenes: list[str], width: int, height
         found += own
         least = min(own, key=lambda slide: slide.size or 1)
         over = [slide.step for slide in own if not slide.fits]
+        aside = [slide.step for slide in own if slide.sideways]
         print(
-            f"  {scene:32} {share(own):4.0%} of {len(own)}  least {least.size:.1%} {least.step}  {over or ''}",
+            f"  {scene:32} {share(own):4.0%} of {len(own)}  least {least.size:.1%} {least.step}"
+            f"  {over or ''}  {'sideways' if aside else ''} {aside or ''}",
             flush=True,
         )
     over = sum(not slide.fits for slide in found)
+    aside = sum(slide.sideways > 0 for slide in found)
     print(
-        f"{width}×{height}: {share(found):.0%} of {len(found)} slides ≥ {ENOUGH:.0%}; {over} higher than the screen",
+        f"{width}×{height}: {share(found):.0%} of {len(found)} slides ≥ {ENOUGH:.0%}; "
+        f"{over} higher than the screen, {aside} scroll sideways",
         flush=True,
     )
     context.close()

@@ -28,7 +28,27 @@ def test_one_choice_is_right_and_the_others_are_named(scene: str, step: str) -> 
     assert sum(choice["right"] for choice in choices) == 1
 
 
-@pytest.mark.parametrize("step", ["curl-test:weight", "generalized-forces", "no-such-step"])
+def test_a_step_that_tells_of_every_coordinate_asks_for_all_of_them() -> None:
+    """Seed: Q₁ = m g − k q₁ − F₀ sin q₂, Q₂ = F₀ ℓ − m g ℓ sin q₂; each choice differs from it in what is named."""
+    choices = poll_request({"scene": "elastic-pendulum", "step": "generalized-forces", "lang": "en"})["choices"]
+    (right,) = [choice["latex"] for choice in choices if choice["right"]]
+    assert right == (
+        r"\begin{aligned}Q_{1} ={}&m g - k q_1 - F_0 \sin q_2 \\ Q_{2} ={}&F_0 \ell - m g \ell \sin q_2\end{aligned}"
+    )
+    assert 2 <= len(choices) <= 4
+    for choice in choices:
+        rows = choice["latex"].removeprefix(r"\begin{aligned}").removesuffix(r"\end{aligned}").split(r" \\ ")
+        verdicts = [
+            check_request({"scene": "elastic-pendulum", "task": f"generalized-force:{q}", "answer": answer})["outcome"]
+            for q, row in zip(("y", "phi"), rows, strict=True)
+            for answer in [{"syntax": "latex", "value": row.split("&")[1]}]
+        ]
+        assert (verdicts == ["correct", "correct"]) == choice["right"], choice
+        assert set(verdicts) <= {"correct", "wrong"}
+        assert bool(choice["title"] and choice["hint"]) != choice["right"]
+
+
+@pytest.mark.parametrize("step", ["curl-test:weight", "symmetry-search", "no-such-step"])
 def test_where_nothing_single_is_asked_there_is_no_poll(step: str) -> None:
     assert poll_request({"scene": "elastic-pendulum", "step": step})["choices"] == []
 

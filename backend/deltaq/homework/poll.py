@@ -2,55 +2,87 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from hashlib import sha256
 
+from ..derivation.formula import Quantity
 from ..language.latex_printer import Typography, latex
 from ..narration.catalog import text
+from ..narration.marks import unmarked
+from ..narration.symbols import QuantitySymbols
 from .equality import Parts
+from .faulty_solution import FaultySolution
 from .feedback import Document, about_texts
 from .statement import steps_of
 from .task import Task
-from .workbook import Candidate, Workbook
+from .workbook import Workbook
 
 MOST = 4  # choices
+ROWS = 9  # of all choices together: more are not on one screen
 LONGEST = 260  # letters of a formula that is still compared with others at a glance
 SINGLE_BODY = "kinetic-energy-of-"  # of the only body: the kinetic energy of the system
+EACH = ("generalized-force", "linearized")  # what one step tells of every coordinate
 ROW = r",\quad "
+BREAK = r" \\ "
 
 
 def poll(workbook: Workbook, step: str, language: str) -> list[Document]:
     """Two to four choices in an order that tells nothing; none where no misconception leads to another result."""
-    task = _task_of(workbook, step)
-    if task is None or task.quantity.judge is not None:
+    tasks = _tasks_of(workbook, step)
+    if not tasks or any(task.quantity.judge is not None for task in tasks):
         return []
-    right = _formula(workbook, task, workbook.shown(task))
+    right = _formula(workbook, {task: workbook.shown(task) for task in tasks}, language)
     choices = {right: {"latex": right, "right": True, "title": "", "hint": ""}}
     kinds = set[str]()
-    for candidate in workbook.candidates(task):
-        formula = _formula(workbook, task, workbook.short(candidate.parts))
-        if len(choices) < MOST and candidate.solution.id not in kinds and formula not in choices:
-            kinds.add(candidate.solution.id)
-            choices[formula] = {"latex": formula, "right": False, **_told(candidate, workbook, language)}
+    for solution, answers in _wrong(workbook, tasks):
+        formula = _formula(workbook, answers, language)
+        if len(choices) < min(MOST, ROWS // len(tasks)) and solution.id not in kinds and formula not in choices:
+            kinds.add(solution.id)
+            choices[formula] = {"latex": formula, "right": False, **_told(solution, workbook, language)}
     if len(choices) < 2 or any(len(formula) > LONGEST for formula in choices):
         return []
     return [choices[formula] for formula in sorted(choices, key=lambda one: sha256(one.encode()).hexdigest())]
 
 
-def _task_of(workbook: Workbook, step: str) -> Task | None:
-    """The one thing that a step answers; none where it answers several."""
+def _tasks_of(workbook: Workbook, step: str) -> tuple[Task, ...]:
+    """What a step answers: one thing, or the same of every coordinate; none where it answers unlike things."""
     single = len(workbook.scene.bodies) == 1 and step.startswith(SINGLE_BODY)
     wanted = "kinetic-energy" if single else step
-    answered = [task for task in workbook.tasks if wanted in steps_of(task, workbook)]
-    same = [task for task in answered if task.id == wanted]
-    return same[0] if same else answered[0] if len(answered) == 1 else None
+    answered = tuple(task for task in workbook.tasks if wanted in steps_of(task, workbook))
+    same = tuple(task for task in answered if task.id == wanted)
+    alike = {task.quantity.kind for task in answered}
+    return same[:1] or (answered if len(answered) == 1 or (len(alike) == 1 and alike <= set(EACH)) else ())
 
 
-def _formula(workbook: Workbook, task: Task, parts: Parts) -> str:
+def _wrong(workbook: Workbook, tasks: tuple[Task, ...]) -> Iterator[tuple[FaultySolution, Mapping[Task, Parts]]]:
+    """The answers that each misconception leads to, the likely ones first; what it leaves right is right."""
+    found = {task: {one.solution: workbook.short(one.parts) for one in workbook.candidates(task)} for task in tasks}
+    for solution in dict.fromkeys(solution for task in tasks for solution in found[task]):
+        yield solution, {task: found[task].get(solution) or workbook.shown(task) for task in tasks}
+
+
+def _formula(workbook: Workbook, answers: Mapping[Task, Parts], language: str) -> str:
+    if len(answers) == 1:
+        return _of_one(workbook, *next(iter(answers.items())))
+    rows = [f"{_left(workbook, task, language)}&{_of_one(workbook, task, parts)}" for task, parts in answers.items()]
+    return rf"\begin{{aligned}}{BREAK.join(rows)}\end{{aligned}}"
+
+
+def _left(workbook: Workbook, task: Task, language: str) -> str:
+    """The symbol of what is asked; an equation has none."""
+    if task.quantity.form == "equation":
+        return ""
+    scene = workbook.scene
+    names = {symbol.name: symbol.typeset for symbol in scene.names.symbols if symbol.kind == "coordinate"}
+    symbols = QuantitySymbols(scene, language, names, unmarked)
+    return symbols.latex(Quantity(task.quantity.kind, task.subject)) + " ={}"
+
+
+def _of_one(workbook: Workbook, task: Task, parts: Parts) -> str:
     ending = " = 0" if task.quantity.form in ("equation", "equations") else ""
     rows = list(_rows(workbook, parts))
     if task.quantity.form == "vector":
-        return r"\begin{bmatrix} " + r" \\ ".join(rows) + r" \end{bmatrix}"
+        return r"\begin{bmatrix} " + BREAK.join(rows) + r" \end{bmatrix}"
     return ROW.join(row + ending for row in rows)
 
 
@@ -60,8 +92,8 @@ def _rows(workbook: Workbook, parts: Parts) -> Iterator[str]:
         yield latex(part, typography)
 
 
-def _told(candidate: Candidate, workbook: Workbook, language: str) -> Document:
+def _told(solution: FaultySolution, workbook: Workbook, language: str) -> Document:
     """Which misconception it is, and what it forgets."""
-    about = about_texts(candidate.solution.about, workbook.scene, language)
-    key = f"homework.misconceptions.{candidate.solution.id}"
+    about = about_texts(solution.about, workbook.scene, language)
+    key = f"homework.misconceptions.{solution.id}"
     return {part: text(language, f"{key}.{part}", **about) for part in ("title", "hint")}

@@ -7,7 +7,7 @@ import { appearance, brand, language, lettersOf } from "../header.js";
 import { icon } from "../icons.js";
 import { inLanguage } from "../../model/catalog.js";
 import { noteOf } from "../../model/lecture/notes.js";
-import { onwards, partsOf, within } from "../../model/lecture/stops.js";
+import { isConcluded, onwards, partsOf, within } from "../../model/lecture/stops.js";
 import { clockText, elapsed } from "../../model/lecture/timer.js";
 import { indexOf } from "../../model/reveal.js";
 
@@ -81,19 +81,17 @@ function desk(here, view) {
     </footer>`;
 }
 
-/** A step as far as it is shown: the newest substep last. @param {import("../../model/reveal.js").Line} line @param {number} part */
+/** A step as far as it is shown, in the order of the slide: its substeps, and below them its result. @param {import("../../model/reveal.js").Line} line @param {number} part */
 function sheet({ step, number }, part) {
-  const parts = partsOf(step)
-    .slice(0, part)
-    .map((shown) => shown.step);
+  const parts = partsOf(step).slice(0, part);
+  const formula = (/** @type {Step} */ one) =>
+    one.marked || one.latex ? displayed(one.marked || one.latex, false, one) : nothing;
+  const words = (/** @type {Step} */ { text }) => (text ? html`<p class="prose">${prose(text)}</p>` : nothing);
   return html`
     <div class="sheet" tabindex="0" role="region" aria-label=${number}>
       <h3 class="title"><span class="number">${number}</span><span>${prose(step.title)}</span></h3>
-      ${[step, ...parts].map(
-        (one) => html`
-        ${one === step || !one.title ? nothing : html`<h4>${prose(one.title)}</h4>`}
-        ${one.text ? html`<p class="prose">${prose(one.text)}</p>` : nothing}
-        ${one.marked || one.latex ? displayed(one.marked || one.latex, false, one) : nothing}`,
-      )}
+      ${words(step)}
+      ${parts.map(({ step: one }) => html`${one.title ? html`<h4>${prose(one.title)}</h4>` : nothing}${words(one)}${formula(one)}`)}
+      ${isConcluded(step, part) ? formula(step) : nothing}
     </div>`;
 }
