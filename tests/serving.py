@@ -18,8 +18,8 @@ from typing import TextIO
 
 import httpx
 
-# The first simulations on a machine wait for a compiler.
-PATIENT = {"simulation_deadline": 300, "queue_patience": 300}
+# The first simulations on a machine wait for a compiler; and beside others a derivation has little of a processor.
+PATIENT = {"derivation_deadline": 120, "simulation_deadline": 300, "queue_patience": 300}
 # Seconds until a service that does not answer, or does not come to what is waited for, is called broken: a busy machine
 # is not an error, and waiting costs nothing where all is well.
 PATIENCE = 240.0

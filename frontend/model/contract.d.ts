@@ -2832,6 +2832,14 @@ export interface components {
              */
             formulation?: components["schemas"]["ExportRequestFormulation"];
             /**
+             * Release
+             * @description lengths, and coordinates guided or frozen, whose reactions are asked for
+             * @example [
+             *       "l"
+             *     ]
+             */
+            release?: string[];
+            /**
              * Substeps
              * @description whether a document tells the substeps, too
              */

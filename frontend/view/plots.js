@@ -52,7 +52,16 @@ function createCurves(root, came) {
     const tops = domainsOf(rows.length, root.clientHeight, em).map(
       ([, top]) => (1 - top) * (root.clientHeight - t - b),
     );
-    names.replaceChildren(...rows.map((row, r) => legend(row, tops[r])));
+    rows.forEach((row, r) => {
+      const [line, said] = [names.children[r], saidOf(row)];
+      if (!(line instanceof HTMLElement && line.dataset.said === said)) {
+        const written = legend(row, said);
+        if (line) line.replaceWith(written);
+        else names.append(written);
+      }
+      refresh(/** @type {HTMLElement} */ (names.children[r]), row, tops[r]);
+    });
+    while (names.children.length > rows.length) names.lastElementChild?.remove();
   }
 
   return {
@@ -174,16 +183,33 @@ function mark(curve, name) {
   curve.classList.add(name);
 }
 
-/** The symbols of a row's curves, in their colours, heard as words, with the unit; a press hides or shows a curve. @param {import("../model/curves.js").Row} row @param {number} top */
-function legend(row, top) {
+/** @typedef {import("../model/curves.js").Row} Row */
+
+/** The curves of a row that have names. @param {Row} row */
+const named = ({ curves }) => curves.filter(({ beside }) => !beside);
+
+/** All that a line of names says. @param {Row} row */
+const saidOf = (row) =>
+  JSON.stringify([row.unit, ...named(row).map(({ key, className, latex, name }) => [key, className, latex, name])]);
+
+/** A line that stays, so that a name keeps the focus, and a press that has begun, while the curves are drawn anew. @param {HTMLElement} line @param {Row} row @param {number} top */
+function refresh(line, row, top) {
+  line.style.top = `${top}px`;
+  for (const reading of line.querySelectorAll(".reading")) reading.remove();
+  const shown = new Map(named(row).map((curve) => [curve.key, isShown(curve)]));
+  for (const name of /** @type {NodeListOf<HTMLElement>} */ (line.querySelectorAll("[data-curve]")))
+    name.setAttribute("aria-pressed", String(shown.get(name.dataset.curve ?? "")));
+}
+
+/** The symbols of a row's curves, in their colours, heard as words, with the unit; a press hides or shows a curve. @param {Row} row @param {string} said */
+function legend(row, said) {
   const line = document.createElement("div");
   line.className = "legend";
-  line.style.top = `${top}px`;
-  for (const curve of row.curves.filter(({ beside }) => !beside)) {
+  line.dataset.said = said;
+  for (const curve of named(row)) {
     const name = document.createElement("button");
     name.className = `key ${curve.className}`;
     name.dataset.curve = curve.key;
-    name.setAttribute("aria-pressed", String(isShown(curve)));
     const [seen, heard] = ["math", "unseen"].map((part) => {
       const span = document.createElement("span");
       span.className = part;

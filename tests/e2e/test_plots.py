@@ -46,8 +46,11 @@ def test_values_are_read_under_the_pointer_and_at_the_moment(lecture: Lecture) -
 def test_a_curve_is_hidden_by_its_name(lecture: Lecture) -> None:
     """By keyboard, too; the rest of its row fills the axis, the address has it, the name keeps the focus."""
     page = open_plots(lecture, "?scene=elastic-pendulum&lang=en")
-    name = page.locator(".legend [data-curve=kinetic]")
+    name, wide = page.locator(".legend [data-curve=kinetic]"), page.evaluate(f"{PLOTLY}._fullLayout.width")
     name.focus()
+    page.set_viewport_size({"width": 1300, "height": 768})  # all curves are drawn anew, below a name that stays
+    until(page, lambda: page.evaluate(f"{PLOTLY}._fullLayout.width"), lambda width: width < wide)
+    expect(name).to_be_focused()
     page.keyboard.press("Enter")
     expect(page.locator(".plots .trace.energy-kinetic")).to_have_count(0)
     expect(name).to_have_attribute("aria-pressed", "false")

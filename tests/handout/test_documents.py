@@ -173,3 +173,12 @@ def test_labels_of_a_user_do_not_break_the_formulas() -> None:
     text = latex.latex_file(handout_of(read_scene(document), "en", ROADS[0]))
     assert opened_and_closed(text)
     assert re.findall(r"(?<!\\)[%#]", "\n".join(FORMULA.findall(text))) == []
+
+
+def test_what_holds_a_rod_stands_behind_the_equations_of_motion() -> None:
+    parts = handout_of(load_scene("pendulum"), "en", ROADS[0], release=("l",)).parts
+    plain = handout_of(load_scene("pendulum"), "en", ROADS[0]).parts
+    titles = ["".join(map(str, part.title)) for part in parts]
+    (added,) = [k for k, part in enumerate(parts) if part.title not in [each.title for each in plain]]
+    assert 0 < added < len(parts) - 1, titles
+    assert parts[added].lines[-1].latex.endswith(r"S_{\ell} &= m (\ell \dot{\varphi}^{2} + g \cos\varphi)\end{aligned}")

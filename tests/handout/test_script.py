@@ -11,13 +11,16 @@ import numpy as np
 import pytest
 from tests.derivation.scenes import constrained
 
+from deltaq.errors import RequestError
 from deltaq.handout.script import comment, script
 from deltaq.handout.service import export_request
 from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.toml import read_toml
 from deltaq.mechanics.user_text import UserText
 from deltaq.simulation.service import run
 
 T_END = 2.0
+SCENES = Path(__file__).parents[1] / "simulation" / "scenes"
 AGREEMENT = 1e-6
 
 
@@ -56,6 +59,70 @@ def test_program_of_a_scene_with_constraints_keeps_them(tmp_path: Path) -> None:
     program = executed(script(start, "en", T_END), tmp_path)
     times, q, v = program["solve"]()
     assert np.abs(v[1] * np.cos(q[2]) - v[0] * np.sin(q[2])).max() < 1e-14  # though the start was not so
+
+
+@pytest.mark.parametrize("name", ["bouncing-ball", "braked-oscillator", "catching-pendulum", "stick-slip"])
+def test_program_goes_on_behind_impacts_and_sticking(name: str, tmp_path: Path) -> None:
+    """It rebounds, rests, sticks and slips when δq's motion does."""
+    scene = read_toml((SCENES / f"{name}.toml").read_text(encoding="utf-8"))
+    program = executed(str(export_request({"form": "python", "scene": scene, "t_end": T_END})["text"]), tmp_path)
+    times, q, v = program["solve"]()
+    request = {"scene": scene, "t_end": T_END, "samples": len(times), "tolerance": 1e-10}
+    shown = run({**request, "include": ["coordinates", "rates"]})
+    assert len(shown["events"]) >= 2
+    for coordinate, values, rates in zip(program["COORDINATES"], q, v, strict=True):
+        np.testing.assert_allclose(values, shown["coordinates"][coordinate], atol=1e-9)
+        np.testing.assert_allclose(rates, shown["rates"][coordinate], atol=1e-8)
+
+
+def test_a_ball_that_comes_to_rest_stays_there(tmp_path: Path) -> None:
+    """The rebounds from h = g/2 with e = 1/2 end at 1 + 2 e/(1 − e) = 3 s; none of the names is the program's own."""
+    names = ("friction", "rows", "settled", "a")
+    scene = {
+        "format": 1,
+        "id": "ball",
+        "title": {"en": "Ball"},
+        "coordinates": [{"name": "watched", "value": 5.0}],
+        "parameters": [{"name": name, "value": 10.0} for name in names],
+        "bodies": [{"name": "ball", "kind": "particle", "mass": "rows", "position": ["0", "watched"]}],
+        "loads": [{"kind": "gravity", "acceleration": ["0", "-a"]}],
+        "events": [{"name": "pushed", "value": "watched", "then": "bounce", "restitution": "settled/20"}],
+    }
+    text = str(export_request({"form": "python", "scene": scene, "t_end": 4.0})["text"])
+    times, (z,), _ = executed(text, tmp_path)["solve"]()
+    falling, resting = times <= 1.0, times > 3.0
+    np.testing.assert_allclose(z[falling], 5.0 - 5.0 * times[falling] ** 2, atol=1e-10)
+    np.testing.assert_allclose(z[~falling & (times <= 2.0)].max(), 1.25, atol=1e-2)
+    np.testing.assert_allclose(z[resting], 0.0, atol=1e-10)
+
+
+RELEASED = [
+    pytest.param({"scene": "pendulum"}, "l", id="a rod"),
+    pytest.param({"scene": "double-pendulum"}, "l1", id="a rod that carries another"),
+    pytest.param({"scene": "base-pendulum", "guides": [{"coordinate": "y", "value": "0.1*t^2"}]}, "y", id="a guide"),
+    pytest.param({"scene": "slider-crank"}, "r", id="a crank among constraints"),
+]
+
+
+@pytest.mark.parametrize(("request_", "name"), RELEASED)
+def test_program_tells_what_holds_the_released(request_: dict[str, object], name: str, tmp_path: Path) -> None:
+    asked = {**request_, "t_end": 0.5, "release": [name]}
+    program = executed(str(export_request({"form": "python", **asked})["text"]), tmp_path)
+    times, q, v = program["solve"]()
+    shown = run({**asked, "samples": len(times), "tolerance": 1e-10, "include": ["multipliers"]})
+    assert program["HELD"] == [name]
+    np.testing.assert_allclose(program["reactions"](times, q, v)[0], shown["multipliers"][name], atol=1e-7)
+
+
+def test_no_program_of_a_release_where_motions_jump() -> None:
+    scene = read_toml((SCENES / "catching-pendulum.toml").read_text(encoding="utf-8"))
+    scene["parameters"] = [*scene["parameters"], {"name": "h", "unit": "m", "value": 0.1}]
+    scene["bodies"][0]["position"][1] += " + h"
+    with pytest.raises(RequestError) as caught:
+        export_request({"form": "python", "scene": scene, "release": ["h"]})
+    assert [(problem.code, problem.pointer) for problem in caught.value.problems] == [
+        ("release-with-jumps", "/release")
+    ]
 
 
 def test_changes_of_a_request_reach_the_program(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from .base import AskedLanguage, SceneWithInitialValues, examples
+from .base import AskedLanguage, Released, SceneWithInitialValues, examples
 from .derivation import PRINCIPLE, Formulation
 from .simulation import LARGEST_SPAN
 
@@ -18,6 +18,7 @@ class ExportRequest(SceneWithInitialValues):
 
     t_end: float = Field(10.0, gt=0, le=LARGEST_SPAN, description="seconds that the program simulates")
     formulation: Formulation = Field("dalembert-lagrange", description=PRINCIPLE)
+    release: Released = ()
     substeps: bool = Field(default=True, description="whether a document tells the substeps, too")
     lang: AskedLanguage = None
 

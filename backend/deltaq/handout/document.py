@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from ..derivation.engine import check_formulation, derive
+from ..derivation.released import Release
 from ..derivation.step import Derivation
 from ..derivation.system import System
 from ..language.latex_printer import Typography
@@ -15,7 +16,7 @@ from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import UserText, in_language
 from ..narration.catalog import text
-from ..narration.derive import narrator_of
+from ..narration.derive import chapters_of_reactions, narrator_of, releases_of
 from ..narration.prose import CatalogText, words
 
 
@@ -70,18 +71,28 @@ class Handout:
         return text(self.language, f"handout.{key}")
 
 
-def handout_of(scene: Scene, language: str, formulation: str, *, substeps: bool = True) -> Handout:
-    """The handout of a scene. Raises UnknownNameError for an unknown formulation."""
+def handout_of(
+    scene: Scene, language: str, formulation: str, *, substeps: bool = True, release: Sequence[str] = ()
+) -> Handout:
+    """The handout of a scene. Raises UnknownNameError for an unknown formulation, and for what cannot be released."""
     check_formulation(formulation)
     with inside("/scene"):
         system, derivation = derive(scene, formulation)
-    return written_down(system, derivation, language, substeps=substeps)
+    return written_down(system, derivation, language, substeps=substeps, releases=releases_of(system, release))
 
 
-def written_down(system: System, derivation: Derivation, language: str, *, substeps: bool = True) -> Handout:
-    """The handout of a derivation that has been made."""
+def written_down(
+    system: System,
+    derivation: Derivation,
+    language: str,
+    *,
+    substeps: bool = True,
+    releases: Sequence[Release] = (),
+) -> Handout:
+    """The handout of a derivation that has been made; what holds the `releases` stands before the last chapter."""
     scene = system.scene
     chapters = narrator_of(system, language).chapters(derivation)
+    chapters[-1:-1] = chapters_of_reactions(releases, derivation.formulation, language)
     return Handout(
         language,
         in_language(scene.title, language),

@@ -1,20 +1,25 @@
 """A motion as a program of its own: Python with NumPy and SciPy, from the derived equations M(q, t) q̈ = f(q, q̇, t).
 
 With constraints the program solves [M Aᵀ; A 0] [q̈; −λ] = [f; −γ] for the accelerations (index 1), and moves positions
-and rates back to the constraints at every sample, so that they do not drift away.
+and rates back to the constraints at every sample, so that they do not drift away. Where motions go on behind impacts,
+or stick and slip, it integrates from event to event (`switching.py`).
 """
 
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from ..derivation.calculus import column
-from ..derivation.matrix_form import forcing, mass_matrix
+from ..derivation.matrix_form import mass_matrix
+from ..derivation.released import Release
 from ..derivation.system import System
+from ..errors import Problem, RequestError
 from ..mechanics.event import Event
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import UserText
+from ..narration.derive import releases_of
+from .switching import dynamics, smooth_forcing, switches
 from .words import Words, event_symbol
 
 TEMPLATE = """\
@@ -178,22 +183,42 @@ def {name}(t, state):  # {title}
 
 
 """
+REACTIONS = """\
+HELD = {held}  # what is held, and by what reaction, in the direction in which it grows
+
+
+def reactions(times, q, v):
+    return np.array([reaction(*state) for state in zip(times, q.T, v.T)]).T
+
+
+def reaction(t, q, v):
+    {unpack_values}
+    {unpack_rates}
+    {unpack_accelerations}
+    return {reactions}
+
+
+"""
 SAMPLES_PER_SECOND = 30
 
 
-def script(scene: Scene, language: str, t_end: float) -> str:
-    """The program: it prints the motion from the scene's own initial values as a table."""
+def script(scene: Scene, language: str, t_end: float, release: Sequence[str] = ()) -> str:
+    """The program: it prints the motion from the scene's own initial values as a table, with what holds the `release`.
+
+    Raises UnknownNameError for what cannot be released, RequestError for a release where motions jump or stick.
+    """
     system = System(scene)
+    releases = releases_of(system, release)
+    if releases and switches(system):
+        raise RequestError(Problem("release-with-jumps", "/release"))
     words = Words(system)
     free = scene.free
     unpacked = {
         "unpack_values": f"[{', '.join(words.called(system.q(c.name).name) for c in free)}] = q",
         "unpack_rates": f"[{', '.join(words.called(system.rate(c.name).name) for c in free)}] = v",
     }
-    events = [_event(event, system, words, language, unpacked) for event in scene.events]
-    watched = (
-        f", events=[{', '.join(words.called(event_symbol(event.name)) for event in scene.events)}]" if events else ""
-    )
+    ending = [event for event in scene.events if not event.bounces]
+    called = [words.called(event_symbol(event.name)) for event in ending]
     content = unpacked | {
         "title": comment((scene.title.get(language) or UserText(scene.id)).line),
         "parameters": "\n".join(_parameters(scene, words)) or "# This scene has no parameters.",
@@ -202,20 +227,45 @@ def script(scene: Scene, language: str, t_end: float) -> str:
         "rates": repr([float(c.rate) for c in free]),
         "t_end": repr(float(t_end)),
         "samples": str(int(t_end * SAMPLES_PER_SECOND) + 1),
-        "events": "".join(events),
-        "watched": watched,
+        "events": "".join(_event(event, system, words, language, unpacked) for event in ending),
+        "watched": f", events=[{', '.join(called)}]" if ending else "",
         "mass_matrix": words.matrix(mass_matrix(system)),
-        "forcing": words.vector(forcing(system)),
+        "forcing": words.vector(smooth_forcing(system)),
         "positions": "{" + ", ".join(_positions(system, words)) + "}",
     }
-    content |= _constrained(system, words, content) if scene.constraints else _free(content)
+    if scene.constraints:
+        content |= _constrained(system, words, content)
+    else:
+        ends = "".join(f"{name}, " for name in called)
+        content |= _free(dynamics(system, words, content, ends) if switches(system) else FREE.format(**content))
+    if releases:
+        content |= _released(releases, system, words, content)
     return TEMPLATE.format(functions=", ".join(words.functions), **content)
 
 
-def _free(content: Mapping[str, str]) -> dict[str, str]:
-    """How a scene without constraints moves."""
-    dynamics = FREE.format(**content)
-    return {"form": "M(q, t) q'' = f(q, q', t)", "dynamics": dynamics, "columns": "COORDINATES", "further": ""}
+def _released(releases: Sequence[Release], system: System, words: Words, content: Mapping[str, str]) -> dict[str, str]:
+    """The dynamics with the reactions of what is released, as further columns."""
+    accelerations = ", ".join(words.called(system.acceleration(q).name) for q in system.free)
+    found = f"[{accelerations}] = np.linalg.solve(mass_matrix(t, q), forcing(t, q, v))"
+    if system.conditions:
+        held = ", ".join(words.called(symbol.name) for symbol in system.multipliers)
+        found = f"[{accelerations}], [{held}] = accelerations_and_multipliers(t, q, v)"
+    parts = {
+        "held": repr([each.name for each in releases]),
+        "unpack_accelerations": found,
+        "reactions": words.vector(column(each.in_motion for each in releases)),
+    }
+    columns = "COORDINATES, *MULTIPLIERS" if system.conditions else "COORDINATES"
+    return {
+        "dynamics": content["dynamics"] + REACTIONS.format(**content, **parts),
+        "columns": f"[*{columns}, *(f'Z_{{name}}' for name in HELD)]",
+        "further": f"{content['further']}, *reactions(times, q, v)",
+    }
+
+
+def _free(moved: str) -> dict[str, str]:
+    """A scene without constraints, and how it moves."""
+    return {"form": "M(q, t) q'' = f(q, q', t)", "dynamics": moved, "columns": "COORDINATES", "further": ""}
 
 
 def _constrained(system: System, words: Words, content: Mapping[str, str]) -> dict[str, str]:

@@ -31,13 +31,15 @@ def export_request(document: Mapping[str, object]) -> Document:
 
 def _told(write: Callable[..., str]) -> Callable[[Scene, ExportRequest], str]:
     def told(scene: Scene, asked: ExportRequest) -> str:
-        return write(handout_of(scene, language_of(asked.lang), asked.formulation, substeps=asked.substeps))
+        language = language_of(asked.lang)
+        made = handout_of(scene, language, asked.formulation, substeps=asked.substeps, release=asked.release)
+        return write(made)
 
     return told
 
 
 def _program(scene: Scene, asked: ExportRequest) -> str:
-    return script(scene, language_of(asked.lang), asked.t_end)
+    return script(scene, language_of(asked.lang), asked.t_end, asked.release)
 
 
 _WRITERS: Mapping[str, Callable[[Scene, ExportRequest], str]] = MappingProxyType(

@@ -22,12 +22,48 @@ OF_CONSTRAINTS = {
     "multipliers",
     "correction",
 }
-LOCAL_THERE = {"accelerations_and_multipliers", "mass", "rows", "whole", "gap", "moved", "states", "begin", "end"}
+OF_RELEASES = {"reactions", "reaction"}
+OF_SWITCHING = {
+    "rows",
+    "friction",
+    "contacts",
+    "accelerations_and_reactions",
+    "watched",
+    "pushed",
+    "behind_impacts",
+    "settled",
+}
+LOCAL_THERE = {
+    "rates",
+    "biases",
+    "accelerations_and_multipliers",
+    "mass",
+    "rows",
+    "whole",
+    "gap",
+    "moved",
+    "states",
+    "begin",
+    "end",
+}
 LOCAL = {"t", "q", "v", "state", "times", "found", "start", "name", "curve", "row", "value", "t_end", "samples"}
-CONSTANTS = {"COORDINATES", "VALUES", "RATES", "T_END", "SAMPLES", "MULTIPLIERS", "HOLONOMIC"}
+CONSTANTS = {"COORDINATES", "VALUES", "RATES", "T_END", "SAMPLES", "MULTIPLIERS", "HOLONOMIC", "FRICTIONS", "HELD"}
 OF_NUMPY = {"arcsin", "arccos", "arctan", "arctan2", "arcsinh", "arccosh", "arctanh", "pi"}
 RECIPROCALS = {sp.cot: sp.tan, sp.sec: sp.cos, sp.csc: sp.sin}
-TAKEN = frozenset({*OWN, *OF_CONSTRAINTS, *LOCAL, *LOCAL_THERE, *CONSTANTS, *OF_NUMPY, *FUNCTIONS, *dir(builtins)})
+TAKEN = frozenset(
+    {
+        *OWN,
+        *OF_CONSTRAINTS,
+        *OF_SWITCHING,
+        *OF_RELEASES,
+        *LOCAL,
+        *LOCAL_THERE,
+        *CONSTANTS,
+        *OF_NUMPY,
+        *FUNCTIONS,
+        *dir(builtins),
+    }
+)
 
 
 class Words:
@@ -38,6 +74,8 @@ class Words:
         plain = [*(p.name for p in scene.parameters), *(c.name for c in scene.coordinates)]
         wanted = {event_symbol(event.name): f"event_{event.name}" for event in scene.events}
         wanted |= {name: name for name in plain} | {system.rate(c.name).name: f"{c.name}_dot" for c in scene.free}
+        wanted |= {system.acceleration(c.name).name: f"{c.name}_ddot" for c in scene.free}
+        wanted |= {symbol.name: symbol.name for symbol in system.multipliers}
         self._known = {**_distinct(wanted), system.t.name: "t"}
         self._printer = NumPyPrinter({"fully_qualified_modules": False})
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 from typing import Any
@@ -64,8 +64,21 @@ def _read(document: Mapping[str, object]) -> _Told:
     asked = read(DerivationRequest, document)
     system = System(changed_scene(asked))
     steps = chapters(system, asked.formulation, canonical=asked.canonical)
-    releases = tuple(Release.of(system, name, f"/release/{i}") for i, name in enumerate(dict.fromkeys(asked.release)))
-    return _Told(system, asked.formulation, language_of(asked.lang), steps, releases)
+    return _Told(system, asked.formulation, language_of(asked.lang), steps, releases_of(system, asked.release))
+
+
+def releases_of(system: System, names: Sequence[str]) -> tuple[Release, ...]:
+    """What a request wants released, each once. Raises UnknownNameError at the place of what nothing holds."""
+    return tuple(Release.of(system, name, f"/release/{i}") for i, name in enumerate(dict.fromkeys(names)))
+
+
+def chapters_of_reactions(releases: Sequence[Release], formulation: str, language: str) -> list[dict[str, Any]]:
+    """What holds each of them, in one chapter, each in its wider scene's symbols; no chapter where there are none."""
+    derived = ((each, Derivation(formulation, (reactions(each),))) for each in releases)
+    told: list[dict[str, Any]] = [
+        chapter for each, found in derived for chapter in narrator_of(each.wider, language).chapters(found)
+    ]
+    return [{**told[0], "steps": [step for chapter in told for step in chapter["steps"]]}] if told else []
 
 
 @dataclass
@@ -89,13 +102,8 @@ class _Told:
         self._tell(tuple(islice(self.steps, chapters_of_equations(self.formulation))))
 
     def tell_reactions(self) -> None:
-        """Tells what holds the released lengths and coordinates in one chapter, each in its wider scene's symbols."""
-        told = [chapter for each in self.releases for chapter in self._of_release(each)]
-        if told:
-            self.chapters.append({**told[0], "steps": [step for chapter in told for step in chapter["steps"]]})
-
-    def _of_release(self, release: Release) -> list[dict[str, Any]]:
-        return narrator_of(release.wider, self.language).chapters(Derivation(self.formulation, (reactions(release),)))
+        """Tells what holds the released lengths and coordinates."""
+        self.chapters += chapters_of_reactions(self.releases, self.formulation, self.language)
 
     def equations(self) -> Document:
         """These chapters and their results; those of the last one are empty."""

@@ -78,17 +78,7 @@ export function createLook({ root, parts: { plots }, state, clock, session }) {
     const key = name instanceof HTMLElement ? name.dataset.curve : null;
     if (!key) return;
     look(toggled(now(), key));
-    refocus = key;
   });
-
-  /** Names are written anew with each drawing: the one that was pressed keeps the focus. */
-  let refocus = "";
-  function fit() {
-    if (!refocus) return;
-    const name = area.querySelector(`.legend [data-curve="${CSS.escape(refocus)}"]`);
-    if (name instanceof HTMLElement && document.activeElement === document.body) name.focus();
-    refocus = "";
-  }
 
   /** @param {View} view */
   function menu({ state: { scene, place }, session, t }) {
@@ -123,5 +113,5 @@ export function createLook({ root, parts: { plots }, state, clock, session }) {
         </div>
       </details>`;
   }
-  return { menu, fit };
+  return { menu };
 }

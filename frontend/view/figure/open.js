@@ -67,7 +67,7 @@ export function open(around) {
   const energies = createEnergies(bench);
   const paths = createPaths(bench, layerIn(around.frame, "paths"));
   const look = createLook(bench);
-  const reading = createReading(bench, look.fit);
+  const reading = createReading(bench);
   void session.need("figure");
   return {
     panel: virtual.panel,

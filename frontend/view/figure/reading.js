@@ -26,8 +26,8 @@ function writerOf({ curves }, lang) {
 /** Room for the widest of a curve's numbers. @param {Curve} curve @param {(value: number) => string} write */
 const roomFor = ({ values }, write) => Math.max(...values.map((value) => write(value).length));
 
-/** @param {import("./open.js").Bench} bench @param {() => void} fitted  called when the names have been written anew */
-export function createReading({ root, parts: { plots }, state, clock }, fitted) {
+/** @param {import("./open.js").Bench} bench */
+export function createReading({ root, parts: { plots }, state, clock }) {
   const area = /** @type {HTMLElement} */ (root.querySelector(".plots"));
   const layer = document.createElement("div");
   layer.className = "spots";
@@ -61,7 +61,7 @@ export function createReading({ root, parts: { plots }, state, clock }, fitted) 
     };
   }
 
-  /** Slots beside the names that have just been written. */
+  /** Slots beside the names, anew with each drawing. */
   function fit() {
     const { drawn } = plots;
     if (!drawn) return;
@@ -113,10 +113,7 @@ export function createReading({ root, parts: { plots }, state, clock }, fitted) 
     pointed = null;
     move();
   });
-  plots.listen(() => {
-    fit();
-    fitted();
-  });
+  plots.listen(fit);
   return {
     move() {
       if (pointed === null) move();

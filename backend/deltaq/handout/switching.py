@@ -1,0 +1,205 @@
+"""A program's motion that goes on behind events: impacts, resting contacts, sticking and slipping.
+
+What sticks or rests is a row a·q̇ + … = 0 held by a reaction λ; M q̈ = f + aᵀ λ with a·q̈ + γ = 0 for the rows held. The
+program integrates from event to event and decides behind each which rows are held, as long as friction is enough and a
+contact pushes.
+Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from ..derivation.calculus import column
+from ..derivation.matrix_form import forcing
+from ..derivation.system import System
+from ..language.derivatives import diff
+from ..mechanics.contributions import Friction
+from .words import Words
+
+SWITCHING = """\
+FRICTIONS = {frictions}  # rows of `rows` that stick or slip; those behind them are contacts
+
+
+def rows(t, q, v):  # a, w and gamma of what may be held: d/dt w = a v' + gamma
+    {unpack_values}
+    {unpack_rates}
+    rates, biases = np.array({row_rates}, dtype=float), np.array({row_biases}, dtype=float)
+    return np.array({row_matrix}, dtype=float).reshape(-1, len(VALUES)), rates, biases
+
+
+def friction(t, q, v):  # what opposes slipping, and the most that holds what sticks
+    {unpack_values}
+    {unpack_rates}
+    return np.array({friction}, dtype=float).reshape(-1, 2).T
+
+
+def contacts(t, q, v):  # gaps, and the coefficients of restitution
+    {unpack_values}
+    {unpack_rates}
+    return np.array({contacts}, dtype=float).reshape(-1, 2).T
+
+
+def accelerations_and_reactions(t, q, v, slips, held):
+    a, _, gamma = rows(t, q, v)
+    slipping = np.where(held[:FRICTIONS], 0.0, slips * friction(t, q, v)[0])
+    loads = forcing(t, q, v) - a[:FRICTIONS].T @ slipping
+    kept, reactions = a[held], np.zeros(len(a))
+    whole = np.block([[mass_matrix(t, q), -kept.T], [kept, np.zeros((len(kept), len(kept)))]])
+    found = np.linalg.solve(whole, np.concatenate([loads, -gamma[held]]))
+    reactions[held] = found[len(q) :]
+    return found[: len(q)], reactions
+
+
+def watched(t, q, v, slips, held):  # positive as long as everything goes on as it is
+    reactions = accelerations_and_reactions(t, q, v, slips, held)[1]
+    sticks, rests = held[:FRICTIONS], held[FRICTIONS:]
+    enough = friction(t, q, v)[1] - abs(reactions[:FRICTIONS])
+    slipping = np.where(sticks, enough, slips * rows(t, q, v)[1][:FRICTIONS])
+    return np.concatenate([slipping, np.where(rests, reactions[FRICTIONS:], contacts(t, q, v)[0])])
+
+
+def pushed(t, q, v, row, change):  # behind an impulse that changes w by so much
+    a = rows(t, q, v)[0][row]
+    moved = np.linalg.solve(mass_matrix(t, q), a)
+    return v + moved * change / (a @ moved)
+
+
+def behind_impacts(t, q, v, slips, held):  # of all contacts that touch and close, one after the other
+    free = np.zeros_like(held)
+    for _ in range(1000):
+        gaps, restitutions = contacts(t, q, v)
+        a, w, gamma = rows(t, q, v)
+        closing = np.where(gaps < 1e-11, w[FRICTIONS:], 0.0)
+        contact = int(np.argmin(closing))
+        if closing[contact] > -1e-12:
+            return v
+        row = FRICTIONS + contact
+        rebound = restitutions[contact] * closing[contact]
+        pull = -(a[row] @ accelerations_and_reactions(t, q, v, slips, free)[0] + gamma[row])
+        if pull > 0.0 and rebound**2 < 2e-12 * pull:  # too low to be told from rest
+            rebound = 0.0
+        v = pushed(t, q, v, row, -closing[contact] - rebound)
+    raise SystemExit("Several contacts at once, whose impacts do not end")
+
+
+def settled(t, q, v, slips, held, event):  # how it goes on behind an event, None at the start
+    slips, loose = slips.copy(), None
+    if event is not None and held[event]:
+        loose = event
+        if event < FRICTIONS:
+            slips[event] = -np.sign(accelerations_and_reactions(t, q, v, slips, held)[1][event])
+    elif event is not None and event < FRICTIONS:
+        v = pushed(t, q, v, event, -rows(t, q, v)[1][event])
+    if len(held) > FRICTIONS and (event is None or event >= FRICTIONS and loose is None):
+        v = behind_impacts(t, q, v, slips, held)
+    w = rows(t, q, v)[1]
+    still = abs(w) < 1e-11
+    slips = np.where(abs(w[:FRICTIONS]) > 1e-13, np.sign(w[:FRICTIONS]), slips)
+    held = still & np.concatenate([np.ones(FRICTIONS, dtype=bool), contacts(t, q, v)[0] < 1e-11])
+    if loose is not None:
+        held[loose] = False
+    while held.any():
+        reactions = accelerations_and_reactions(t, q, v, slips, held)[1]
+        enough = np.concatenate([friction(t, q, v)[1] - abs(reactions[:FRICTIONS]), reactions[FRICTIONS:]])
+        lost = np.flatnonzero(held & (enough <= 0.0))
+        if not lost.size:
+            break
+        held[lost[0]] = False
+        if lost[0] < FRICTIONS:
+            slips[lost[0]] = -np.sign(reactions[lost[0]])
+    return v, slips, held
+
+
+def solve(t_end=T_END, samples=SAMPLES):
+    times = np.linspace(0.0, t_end, samples)
+    t, q, v, states = 0.0, np.array(VALUES), np.array(RATES), []
+    slips, held = np.ones(FRICTIONS), np.zeros(len(rows(t, q, v)[1]), dtype=bool)
+    v, slips, held = settled(t, q, v, slips, held, None)
+    for _ in range(10_000):
+        room = np.maximum(1e-13 - watched(t, q, v, slips, held), 0.0)  # what has just happened does not happen again
+
+        def right_hand_side(t, state):
+            q, v = np.split(state, 2)
+            return np.concatenate([v, accelerations_and_reactions(t, q, v, slips, held)[0]])
+
+        def falling(k):
+            def value(t, state):
+                return watched(t, *np.split(state, 2), slips, held)[k] + room[k]
+
+            value.terminal, value.direction = True, -1
+            return value
+
+        found = solve_ivp(
+            right_hand_side,
+            (t, t_end),
+            np.concatenate([q, v]),
+            method="DOP853",
+            t_eval=times[len(states) :],
+            rtol=1e-11,
+            atol=1e-12,
+            events=[{ending}*map(falling, range(len(held)))],
+        )
+        if not found.success:
+            raise SystemExit(found.message)
+        states.extend(np.transpose(found.y))
+        event = next((k for k, instants in enumerate(found.t_events) if len(instants)), None)
+        if found.status == 0 or event < {endings}:
+            break
+        t, (q, v) = found.t_events[event][0], np.split(found.y_events[event][0], 2)
+        v, slips, held = settled(t, q, v, slips, held, event - {endings})
+    else:
+        raise SystemExit("There are 10,000 events, and more to come")
+    states = np.array(states).T
+    return times[: states.shape[1]], states[: len(VALUES)], states[len(VALUES) :]
+
+
+"""
+
+
+def switches(system: System) -> bool:
+    """Whether motions of the scene go on behind impacts, or stick and slip."""
+    return any(event.bounces for event in system.scene.events) or bool(frictions(system))
+
+
+def frictions(system: System) -> tuple[Friction, ...]:
+    """Dry friction on coordinates that are free."""
+    found = (part for part in system.scene.contributions if isinstance(part, Friction))
+    return tuple(part for part in found if any(system.slip_rate(part).has(system.rate(q)) for q in system.free))
+
+
+def smooth_forcing(system: System) -> sp.ImmutableMatrix:
+    """f of M q̈ = f without dry friction."""
+    found, rates = forcing(system), [system.slip_rate(part) for part in frictions(system)]
+    rough = [each for each in found.atoms(sp.sign) if any(_same(each.args[0], rate) for rate in rates)]
+    return found.xreplace(dict.fromkeys(rough, system.zero))
+
+
+def _same(one: sp.Expr, other: sp.Expr) -> bool:
+    """Whether they are the same up to the sign."""
+    return bool(sp.expand(one - other) == 0 or sp.expand(one + other) == 0)
+
+
+def dynamics(system: System, words: Words, content: Mapping[str, str], ending: str) -> str:
+    """How the program moves such a scene. `ending`: names of the events that end it, each with a comma behind."""
+    rubbing, bouncing = frictions(system), [event for event in system.scene.events if event.bounces]
+    gaps = [system.guided(system.expression(event.value.tree)) for event in bouncing]
+    rates = [*map(system.slip_rate, rubbing), *map(system.time_derivative, gaps)]
+    slopes = [[diff(rate, system.rate(q)) for q in system.free] for rate in rates]
+    still = {system.acceleration(q): system.zero for q in system.free}
+    biases = [system.time_derivative(rate).xreplace(still) for rate in rates]
+    forces = [[system.guided(system.expression(tree)) for tree in (part.force, part.static)] for part in rubbing]
+    restitutions = [system.expression(event.restitution.tree) for event in bouncing if event.restitution]
+    parts = {
+        "frictions": str(len(rubbing)),
+        "row_matrix": words.matrix(sp.ImmutableMatrix(slopes)),
+        "row_rates": words.vector(column(rates)),
+        "row_biases": words.vector(column(biases)),
+        "friction": words.matrix(sp.ImmutableMatrix(forces)) if forces else "[]",
+        "contacts": words.matrix(sp.ImmutableMatrix([*zip(gaps, restitutions, strict=True)])) if gaps else "[]",
+        "ending": ending,
+        "endings": str(ending.count(",")),
+    }
+    return SWITCHING.format(**content, **parts)
