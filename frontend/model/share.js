@@ -47,12 +47,12 @@ export function pathOf({ size, get }) {
  */
 export function createExports(send, { get, set }) {
   return async (/** @type {typeof FORMS[number]} */ form) => {
-    const { scene, initial, parameters, t_end, lang } = requestOf(get(), get().changes, "");
+    const { scene, initial, parameters, release, t_end, lang } = requestOf(get(), get().changes, "");
     const { formulation } = get().place;
     const fail = (/** @type {import("./types.js").Failure | null} */ failure) =>
       set({ failures: { ...get().failures, export: failure } });
     try {
-      const file = await exported(send, form, { scene, initial, parameters, t_end, lang, formulation });
+      const file = await exported(send, form, { scene, initial, parameters, release, t_end, lang, formulation });
       fail(null);
       return file;
     } catch (error) {

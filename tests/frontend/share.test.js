@@ -40,6 +40,13 @@ test("a file has the name the server gives it; a failure is kept until the next 
   assert.equal(store.get().failures.export, null);
 });
 
+test("a file tells what holds the released, as the page does", async () => {
+  const bodies = /** @type {any[]} */ ([]);
+  const send = async (/** @type {any} */ _, /** @type {any} */ options) => (bodies.push(JSON.parse(options.body)), new Response("text"));
+  await createExports(/** @type {any} */ (send), createStore({ ...START, place: { ...place, release: "l" } }))("markdown");
+  assert.deepEqual(bodies[0].release, ["l"]);
+});
+
 test("a server that is not there is a failure, too", async () => {
   const store = createStore({ ...START, place });
   const gone = createExports(/** @type {any} */ (async () => { throw new TypeError("no network"); }), store);
