@@ -11,12 +11,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
+import symengine as se
+
 from ..mechanics.conditions import Condition
 from ..mechanics.scene import Scene
 from .functions import Expr
 from .kinetic import ZERO, Vector
 from .symbols import Symbols
 from .symengine_algebra import to_symengine
+
+HALF = se.Rational(1, 2)
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,9 @@ def constraint_equations(scene: Scene, symbols: Symbols, guided: Callable[[Vecto
         return NONE
     holonomic = [each for each in conditions if each[1].is_holonomic]
     ordered = [*holonomic, *(each for each in conditions if not each[1].is_holonomic)]
-    values = guided(tuple(to_symengine(condition.value, symbols) for _, condition in ordered))
+    lengths = tuple(symbols.values[each.name] for each in scene.parameters if each.positive)
+    written = (to_symengine(condition.value, symbols) for _, condition in ordered)
+    values = guided(tuple(_without_root(value, lengths) for value in written))
     slips = tuple(_slip(condition, value, symbols) for (_, condition), value in zip(ordered, values, strict=True))
     places = tuple(place for place, _ in ordered)
     rates = tuple(symbols.rates[name] for name in symbols.free)
@@ -65,6 +71,20 @@ def constraint_equations(scene: Scene, symbols: Symbols, guided: Callable[[Vecto
         tuple(-_along(slip, symbols) for slip in slips),
         tuple(slip.subs(at_rest) for slip in slips),
     )
+
+
+def _without_root(value: Expr, lengths: Vector) -> Expr:
+    """±(s − √D) of a positive s as ±(s² − D)/(2s), which is zero where that is, with the same derivatives there.
+
+    So λ is the same, and no fractional powers are to be computed.
+    """
+    signs = {s: sign for s in lengths for sign in (1, -1) if sign * s in value.args}
+    if not isinstance(value, se.Add) or len(value.args) != 2 or len(signs) != 1:
+        return value
+    ((s, sign),) = signs.items()
+    root = next(-sign * each for each in value.args if each != sign * s)
+    is_root = isinstance(root, se.Pow) and root.args[1] == HALF
+    return sign * (s * s - root.args[0]) / (2 * s) if is_root else value
 
 
 def _slip(condition: Condition, value: Expr, symbols: Symbols) -> Expr:

@@ -9,12 +9,13 @@ from functools import cached_property, lru_cache
 import symengine as se
 
 from ..mechanics.scene import Scene
-from .compiled import THOROUGH, Compiled, Floats, compile_expressions
+from .compiled import QUICK, THOROUGH, Compiled, Floats, compile_expressions
 from .constraints import ConstraintEquations
 from .disturbance import disturbed
 from .equations import Equations, equations
 from .functions import Expr
 from .phase import PhaseSpace, phase_space
+from .solved import CompiledSolution, compiled_solution
 from .symbols import Symbols
 from .tape import Tape, tape_of
 
@@ -99,6 +100,18 @@ class Model:
         """The same as `motion`, in machine code whose compilation pays in long runs; made when first asked for."""
         eqs = self._equations
         return compile_expressions(eqs.symbols.inputs, of_motion(eqs), THOROUGH)
+
+    def solution(self, *, is_long: bool) -> CompiledSolution | None:
+        """Where there are constraints, the motion solved for in symbols, in code as `motion` or as `thorough`."""
+        return self._thorough_solution if is_long else self._quick_solution
+
+    @cached_property
+    def _quick_solution(self) -> CompiledSolution | None:
+        return compiled_solution(self._equations, QUICK)
+
+    @cached_property
+    def _thorough_solution(self) -> CompiledSolution | None:
+        return compiled_solution(self._equations, THOROUGH)
 
     @cached_property
     def disturbed(self) -> Model:

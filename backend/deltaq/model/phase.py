@@ -11,12 +11,13 @@ Unlike q̇, the momentum p makes the flow of a conservative scene symplectic, al
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from random import Random
 
 from .compiled import THOROUGH, Compiled, compile_expressions
 from .equations import Equations
 from .functions import Expr
+from .solved import solved
 
 POINTS, NEGLIGIBLE = 3, 1e-13
 
@@ -26,10 +27,12 @@ class PhaseSpace:
     """The lower triangle of M (row by row), p and ṗ as machine code, of the inputs of `Model`.
 
     `is_separable`: M is constant and ṗ depends on q and t alone, so that positions and momenta can be advanced in turn.
+    `held`, where constraints are solved for in symbols, has their reactions in ṗ, and then `Solved.signs`.
     """
 
     function: Compiled
     is_separable: bool
+    held: Compiled | None = None
 
 
 def phase_space(eqs: Equations) -> PhaseSpace:
@@ -47,7 +50,13 @@ def phase_space(eqs: Equations) -> PhaseSpace:
         and not any(force.free_symbols & set(rates) for force in eqs.forces)
     )
     forces = eqs.forces if is_separable else tuple(a + b for a, b in zip(bends, eqs.forces, strict=True))
-    return PhaseSpace(compile_expressions(symbols.inputs, [*triangle, *momenta, *forces], THOROUGH), is_separable)
+    found = PhaseSpace(compile_expressions(symbols.inputs, [*triangle, *momenta, *forces], THOROUGH), is_separable)
+    solution = solved(eqs)
+    if solution is None:
+        return found
+    total = (a + b for a, b in zip(forces, solution.reactions, strict=True))
+    held = compile_expressions(symbols.inputs, [*triangle, *momenta, *total, *solution.signs], THOROUGH)
+    return replace(found, held=held)
 
 
 def vanishes(expression: Expr) -> bool:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..errors import Problem as Mistake
 from ..errors import SceneError
 from ..model.model import Model
-from .kernels.ranked import SMALLEST_SHARE
+from .kernels.motion import SMALLEST_SHARE
 from .problem import Floats, Moved, Problem
 from .rounding import short
 

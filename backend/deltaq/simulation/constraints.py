@@ -32,6 +32,7 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, i
     model = problem.model
     n, m = problem.degrees, len(model.layout.multipliers)
     motion = model.thorough if is_long else model.motion
+    solution = model.solution(is_long=is_long) if problem.rank == m else None
     phase = model.phase.function if with_phase else None
     outputs = 0 if phase is None else phase.outputs
     size = kernel.block_size(n, m, motion.inputs, motion.outputs, outputs)
@@ -51,13 +52,29 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, i
     head[kernel.MOTION], head[kernel.MOTION_DATA] = motion.addresses
     if model.gaps is not None:
         head[kernel.GAPS], head[kernel.GAPS_DATA] = model.gaps.addresses
+    if solution is not None:
+        head[kernel.SOLVED], head[kernel.SOLVED_DATA] = solution.motion.addresses
+        head[kernel.CORRECTED], head[kernel.CORRECTED_DATA] = solution.corrections.addresses
     if phase is not None:
         head[kernel.PHASE], head[kernel.PHASE_DATA] = phase.addresses
+        held = model.phase.held if problem.rank == m else None
+        if held is not None:
+            head[kernel.HELD_PHASE], head[kernel.HELD_PHASE_DATA] = held.addresses
     head[kernel.IS_KICKED] = is_kicked
     first = kernel.HEAD + 2 * m
+    head[kernel.HEAD : kernel.HEAD + m] = np.arange(m)
     memory[first + 2 * n + 1 : first + motion.inputs] = problem.parameters
     memory[-1] = 1.0  # the conditioning
     return memory
+
+
+def solved_in(memory: Floats) -> tuple[int, int] | None:
+    """The addresses of the motion solved for in symbols and of its data, where there are any.
+
+    `memory` has shape (size,).
+    """
+    head = _integers(memory)
+    return (int(head[kernel.SOLVED]), int(head[kernel.SOLVED_DATA])) if head[kernel.SOLVED] else None
 
 
 def is_locked(memory: Floats) -> bool:
@@ -80,9 +97,8 @@ def settled(problem: Problem, times: Floats, states: Floats) -> tuple[Floats, Re
     """
     memory, found = block(problem, is_long=problem.model.is_thorough), np.array(states)
     reactions = Reactions(np.zeros((len(times), len(problem.model.layout.multipliers))), np.zeros(len(times)))
-    good = settle_samples(
-        _integers(memory), memory, np.ascontiguousarray(times), found, reactions.multipliers, reactions.gaps
-    )
+    place = memory.ctypes.data
+    good = settle_samples(place, np.ascontiguousarray(times), found, reactions.multipliers, reactions.gaps)
     return found[:good], reactions.first(good)
 
 

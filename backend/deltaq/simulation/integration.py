@@ -8,7 +8,7 @@ from functools import cache, singledispatch
 import numpy as np
 from numpy.typing import NDArray
 
-from .constraints import block
+from .constraints import block, solved_in
 from .kernels.constraints import constrained_motion, constrained_phase
 from .kernels.explicit_runge_kutta import integrate
 from .kernels.implicit_runge_kutta import integrate_implicit
@@ -18,12 +18,13 @@ from .kernels.motion import Motion
 from .kernels.newmark import integrate_newmark
 from .kernels.newmark_step import NewmarkWeights, make_newmark_workspace
 from .kernels.phase import Phase
-from .kernels.projection import constrained_finish
+from .kernels.solved import constrained_finish
 from .kernels.splitting import SplitWeights, integrate_split, make_split_workspace
 from .kernels.stages import ImplicitWeights
 from .kernels.step import Weights, make_workspace
 from .kernels.step_control import Control
 from .kernels.switch import Switch, make_switch
+from .kernels.system import SIGNS
 from .kernels.watch import Watch, make_watch, unwatched
 from .method import Newmark, Partitioned, Row, Scheme, Tableau
 from .problem import Floats, Problem
@@ -116,11 +117,15 @@ def motion_of(problem: Problem, *, is_long: bool = True, is_kicked: bool = False
     inputs = np.zeros(motion.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
     powered, outputs = problem.model.layout.is_powered, np.zeros(motion.outputs)
-    finish, memory = 0, np.zeros(1)
-    if problem.is_constrained:
-        memory = block(problem, is_long=is_long, is_kicked=is_kicked)
-        address, data, finish = constrained_motion.address, memory.ctypes.data, constrained_finish.address
-    return Motion(address, data, problem.degrees, powered, inputs, outputs, np.ones(1), finish, memory)
+    found = Motion(address, data, problem.degrees, powered, inputs, outputs, np.ones(1), 0, 0, 0, np.zeros(1))
+    if not problem.is_constrained:
+        return found
+    memory = block(problem, is_long=is_long, is_kicked=is_kicked)
+    general, place = constrained_motion.address, memory.ctypes.data
+    address, data = solved_in(memory) or (general, place)
+    return found._replace(
+        address=address, data=data, general=general, finish=constrained_finish.address, block=place, memory=memory
+    )
 
 
 def watch_of(problem: Problem, flag: Flag) -> Watch:
@@ -149,7 +154,8 @@ def phase_of(problem: Problem) -> Phase:
     if not problem.is_constrained:
         return found
     memory = block(problem, with_phase=True)
-    return found._replace(address=constrained_phase.address, data=memory.ctypes.data, memory=memory)
+    outputs = np.zeros(found.outputs.size + SIGNS)
+    return found._replace(address=constrained_phase.address, data=memory.ctypes.data, outputs=outputs, memory=memory)
 
 
 def free_phase_of(problem: Problem) -> Phase:
@@ -173,6 +179,7 @@ def explicit_weights(tableau: Tableau) -> Weights:
         _matrix(tableau.dense, stages + 1 + extra),
         _matrix(tableau.extra_a, stages + 1 + extra),
         floats(tableau.extra_c),
+        int(any(len(row) > stages and row[stages] for row in tableau.error)),
     )
 
 

@@ -147,7 +147,7 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
     reactions = None
     if problem.is_constrained:
         memory = arguments.motion.memory
-        result, conditioning = _told_apart(result, memory), pivot_of(memory)
+        result, conditioning = _told_apart(result, memory), min(conditioning, pivot_of(memory))
     if problem.reactions:
         out, reactions = reactions_at(problem, times[:good], out[:good])
         good = len(out)

@@ -11,12 +11,14 @@ import numpy as np
 from numba import types
 
 from .compiler import callback, inline, kernel
-from .motion import FINE, LOCKED, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, solve
+from .motion import FINE, LOCKED, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, holds, solve
 from .pointer import call, doubles_at, prevent_vectorization
 from .ranked import factor_ranked, solve_ranked
 from .system import (
     COUNT,
     DEGREES,
+    HELD_PHASE,
+    HELD_PHASE_DATA,
     LOCKS,
     MOTION,
     MOTION_DATA,
@@ -24,6 +26,7 @@ from .system import (
     PHASE_DATA,
     POWERED,
     RANK,
+    SIGNS,
     System,
     block_at,
     place_of_rows,
@@ -192,12 +195,18 @@ def phase_as_free(system: System, out: Floats) -> None:
 
 @callback(types.void(types.int64, types.int64, types.int64))
 def constrained_motion(out: int, given: int, data: int) -> None:
-    """`as_free` as a compiled model: its address stands for that of a model without constraints."""
+    """`as_free` as a compiled model: its address stands for that of a model without constraints.
+
+    There is room for A, γ and b behind what is written; the signs of a solution stand there.
+    """
     prevent_vectorization()
     system = block_at(data)
-    n = system.head[DEGREES]
+    signs = place_of_rows(system)
+    outputs = doubles_at(out, signs + SIGNS)
     take_inputs(system, given)
-    as_free(system, doubles_at(out, n * (n + 1) // 2 + n + (n + 1 if system.head[POWERED] else 0)))
+    as_free(system, outputs)
+    for k in range(SIGNS):
+        outputs[signs + k] = 1.0
 
 
 @callback(types.void(types.int64, types.int64, types.int64))
@@ -205,5 +214,11 @@ def constrained_phase(out: int, given: int, data: int) -> None:
     """`phase_as_free` as a compiled function of phase space."""
     system = block_at(data)
     n = system.head[DEGREES]
+    signs = n * (n + 1) // 2 + 2 * n
+    outputs = doubles_at(out, signs + SIGNS)
+    if system.head[HELD_PHASE] != 0:
+        call(system.head[HELD_PHASE], system.head[HELD_PHASE_DATA], outputs, doubles_at(given, 2 * n + 1))
+        if holds(outputs, signs - n, n, signs):
+            return
     take_inputs(system, given)
-    phase_as_free(system, doubles_at(out, n * (n + 1) // 2 + 2 * n))
+    phase_as_free(system, outputs)

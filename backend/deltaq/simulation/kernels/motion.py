@@ -20,6 +20,7 @@ MANY_EVENTS, UNSETTLED = 12, 13  # of runs that go on behind events
 ROUNDING = 2.3e-16  # of a number in double precision, relative to it
 # A pivot smaller than this part of what it is left of is rounding error: M has no inverse there.
 SMALLEST_PIVOT = 1e-14
+SMALLEST_SHARE = 1e-11  # of a scaled pivot of AM⁻¹Aᵀ; a constraint that has less depends on the others
 
 
 class Motion(NamedTuple):
@@ -30,8 +31,10 @@ class Motion(NamedTuple):
     shape (1,), keeps the smallest ratio of a pivot to the diagonal entry of M that it is left of. No change of units
     changes that ratio; its inverse is about the condition of M scaled to a unit diagonal.
 
-    Of a model with constraints the function is made around the compiled one (see `constraints`). Then `finish` is the
-    address of what projects the end of a step, else 0, and `memory`, shape (size,), keeps what both read and write.
+    Of a model with constraints the function gives M = 1, f = q̈ and behind P and p₁ the signs of a solution in symbols
+    (see `model.solved`). Where these say that it does not hold, `general` is the address of a function made around the
+    model (see `constraints`), `finish` that of what projects the end of a step, else both are 0; `memory`, shape
+    (size,), at the address `block`, keeps what these read and write.
     """
 
     address: int
@@ -41,8 +44,24 @@ class Motion(NamedTuple):
     inputs: Floats
     outputs: Floats
     conditioning: Floats
+    general: int
     finish: int
+    block: int
     memory: Floats
+
+
+@inline
+def holds(out: Floats, first: int, count: int, signs: int) -> bool:
+    """Whether a solution in symbols is one: by its signs, and by whether `count` of its numbers are finite.
+
+    `out` has shape (≥ signs + 3,).
+    """
+    if not (out[signs] > SMALLEST_PIVOT and out[signs + 1] > SMALLEST_SHARE and out[signs + 2] > 0.0):
+        return False
+    total = 0.0
+    for i in range(first, first + count):
+        total += abs(out[i])
+    return bool(total < np.inf)
 
 
 @inline
@@ -128,6 +147,28 @@ def solve_large(m: Floats, n: int, out: Floats) -> float:
 
 
 @inline
+def evaluate(motion: Motion) -> float:
+    """M and f at what stands in the inputs; of a model with constraints the smallest ratio of a pivot, else 1."""
+    call(motion.address, motion.data, motion.outputs, motion.inputs)
+    if motion.finish == 0:
+        return 1.0
+    n, outputs = motion.degrees, motion.outputs
+    force = n * (n + 1) // 2
+    signs = force + n + (n + 1 if motion.is_powered else 0)
+    if not holds(outputs, force, n, signs):
+        call(motion.general, motion.block, outputs, motion.inputs)
+        return float(outputs[0])
+    return float(min(outputs[signs], outputs[signs + 1]))
+
+
+@inline
+def take_solved(m: Floats, n: int, out: Floats) -> None:
+    """q̈ behind q̇ into `out`, shape (≥ 2n,), where M = 1 and f is q̈; `m` has shape (n (n + 1)/2 + n,)."""
+    for i in range(n):
+        out[n + i] = m[n * (n + 1) // 2 + i]
+
+
+@inline
 def rhs(motion: Motion, t: float, state: Floats, out: Floats) -> int:
     """The right-hand side: d/dt of (q, q̇, ∫P dt), with q̈ from M q̈ = f; returns FINE, SINGULAR or NOT_FINITE.
 
@@ -145,8 +186,11 @@ def rhs_at_inputs(motion: Motion, t: float, out: Floats) -> int:
     prevent_vectorization()
     n, inputs, outputs = motion.degrees, motion.inputs, motion.outputs
     inputs[2 * n] = t
-    call(motion.address, motion.data, outputs, inputs)
-    ratio = solve_small(outputs, n, motion.conditioning[0], out) if n <= 2 else solve_large(outputs, n, out)
+    ratio = evaluate(motion)
+    if motion.finish != 0:
+        take_solved(outputs, n, out)
+    else:
+        ratio = solve_small(outputs, n, motion.conditioning[0], out) if n <= 2 else solve_large(outputs, n, out)
     if not ratio > SMALLEST_PIVOT:
         return NOT_FINITE if np.isnan(ratio) else SINGULAR
     motion.conditioning[0] = min(motion.conditioning[0], ratio)
@@ -171,4 +215,4 @@ def finish_constrained(
     """
     if motion.finish == 0:
         return FINE
-    return int(call_finish(motion.finish, motion.data, t, h, old, new, old_derivative, new_derivative))
+    return int(call_finish(motion.finish, motion.block, t, h, old, new, old_derivative, new_derivative))

@@ -9,9 +9,19 @@ import numpy as np
 from .compiler import inline
 from .hermite import Ends, make_ends
 from .linear import Indices, decompose, substitute
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, TOO_LARGE, Floats, Motion, finish_constrained, rhs
+from .motion import (
+    FINE,
+    NEWTON_FAILED,
+    NOT_FINITE,
+    ROUNDING,
+    TOO_LARGE,
+    Floats,
+    Motion,
+    evaluate,
+    finish_constrained,
+    rhs,
+)
 from .phase import NUDGE
-from .pointer import call
 from .step import LARGEST_VALUE
 
 MOST_ITERATIONS = 50
@@ -70,7 +80,7 @@ def equation_residual(motion: Motion, t: float, workspace: NewmarkWorkspace, out
     for i in range(2 * n):
         motion.inputs[i] = workspace.ends.new[i]
     motion.inputs[2 * n] = t
-    call(motion.address, motion.data, motion.outputs, motion.inputs)
+    evaluate(motion)
     for i in range(n):
         out[i] = motion.outputs[n * (n + 1) // 2 + i]
         for j in range(n):

@@ -7,13 +7,11 @@ Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., VII
 from __future__ import annotations
 
 import numpy as np
-from numba import types
 
-from .compiler import callback, inline, kernel
+from .compiler import inline, kernel
 from .constraints import accelerate, power_of, respond, weigh
-from .linear import Indices
 from .motion import FINE, LOCKED, NEWTON_FAILED, NOT_FINITE, Floats
-from .pointer import call, doubles_at, prevent_vectorization
+from .pointer import call, prevent_vectorization
 from .ranked import determinant, factor_ranked, solve_ranked
 from .system import (
     COUNT,
@@ -29,7 +27,6 @@ from .system import (
     RANK,
     System,
     block_at,
-    open_system,
     place_of_rows,
 )
 
@@ -120,11 +117,11 @@ def turning(system: System) -> float:
             total, a, b = 0.0, system.order[k], system.order[j]
             for i in range(n):
                 total += system.before[a * n + i] * system.responses[b * n + i]
-            minor[k * rank + j] = total * system.scales[a] * system.scales[b]
+            minor[k * rank + j] = total
     return determinant(minor, rank)
 
 
-@kernel
+@inline
 def keep_rows(system: System) -> None:
     """A, as it stands in the outputs, becomes that `before` the next step."""
     size, rows = system.head[DEGREES] * system.head[COUNT], place_of_rows(system)
@@ -274,16 +271,14 @@ def finish_step(system: System, t: float, h: float, ends: Ends) -> int:
 
 
 @kernel
-def settle_samples(
-    head: Indices, memory: Floats, times: Floats, states: Floats, multipliers: Floats, gaps: Floats
-) -> int:
+def settle_samples(block: int, times: Floats, states: Floats, multipliers: Floats, gaps: Floats) -> int:
     """Projects all states, and tells λ and how far g is from 0 there; returns how many are good.
 
     `times` has shape (samples,), `states`, shape (samples, ≥ 2n), `multipliers`, shape (samples, m), and `gaps`, shape
-    (samples,), are written; `head` and `memory` are the block, shape (size,).
+    (samples,), are written; `block` is the address of the memory.
     """
-    system = open_system(head, memory)
-    n, m, holonomic = head[DEGREES], head[COUNT], head[HOLONOMIC]
+    system = block_at(block)
+    n, m, holonomic = system.head[DEGREES], system.head[COUNT], system.head[HOLONOMIC]
     for row in range(times.size):
         take_state(system, times[row], states[row])
         if settle(system, 0.0) != FINE:
@@ -297,15 +292,3 @@ def settle_samples(
         for k in range(holonomic):
             gaps[row] = max(gaps[row], abs(system.gaps[k]))
     return times.size
-
-
-@callback(types.int64(types.int64, types.float64, types.float64, types.int64, types.int64, types.int64, types.int64))
-def constrained_finish(
-    data: int, t: float, h: float, old: int, new: int, old_derivative: int, new_derivative: int
-) -> int:
-    """`finish_step` for stepping loops, which know its address alone."""
-    system = block_at(data)
-    width = 2 * system.head[DEGREES] + system.head[POWERED]
-    ends = doubles_at(old, width), doubles_at(new, width)
-    slopes = doubles_at(old_derivative, width), doubles_at(new_derivative, width)
-    return finish_step(system, t, h, (ends[0], ends[1], slopes[0], slopes[1]))

@@ -9,9 +9,7 @@ import numpy as np
 
 from .compiler import inline
 from .linear import Indices
-from .motion import Floats
-
-SMALLEST_SHARE = 1e-11  # of a scaled pivot; what has less depends on the rest
+from .motion import SMALLEST_SHARE, Floats
 
 
 @inline
@@ -93,6 +91,8 @@ def solve_ranked(share: Floats, order: Indices, count: int, rank: int, scales: F
 @inline
 def determinant(a: Floats, n: int) -> float:
     """The determinant of a matrix by rows, shape (≥ n²,), which is overwritten."""
+    if n == 2:
+        return float(a[0] * a[3] - a[1] * a[2])
     found = 1.0
     for k in range(n):
         best = k

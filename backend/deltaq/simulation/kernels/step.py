@@ -18,7 +18,7 @@ class Weights(NamedTuple):
 
     `a` has shape (s − 1, s), `b` shape (s,), `c` shape (s − 1,), `error` shape (estimates, s + 1). Of the continuous
     extension with e further stages, `dense` has shape (terms, s + 1 + e), `extra_a` shape (e, s + 1 + e), `extra_c`
-    (e,).
+    (e,). `reads_end`: whether the error depends on the derivative at the end of the step.
     """
 
     a: Floats
@@ -28,6 +28,7 @@ class Weights(NamedTuple):
     dense: Floats
     extra_a: Floats
     extra_c: Floats
+    reads_end: int
 
 
 class Workspace(NamedTuple):
@@ -109,11 +110,14 @@ def advance(b: Floats, h: float, workspace: Workspace) -> int:
 
 @inline
 def attempt(motion: Motion, weights: Weights, t: float, h: float, workspace: Workspace) -> int:
-    """All stages of one step, the new state and the derivative there; returns the outcome."""
+    """All stages of one step, the new state and the derivative there; returns the outcome.
+
+    Where the new state will be projected, its derivative is computed then, and here only if the error depends on it.
+    """
     outcome = stages(motion, weights.a, weights.c, runtime_int(1), t, h, workspace)
     if outcome == FINE:
         outcome = advance(weights.b, h, workspace)
-    if outcome == FINE:
+    if outcome == FINE and (motion.finish == 0 or weights.reads_end != 0):
         outcome = rhs(motion, t + h, workspace.new, workspace.derivatives[weights.b.size])
     return outcome
 

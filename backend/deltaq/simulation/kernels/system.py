@@ -14,19 +14,12 @@ from .pointer import doubles_at, integers_at
 
 # The integers that a block begins with.
 SIZE, DEGREES, COUNT, HOLONOMIC, POWERED, RANK, INPUTS, OUTPUTS, PHASE_OUTPUTS = 0, 1, 2, 3, 4, 5, 6, 7, 8
-MOTION, MOTION_DATA, GAPS, GAPS_DATA, PHASE, PHASE_DATA, LOCKS, IS_UNDER_WAY, IS_KICKED, KICKS, HEAD = (
-    9,
-    10,
-    11,
-    12,
-    13,
-    14,
-    15,
-    16,
-    17,
-    18,
-    19,
+MOTION, MOTION_DATA, GAPS, GAPS_DATA, PHASE, PHASE_DATA, LOCKS, IS_UNDER_WAY = 9, 10, 11, 12, 13, 14, 15, 16
+IS_KICKED, KICKS, SOLVED, SOLVED_DATA, CORRECTED, CORRECTED_DATA, HELD_PHASE, HELD_PHASE_DATA, HEAD = (
+    *(17, 18, 19, 20, 21, 22, 23, 24),
+    25,
 )
+SIGNS = 3  # that tell whether a solution in symbols holds
 
 KICKED = -1  # an outcome that ends nothing: the step is to be made again, with other momenta at its start
 
@@ -39,7 +32,8 @@ class System(NamedTuple):
     `scales`, shape (m,), and factored, `order` the order of its rows; `of_gaps` and `gap_order` the same of the
     holonomic ones. `multipliers`, shape (m,), are λ, `bends`, shape (n,), is q̈, `right`, shape (m,), a right side.
     `gaps`, shape (2 m,), are g and w; `before`, shape (m n,), is A where the step began, `minor`, shape (m m,), room
-    for a determinant. `conditioning`, shape (1,), keeps the smallest pivot met, relative to its diagonal entry.
+    for a determinant. `corrections`, shape (2 m n + 2 m + SIGNS,), receives what `Solved.corrections` says.
+    `conditioning`, shape (1,), keeps the smallest pivot met, relative to its diagonal entry.
     """
 
     head: Indices
@@ -58,56 +52,56 @@ class System(NamedTuple):
     gaps: Floats
     before: Floats
     minor: Floats
+    corrections: Floats
     conditioning: Floats
 
 
 @inline
-def open_system(head: Indices, memory: Floats) -> System:
-    """The parts of a block, given as its integers and as its numbers; both have shape (size,)."""
+def block_at(data: int) -> System:
+    """The system whose block is at an address."""
+    head = integers_at(data, HEAD)
     n, m = head[DEGREES], head[COUNT]
-    first = HEAD
-    order, gap_order = head[first : first + m], head[first + m : first + 2 * m]
-    first += 2 * m
-    inputs = memory[first : first + head[INPUTS]]
-    first += head[INPUTS]
-    outputs = memory[first : first + head[OUTPUTS]]
-    first += head[OUTPUTS]
-    phase = memory[first : first + head[PHASE_OUTPUTS]]
-    first += head[PHASE_OUTPUTS]
-    responses, before = memory[first : first + m * n], memory[first + m * n : first + 2 * m * n]
-    first += 2 * m * n
-    square = m * m
-    share, of_gaps = memory[first : first + square], memory[first + square : first + 2 * square]
-    minor = memory[first + 2 * square : first + 3 * square]
-    first += 3 * square
-    scales, multipliers = memory[first : first + m], memory[first + m : first + 2 * m]
-    right, gaps = memory[first + 2 * m : first + 3 * m], memory[first + 3 * m : first + 5 * m]
-    first += 5 * m
-    bends, conditioning = memory[first : first + n], memory[first + n : first + n + 1]
+    order, gap_order = integers_at(data + 8 * HEAD, m), integers_at(data + 8 * (HEAD + m), m)
+    inputs = data + 8 * (HEAD + 2 * m)
+    outputs = inputs + 8 * head[INPUTS]
+    phase = outputs + 8 * head[OUTPUTS]
+    responses = phase + 8 * head[PHASE_OUTPUTS]
+    before = responses + 8 * m * n
+    share = before + 8 * m * n
+    of_gaps = share + 8 * m * m
+    minor = of_gaps + 8 * m * m
+    scales = minor + 8 * m * m
+    multipliers = scales + 8 * m
+    right = multipliers + 8 * m
+    gaps = right + 8 * m
+    bends = gaps + 16 * m
+    corrections = bends + 8 * n
+    size = 2 * m * n + 2 * m + SIGNS
     return System(
         head,
         order,
         gap_order,
-        inputs,
-        outputs,
-        phase,
-        responses,
-        share,
-        of_gaps,
-        scales,
-        multipliers,
-        bends,
-        right,
-        gaps,
-        before,
-        minor,
-        conditioning,
+        doubles_at(inputs, head[INPUTS]),
+        doubles_at(outputs, head[OUTPUTS]),
+        doubles_at(phase, head[PHASE_OUTPUTS]),
+        doubles_at(responses, m * n),
+        doubles_at(share, m * m),
+        doubles_at(of_gaps, m * m),
+        doubles_at(scales, m),
+        doubles_at(multipliers, m),
+        doubles_at(bends, n),
+        doubles_at(right, m),
+        doubles_at(gaps, 2 * m),
+        doubles_at(before, m * n),
+        doubles_at(minor, m * m),
+        doubles_at(corrections, size),
+        doubles_at(corrections + 8 * size, 1),
     )
 
 
 def block_size(n: int, m: int, inputs: int, outputs: int, phase: int) -> int:
     """How many numbers a block takes."""
-    return HEAD + 2 * m + inputs + outputs + phase + 2 * m * n + 3 * m * m + 5 * m + n + 1
+    return HEAD + 2 * m + inputs + outputs + phase + 4 * m * n + 3 * m * m + 7 * m + n + SIGNS + 1
 
 
 @inline
@@ -115,13 +109,6 @@ def place_of_rows(system: System) -> int:
     """Where A begins in the outputs; γ and b follow it."""
     n = system.head[DEGREES]
     return int(n * (n + 1) // 2 + n + (n + 1 if system.head[POWERED] else 0))
-
-
-@inline
-def block_at(data: int) -> System:
-    """The system whose block is at an address."""
-    size = integers_at(data, 1)[SIZE]
-    return open_system(integers_at(data, size), doubles_at(data, size))
 
 
 @inline

@@ -1,0 +1,164 @@
+"""M q̈ = f + Aᵀλ, A q̈ = γ solved in symbols: what is zero in M and A costs nothing in machine code made of that.
+
+M = L D Lᵀ, then S = AM⁻¹Aᵀ in the same way, both without pivoting, for they are positive definite wherever M has an
+inverse and no constraint depends on the others. Whether that is so is told by their pivots.
+Sources: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., VII.1; Golub, Van Loan, Matrix
+Computations, 4th ed., §4.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import symengine as se
+
+from .compiled import Compiled, compile_expressions
+from .constraints import ConstraintEquations
+from .equations import Equations
+from .functions import Expr
+from .kinetic import ZERO, Vector
+
+ONE = se.Integer(1)
+MOST_PRODUCTS = 2000  # of numbers; a model that needs more is solved by loops, whose code is no longer for it
+
+
+@dataclass(frozen=True)
+class Factors:
+    """L D Lᵀ of a symmetric matrix: `lower` is L below its diagonal of ones, `pivots` D, `diagonal` its own."""
+
+    lower: tuple[Vector, ...]
+    pivots: Vector
+    diagonal: Vector
+
+    @classmethod
+    def of(cls, matrix: Sequence[Sequence[Expr]]) -> Factors:
+        """The factors of a matrix given by its rows, of which only the lower triangle is read."""
+        lower: list[list[Expr]] = []
+        pivots: list[Expr] = []
+        for i, entries in enumerate(matrix):
+            scaled: list[Expr] = []  # L times D
+            for j in range(i):
+                scaled.append(entries[j] - _dot(scaled, lower[j]))
+            row = [part / pivot for part, pivot in zip(scaled, pivots, strict=True)]
+            pivots.append(entries[i] - _dot(scaled, row))
+            lower.append(row)
+        diagonal = tuple(row[i] for i, row in enumerate(matrix))
+        return cls(tuple(map(tuple, lower)), tuple(pivots), diagonal)
+
+    def solve(self, right: Sequence[Expr]) -> Vector:
+        """The solution for a right side that has as many entries as there are rows, or as the first of them."""
+        found: list[Expr] = []
+        for row, entry in zip(self.lower, right, strict=False):
+            found.append(entry - _dot(row, found))
+        found = [entry / pivot for entry, pivot in zip(found, self.pivots, strict=False)]
+        for i in reversed(range(len(found))):
+            found[i] = found[i] - _dot([self.lower[k][i] for k in range(i + 1, len(found))], found[i + 1 :])
+        return tuple(found)
+
+    @cached_property
+    def smallest(self) -> Expr:
+        """The smallest pivot relative to the diagonal entry that it is left of; 1 where none has lost anything."""
+        parts = [pivot / own for pivot, own in zip(self.pivots, self.diagonal, strict=True) if pivot != own]
+        return _least([ONE, *parts])
+
+
+@dataclass(frozen=True)
+class Solved:
+    """What a model with constraints does, solved for; `mass` are the factors of M, `share` those of S.
+
+    `responses` are the rows of AM⁻¹.
+    """
+
+    eqs: Equations
+    mass: Factors
+    share: Factors
+    responses: tuple[Vector, ...]
+    multipliers: Vector
+    accelerations: Vector
+
+    @property
+    def _held(self) -> ConstraintEquations:
+        return self.eqs.constraints
+
+    @cached_property
+    def signs(self) -> Vector:
+        """What tells whether all this is so: the smallest relative pivots of M and S, and the smallest of M itself."""
+        return (self.mass.smallest, self.share.smallest, _least(self.mass.pivots))
+
+    @property
+    def motion(self) -> list[Expr]:
+        """What a model without constraints would say that moves alike, M = 1, f = q̈ and P, then `signs`."""
+        n, power = len(self.accelerations), []
+        if self.eqs.is_powered:
+            own = self.eqs.power + _dot(self.eqs.acceleration_power, self.accelerations)
+            power = [own - _dot(self.multipliers, self._held.drives), *[ZERO] * n]
+        identity = [ONE if j == i else ZERO for i in range(n) for j in range(i + 1)]
+        return [*identity, *self.accelerations, *power, *self.signs]
+
+    @property
+    def corrections(self) -> list[Expr]:
+        """A and AM⁻¹ by rows, the multiples of the latter that g and w are off by, then `signs`."""
+        rows = [entry for table in (self._held.jacobian, self.responses) for row in table for entry in row]
+        return [*rows, *self.share.solve(self._held.gaps), *self.share.solve(self._held.slips), *self.signs]
+
+    @property
+    def reactions(self) -> Vector:
+        """Aᵀλ."""
+        columns = zip(*self._held.jacobian, strict=True)
+        return tuple(_dot(column, self.multipliers) for column in columns)
+
+
+@dataclass(frozen=True)
+class CompiledSolution:
+    """`Solved.motion` and `Solved.corrections` as machine code."""
+
+    motion: Compiled
+    corrections: Compiled
+
+
+def solved(eqs: Equations) -> Solved | None:
+    """The solution of a model with constraints; None where it would be too long, or a mass is always zero."""
+    held, matrix = eqs.constraints, eqs.mass_matrix
+    if not held.slips or _products(matrix, len(held.slips)) > MOST_PRODUCTS:
+        return None
+    mass = Factors.of(matrix)
+    if any(pivot == 0 for pivot in mass.pivots):
+        return None
+    responses, free = tuple(mass.solve(row) for row in held.jacobian), mass.solve(eqs.forcing)
+    share = Factors.of([[_dot(row, each) for each in responses] for row in held.jacobian])
+    if any(pivot == 0 for pivot in share.pivots):
+        return None
+    wanted = [bend - _dot(row, free) for bend, row in zip(held.accelerations, held.jacobian, strict=True)]
+    multipliers = share.solve(wanted)
+    added = (_dot(multipliers, column) for column in zip(*responses, strict=True))
+    return Solved(eqs, mass, share, responses, multipliers, tuple(a + b for a, b in zip(free, added, strict=True)))
+
+
+def compiled_solution(eqs: Equations, effort: int) -> CompiledSolution | None:
+    """The solution as machine code, where there is one."""
+    found = solved(eqs)
+    if found is None:
+        return None
+    inputs = eqs.symbols.inputs
+    return CompiledSolution(
+        compile_expressions(inputs, found.motion, effort), compile_expressions(inputs, found.corrections, effort)
+    )
+
+
+def _products(matrix: Sequence[Vector], m: int) -> float:
+    """About how many products the solution takes; few where M is diagonal."""
+    n = len(matrix)
+    is_coupled = any(entry != 0 for i, row in enumerate(matrix) for entry in row[:i])
+    return (n**3 / 6 + m * n**2 if is_coupled else m * n) + m**2 * n / 2 + m**3 / 6
+
+
+def _least(values: Sequence[Expr]) -> Expr:
+    distinct = list(dict.fromkeys(values))
+    return distinct[0] if len(distinct) == 1 else se.Min(*distinct)
+
+
+def _dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
+    """The sum over as many as both have."""
+    return sum((x * y for x, y in zip(a, b, strict=False) if x != 0 and y != 0), ZERO)
