@@ -5961,6 +5961,7 @@ export interface components {
              * @enum {string}
              */
             columns: "numbers" | "base64";
+            /** @description the samples, in seconds; at each of `events` its time twice, with the values before and behind it */
             t: components["schemas"]["Column"];
             /** Coordinates */
             coordinates?: {

@@ -10,8 +10,12 @@ const SAG = 0.1;
 /** Halvings of an interval between two knots: the curve between them is a cubic, of which 2¹⁰ chords see everything. */
 const DEEPEST = 10;
 
+/** The time just before another. @param {number} t */
+const before = (t) => t * (1 - Number.EPSILON);
+
 /**
- * The curve from the first knot to the last. Corners lie closer where it bends more, in pixels: as many as it takes.
+ * The curve from the first knot to the last. A knot that stands twice is a jump: the curve comes to its value before
+ * and goes on from that behind. Corners lie closer where it bends more, in pixels: as many as it takes.
  * @param {(t: number) => Pixel} place @param {readonly number[]} knots  times between which the curve is a single cubic
  * @returns {Trace}
  */
@@ -22,9 +26,10 @@ export function traced(place, knots) {
   let from = place(begin);
   add(trace, begin, from);
   for (let k = 1; k < knots.length; k += 1) {
-    const to = place(knots[k]);
-    bend(trace, place, begin, from, knots[k], to, DEEPEST);
-    [begin, from] = [knots[k], to];
+    const knot = knots[k] === knots[k + 1] ? before(knots[k]) : knots[k];
+    const to = place(knot);
+    bend(trace, place, begin, from, knot, to, DEEPEST);
+    [begin, from] = [knot, to];
   }
   end(trace, begin, from);
   return trace;

@@ -4,6 +4,8 @@
  * Coordinates follow the cubic that has the computed values and rates at both ends of an interval (Hermite), error
  * h⁴ q⁗/384. What comes without its own rate (rates, places, forces, energies) takes as slope at a sample that of the
  * quartic through it and its four nearest neighbours (error of fourth order, too).
+ *
+ * Where a motion jumps or bends (impacts, sticking), a time stands twice, before and behind: no curve runs across.
  */
 
 /** @typedef {{i: number, j: number, s: number, h: number}} Span  between the samples i and j, at the part s of their distance h */
@@ -48,22 +50,37 @@ export function hermiteAt(values, rates, { i, j, s, h }) {
   return before * values[i] + after * values[j] + h * (out * rates[i] + into * rates[j]);
 }
 
-/** A last sample this much nearer than the one before it is an event: too near to tell a slope by. */
+/** A sample at the end of a smooth stretch, this much nearer than the next distance, is too near to tell a slope by. */
 const NEAR = 0.25;
 /** Samples that tell a slope. */
 const STENCIL = 5;
 
+/**
+ * The samples around number k up to the ends of its smooth stretch, k among them; those that are too near to an end
+ * are left out, or the end itself where the slope is not asked there.
+ * @param {readonly number[]} times @param {number} k
+ */
+function stretchAround(times, k) {
+  let [first, last] = [k, k];
+  while (first > k - STENCIL - 1 && times[first - 1] < times[first]) first -= 1;
+  while (last < k + STENCIL + 1 && times[last + 1] > times[last]) last += 1;
+  const gap = (/** @type {number} */ n) => times[n + 1] - times[n];
+  const many = last - first > 1;
+  const starts = !(times[first - 1] < times[first]);
+  const ends = !(times[last + 1] > times[last]);
+  const left = [];
+  if (many && starts && gap(first) < NEAR * gap(first + 1)) left.push(k === first ? first + 1 : first);
+  if (many && ends && gap(last - 1) < NEAR * gap(last - 2)) left.push(k === last ? last - 1 : last);
+  const found = [];
+  for (let n = first; n <= last; n += 1) if (n === k || !left.includes(n)) found.push(n);
+  return found;
+}
+
 /** The samples that tell the slope at number k, k among them. @param {readonly number[]} times @param {number} k */
 function neighbours(times, k) {
-  const last = times.length - 1;
-  const near = last > 1 && times[last] - times[last - 1] < NEAR * (times[last - 1] - times[last - 2]);
-  const end = near && k < last ? last - 1 : last;
-  const skip = near && k === last ? last - 1 : -1;
-  const reach = skip < 0 ? STENCIL : STENCIL + 1;
-  const from = Math.max(0, Math.min(k - 2, end - reach + 1));
-  const found = [];
-  for (let n = from; n <= end && n < from + reach; n += 1) if (n !== skip) found.push(n);
-  return found;
+  const found = stretchAround(times, k);
+  const from = Math.max(0, Math.min(found.indexOf(k) - 2, found.length - STENCIL));
+  return found.slice(from, from + STENCIL);
 }
 
 /**

@@ -101,8 +101,15 @@ function quantitiesOf(trajectory) {
   ];
 }
 
-/** Every other sample. @template T @param {readonly T[]} values */
-const halved = (values) => values.filter((_, i) => i % 2 === 0);
+/** Numbers of samples that are kept when every other is left out; those at jumps, whose times stand twice, are. @param {readonly number[]} times */
+function halved(times) {
+  let since = -1;
+  return times.flatMap((t, i) => {
+    const isEdge = t === times[i - 1] || t === times[i + 1];
+    since = isEdge ? 0 : since + 1;
+    return since % 2 === 0 ? [i] : [];
+  });
+}
 
 /**
  * By how much samples are missed when they are left out, as parts of the range.
@@ -111,11 +118,14 @@ const halved = (values) => values.filter((_, i) => i % 2 === 0);
  */
 function missing(times) {
   const kept = halved(times);
-  const left = times.map((_, i) => i).filter((i) => i % 2 === 1 && i + 1 < times.length);
-  const spans = left.map((i) => spanAt(kept, times[i]));
-  const blends = left.map((i) => blendAt(kept, times[i]));
+  const few = kept.map((i) => times[i]);
+  const last = kept[kept.length - 1];
+  const here = new Set(kept);
+  const left = times.map((_, i) => i).filter((i) => i < last && !here.has(i));
+  const spans = left.map((i) => spanAt(few, times[i]));
+  const blends = left.map((i) => blendAt(few, times[i]));
   return ({ values, rates, low, high, range }) => {
-    const [some, slopes] = [halved(values), rates && halved(rates)];
+    const [some, slopes] = [kept.map((i) => values[i]), rates && kept.map((i) => rates[i])];
     const drawn = (/** @type {number} */ n) => (slopes ? hermiteAt(some, slopes, spans[n]) : scalarAt(some, blends[n]));
     const shown = (/** @type {number} */ value) => value > low - range && value < high + range;
     return left.map((i, n) => (shown(values[i]) ? Math.abs(drawn(n) - values[i]) / range : 0));
@@ -136,7 +146,7 @@ function astray({ t, coordinates, rates, error }) {
     const { range } = quantity(v);
     return t.slice(2).map((end, i) => {
       const [h, k] = [t[i + 1] - t[i], end - t[i + 1]];
-      if (Math.abs(h - k) > 1e-6 * h) return 0;
+      if (!(h > 0) || Math.abs(h - k) > 1e-6 * h) return 0;
       const rounding = ROUNDING * ((error?.estimate?.[i] ?? 0) + (error?.estimate?.[i + 2] ?? 0));
       return (
         Math.max(0, Math.abs(q[i + 2] - q[i] - (h / 3) * (v[i] + 4 * v[i + 1] + v[i + 2])) - rounding) / (2 * h * range)

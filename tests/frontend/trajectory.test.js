@@ -1,6 +1,8 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
+import { traced } from "../../frontend/model/curve.js";
 import { blendAt, scalarAt, smooth } from "../../frontend/model/interpolation.js";
+import { judged } from "../../frontend/model/sampling.js";
 import { caveatsOf, coordinateAt, endOf, largestError, leastRange, snapshotAt, trustedUntil } from "../../frontend/model/trajectory.js";
 import { trajectory } from "./fixtures.js";
 
@@ -56,6 +58,38 @@ test("an event close behind the last sample does not bend what is before it", ()
   const { t, positions } = sine(0.1, [event]);
   const curve = smooth(t, positions.p.map(([x]) => rounded(x)));
   assert.ok(worst((s) => curve(s) - Math.sin(s)) < 2e-5);
+});
+
+/** A ball thrown up with 3, which the ground gives back 0.6 of its speed, at impacts twice: t, height, speed. @param {number} h */
+function bounces(h) {
+  const impacts = [0.6, 0.96, 1.176].map((time, n) => ({ time, speed: 3 * 0.6 ** n }));
+  const at = (/** @type {number} */ t, after = true) => {
+    const last = impacts.filter(({ time }) => (after ? time <= t : time < t)).at(-1);
+    const [from, speed] = last ? [last.time, 0.6 * last.speed] : [0, 3];
+    return [t, (t - from) * (speed - 5 * (t - from)), speed - 10 * (t - from)];
+  };
+  const even = Array.from({ length: Math.round(1.3 / h) + 1 }, (_, i) => at(i * h)).filter(([t]) => !impacts.some(({ time }) => time === t));
+  const rows = [...even, ...impacts.flatMap(({ time }) => [at(time, false), at(time)])].sort((a, b) => a[0] - b[0]);
+  const [t, z, v] = [0, 1, 2].map((k) => rows.map((row) => row[k]));
+  return { motion: { ...trajectory, t, coordinates: { z }, rates: { z: v }, positions: { ball: z.map((s) => [0, s]) }, loads: {}, energy: undefined }, at };
+}
+
+test("no curve runs across an impact: what is parabolic on both sides is drawn as it is", () => {
+  const { motion, at } = bounces(0.11);
+  for (let t = 0; t < 1.3; t += 0.0037) {
+    const { coordinates, rates, positions } = snapshotAt(motion, t);
+    const [, z, v] = at(t);
+    for (const [drawn, true_] of [[coordinates.z, z], [rates.z, v], [positions.ball[1], z]]) assert.ok(Math.abs(drawn - true_) < 1e-12, `${t} ${drawn} ${true_}`);
+  }
+  const rate = smooth(motion.t, motion.rates.z);
+  const { t, points } = traced((s) => [100 * s, 100 * rate(s)], motion.t);
+  const corners = [0.6, 0.96, 1.176].map((time) => points.filter((_, n) => Math.abs(t[n] - time) < 1e-9).map(([, y]) => Math.round(y)));
+  assert.deepEqual(corners, [[-300, 180], [-180, 108], [-108, 65]]);
+});
+
+test("samples are enough for a motion that jumps if they are enough between its jumps", () => {
+  const asked = { t_end: 1.3, samples: 40 };
+  assert.equal(judged(bounces(1.3 / 39).motion, asked, 1).again, null);
 });
 
 test("before the start and after the end the ends are held", () => {

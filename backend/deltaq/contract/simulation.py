@@ -147,7 +147,9 @@ class SimulationAnswer(Answer):
     method: str = Field(examples=["dop853"])
     choice: str | None = Field(description="why this method, if it was left to be chosen")
     columns: Written = Field("numbers", description="how all columns of this answer are written")
-    t: Column
+    t: Column = Field(
+        description="the samples, in seconds; at each of `events` its time twice, with the values before and behind it"
+    )
     coordinates: dict[str, Column] | None = None
     rates: dict[str, Column] | None = None
     positions: dict[str, VectorColumn] | None = None

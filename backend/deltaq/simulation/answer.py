@@ -17,11 +17,10 @@ from .passages import Happening
 from .problem import Floats, Moved, Problem
 from .request import Request
 from .rounding import rounded, short, significant
-from .trajectory import Trajectory
+from .trajectory import MOST_TOLD, Trajectory
 
 Document = dict[str, object]
 NOTICED = 1e-9  # a change of an initial value, relative to it or to 1, that is worth telling
-MOST_TOLD = 1000  # events in an answer
 UNKNOWN_ERROR = 1e-12  # to round by where no error estimate was asked for
 
 

@@ -23,7 +23,7 @@ from .reactions import reactions_at
 from .refinement import ByStep, ByTolerance, Refinement
 from .rounding import significant
 from .run import Stop
-from .trajectory import Cost, Trajectory
+from .trajectory import MOST_TOLD, Cost, Trajectory
 
 SPACING = 4e-16  # of numbers, relative
 LEAST_SAMPLES = 200  # intervals that errors are compared on, however few samples are asked for
@@ -101,7 +101,8 @@ def _trajectory(
     best = max(attempts, key=_merit)
     found, n = best.estimate, problem.degrees
     is_reached = None if tolerance is None or found is None else found.worst <= tolerance and best.is_complete
-    times, states, errors = _shown(best, _refined(problem))
+    happenings = _happenings(best)
+    times, states, errors = _with_both_sides(happenings, *_shown(best, _refined(problem)))
     reactions = None
     if problem.reactions:
         states, reactions = reactions_at(problem, times, states)
@@ -123,7 +124,7 @@ def _trajectory(
         _event_occurrence(best),
         best.seen_until,
         reactions,
-        _happenings(best),
+        happenings,
     )
 
 
@@ -138,6 +139,27 @@ def _happenings(best: Attempt) -> tuple[Happening, ...]:
         if is_known and other is not None and (other.name, other.kind) == (one.name, one.kind)
         else one
         for one, other in pairs
+    )
+
+
+def _with_both_sides(
+    happenings: tuple[Happening, ...], times: Floats, states: Floats, errors: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """The samples, and at each event its time twice, with the states before and behind it."""
+    inside = [each for each in happenings[:MOST_TOLD] if len(times) and each.time <= times[-1]]
+    if not inside:
+        return times, states, errors
+    at = np.array([each.time for each in inside])
+    kept = ~np.isin(times, at)
+    beside = np.searchsorted(times, at)
+    doubts = np.maximum(errors[np.maximum(beside - 1, 0)], errors[np.minimum(beside, len(times) - 1)])
+    sides = np.array([state for each in inside for state in (each.before, each.after)])
+    found = np.concatenate([times[kept], np.repeat(at, 2)])
+    order = np.argsort(found, kind="stable")
+    return (
+        found[order],
+        np.vstack([states[kept], sides])[order],
+        np.concatenate([errors[kept], np.repeat(doubts, 2)])[order],
     )
 
 

@@ -44,6 +44,14 @@ class _Record:
     last: float = 0.0
     at_once: int = 0
 
+    def moved(self, event: Event, time: float, degrees: int) -> Floats:
+        """The state of an event carried over to a time close to it by its rates, shape (width,); all work is in it."""
+        state = event.state.copy()
+        state[:degrees] += (time - event.time) * event.state[degrees : 2 * degrees]
+        if state.size > 2 * degrees:
+            state[-1] += self.work
+        return state
+
     def add(self, problem: Problem, found: Run) -> None:
         """The samples of a stretch behind its first, which is its beginning, and what it took."""
         states = found.states[1:].copy()
@@ -125,11 +133,7 @@ def _after(steps: Steps, start: float) -> Steps:
 def _fill(record: _Record, times: Floats, event: Event, degrees: int) -> None:
     """Samples so close before an event that the stretch left them out are those of the event, moved by its rates."""
     while record.filled < times.size and times[record.filled] <= event.time:
-        state = event.state.copy()
-        state[:degrees] += (times[record.filled] - event.time) * event.state[degrees : 2 * degrees]
-        if state.size > 2 * degrees:
-            state[-1] += record.work
-        record.out[record.filled] = state
+        record.out[record.filled] = record.moved(event, float(times[record.filled]), degrees)
         record.filled += 1
 
 
@@ -139,12 +143,14 @@ def _next(moment: Moment, event: Event, record: _Record) -> Moment:
     before = replace(moment, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
     after, name, kind = passed(before, event.index)
     loss = before.kinetic - after.kinetic if kind in ("impact", "rest") else 0.0
+    reached = record.moved(event, after.time, n)
     record.work += (float(event.state[-1]) if event.state.size > 2 * n else 0.0) - loss
     is_same = event.time - record.last <= SAME * max(1.0, event.time)
     record.at_once = record.at_once + 1 if is_same else 0
     record.last = event.time
     if kind != "switch":
-        record.happenings.append(Happening(name, after.time, kind, loss))
+        left = np.array([*after.q, *after.v, record.work][: event.state.size])
+        record.happenings.append(Happening(name, after.time, kind, reached, left, loss))
     return after
 
 

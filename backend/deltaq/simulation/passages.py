@@ -42,11 +42,16 @@ class Mode:
 
 @dataclass(frozen=True)
 class Happening:
-    """An event behind which the motion went on: its name, time in seconds, kind, and the energy that was lost in J."""
+    """An event behind which the motion went on: its name, time in seconds, kind, and the energy that was lost in J.
+
+    `before` and `after` are the states on both sides of it, shape (width,).
+    """
 
     name: str
     time: float
     kind: str
+    before: Floats
+    after: Floats
     loss: float = 0.0
     error: float | None = None
 
