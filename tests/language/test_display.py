@@ -7,6 +7,7 @@ import sympy
 from tests.language.scene_names import DOUBLE, DOUBLE_KINETIC_ENERGY, NAMES, SYMBOLS, Symbols, read
 
 from deltaq.language.canonical import display, is_zero
+from deltaq.language.display import size
 from deltaq.language.names import Names
 from deltaq.language.order import Order
 from deltaq.language.plain_printer import plain
@@ -103,6 +104,9 @@ ROWS = [
     pytest.param("sqrt(4*m*x^2 + 4*m*y^2)", "2*sqrt(m)*sqrt(y^2 + x^2)", id="squares leave a root"),
     pytest.param("sqrt(8*x^2 + 8)", "sqrt(8*x^2 + 8)", id="what is no square stays under the root"),
     pytest.param("sqrt(x^3 + x^2*y)", "sqrt(y*x^2 + x^3)", id="what may be negative stays under the root"),
+    pytest.param("sqrt(m*x + m*y)*sqrt(x + y) - sqrt(m)*x", "sqrt(m)*y", id="roots whose product is multiplied out"),
+    pytest.param("sqrt(m*x + m*y)*sqrt(x + y) + sqrt(x + y)", "sqrt(y + x) + sqrt(m)*(y + x)",
+                 id="roots whose product stands beside one of them"),
     pytest.param("sqrt(x^2 + y^2)^3", "(y^2 + x^2)^(3/2)", id="a power of a root"),
     pytest.param("sqrt(4*x^2 + 4*y^2)^3", "8*(y^2 + x^2)^(3/2)", id="a square leaves a power of a root"),
     pytest.param("1/sqrt(9*x^2 + 9*y^2)", "1/(3*sqrt(y^2 + x^2))", id="a square leaves a root below the line"),
@@ -161,6 +165,33 @@ def test_entries_and_sides_are_shown_each() -> None:
     equation = display(read("sin(phi)^2 + cos(phi)^2 = x + x - x"), SYMBOLS)
     assert equation == sympy.Eq(sympy.Integer(1), SYMBOLS.name("x"), evaluate=False)
     assert display(read("sin(phi)^2 + cos(phi)^2 = x; y = 0"), SYMBOLS).args[0] == equation
+
+
+# A formula, the sums as the author wrote them, and how it is shown.
+GIVEN = [
+    ("k*(x - y)", ["x - y"], "k*(x - y)"),
+    ("k*(x - y)", ["y - x"], "-k*(y - x)"),
+    ("-k*(x - y)", ["x - y"], "-k*(x - y)"),
+    ("-k*(x - y)", ["y - x"], "k*(y - x)"),
+    ("-k*(x - y)", [], "k*(y - x)"),
+    ("k*(x - y)^2", ["y - x"], "k*(y - x)^2"),
+    ("k*(x - y)^3", ["y - x"], "-k*(y - x)^3"),
+    ("-k*(x + y)", ["-x - y"], "-k*(y + x)"),
+    ("-k*(m - l)*(x - y)", [], "(m - l)*k*(y - x)"),
+]
+
+
+@pytest.mark.parametrize(("text", "given", "shown"), GIVEN)
+def test_a_difference_stands_the_way_round_that_it_was_given(text: str, given: list[str], shown: str) -> None:
+    found = display(sympy.expand(read(text)), SYMBOLS, frozenset(map(read, given)))
+    assert plain(found, Order(NAMES)) == shown
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"), [("x", 1), ("2", 1), ("x + y", 3), ("-x", 3), ("m*x^2", 5), ("sin(x)", 2), ("x/y", 5)]
+)
+def test_how_many_parts_there_are_to_write(text: str, parts: int) -> None:
+    assert size(read(text)) == parts
 
 
 def test_display_keeps_the_value_of_what_it_cannot_expand() -> None:

@@ -50,6 +50,18 @@ def test_all_products_of_one_reader_count_together() -> None:
         reader.multiply(powers("x", 100), powers("x", 100))
     with pytest.raises(TooLargeError):
         reader.multiply(powers("x", 1), powers("x", 1))
+    reader.begin()
+    reader.multiply(powers("x", 240), powers("x", 250))
+    with pytest.raises(TooLargeError):
+        reader.multiply(powers("x", 1), powers("x", 1))
+
+
+def test_products_count_four_times_where_roots_may_be_in_them() -> None:
+    reader = Generators()
+    reader.root(2, fourier.HALF)
+    reader.multiply(powers("x", 125), powers("x", 120))
+    with pytest.raises(TooLargeError):
+        reader.multiply(powers("x", 1), powers("x", 1))
 
 
 def test_large_ones_are_made() -> None:

@@ -76,6 +76,11 @@ def test_the_largest_and_the_smallest(written: str, as_text: str, as_latex: str)
     assert read(as_text) == read(as_latex, "latex") == value
 
 
+@pytest.mark.parametrize("name", ["max", "min"])
+def test_of_three_the_first_two_are_compared_first(name: str) -> None:
+    assert parse(f"{name}(x, y, l)", NAMES).tree == parse(f"{name}({name}(x, y), l)", NAMES).tree
+
+
 @pytest.mark.parametrize(
     "equal",
     ["max(x, y) = -min(-x, -y)", "max(x, y) + min(x, y) = x + y", "max(l*x, l*y) = l*max(x, y)",

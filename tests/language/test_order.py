@@ -74,8 +74,8 @@ def test_what_a_symbol_is(name: str, kind: int, base: str) -> None:
 
 
 def test_names_with_numbers_stand_by_the_numbers() -> None:
-    names = ["phi", "m10", "x", "m2", "m", "m2a", "alpha", "10"]
-    assert sorted(names, key=natural) == ["10", "m", "m2", "m2a", "m10", "x", "alpha", "phi"]
+    names = ["phi", "phi2", "m10", "x", "m2", "m", "m2a", "alpha", "10"]
+    assert sorted(names, key=natural) == ["10", "m", "m2", "m2a", "m10", "x", "alpha", "phi", "phi2"]
 
 
 @pytest.mark.parametrize("name", ["x", "t", "s", "dot(x)", "delta(x)", "d(t)", "unknown"])

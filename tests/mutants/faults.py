@@ -130,7 +130,7 @@ def _is_no_law(node: ast.AST) -> bool:
             return True
         case ast.If(ast.Name("TYPE_CHECKING") | ast.Attribute(attr="TYPE_CHECKING")):
             return True
-        case ast.Assign([ast.Name()], ast.Call(ast.Name("TypeVar"))):
+        case ast.Assign([ast.Name()], ast.Call(ast.Name("TypeVar" | "ParamSpec"))):
             return True
         case ast.Assign([ast.Name()], ast.Subscript(ast.Name(name))):
             return name in GENERIC

@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 import os
 import re
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
-from tests.mutants.entries import Entries, Recorder, function_around
+from tests.mutants.entries import Entries, Recorder, function_around, in_turn
 from tests.mutants.faults import mutants_of, sample
+from tests.mutants.replacing import Functions
 
 SOUND = '''"""Says 3 nowhere."""
 from __future__ import annotations
@@ -27,6 +31,15 @@ names = {{}}
 exec(telling(Path("{module}")), names)
 def test_enters(): assert names["law"](3) == 2
 def test_does_not(): assert True
+"""
+KEPT = """
+from functools import cache
+class Law:
+    @staticmethod
+    def twice(x): return 2 * x
+@cache
+def remembered(x): return x + 5
+TABLE = {1: lambda x: x + 7, 2: lambda x: x}
 """
 EXPECTED = {
     ("1", "2"),
@@ -64,6 +77,7 @@ def test_faults_of_a_function(module: Path) -> None:
         ("Row = tuple[int, ...]", False),
         ("Law: TypeAlias = Mapping[str, Literal[1, 2]]", False),
         ("T = TypeVar('T', bound=int)", False),
+        ("P = ParamSpec('P')", False),
         ("__all__ = ['law', *others[1:]]", False),
         ("if TYPE_CHECKING:\n    laws = 3", False),
         ("if typing.TYPE_CHECKING:\n    laws = 3", False),
@@ -104,13 +118,17 @@ def test_every_part_has_its_modules_and_tests(root: Path) -> None:
     assert [file for file in files if not list(root.glob(file.removeprefix("./")))] == []
 
 
-def test_a_fault_is_shown_to_the_tests_that_enter_its_function(module: Path) -> None:
+def test_a_fault_is_shown_to_the_tests_that_enter_its_function_the_quickest_first(module: Path) -> None:
     start = function_around(module, 6)
     assert start == (str(module), 4)
     assert function_around(module, 3) is None
-    entries = Entries("test_law.py", 3, {"test_a": {start}, "test_b": {(str(module), 9)}})
-    assert entries.tests_of(start) == ["test_a"]
-    assert entries.tests_of(None) == ["test_a", "test_b"]
+    other = (str(module), 9)
+    one = Entries("one.py", {"a": {start}, "b": {other}, "c": set()}, {"a": 2.0, "b": 1.0, "c": 0.1})
+    two = Entries("two.py", {"d": {start}, "e": {start}}, {"d": 1.0, "e": 3.0})
+    three = Entries("three.py", {"f": {other}}, {"f": 0.2})
+    assert in_turn(start, (one, two, three)) == ["d", "a", "e", "b", "c"]
+    assert in_turn(other, (one, two, three)) == ["f", "b", "a", "c"]
+    assert in_turn(None, (one, two, three)) == ["f", "b", "d", "a", "e", "c"]
 
 
 def test_what_a_test_enters_is_recorded(module: Path) -> None:
@@ -119,8 +137,60 @@ def test_what_a_test_enters_is_recorded(module: Path) -> None:
     recorder = Recorder()
     options = ["-n0", "-q", "-p", "no:cacheprovider", "--rootdir", str(module.parent), "-c", os.devnull]
     assert pytest.main([*options, str(tests)], plugins=[recorder]) == pytest.ExitCode.OK
-    assert recorder.entries.tests_of((str(module), 4)) == [f"{recorder.entries.file}::test_enters"]
-    assert recorder.entries.number == 2
+    entered = {test.partition("::")[2]: starts for test, starts in recorder.entries.starts.items()}
+    assert entered == {"test_enters": {(str(module), 4)}, "test_does_not": set()}
+    assert recorder.entries.seconds.keys() == recorder.entries.starts.keys()
+
+
+def test_a_broken_function_takes_the_place_of_the_sound_one(tmp_path: Path) -> None:
+    """Wherever it is kept: in a class, below a decorator, in a table."""
+    module = tmp_path / "laws.py"
+    module.write_text(KEPT, encoding="utf-8")
+    names: dict[str, Any] = {}
+    exec(compile(KEPT, str(module), "exec", dont_inherit=True), names)
+    functions = Functions([module])
+    broken = {(mutant.before, mutant.after): mutant.code for mutant in mutants_of(module)}
+    sound = [names["Law"]().twice(3), names["remembered"](3), names["TABLE"][1](3)]
+    assert sound == [6, 8, 10]
+    for before, after, answers in (
+        ("2 * x", "2 / x", [2 / 3, 8, 10]), ("x + 5", "x - 5", [6, -2, 10]), ("7", "8", [6, 8, 11])
+    ):  # fmt: skip
+        assert functions.put(module, broken[before, after])
+        names["remembered"].cache_clear()
+        assert [names["Law"]().twice(3), names["remembered"](3), names["TABLE"][1](3)] == answers
+
+
+def test_a_function_that_is_gone_cannot_be_replaced(tmp_path: Path) -> None:
+    module = tmp_path / "laws.py"
+    module.write_text(KEPT, encoding="utf-8")
+    names: dict[str, Any] = {}
+    exec(compile(KEPT, str(module), "exec", dont_inherit=True), names)
+    functions = Functions([module])
+    assert not functions.put(module, compile("TABLE = {}", str(module), "exec"))
+    assert not functions.put(module, compile(KEPT, str(module), "exec", dont_inherit=True))  # nothing is broken
+
+
+RUN = """
+from pathlib import Path
+from tests.mutants.faults import sample
+from tests.mutants.running import recorded, verdicts
+module = Path("backend/deltaq/language/choices.py").resolve()
+mutants = dict(enumerate(sample([module], 4, 22)[0]))
+record = recorded(["tests/language/test_choices.py"], [module])
+for number, noticed in verdicts(mutants, record, [module], 2):
+    print(mutants[number].before, "->", mutants[number].after, noticed)
+"""
+
+
+def test_faults_are_noticed(root: Path) -> None:
+    """Each in a process of its own."""
+    run = subprocess.run([sys.executable, "-c", RUN], cwd=root, check=True, capture_output=True, text=True)
+    assert sorted(run.stdout.splitlines()) == [
+        "field(default_factory=dict) -> field() True",  # by a process that begins anew
+        "readings - 1 -> readings + 1 True",
+        "return min(self.taken.get(place, 0), readings - 1) -> return None True",
+        "self.met[place] = (readings, loose) -> pass True",
+    ]
 
 
 def test_a_sample_is_of_all_faults(module: Path) -> None:

@@ -71,7 +71,7 @@ class KernelReader(Reader):
     def _kernel(self, form: Form, exponent: Any) -> Form:
         key = f"~~{sympy.sstr(self.expression(form))}"
         self.bases[key] = form
-        return fourier.monomial(key, exponent if exponent.q > 1 else int(exponent.p))
+        return fourier.monomial(key, fourier.whole(exponent))
 
     def cleared(self, form: Form) -> tuple[Form, Monomial]:
         """As it is: kernels are not cleared here."""

@@ -42,7 +42,7 @@ def latex(expr: Any, typography: Typography) -> str:
         rows = [latex(part, typography).replace(" = ", " &= ") for part in expr]
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
     value = sympy.sympify(expr, strict=True)
-    return _printer(typography, decimals_of(value, wanted=typography.decimals)).text(value, 0)
+    return _printer(typography, decimals_of(value, wanted=typography.decimals)).text(value)
 
 
 @cached_method
@@ -57,7 +57,7 @@ class _Latex:
         self._order = typography.order
         self._plain = _printer(typography.base, as_decimal) if typography.base else None
 
-    def text(self, expr: sympy.Expr, binding: int) -> str:
+    def text(self, expr: sympy.Expr, binding: int = SUM) -> str:
         printer = self if self._is_marked(expr) else self._plain or self
         text, own = printer.bound(expr)
         return _bracketed(text) if own < binding else text
@@ -94,7 +94,7 @@ class _Latex:
     def _number(self, number: sympy.Expr) -> tuple[str, int]:
         value = exact(number)
         sign, size = "-" if value < 0 else "", abs(value)
-        binding = SUM + 1 if value < 0 else ATOM
+        binding = PRODUCT if value < 0 else ATOM
         if size.denominator == 1:
             return f"{sign}{size.numerator}", binding
         if self._as_decimal(size) or (number.is_Float and ends(size)):
@@ -102,12 +102,12 @@ class _Latex:
         return rf"{sign}\frac{{{size.numerator}}}{{{size.denominator}}}", min(binding, PRODUCT)
 
     def _exponential(self, expr: sympy.Expr) -> str:
-        exponent = self.text(expr.args[0], 0) if expr.args else "1"
+        exponent = self.text(expr.args[0]) if expr.args else "1"
         return rf"\mathrm{{e}}^{{{exponent}}}"
 
     def _sum(self, expr: sympy.Expr) -> str:
         terms = self._order.terms(expr)
-        return signed_sum(self._typography.summand(expr, term, self.text(term, SUM + 1)) for term in terms)
+        return signed_sum(self._typography.summand(expr, term, self.text(term, PRODUCT)) for term in terms)
 
     def _product(self, expr: sympy.Expr) -> str:
         sign, upper, lower = fraction_parts(expr, self._as_decimal)
@@ -155,9 +155,9 @@ class _Latex:
     def _power(self, expr: sympy.Expr) -> str:
         base, exponent = base_exponent(expr)
         if exponent.is_Rational and exponent.is_negative:
-            return rf"\frac{{1}}{{{self.text(base**-exponent, 0)}}}"
+            return rf"\frac{{1}}{{{self.text(base**-exponent)}}}"
         if exponent == sympy.Rational(1, 2):
-            return rf"\sqrt{{{self.text(base, 0)}}}"
+            return rf"\sqrt{{{self.text(base)}}}"
         if _takes_power(base, exponent):
             return self.call(base, exponent)
         if base.is_Symbol and split_symbol(base.name)[0] < 4:
@@ -165,12 +165,12 @@ class _Latex:
         return f"{self.text(base, ATOM)}^{{{self._exponent(exponent)}}}"
 
     def _exponent(self, exponent: sympy.Expr) -> str:
-        return str(exponent) if exponent.is_Rational else self.text(exponent, 0)
+        return str(exponent) if exponent.is_Rational else self.text(exponent)
 
     def call(self, expr: sympy.Expr, power: sympy.Expr = sympy.S.One, *, closed: bool = False) -> str:
         """A function with its power: \\sin^{2}\\varphi, \\cos(\\varphi_1 - \\varphi_2)."""
         name = CLASSES.get(type(expr).__name__, type(expr).__name__)
-        arguments = [self.text(a, 0) for a in arguments_of(expr)]
+        arguments = [self.text(a) for a in arguments_of(expr)]
         raised = "" if power == 1 else f"^{{{power}}}"
         if name == "abs":
             return rf"\left|{arguments[0]}\right|{raised}"

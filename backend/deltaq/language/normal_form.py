@@ -146,7 +146,7 @@ class Reader(Generators):
         key = f"~~{sympy.sstr(self.expression(monic))}"
         self.bases[key] = monic
         number = self._power(sympy.Rational(int(size.p), int(size.q)), sympy.Rational(int(exponent.p), int(exponent.q)))
-        return self.multiply(number, fourier.monomial(key, exponent if exponent.q > 1 else int(exponent.p)))
+        return self.multiply(number, fourier.monomial(key, fourier.whole(exponent)))
 
     def _is_positive(self, name: str) -> bool:
         return bool(self.meaning[name].is_positive) if name in self.meaning else False
@@ -160,7 +160,7 @@ class Reader(Generators):
         for (mono, _, _), coefficient in form.items():
             key = "exp " + "*".join(f"{name}^{e}" for name, e in mono)
             self.meaning[key] = sympy.exp(self.monomial(mono))
-            factors.append((key, int(coefficient.p) if coefficient.q == 1 else coefficient))
+            factors.append((key, fourier.whole(coefficient)))
         return {(tuple(sorted(factors)), STILL, False): fmpq(1)}
 
     def _is_polynomial(self, form: Form) -> bool:

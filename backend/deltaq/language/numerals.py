@@ -9,7 +9,7 @@ from typing import Any
 import sympy
 
 # How tightly a printed text binds.
-SUM, PRODUCT, POWER, ATOM = 1, 2, 3, 4
+SUM, PRODUCT, POWER, ATOM = range(4)
 _SMALL = 10
 _LONG = 100
 
@@ -66,7 +66,7 @@ def plain_number(number: sympy.Expr) -> tuple[str, int]:
     value = exact(number)
     if value.denominator == 1 or is_decimal(value):
         text = str(value.numerator) if value.denominator == 1 else decimal(value)
-        return text, SUM + 1 if value < 0 else ATOM
+        return text, PRODUCT if value < 0 else ATOM
     return f"{value.numerator}/{value.denominator}", PRODUCT
 
 

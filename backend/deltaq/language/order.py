@@ -167,8 +167,7 @@ def _descending(powers: Mapping[Key, float]) -> Key:
 
 
 def _head_rank(name: str) -> int:
-    head = re.match(r"[A-Za-z]+", name)
-    letters = head[0] if head else name
+    letters = re.sub(r"[^A-Za-z].*", "", name)
     for rank, heads in enumerate(_HEADS):
         if letters in heads:
             return rank

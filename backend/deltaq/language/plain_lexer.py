@@ -154,4 +154,4 @@ def number_token(text: str, span: Span) -> Token:
         fail("too-many-digits", span, limit=MAX_DIGITS)
     if exponent and (len(exponent) > 4 or abs(int(exponent)) > MAX_DIGITS):
         fail("number-range", span, number=text[:40], limit=MAX_DIGITS)
-    return Token("number", text, span, Fraction(mantissa.rstrip(".") or "0") * Fraction(10) ** int(exponent or 0))
+    return Token("number", text, span, Fraction(mantissa.rstrip(".")) * Fraction(10) ** int(exponent or 0))

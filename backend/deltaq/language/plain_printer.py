@@ -24,7 +24,7 @@ def plain(expr: Any, order: Order | None = None) -> str:
         return f"{plain(expr.lhs, order)} = {plain(expr.rhs, order)}"
     if isinstance(expr, sympy.Tuple):
         return "[" + ", ".join(plain(part, order) for part in expr) + "]"
-    return _printer(order or Order()).text(sympy.sympify(expr, strict=True), 0)
+    return _printer(order or Order()).text(sympy.sympify(expr, strict=True))
 
 
 @cached_method
@@ -43,7 +43,7 @@ class _Plain:
     def __init__(self, order: Order) -> None:
         self._order = order
 
-    def text(self, expr: sympy.Expr, binding: int) -> str:
+    def text(self, expr: sympy.Expr, binding: int = SUM) -> str:
         """The text, in parentheses if it binds less than `binding`."""
         text, own = self._with_binding(expr)
         return f"({text})" if own < binding else text
@@ -65,10 +65,10 @@ class _Plain:
         if expr.is_Pow:
             return self._power(expr)
         name = CLASSES.get(type(expr).__name__, type(expr).__name__)
-        return f"{name}({', '.join(self.text(a, 0) for a in arguments_of(expr))})", ATOM
+        return f"{name}({', '.join(self.text(a) for a in arguments_of(expr))})", ATOM
 
     def _sum(self, expr: sympy.Expr) -> str:
-        return signed_sum(self.text(term, SUM + 1) for term in self._order.terms(expr))
+        return signed_sum(self.text(term, PRODUCT) for term in self._order.terms(expr))
 
     def _product(self, expr: sympy.Expr) -> tuple[str, int]:
         sign, upper, lower = fraction_parts(expr)
@@ -90,8 +90,8 @@ class _Plain:
         if exponent.is_Rational and exponent.is_negative:
             return f"1/{self.text(base**-exponent, POWER)}", PRODUCT
         if exponent == sympy.Rational(1, 2):
-            return f"sqrt({self.text(base, 0)})", ATOM
+            return f"sqrt({self.text(base)})", ATOM
         if exponent.is_Integer or exponent.is_Rational:
             shown = str(exponent) if exponent.is_Integer else f"({exponent})"
             return f"{self.text(base, ATOM)}^{shown}", POWER
-        return f"exp({self.text(exponent * sympy.log(base), 0)})", ATOM
+        return f"exp({self.text(exponent * sympy.log(base))})", ATOM

@@ -124,6 +124,14 @@ class Exchange:
         return TimeDerivative(operand)
 
     def partial_derivative(self, operand: Node, variable: Node) -> Node:
+        """∂/∂(s q + c) is s ∂/∂q for a sign s, and ∂/∂(f p) is ∂/∂p divided by f."""
+        match variable:
+            case Sum((counted, *_)) if variable in [shift.node for shift in self.shifts.values()]:
+                return self.partial_derivative(operand, counted)
+            case Negation(inner):
+                return Negation(PartialDerivative(operand, inner))
+            case Product((Number(factor), inner)):
+                return Quotient(PartialDerivative(operand, inner), Number(factor))
         return PartialDerivative(operand, variable)
 
     def vector(self, components: tuple[Node, ...]) -> Node:

@@ -21,7 +21,7 @@ from .order import Order, arguments_of
 from .spoken_symbols import LARGEST, SpokenSymbols, Vocabulary
 
 # How tightly words hold together. A prefix, as "sine of", reaches over one atom and no further.
-SUM, QUOTIENT, PRODUCT, POWER, PREFIX, ATOM = 1, 2, 3, 4, 5, 6
+SUM, QUOTIENT, PRODUCT, POWER, PREFIX, ATOM = range(6)
 _MOST_PARTS = 12
 _WORDS = frozenset({"d", "delta", "e", "a"})  # letters that are words, or begin some
 _SHORT = 4  # words of a term that needs no pause before it
@@ -46,7 +46,7 @@ class SpokenPrinter:
         self._printers: dict[Decides, _Speech] = {}
 
     @cached_method
-    def text(self, value: Any, binding: int = 0) -> str:
+    def text(self, value: Any, binding: int = SUM) -> str:
         """The words for a value; in brackets if they bind more loosely."""
         if isinstance(value, sympy.MatrixBase):
             return self._matrix(value)
@@ -99,7 +99,7 @@ class _Speech:
         self._roots = roots
         self._in_root = in_root
 
-    def text(self, expr: sympy.Expr, binding: int) -> str:
+    def text(self, expr: sympy.Expr, binding: int = SUM) -> str:
         text, own = self._with_binding(expr)
         if own >= binding:
             return text
@@ -134,9 +134,7 @@ class _Speech:
 
     def summands(self, expr: sympy.Expr) -> list[str]:
         return (
-            [self.text(term, QUOTIENT) for term in self._order.terms(expr)]
-            if self._is_sum(expr)
-            else [self.text(expr, 0)]
+            [self.text(term, QUOTIENT) for term in self._order.terms(expr)] if self._is_sum(expr) else [self.text(expr)]
         )
 
     def _is_sum(self, expr: sympy.Expr) -> bool:
@@ -152,7 +150,7 @@ class _Speech:
         value = exact(number)
         size = abs(value)
         text, binding = self._size(size, is_float=bool(number.is_Float))
-        return (self._words.say("minus", text), QUOTIENT + 1) if value < 0 else (text, binding)
+        return (self._words.say("minus", text), PRODUCT) if value < 0 else (text, binding)
 
     def _size(self, size: Fraction, *, is_float: bool) -> tuple[str, int]:
         if size.denominator == 1:
@@ -238,7 +236,7 @@ class _Speech:
         indices = {self._words.say(key, "").strip() for key in ("subscript", "superscript")}
         if factor.is_Integer:
             return bool(0 < factor <= LARGEST)
-        return self._follows(factor) and indices.isdisjoint(self.text(factor, 0).split())
+        return self._follows(factor) and indices.isdisjoint(self.text(factor).split())
 
     def _follows(self, factor: sympy.Expr) -> bool:
         """Whether this is a letter or its square that no word begins for which it could be taken."""
@@ -246,7 +244,7 @@ class _Speech:
         if not base.is_Symbol or exponent not in (1, 2) or not self._symbols.is_atom(base.name):
             return False
         bracket = self._words.say("bracket", "").split()[0]  # x + h v is a symbol, too
-        return self.text(base, 0).split()[0] not in {*_WORDS, bracket}
+        return self.text(base).split()[0] not in {*_WORDS, bracket}
 
     def _power(self, expr: sympy.Expr) -> tuple[str, int]:
         """A power, a root, a fraction with nothing above its line, or a function with its power, which may be one."""
@@ -262,8 +260,8 @@ class _Speech:
     def _root(self, base: sympy.Expr) -> tuple[str, int]:
         """A root says where it ends unless it is of a symbol; within another one it always does."""
         if self._is_simple([base]) and not self._in_root:
-            return self._words.say("root", self.text(base, 0)), PREFIX
-        return self._words.say("long-root", self._under_root.text(base, 0)), ATOM
+            return self._words.say("root", self.text(base)), PREFIX
+        return self._words.say("long-root", self._under_root.text(base)), ATOM
 
     @cached_property
     def _under_root(self) -> _Speech:
@@ -276,7 +274,7 @@ class _Speech:
         return self._words.say(key, base, self._exponent(exponent))
 
     def _exponent(self, exponent: sympy.Expr) -> str:
-        return self.text(exponent, 0 if exponent.is_Rational else ATOM)
+        return self.text(exponent, SUM if exponent.is_Rational else ATOM)
 
     def _call(self, expr: sympy.Expr, power: sympy.Expr = sympy.S.One) -> str:
         """A function with its power: sine squared of phi."""
@@ -289,7 +287,7 @@ class _Speech:
         arguments = arguments_of(expr)
         if len(arguments) == 1:
             return self.text(arguments[0], ATOM)
-        return self._words.say("bracket", self._words.say("and").join(self.text(a, 0) for a in arguments))
+        return self._words.say("bracket", self._words.say("and").join(self.text(a) for a in arguments))
 
 
 def joined_terms(words: Vocabulary, terms: list[str]) -> str:

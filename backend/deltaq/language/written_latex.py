@@ -48,7 +48,7 @@ class _Writer:
         self._marks = marks
         self._css = css
 
-    def text(self, node: Node, binding: int) -> str:
+    def text(self, node: Node, binding: int = SUM) -> str:
         """The LaTeX of a node, in brackets where it binds less than asked; marked if it is to be."""
         marked = node.span in self._marks
         self._marks.discard(node.span)  # the parts of a node may stand at the same place
@@ -71,9 +71,9 @@ class _Writer:
             case Product(factors):
                 return self._product(factors), PRODUCT
             case Quotient(numerator, denominator):
-                return rf"\frac{{{self.text(numerator, 0)}}}{{{self.text(denominator, 0)}}}", PRODUCT
+                return rf"\frac{{{self.text(numerator)}}}{{{self.text(denominator)}}}", PRODUCT
             case Negation(operand):
-                return f"-{self.text(operand, SUM + 1)}", SUM
+                return f"-{self.text(operand, PRODUCT)}", SUM
             case Power():
                 return self._power(node), POWER
             case Call(function, arguments):
@@ -84,15 +84,15 @@ class _Writer:
     def _other(self, node: Node) -> Printed:
         match node:
             case TimeDerivative(operand):
-                return rf"\frac{{\mathrm{{d}}}}{{\mathrm{{d}}t}}{_bracketed(self.text(operand, 0))}", PRODUCT
+                return rf"\frac{{\mathrm{{d}}}}{{\mathrm{{d}}t}}{_bracketed(self.text(operand))}", PRODUCT
             case PartialDerivative(operand, variable):
-                below = self.text(variable, 0)
-                return rf"\frac{{\partial}}{{\partial {below}}}{_bracketed(self.text(operand, 0))}", PRODUCT
+                below = self.text(variable)
+                return rf"\frac{{\partial}}{{\partial {below}}}{_bracketed(self.text(operand))}", PRODUCT
             case Vector(components):
                 rows = r" \\ ".join(self._row(component) for component in components)
                 return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}", ATOM
             case Equation(left, right):
-                return f"{self.text(left, 0)} = {self.text(right, 0)}", EQUATION
+                return f"{self.text(left)} = {self.text(right)}", EQUATION
             case _:
                 return "", ATOM
 
@@ -105,7 +105,7 @@ class _Writer:
     def _sum(self, terms: Iterable[Node]) -> str:
         text = ""
         for term in terms:
-            printed = self.text(term, SUM if isinstance(term, Negation) else SUM + 1)
+            printed = self.text(term, SUM if isinstance(term, Negation) else PRODUCT)
             bare = printed.removeprefix(rf"\htmlClass{{{self._css}}}{{") if self._css else printed
             text += printed if not text else f" {printed}" if bare.startswith("-") else f" + {printed}"
         return text
@@ -120,7 +120,7 @@ class _Writer:
         return text
 
     def _power(self, node: Power) -> str:
-        exponent = self.text(node.exponent, 0)
+        exponent = self.text(node.exponent)
         match node.base:
             case Call(function, arguments) if FUNCTIONS[function].power_after_name:
                 return self._call(function, arguments, f"^{{{exponent}}}", node.base.span)
@@ -130,7 +130,7 @@ class _Writer:
                 return f"{self.text(node.base, ATOM)}^{{{exponent}}}"
 
     def _call(self, function: str, arguments: Iterable[Node], raised: str = "", at: Span | None = None) -> str:
-        inner = ", ".join(self.text(argument, 0) for argument in arguments)
+        inner = ", ".join(self.text(argument) for argument in arguments)
         if function == "sqrt":
             return rf"\sqrt{{{inner}}}"
         if function == "abs":

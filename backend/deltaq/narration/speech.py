@@ -308,7 +308,7 @@ class Speech:
 
     def applied(self, quantity: Quantity, arguments: tuple[sp.Expr, ...]) -> Said:
         """A name with what it depends on: r of q one and q two and t."""
-        texts = [self.printer.text(a, ATOM if len(arguments) == 1 else 0) for a in arguments]
+        texts = [self.printer.text(a, ATOM if len(arguments) == 1 else SUM) for a in arguments]
         return self._with_arguments(quantity, texts, bare=all(a.is_Symbol for a in arguments))
 
     def _with_arguments(self, quantity: Quantity, texts: list[str], *, bare: bool) -> Said:
@@ -338,7 +338,7 @@ class Speech:
         return self._at_zero(self._say("of", self._quantity(of.quantity), inside), self.h)
 
     def _shifted(self, argument: sp.Symbol) -> str:
-        text = self.printer.text(argument, 0)
+        text = self.printer.text(argument)
         if not self.symbols.is_varied(argument.name):
             return text
         variation = self.value(sp.Symbol(f"delta({argument.name})", real=True))
@@ -430,7 +430,7 @@ class FunctionSpeech(Speech):
     def applied(self, quantity: Quantity, arguments: tuple[sp.Expr, ...]) -> Said:
         """A name with what it depends on."""
         inner = self._with("t" if quantity.kind in OF_TIME else "")
-        texts = [inner.printer.text(a, PREFIX if len(arguments) == 1 else 0) for a in arguments]
+        texts = [inner.printer.text(a, PREFIX if len(arguments) == 1 else SUM) for a in arguments]
         bare = quantity.kind not in OF_TIME and all(a.is_Symbol and NEIGHBOUR not in a.name for a in arguments)
         return self._with_arguments(quantity, texts, bare=bare)
 
