@@ -11,8 +11,8 @@ import { coordinateAt, decimalsKnown, endOf, leastRange } from "./trajectory.js"
 /** @typedef {import("./look.js").Look} Look */
 /**
  * @typedef {{key: string, name: string, latex: string, className: string, values: readonly number[], times: readonly number[],
- *   at: (t: number) => number, decimals: (t: number) => number, dash: string, band: boolean, beside: boolean, wrapped: boolean, hidden: boolean}} Curve  values at the
- *   samples, and between them; decimals: that are known of its value; wrapped: its values are within (−π, π], what lies between them is not yet; beside: of another run
+ *   at: (t: number) => number, decimals: (t: number) => number, dash: string, band: boolean, beside: boolean, wrapped: boolean, hidden: boolean, pulls?: boolean}} Curve  values at the
+ *   samples, and between them; decimals: that are known of its value; wrapped: its values are within (−π, π], what lies between them is not yet; beside: of another run; pulls: a force of a rod or string, which would go slack where it changes its sign
  * @typedef {{key: string, unit: string, least: number, curves: Curve[]}} Row  least: a range below which there is nothing to be seen
  */
 
@@ -97,7 +97,7 @@ function rowsOfOne(scene, trajectory, look) {
     if (!shared) rows.push(row);
   });
   const span = look.span && spanOf(look, endOf(trajectory));
-  const others = [...reactionRow(scene, trajectory, look), ...energyRow(trajectory, look)];
+  const others = [...reactionRows(scene, trajectory, look), ...energyRow(trajectory, look)];
   return [...rows.map(({ of: _, ...row }) => row), ...others].map((row) =>
     span ? { ...row, curves: row.curves.map((curve) => within(curve, ...span)) } : row,
   );
@@ -111,29 +111,76 @@ function within(curve, from, to) {
 }
 
 /**
- * Reactions along the motion: multipliers of constraints, and what holds what was released.
+ * Reactions along the motion: multipliers of constraints, and what holds what was released; those of a unit share a row.
  * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
  */
-function reactionRow({ coordinates, parameters }, { t: times, multipliers }, { hidden }) {
-  if (!multipliers) return [];
+function reactionRows(scene, { t: times, multipliers }, { hidden }) {
+  const { coordinates, parameters } = scene;
   const known = new Map([...coordinates, ...parameters].map(({ name, latex }) => [name, latex || name]));
-  const curves = Object.entries(multipliers).map(([name, values], k) => ({
-    key: `reaction-${name}`,
-    name,
-    latex: known.has(name) ? `Z_{${known.get(name)}}` : symbolOf(name),
-    className: `q-${coordinates.length + k}`,
-    values,
-    times,
-    at: smooth(times, values),
-    decimals: decimalsKnown(times, values, []),
-    dash: "solid",
-    band: false,
-    beside: false,
-    wrapped: false,
-    hidden: hidden.includes(`reaction-${name}`),
-  }));
-  return curves.length ? [{ key: "reactions", unit: "", least: 0, curves }] : [];
+  /** @type {Map<string, Row>} */
+  const rows = new Map();
+  Object.entries(multipliers ?? {}).forEach(([name, values], k) => {
+    const { unit, pulls } = natureOf(scene, name, k);
+    const row = rows.get(unit) ?? { key: `reactions${rows.size || ""}`, unit, least: 0, curves: [] };
+    rows.set(unit, row);
+    row.curves.push({
+      key: `reaction-${name}`,
+      name,
+      latex: known.has(name) ? `Z_{${known.get(name)}}` : symbolOf(name),
+      className: `q-${coordinates.length + k}`,
+      values,
+      times,
+      at: smooth(times, values),
+      decimals: decimalsKnown(times, values, []),
+      dash: "solid",
+      band: false,
+      beside: false,
+      wrapped: false,
+      hidden: hidden.includes(`reaction-${name}`),
+      pulls,
+    });
+  });
+  return [...rows.values()];
 }
+
+/** What works through a displacement of this unit. @type {Record<string, string>} */
+const CONJUGATE = { m: "N", rad: "N m" };
+
+/**
+ * The unit of a reaction, as far as it is known, and whether it is the force of a rod or string. Constraints come first,
+ * in their order.
+ * @param {Scene} scene @param {string} name @param {number} k its number
+ */
+function natureOf({ coordinates, parameters, constraints }, name, k) {
+  const constraint = constraints?.[k];
+  if (constraint) {
+    const isRod = constraint.kind === "distance";
+    return { unit: isRod && parameters.some(({ unit }) => unit === "kg") ? "N" : "", pulls: isRod };
+  }
+  const length = parameters.find((parameter) => parameter.name === name);
+  const released = length ?? coordinates.find((coordinate) => coordinate.name === name);
+  return { unit: CONJUGATE[released?.unit ?? ""] ?? "", pulls: length?.unit === "m" };
+}
+
+/**
+ * When the force of a rod or string changes its sign: there a string would go slack, and a rod begins to push or to pull.
+ * @param {Curve} curve
+ */
+export function slackTimes({ pulls, times, values, at }) {
+  if (!pulls) return [];
+  return times.slice(1).flatMap((end, i) => {
+    let [low, high] = [times[i], end];
+    if (!(values[i] * values[i + 1] < 0 && high > low)) return [];
+    for (let n = 0; n < HALVINGS; n += 1) {
+      const middle = (low + high) / 2;
+      if (at(middle) * values[i] > 0) low = middle;
+      else high = middle;
+    }
+    return [low];
+  });
+}
+
+const HALVINGS = 40;
 
 /** How the name of a multiplier is written: a Greek letter as such, a number behind it below. @param {string} name */
 function symbolOf(name) {

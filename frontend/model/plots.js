@@ -1,6 +1,7 @@
 /** How rows of curves are drawn over one time axis. */
 
 import { traced } from "./curve.js";
+import { slackTimes } from "./curves.js";
 import { spanAt } from "./interpolation.js";
 import { folded } from "./look.js";
 import { largestError, usual } from "./trajectory.js";
@@ -156,14 +157,29 @@ export function layoutOf(rows, end, palette, lang, height, em, from = 0) {
 const MOST_MARKS = 80;
 
 /**
- * Plotly shapes: a dotted line at each event behind which the motion went on (impacts, sticking, slipping).
- * @param {Trajectory} trajectory @param {Palette} palette
+ * Plotly shapes: a dotted line at each event behind which the motion went on (impacts, sticking, slipping), and in the
+ * row of a rod's or string's force one where it would go slack.
+ * @param {Trajectory} trajectory @param {readonly Row[]} rows @param {Palette} palette
  */
-export function marksOf(trajectory, palette) {
+export function marksOf(trajectory, rows, palette) {
   const times = (trajectory.events ?? []).map(({ time }) => time);
   const line = { color: palette.muted, width: 1, dash: "dot" };
   const across = { type: "line", xref: "x", yref: "paper", y0: 0, y1: 1, layer: "below", opacity: 0.5, line };
-  return times.length > MOST_MARKS ? [] : times.map((time) => ({ ...across, x0: time, x1: time }));
+  const slack = rows.flatMap(({ curves }, r) => {
+    const pulling = curves.filter((curve) => curve.pulls && isShown(curve));
+    return pulling.flatMap((curve) =>
+      slackTimes(curve).map((time) => ({
+        ...across,
+        yref: r === 0 ? "y domain" : `y${r + 1} domain`,
+        x0: time,
+        x1: time,
+        opacity: 1,
+        line: { ...line, color: palette.of(curve.className) },
+      })),
+    );
+  });
+  const events = times.map((time) => ({ ...across, x0: time, x1: time }));
+  return [events, slack].flatMap((marks) => (marks.length > MOST_MARKS ? [] : marks));
 }
 
 /**

@@ -83,7 +83,7 @@ function createCurves(root, came) {
         ...layoutOf(rows, to, palette, lang, root.clientHeight, em, from),
         width: frame.width,
         height: frame.height,
-        shapes: marksOf(trajectory, palette),
+        shapes: marksOf(trajectory, rows, palette),
       };
       const traces = tracesOf(rows, trajectory, palette, frame);
       await globalThis.Plotly.react(canvas, traces, layout, { staticPlot: true, displayModeBar: false });

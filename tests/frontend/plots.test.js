@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { rowsOf } from "../../frontend/model/curves.js";
+import { rowsOf, slackTimes } from "../../frontend/model/curves.js";
 import { domainsOf, layoutOf, marginsOf, marksOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
 import { scene, trajectory } from "./fixtures.js";
 
@@ -15,9 +15,25 @@ test("a row for each unit, and one for the energies", () => {
 
 test("reactions have a row above the energies, written as what they hold or as multipliers", () => {
   const held = { ...trajectory, multipliers: { lambda_1: trajectory.t.map((t) => t), l: trajectory.t.map((t) => -t) } };
-  const parameters = [{ name: "l", latex: "\\ell" }];
-  const [row] = rowsOf(/** @type {any} */ ({ ...scene, parameters }), held).slice(-2);
-  assert.deepEqual(row.curves.map(({ latex, className }) => [latex, className]), [["\\lambda_{1}", "q-2"], ["Z_{\\ell}", "q-3"]]);
+  const rows = (/** @type {string} */ unit, /** @type {string} */ kind) => {
+    const parameters = [{ name: "l", latex: "\\ell", unit }, { name: "m", unit: "kg" }];
+    const found = rowsOf(/** @type {any} */ ({ ...scene, parameters, constraints: [{ kind }] }), held).slice(2, -1);
+    return found.map(({ unit, curves }) => [unit, ...curves.map(({ latex, className, pulls }) => [latex, className, pulls])]);
+  };
+  const [multiplier, held_] = [["\\lambda_{1}", "q-2"], ["Z_{\\ell}", "q-3"]];
+  assert.deepEqual(rows("m", "distance"), [["N", [...multiplier, true], [...held_, true]]]);
+  assert.deepEqual(rows("m", "equation"), [["", [...multiplier, false]], ["N", [...held_, true]]]);
+  assert.deepEqual(rows("rad", "distance"), [["N", [...multiplier, true]], ["N m", [...held_, false]]]);
+});
+
+test("where the force of a rod changes its sign a string would go slack", () => {
+  const t = Array.from({ length: 81 }, (_, i) => i / 20);
+  const curve = (/** @type {boolean} */ pulls) => /** @type {any} */ ({ pulls, times: t, values: t.map(Math.cos), at: Math.cos, className: "q-2" });
+  assert.deepEqual(slackTimes(curve(true)).map((time) => time.toFixed(10)), [(Math.PI / 2).toFixed(10)]);
+  assert.deepEqual(slackTimes(curve(false)), []);
+  const rows = /** @type {any} */ ([{ curves: [] }, { curves: [curve(true)] }]);
+  const [mark, ...others] = marksOf(trajectory, rows, palette);
+  assert.deepEqual([mark.yref, mark.x0.toFixed(6), mark.line.color, others], ["y2 domain", "1.570796", "colour of q-2", []]);
 });
 
 test("coordinates of one unit share a row, each in its own colour", () => {
@@ -44,9 +60,9 @@ for (const [name, ranges, rows] of /** @type {[string, number[], string[][]][]} 
 
 test("events behind which the motion went on are dotted lines, as long as they can be told apart", () => {
   const impact = (/** @type {number} */ time) => ({ name: "floor", time, kind: /** @type {const} */ ("impact"), loss: 1, error: null });
-  const at = (/** @type {number} */ count) => marksOf({ ...trajectory, events: Array.from({ length: count }, (_, i) => impact(i / 100)) }, palette);
+  const at = (/** @type {number} */ count) => marksOf({ ...trajectory, events: Array.from({ length: count }, (_, i) => impact(i / 100)) }, [], palette);
   assert.deepEqual(at(3).map(({ x0, x1, line }) => [x0, x1, line.dash]), [[0, 0, "dot"], [0.01, 0.01, "dot"], [0.02, 0.02, "dot"]]);
-  assert.deepEqual([marksOf(trajectory, palette), at(100)], [[], []]);
+  assert.deepEqual([marksOf(trajectory, [], palette), at(100)], [[], []]);
 });
 
 test("rows fill the height from the top, without overlap", () => {
