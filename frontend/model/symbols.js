@@ -17,7 +17,7 @@ const OTHER = [
 /** What takes the next letter by itself takes no class about it. */
 const BARE = String.raw`(?<![_^]|\\(?:d?dot|sqrt|bar|hat|vec|[td]?frac|math[a-z]+)\s*)`;
 const POWER = String.raw`(?:\^(?:\{[^{}]*\}|\d))?`;
-const PLACE = /\\htmlClass\{(body-[\w-]+(?: [\w-]+)*)\}\{(?=(?:\\delta|\\mathrm\{d\})?\\mathbf\{([rv])\})/g;
+const PLACE = /\\htmlClass\{(body-[\w-]+(?: [\w-]+)*)\}\{(?=\\mathbf\{([rv])\})/g;
 
 /** The class of a parameter, "" for a name that is none. @param {Pick<Scene, "parameters">} scene @param {string | undefined} name */
 export function parameterClass({ parameters }, name) {

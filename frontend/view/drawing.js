@@ -1,5 +1,6 @@
 /** The drawing on the screen: shapes as SVG paths, labels as formulas above them; both are kept and only moved. */
 
+import { FRONT } from "../model/drawing/camera.js";
 import { figureOf, withDrawing } from "../model/drawing/figure.js";
 import { placed } from "../model/drawing/placing.js";
 import { stageOf } from "../model/drawing/stage.js";
@@ -116,13 +117,15 @@ export function createDrawing(frame) {
   let shown = null;
   /** @type {import("../model/drawing/stage.js").Stage | null} */
   let stage = null;
+  let camera = FRONT;
+  /** @type {ReturnType<typeof placed>["ground"] | undefined} */
+  let ground;
 
   function measure() {
     const { clientWidth: width, clientHeight: height } = frame;
     const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
-    const size = { width, height };
-    stage =
-      shown && width > 0 ? stageOf(shown.scene, shown.trajectory, size, { rem, reserved: reservedIn(frame) }) : null;
+    const page = { rem, reserved: reservedIn(frame), camera };
+    stage = shown && width > 0 ? stageOf(shown.scene, shown.trajectory, { width, height }, page) : null;
     if (!stage) return;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     frame.style.setProperty("--u", `${stage.unit}px`);
@@ -131,7 +134,9 @@ export function createDrawing(frame) {
   /** @param {number} t */
   function draw(t) {
     if (!stage || !shown) return;
-    sheet(placed(stage, figureOf(stage, held ?? snapshotAt(shown.trajectory, t)), t));
+    const figure = placed(stage, figureOf(stage, held ?? snapshotAt(shown.trajectory, t)), t);
+    ground = figure.ground;
+    sheet(figure);
   }
 
   return {
@@ -140,6 +145,18 @@ export function createDrawing(frame) {
     get stage() {
       return stage;
     },
+    /** What is drawn: letters of other layers keep off it. */
+    get ground() {
+      return ground;
+    },
+    get camera() {
+      return camera;
+    },
+    /** Sees space from elsewhere, from the next time on that it is drawn. @param {typeof FRONT} from */
+    see(from) {
+      camera = from;
+      if (stage) stage = stageOf(stage.scene, stage.trajectory, stage.size, { ...stage, camera });
+    },
     /** Shows a configuration instead of the motion, until it is let go. @param {import("../model/types.js").Snapshot | null} snapshot */
     hold(snapshot) {
       held = snapshot;
@@ -147,6 +164,7 @@ export function createDrawing(frame) {
     /** @param {Scene | null} scene @param {Trajectory | null} trajectory @param {number} t */
     show(scene, trajectory, t) {
       if (given.scene === scene && given.trajectory === trajectory) return;
+      if (given.scene?.id !== scene?.id) camera = FRONT;
       given = { scene, trajectory };
       shown = scene && trajectory?.t.length ? { scene: withDrawing(scene, trajectory), trajectory } : null;
       measure();

@@ -1,4 +1,7 @@
-/** A formula term by term: Enter begins, the arrows lead from one to the next, Escape leaves. Each is said and framed. */
+/**
+ * A formula term by term: Enter begins, the arrows lead from one to the next, Escape leaves. Each is said and framed, and
+ * told by the event "term", so that what it speaks of is lit.
+ */
 
 import { led, termsOf } from "../model/spoken.js";
 import { termsIn } from "./terms.js";
@@ -26,10 +29,19 @@ function boxOf(symbols) {
   return boxes.length ? { left, top, width: right - left, height: bottom - top } : null;
 }
 
-/** Puts the frame around the term; where the page cannot tell the terms apart, around the whole. @param {Walk} walk */
-function place({ formula, terms, at, frame }) {
+/** The symbols of the term; where the page cannot tell the terms apart, of the whole. @param {Walk} walk */
+function symbolsOf({ formula, terms, at }) {
   const seen = termsIn(formula);
-  const box = boxOf(seen.length === terms.length ? seen[at] : seen.flat());
+  return seen.length === terms.length ? seen[at] : seen.flat();
+}
+
+/** @param {HTMLElement} formula @param {Element[]} symbols */
+const tell = (formula, symbols) => formula.dispatchEvent(new CustomEvent("term", { bubbles: true, detail: symbols }));
+
+/** Puts the frame around the term. @param {Walk} walk */
+function place(walk) {
+  const { formula, frame } = walk;
+  const box = boxOf(symbolsOf(walk));
   const { left, top } = formula.getBoundingClientRect();
   if (!frame.isConnected) formula.append(frame);
   frame.hidden = !box;
@@ -84,6 +96,7 @@ export class Exploring {
   #show(walk) {
     say(walk.terms[walk.at]);
     place(walk);
+    tell(walk.formula, symbolsOf(walk));
     walk.frame.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 
@@ -93,6 +106,7 @@ export class Exploring {
     this.#walk.watch.disconnect();
     this.#walk.frame.remove();
     this.#walk.formula.setAttribute("role", "img");
+    tell(this.#walk.formula, []);
     this.#walk = null;
     say("");
   }

@@ -1,8 +1,9 @@
-/** Pointing at a quantity lights it up wherever it stands: in formulas, drawing, plots and sliders. */
+/** Pointing at a quantity lights it up wherever it stands: in formulas, drawing, plots and sliders; so does walking through the terms of a formula. */
 
 const QUANTITY = /^([pq]-\d+|load-.+|body-.+|energy-(kinetic|potential)|time-term)$/;
 const SOURCE = /^(load|body)-/;
 const TOGETHER = /^(load|body|p)-/;
+const VECTOR = /^vector-[rv]$/;
 
 /**
  * The innermost quantity at an element: one name, or all bodies and loads that a term comes from, with their parameters.
@@ -17,17 +18,45 @@ function quantitiesAt(element) {
   return [];
 }
 
-/** @param {HTMLElement} root */
+/** The symbol of a place or velocity at an element, and whose it is. @param {Element | null | undefined} element */
+function vectorsAt(element) {
+  const classes = [...(element?.closest("[class*='vector-']")?.classList ?? [])];
+  const vector = classes.find((name) => VECTOR.test(name))?.at(-1);
+  const bodies = classes.filter((name) => name.startsWith("body-")).map((name) => name.slice(5));
+  return vector ? bodies.map((body) => ({ body, vector })) : [];
+}
+
+/** What the letters of a term stand for. @param {readonly Element[]} symbols */
+function within(symbols) {
+  const all = [...new Set(symbols.flatMap((symbol) => [symbol, ...symbol.querySelectorAll("*")]))];
+  const letters = all.filter((one) => !one.childElementCount && one.textContent?.trim());
+  return { names: letters.flatMap(quantitiesAt), vectors: letters.flatMap(vectorsAt) };
+}
+
+/** Lights what belongs together, and tells of symbols of places and velocities by the event "lit". @param {HTMLElement} root */
 export function linkHighlights(root) {
-  let lit = "";
-  const light = (/** @type {Event} */ { target }) => {
-    const names = quantitiesAt(target instanceof Element ? target : null)
-      .map((name) => `.${CSS.escape(name)}`)
-      .join();
-    if (names === lit) return;
-    lit = names;
+  let [lit, arrows] = ["", "[]"];
+
+  /** @param {string[]} names @param {ReturnType<typeof vectorsAt>} vectors */
+  function light(names, vectors) {
+    const each = [...new Map(vectors.map((one) => [`${one.vector} ${one.body}`, one])).values()];
+    const told = JSON.stringify(each);
+    if (told !== arrows) root.dispatchEvent(new CustomEvent("lit", { detail: each }));
+    arrows = told;
+    const selector = [...new Set(names)].map((name) => `.${CSS.escape(name)}`).join();
+    if (selector === lit) return;
+    lit = selector;
     root.querySelectorAll(".lit").forEach((element) => element.classList.remove("lit"));
-    if (names) root.querySelectorAll(names).forEach((element) => element.classList.add("lit"));
-  };
-  for (const event of ["pointerover", "focusin"]) root.addEventListener(event, light);
+    if (selector) root.querySelectorAll(selector).forEach((element) => element.classList.add("lit"));
+  }
+
+  for (const event of ["pointerover", "focusin"])
+    root.addEventListener(event, ({ target }) => {
+      const element = target instanceof Element ? target : null;
+      light(quantitiesAt(element), vectorsAt(element));
+    });
+  root.addEventListener("term", (event) => {
+    const { names, vectors } = within(/** @type {CustomEvent<Element[]>} */ (event).detail);
+    light(names, vectors);
+  });
 }

@@ -37,6 +37,18 @@ def pressing(key: str) -> Callable[[Page], None]:
     return lambda page: page.keyboard.press(key)
 
 
+def turn(page: Page) -> None:
+    """Space, turned by keys: the drawing has the focus."""
+    page.locator(".drawing").hover()
+    drawing = page.locator(".drawing[tabindex='0'][role=group][aria-label]")
+    drawing.focus()
+    before = page.locator(".drawing path.steel").first.get_attribute("d")
+    drawing.press("ArrowLeft")
+    expect(page.locator(".drawing path.steel").first).not_to_have_attribute("d", before or "")
+    drawing.press("Home")
+    expect(page.locator(".drawing path.steel").first).to_have_attribute("d", before or "")
+
+
 def measure(page: Page) -> None:
     page.locator("form.question button.main").click()
     page.locator("p.files").wait_for()
@@ -114,11 +126,12 @@ CLASS = "student,id,scene,task,answer,time\n" + "".join(
     for n, answer in enumerate(["m*l^2*dot(phi)^2", "m*l^2*dot(phi)^2/2"])
 )
 SCENE = "scene?scene=elastic-pendulum&step=generalized-forces"
+SPACE = "scene?scene=heavy-top&step=lagrangian"
 # Where, what must be there before it is looked at, and what is done first.
 PLACES = [
     pytest.param("?", ".hero path.bob", nothing, id="start page"),
     pytest.param(f"{SCENE}&n=0", ".plots.ready", nothing, id="scene"),
-    pytest.param(f"{SCENE}&view=lecture&part=1&beside=plots", ".slide .katex", nothing, id="lecture mode"),
+    pytest.param(f"{SPACE}&view=lecture&beside=plots&at=1", ".slide .katex", turn, id="lecture mode"),
     pytest.param("scene?scene=pendulum&edit=form", ".editor .field .katex", nothing, id="editor"),
     pytest.param("embed?scene=pendulum", ".steps .katex", nothing, id="frame"),
     pytest.param("embed/proof?", ".steps .katex", nothing, id="proof in a frame"),

@@ -61,9 +61,10 @@ def test_the_terms_of_a_formula_are_walked_through(lecture: Lecture) -> None:
     formula.focus()
     page.keyboard.press("Enter")
     said = page.locator("#announcer")
-    spoken, frames = [], []
+    spoken, frames, lit = [], [], []
     for _ in range(3):
         spoken.append(said.text_content())
+        lit.append(page.locator(".drawing .q-0.lit").count())
         frames.append(page.evaluate(FRAME))
         page.keyboard.press("ArrowRight")
     assert spoken == [
@@ -72,12 +73,14 @@ def test_the_terms_of_a_formula_are_walked_through(lecture: Lecture) -> None:
         "equals Q sub phi upper d",
     ]
     assert all(frame and frame[0] < 0.7 for frame in frames)
+    assert all(lit)  # each term speaks of φ, and the drawing shows it
     assert frames[0][1] < frames[1][1] < frames[2][1]
     page.keyboard.press("ArrowLeft")
     assert said.text_content() == spoken[2]
     assert "step=equation" in page.url
     page.keyboard.press("Escape")
     expect(page.locator(".term-frame")).to_have_count(0)
+    expect(page.locator(".lit")).to_have_count(0)
     expect(formula).to_have_attribute("role", "img")
     page.keyboard.press("ArrowRight")
     expect(page.locator(".slide .step")).not_to_have_attribute("data-step", "equation:phi")

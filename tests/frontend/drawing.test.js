@@ -1,5 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
+import { FRONT, turned, viewBy } from "../../frontend/model/drawing/camera.js";
 import { figureOf, KINDS, withDrawing } from "../../frontend/model/drawing/figure.js";
 import { arcFrom, coil, sliverFrom, wrapped } from "../../frontend/model/drawing/geometry.js";
 import { forceLatex } from "../../frontend/model/drawing/marks.js";
@@ -96,7 +97,7 @@ test("the largest force is as long as every other largest force; a vanishing one
 test("every kind of element draws something, with finite numbers", () => {
   for (const kind of Object.keys(KINDS)) {
     const element = { kind, at: "bob", from: "pivot", to: "bob", coordinate: "phi", load: "F", radius: 0.2 };
-    const dimension = ["polar", "azimuth", "top"].includes(kind) ? 3 : 2;
+    const dimension = ["polar", "azimuth", "top", "wheel"].includes(kind) ? 3 : 2;
     const { shapes } = figureAt(2, { ...scene, dimension, drawing: { ...scene.drawing, elements: [element] } });
     assert.ok(shapes.some((s) => s.d !== ""), kind);
     assert.ok(!shapes.some((s) => /NaN|Infinity/.test(s.d + s.at)), kind);
@@ -229,8 +230,8 @@ test("a wire that only the server can read is left out", () => {
 for (const [dimension, vertical, ways] of /** @type {const} */ ([
   [2, "down", { x: [1, 0], y: [0, 1] }],
   [2, "up", { x: [1, 0], y: [0, -1] }],
-  [3, "up", { x: [1, 0], y: [-1, 1], z: [0, -1] }],
-  [3, "down", { x: [1, 0], y: [-1, -1], z: [0, 1] }],
+  [3, "up", { x: [1, -1], y: [-1, -1], z: [0, -1] }],
+  [3, "down", { x: [1, -1], y: [1, 1], z: [0, 1] }],
 ]))
   test(`axes point where components grow, in a corner, and the origin is marked: ${dimension}, ${vertical}`, () => {
     const given = /** @type {any} */ ({ ...scene, dimension, drawing: { ...scene.drawing, vertical, elements: [] } });
@@ -322,4 +323,43 @@ test("the arc about a disc ends at the mark that turns with it", () => {
 test("parameters are marked in formulas where they stand alone, and nothing that only looks like them", () => {
   const mark = markerOf({ parameters: /** @type {any} */ ([{ name: "m", latex: "" }, { name: "l", latex: "\\ell" }]) });
   assert.equal(mark("m\\ell^2 + m_1 x^m \\dot m \\mathrm{m}"), "\\htmlClass{p-0}{m}\\htmlClass{p-1}{\\ell^2} + m_1 x^m \\dot m \\mathrm{m}");
+});
+
+for (const up of [true, false])
+  for (const camera of [FRONT, { turn: -2, raised: 1 }, { turn: 3, raised: -0.4 }])
+    test(`a camera sees right-handed axes at their lengths: ${up ? "up" : "down"}, ${JSON.stringify(camera)}`, () => {
+      const seen = viewBy(camera, up);
+      const [x, y, z] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => seen(axis).map((value, c) => (c && !up ? -value : value)));
+      for (const c of [0, 1]) assert.ok(Math.abs(x[c] ** 2 + y[c] ** 2 + z[c] ** 2 - 1) < 1e-12);
+      assert.ok(Math.abs(x[0] * x[1] + y[0] * y[1] + z[0] * z[1]) < 1e-12);
+      // Who looks against an axis sees the turn from the one that follows it to the next as positive.
+      const fromAbove = x[0] * y[1] - x[1] * y[0];
+      assert.equal(Math.sign(fromAbove), Math.sign((up ? 1 : -1) * camera.raised));
+      assert.equal(Math.sign(z[1]), up ? 1 : -1);
+    });
+
+test("space follows the hand that drags it: what is near goes with it, and never over the top", () => {
+  const near = [0, -1, 0];
+  const [before, after] = [FRONT, turned(FRONT, [20, 0])].map((camera) => viewBy(camera, true)(near));
+  assert.ok(after[0] > before[0], `${before} ${after}`);
+  assert.ok(turned(FRONT, [0, 20]).raised > FRONT.raised);
+  assert.ok(Math.abs(turned(FRONT, [0, 1e4]).raised) < Math.PI / 2);
+});
+
+test("turning space leaves the size in which it is drawn", () => {
+  const space = /** @type {any} */ ({ ...scene, dimension: 3, drawing: { vertical: "up", elements: [] } });
+  const moving = { ...trajectory, positions: { bob: [[0, 0, 0], [2, 0, 0], [0, 1, 1]] } };
+  const scales = [FRONT, { turn: 1.5, raised: 0.1 }].map((camera) => stageOf(space, moving, square(400), { camera }).scale);
+  assert.equal(scales[0], scales[1]);
+});
+
+test("the rim of a wheel in space goes through both of its places", () => {
+  const space = /** @type {any} */ ({ ...scene, dimension: 3, drawing: { vertical: "up", elements: [{ kind: "wheel", at: "bob", from: "a", to: "b" }] } });
+  const places = { bob: [0, 0, 1], a: [0.6, 0, 1.8], b: [0, 1, 1] };
+  const stage = stageOf(space, { ...trajectory, positions: Object.fromEntries(Object.entries(places).map(([name, at]) => [name, [at]])) }, square(400));
+  const rim = numbers(shape(figureOf(stage, /** @type {any} */ ({ t: 0, coordinates: {}, positions: places, loads: {} })), "wheel0")?.d);
+  for (const end of [places.a, places.b]) {
+    const [x, y] = stage.project(end);
+    assert.ok(rim.some((value, i) => i % 2 === 0 && Math.hypot(value - x, rim[i + 1] - y) < 0.02), `${end}`);
+  }
 });

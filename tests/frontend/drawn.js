@@ -16,8 +16,13 @@ import { rowsOf } from "../../frontend/model/curves.js";
 import { layoutOf, scalesOf, tracesOf } from "../../frontend/model/plots.js";
 import { requestOf } from "../../frontend/model/request.js";
 import { sampled } from "../../frontend/model/sampling.js";
+import { coverage } from "./symbols.js";
 import { START } from "../../frontend/model/state.js";
+import { kinematicsOf } from "../../frontend/model/kinematics/kinematics.js";
 import { endOf, snapshotAt } from "../../frontend/model/trajectory.js";
+import { readChoice } from "../../frontend/model/virtual/choice.js";
+import { virtualFigure } from "../../frontend/model/virtual/figure.js";
+import { virtualOf } from "../../frontend/model/virtual/virtual.js";
 
 /** The plots of a lecture on a projector. */
 const FRAME = { width: 1280, height: 700, em: 16, duration: 10 };
@@ -142,36 +147,68 @@ const SEEN = 0.3;
 const around = (xs, ys) => [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
 const meet = (a, b) => Math.min(a[2], b[2]) - Math.max(a[0], b[0]) > 1 && Math.min(a[3], b[3]) - Math.max(a[1], b[1]) > 1;
 
+/** Part of the width and height of a rim in space that its disc fills for sure, whichever way it is turned: a square within an ellipse. */
+const FILLED = 0.7;
+/** The middle of a box. */
+const within = ([x0, y0, x1, y1], part) => [
+  ...[[x0, x1], [y0, y1]].map(([a, b]) => (a + b) / 2 - (part * (b - a)) / 2),
+  ...[[x0, x1], [y0, y1]].map(([a, b]) => (a + b) / 2 + (part * (b - a)) / 2),
+];
+
 /** What a letter may not cover: the heads of arrows, which are the last closed part of their paths, and bodies: balls, discs, carts and blocks. */
 function forbidden({ d, at, className }) {
   const numbers = d.slice(d.lastIndexOf("M")).match(/-?[\d.]+/g)?.map(Number) ?? [];
   if (/pointed|head/.test(className) && d.endsWith("Z")) return [around(numbers.filter((_, i) => i % 2 === 0), numbers.filter((_, i) => i % 2))];
-  if (!at || !/^ink steel .*\bbody-/.test(className)) return [];
+  if (!/^ink steel .*\bbody-/.test(className)) return [];
+  if (!at) return [within(around(numbers.filter((_, i) => i % 2 === 0), numbers.filter((_, i) => i % 2)), FILLED)];
   const [x, y] = at;
   const [left, top] = [-numbers[0], -Math.abs(numbers[1] || numbers[0])];
   return [[x - left, y + top, x + left, y - top]];
 }
 
-/** Which letters cover what, and how many there are and are not shown, while the motion runs. */
-function ofLetters(scene, drawn) {
-  const stage = stageOf(withDrawing(scene, drawn), drawn, PANE);
-  const [covers, count] = [{}, { shown: 0, hidden: 0 }];
+/** The box of a letter as it is seen. @param {{latex: string, at: [number, number]}} label @returns {[string, number[]]} */
+function seenBox({ latex, at: [x, y] }) {
   const letter = 0.95 * 16 * 1.21;
-  for (let t = 0; t < endOf(drawn); t += 1 / LOOKS) {
-    const { labels, shapes } = placed(stage, figureOf(stage, snapshotAt(drawn, t)), t);
-    const shown = labels.filter(({ opacity = 1 }) => opacity > SEEN).map(({ latex, at: [x, y] }) => {
-      const half = (0.9 * letter * latex.replace(/\\mathbf|\\[,!]|[{}_]/g, "").replace(/\\[a-z]+/g, "x").length * 0.5) / 2;
-      return [latex, [x - half, y - 0.35 * letter, x + half, y + 0.35 * letter]];
-    });
-    const others = shapes.flatMap(forbidden);
-    shown.forEach(([latex, box], i) => {
-      const covered = [...shown.slice(i + 1).filter(([, other]) => meet(box, other)).map(([other]) => other), ...others.filter((other) => meet(box, other)).map(() => "a head or body")];
-      for (const one of covered) covers[`${latex} on ${one}`] = (covers[`${latex} on ${one}`] ?? 0) + 1;
-    });
-    count.shown += shown.length;
-    count.hidden += labels.filter(({ opacity }) => opacity === 0).length;
+  const [above, below] = /\\frac\{(.*?)\}\{(.*)/.exec(latex)?.slice(1) ?? [latex, ""];
+  const letters = (text) => text.replace(/\\mathbf|\\[,!]|[{}_]/g, "").replace(/\\[a-z]+/g, "x").replace(/\s/g, "").length;
+  const half = (0.9 * letter * Math.max(letters(above), letters(below)) * 0.5) / 2;
+  const high = below ? 0.6 * letter : 0.35 * letter;
+  return [latex, [x - half, y - high, x + half, y + high]];
+}
+
+/** Counts which of the letters that come last cover which others or what they may not, and which find no place. */
+function counted(count, letters, others, forbiddenBoxes) {
+  const shown = letters.filter(({ opacity = 1 }) => opacity > SEEN).map(seenBox);
+  shown.forEach(([latex, box], i) => {
+    const covered = [...shown.slice(i + 1), ...others].filter(([, other]) => meet(box, other)).map(([other]) => other);
+    for (const other of forbiddenBoxes) if (meet(box, other)) covered.push("a head or body");
+    for (const one of covered) count.covers[`${latex} on ${one}`] = (count.covers[`${latex} on ${one}`] ?? 0) + 1;
+  });
+  count.shown += shown.length;
+  for (const { latex } of letters.filter(({ opacity }) => opacity === 0)) {
+    count.hidden += 1;
+    count.without[latex] = (count.without[latex] ?? 0) + 1;
   }
-  return { covers, ...count };
+  return shown;
+}
+
+/** Which letters cover what, and how many there are and are not shown: while the motion runs, and of δr with its parts. */
+function ofLetters(scene, drawn, result) {
+  const stage = stageOf(withDrawing(scene, drawn), drawn, PANE);
+  const [own, varied] = [0, 1].map(() => ({ covers: {}, shown: 0, hidden: 0, without: {} }));
+  const kinematics = kinematicsOf(scene, result, {});
+  const bodies = scene.bodies.map(({ name }) => name);
+  const delta = readChoice("on", scene.coordinates.filter(({ name }) => kinematics.free.includes(name)));
+  for (let t = 0; t < endOf(drawn); t += 1 / LOOKS) {
+    const now = snapshotAt(drawn, t);
+    const { labels, shapes, ground } = placed(stage, figureOf(stage, now), t);
+    const heads = shapes.flatMap(forbidden);
+    const shown = counted(own, labels, [], heads);
+    const { over } = virtualFigure(stage, virtualOf(kinematics, now, bodies, delta));
+    const above = placed(stage, over, t, ground);
+    counted(varied, above.labels, shown, [...heads, ...above.shapes.flatMap(forbidden)]);
+  }
+  return { own, varied };
 }
 
 /** The pictures of a handout. */
@@ -184,8 +221,8 @@ function ofHandout(scene, drawn, dense) {
   }));
 }
 
-/** @param {{scene: any, changes?: object, method?: string, duration?: number}} asked */
-async function measure({ scene, changes = {}, method = "" }) {
+/** @param {{scene: any, derivation?: any, changes?: object, method?: string}} asked */
+async function measure({ scene, derivation, changes = {}, method = "" }) {
   const methods = [{ id: "rk4", adaptive: false }, { id: "dop853", adaptive: true }, { id: "bogacki-shampine-32", adaptive: true }];
   const place = { ...START.place, scene: scene.id, duration: FRAME.duration, lang: "en" };
   const request = requestOf({ ...START, place, methods }, { initial: {}, parameters: {}, ...changes }, method);
@@ -193,7 +230,7 @@ async function measure({ scene, changes = {}, method = "" }) {
   const intervals = Math.round(request.t_end / (drawn.t[1] - drawn.t[0]));
   const dense = await simulate({ ...request, samples: Math.min(FINER * intervals, 20000) + 1 });
   const found = [ofPlots, ofPhase, ofDrawing, ofHandout].flatMap((of) => of(scene, drawn, dense));
-  tell({ worst: Object.fromEntries(found), samples: drawn.t.length, coarse: drawn.coarse, end: endsOf(scene, drawn), letters: ofLetters(scene, drawn) });
+  tell({ worst: Object.fromEntries(found), samples: drawn.t.length, coarse: drawn.coarse, end: endsOf(scene, drawn), ...(derivation && { letters: ofLetters(scene, drawn, derivation.result), symbols: coverage(scene, drawn, derivation) }) });
 }
 
 for (let asked = await read(); asked; asked = await read()) await measure(asked);

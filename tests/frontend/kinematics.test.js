@@ -5,6 +5,7 @@ import { configured, kinematicsOf } from "../../frontend/model/kinematics/kinema
 import { reached } from "../../frontend/model/kinematics/reach.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
 import { readChoice, writeChoice } from "../../frontend/model/virtual/choice.js";
+import { vectorFigure, vectorSymbols } from "../../frontend/model/figure/vectors.js";
 import { virtualFigure } from "../../frontend/model/virtual/figure.js";
 import { virtualOf } from "../../frontend/model/virtual/virtual.js";
 import { stageOf } from "../../frontend/model/drawing/stage.js";
@@ -75,6 +76,18 @@ test("the ghost has the members and nothing else; each displacement has its arro
   assert.deepEqual(figure.over.labels.map(({ key }) => key), ["variation-bob", "differential-bob", "explicit-bob"]);
 });
 
+test("where several coordinates move a place, δr is made of their parts, one after the other", () => {
+  const free = kinematicsOf(scene, { ...RESULT, points: { pivot: { plain: ["0", "y"] } }, positions: { bob: { plain: ["sin(phi)", "y + cos(phi)"] } } }, {});
+  const stage = stageOf(scene, trajectory, square(400));
+  const { over } = virtualFigure(stage, virtualOf(free, now, ["bob"], { delta: { y: 0.4, phi: 0.5 }, dt: 0 }));
+  assert.deepEqual(over.labels.map(({ latex }) => latex), ["\\delta\\mathbf r", "\\frac{\\partial\\mathbf r}{\\partial q_1}\\,\\delta q_1", "\\frac{\\partial\\mathbf r}{\\partial q_2}\\,\\delta q_2"]);
+  const [whole, ...ends] = over.shapes.filter(({ key }) => /head/.test(key)).map(({ d }) => d.slice(1).split("L")[0].split(" ").map(Number));
+  const [x, y] = stage.project(now.positions.bob);
+  assert.ok(Math.hypot(ends[0][0] - x, ends[0][1] - y - 0.4 * stage.scale) < 0.02, "δy alone moves the bob down");
+  assert.ok(Math.hypot(ends[1][0] - whole[0], ends[1][1] - whole[1]) < 0.02, "the parts end where δr does");
+  assert.equal(virtualFigure(stage, virtualOf(free, now, ["bob"], { delta: { phi: 0.5 }, dt: 0 })).over.labels.length, 1);
+});
+
 test("a place is brought where the hand is, or as near as it can come", () => {
   const project = (/** @type {number[]} */ [x, y]) => /** @type {[number, number]} */ ([100 * x, 100 * y]);
   const free = kinematicsOf(scene, { ...RESULT, points: { pivot: { plain: ["0", "y"] } }, positions: { bob: { plain: ["sin(phi)", "y + cos(phi)"] } } }, {});
@@ -89,4 +102,22 @@ test("what is varied has an address; at first something is", () => {
   assert.equal(writeChoice(readChoice("y:0.1,phi:-0.2,dt:0.3", free)), "y:0.1,phi:-0.2,dt:0.3");
   assert.ok(Object.values(readChoice("on", free).delta).some((value) => value > 0));
   assert.deepEqual(readChoice("phi:9,dt:-1,z:3", free), { delta: { y: 0, phi: 1 }, dt: 0 });
+});
+
+test("r leads from the origin to its body, v along its motion, with the symbols of the formulas", () => {
+  const stage = stageOf(guided, trajectory, square(400));
+  const step = /** @type {any} */ ({ marked: "\\htmlClass{body-bob vector-r}{\\mathbf{r}_{\\text{el}}} = \\htmlClass{body-bob}{\\delta\\mathbf{r}_{\\text{x}}} + \\htmlClass{body-bob}{\\mathbf{v}}" });
+  const symbols = vectorSymbols([{ steps: [step] }]);
+  const at = (/** @type {number} */ t) => ({ ...snapshotAt(trajectory, t), rates: { y: 0, phi: 0.25 } });
+  const arrows = /** @type {const} */ ([{ body: "bob", vector: "r" }, { body: "bob", vector: "v" }, { body: "none", vector: "v" }]);
+  const { shapes, labels } = vectorFigure(stage, now, arrows, { kinematics, symbols, at, end: 4 });
+  assert.deepEqual(labels.map(({ latex }) => latex), ["\\mathbf{r}_{\\text{el}}", "\\mathbf{v}"]);
+  const ends = shapes.map(({ d }) => [d.slice(1).split("L")[0], d.slice(d.lastIndexOf("M") + 1).split("L")[0]].map((pair) => pair.split(" ").map(Number)));
+  const [[origin, tip], [from, to]] = ends;
+  const close = (/** @type {number[]} */ a, /** @type {number[]} */ b) => assert.ok(Math.hypot(a[0] - b[0], a[1] - b[1]) < 0.02, `${a} ${b}`);
+  close(origin, stage.project([0, 0]));
+  close(tip, stage.project(now.positions.bob));
+  close(from, stage.project(now.positions.bob));
+  const [vx, vy] = [0.25 * Math.cos(0.25), 0.5 * Math.cos(1) - 0.25 * Math.sin(0.25)];
+  assert.ok(Math.abs(Math.atan2(to[1] - from[1], to[0] - from[0]) - Math.atan2(vy, vx)) < 1e-3);
 });

@@ -35,6 +35,7 @@ ELEMENTS: dict[str, tuple[str, ...]] = {
     "trail": ("at",),
     "wall": ("from", "to"),
     "weight": ("at",),
+    "wheel": ("at", "from", "to"),
     "wire": ("at",),
 }
 TEXTS = ("load", "coordinate", "direction", "label")

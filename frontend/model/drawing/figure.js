@@ -8,7 +8,7 @@ import { ground, guide, pivot, wall, wire } from "./supports.js";
 import { bob, cart, damper, disc, hoop, rod, spring } from "./members.js";
 import { angle, dimension, force, moment, weight } from "./marks.js";
 import { sketchOf, verticalOf } from "./sketch.js";
-import { azimuth, polar, top } from "./space.js";
+import { azimuth, polar, top, wheel } from "./space.js";
 import { trail } from "./trail.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
@@ -30,6 +30,7 @@ export const KINDS = {
   damper,
   spring,
   hoop,
+  wheel,
   top,
   rod,
   cart,

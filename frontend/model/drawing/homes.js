@@ -10,7 +10,7 @@ import { parameterClass } from "../symbols.js";
 
 const NAME = /[A-Za-z_]\w*/g;
 /** Elements that show a body, in whose position, mass or moments of inertia a symbol stands. */
-const BODIES = /^(bob|disc|hoop|block|cart|top|cuboid|rod|spring)$/;
+const BODIES = /^(bob|disc|hoop|block|cart|top|wheel|rod|spring)$/;
 
 /** Members of a load that are no expressions. */
 const NAMES = new Set(["name", "kind", "at", "from", "to", "latex", "coordinate"]);

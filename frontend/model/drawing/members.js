@@ -151,7 +151,7 @@ const SIDES_OF_BODY = [0, 4, 7, 5, 1, 3, 6, 2];
  * The letter of a body's mass beside it, where its mass is a parameter.
  * @param {string | undefined} name of the body @param {Stage} stage @param {Pixel} place @param {number} across @param {number} [along] half its size @returns {Figure["labels"]}
  */
-function massOf(name, stage, place, across, along = across) {
+export function massOf(name, stage, place, across, along = across) {
   const body = stage.scene.bodies.find((candidate) => candidate.name === name);
   const mass = stage.scene.parameters.find((parameter) => parameter.name === body?.mass);
   if (!mass) return [];

@@ -19,22 +19,27 @@ import { lengthOf, subtract } from "./geometry.js";
 
 /** Costs, in the same unit as a place's distance from the first one in units of the drawing. */
 const COVERS = 1000;
-const LEAVES = 400;
+const LEAVES = 1500;
 const CROSSES = 6;
 const CROWDS = 20;
 const STAYS = 5;
 /** Of going far from where it stands. */
 const JUMPS = 0.6;
+/** Units from its first place beyond which it is hard to see what a letter belongs to, and how much worse each further one is. */
+const NEAR = 2.4;
+const REMOTE = 6;
 /** Above this a place is none. */
 const MOST = 100;
 /** How often in a second of the motion a letter looks for a better place than one that will do. */
 const LOOKS = 1;
-/** Directions about its first place that any letter can move to, and how far in units. */
-const AROUND = 8;
-const REACHES = [1.3, 2.4];
+/** Directions about its first place that any letter can move to, and how far in units: beside a body as far as that is large; wide ones by their width more. */
+const AROUND = 12;
+const REACHES = [1.3, 2.4, 3.6, 5, 6.5];
 /** Room about a letter, in em; and how large KaTeX sets one. */
 const PADDING = 0.12;
 const KATEX = 1.21;
+/** Fractions are measured as in a formula of their own; in a line they are set smaller. */
+const IN_LINE = 0.78;
 
 /** The least and the usual size of letters, in rem and in units of the drawing: as in figure.css. */
 const LETTER = { rem: 0.95, unit: 1.15 };
@@ -45,7 +50,7 @@ export const letterSize = ({ rem, unit }) => Math.max(LETTER.rem * rem, LETTER.u
 /** Width and height of a letter in pixels. @param {Stage} stage @param {string} latex @returns {[number, number]} */
 function extent(stage, latex) {
   const { width, height, depth } = stage.once(`extent ${latex}`, () => sizeOf(latex));
-  const em = letterSize(stage);
+  const em = letterSize(stage) * (latex.includes("\\frac") ? IN_LINE : 1);
   return [(width * KATEX + 2 * PADDING) * em, Math.max(1, (height + depth) * KATEX) * em];
 }
 
@@ -84,12 +89,14 @@ function groundOf({ shapes }) {
   };
 }
 
-/** Where a letter can stand, the best first. @param {Label} label @param {number} unit @returns {Pixel[]} */
-function placesOf({ at, others = [] }, unit) {
+/** Where a letter can stand, the best first. @param {Guest} guest @param {number} unit @returns {Pixel[]} */
+function placesOf({ label: { at, others = [] }, width }, unit) {
+  const more = Math.max(0, width / 2 - unit);
   const around = REACHES.flatMap((reach) =>
     Array.from({ length: AROUND }, (_, i) => {
       const turn = (i * 2 * Math.PI) / AROUND;
-      return /** @type {Pixel} */ ([at[0] + reach * unit * Math.cos(turn), at[1] + reach * unit * Math.sin(turn)]);
+      const [across, along] = [reach * unit + more, reach * unit];
+      return /** @type {Pixel} */ ([at[0] + across * Math.cos(turn), at[1] + along * Math.sin(turn)]);
     }),
   );
   return [at, ...others, ...around];
@@ -116,13 +123,14 @@ function faults(box, { size, reserved }, ground, taken) {
  */
 function choose(guest, stage, ground, taken, coming) {
   const { label, kept } = guest;
-  const places = placesOf(label, stage.unit);
+  const places = placesOf(guest, stage.unit);
   const present = kept.hidden ? -1 : kept.choice;
   let [best, least] = [-1, MOST];
   for (let choice = 0; choice < places.length; choice += 1) {
     const off = lengthOf(subtract(places[choice], label.at));
     const jump = present < 0 ? 0 : lengthOf(subtract(places[choice], places[present]));
-    const far = (off + JUMPS * jump) / stage.unit - (choice === present ? STAYS : 0);
+    const remote = REMOTE * Math.max(0, off / stage.unit - NEAR);
+    const far = (off + JUMPS * jump) / stage.unit + remote - (choice === present ? STAYS : 0);
     if (far >= least) continue;
     const box = boxOf(guest, places[choice]);
     let cost = far + faults(box, stage, ground, taken);
@@ -152,12 +160,12 @@ export function placed(stage, figure, t, beside = { boxes: [], strips: [], lette
   const labels = guests.map((guest, i) => {
     const { label, kept } = guest;
     if (label.opacity === 0) return label;
-    const present = placesOf(label, stage.unit)[kept.choice];
+    const present = placesOf(guest, stage.unit)[kept.choice];
     if (kept.turn !== turn || !stays(guest, stage, ground, taken, present)) {
       const coming = guests.slice(i + 1).flatMap((other) => nowOf(other, stage.unit));
       settle(kept, choose(guest, stage, ground, taken, coming), turn);
     }
-    const at = kept.hidden ? label.at : placesOf(label, stage.unit)[kept.choice];
+    const at = kept.hidden ? label.at : placesOf(guest, stage.unit)[kept.choice];
     if (!kept.hidden) taken.push(boxOf(guest, at));
     return { ...label, at, moves: kept.moves + (label.moves ?? 0), ...(kept.hidden ? { opacity: 0 } : {}) };
   });
@@ -174,7 +182,7 @@ function guestOf(stage, label, turn) {
 /** @param {Guest} guest @param {number} unit @returns {Box[]} */
 function nowOf(guest, unit) {
   const { label, kept } = guest;
-  return kept.hidden || label.opacity === 0 ? [] : [boxOf(guest, placesOf(label, unit)[kept.choice])];
+  return kept.hidden || label.opacity === 0 ? [] : [boxOf(guest, placesOf(guest, unit)[kept.choice])];
 }
 
 /** @param {Kept} kept @param {number} choice @param {number} turn */

@@ -1,7 +1,8 @@
 /** The angles of spherical coordinates, drawn in space and seen as everything in it: from the vertical, and round it. */
 
 import { add, arrowHead, at as pixel, line, polyline, scaled, subtract, unit, wrapped } from "./geometry.js";
-import { aboutArc } from "./marks.js";
+import { massOf } from "./members.js";
+import { aboutArc, tipBox } from "./marks.js";
 import { boxAbout } from "./placing.js";
 import { coordinateClass, latexOf, marked, sizeOf } from "./stage.js";
 
@@ -82,6 +83,69 @@ export function azimuth(element, stage, now, key) {
 const SIDES = 48;
 
 /**
+ * A disc in space about a place, through two places of its rim a quarter turn apart, with a spoke to each of them and its
+ * axle: the frame of the body.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
+ * @returns {Figure}
+ */
+export function wheel(element, stage, now, key) {
+  if (stage.scene.dimension !== 3) return NOTHING;
+  const [centre, first, second] = [element.at, element.from, element.to].map((place) => placeIn(now, place));
+  const [a, b] = [first, second].map((end) => end.map((value, i) => value - centre[i]));
+  const radius = Math.hypot(...a) || 1;
+  const normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const on = (/** @type {number} */ turn) =>
+    stage.project(centre.map((c, i) => c + Math.cos(turn) * a[i] + Math.sin(turn) * b[i]));
+  const rim = Array.from({ length: SIDES + 1 }, (_, i) => on((i * 2 * Math.PI) / SIDES));
+  const middle = stage.project(centre);
+  const axle = stage.project(centre.map((c, i) => c + (0.5 * normal[i]) / radius));
+  const spoke = (/** @type {Pixel} */ end, /** @type {string} */ name, /** @type {string} */ className) => ({
+    key: `${key}-${name}`,
+    d: line(middle, end),
+    className,
+  });
+  return {
+    shapes: [
+      {
+        key,
+        d: `${polyline(rim)}Z`,
+        className: marked(`ink steel body-${element.at}`, element),
+        strips: chordsOf(rim),
+        boxes: filled(rim),
+      },
+      spoke(stage.project(first), "first", "ink mark"),
+      spoke(stage.project(second), "second", "extension"),
+      spoke(axle, "axle", "ink"),
+    ],
+    labels: massOf(element.at, stage, middle, ...halvesOf(rim)),
+  };
+}
+
+/** Parts of its width and height that a rim fills for sure: its middle, across and along. */
+const WITHIN = [
+  [0.96, 0.5],
+  [0.5, 0.96],
+  [0.78, 0.78],
+];
+
+/** Half of a rim's width and height. @param {readonly Pixel[]} rim @returns {[number, number]} */
+function halvesOf(rim) {
+  const half = (/** @type {number[]} */ values) => (Math.max(...values) - Math.min(...values)) / 2;
+  return [half(rim.map(([x]) => x)), half(rim.map(([, y]) => y))];
+}
+
+/** What a rim encloses, to be kept off. @param {readonly Pixel[]} rim @returns {import("../types.js").Box[]} */
+function filled(rim) {
+  const [xs, ys] = [rim.map(([x]) => x), rim.map(([, y]) => y)];
+  const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+  const middle = /** @type {Pixel} */ ([(left + right) / 2, (top + bottom) / 2]);
+  return WITHIN.map(([across, along]) => boxAbout(middle, (across * (right - left)) / 2, (along * (bottom - top)) / 2));
+}
+
+/** Every sixth side of a rim is enough to keep letters off it. @param {readonly Pixel[]} rim @returns {import("../types.js").Strip[]} */
+const chordsOf = (rim) => Array.from({ length: SIDES / 6 }, (_, i) => [rim[6 * i], rim[6 * i + 6]]);
+
+/**
  * A top: a cone that stands on its point, with a rim about its axis at the second place, and a spoke that turns with
  * the coordinate, counted from the line of nodes, where the rim is level.
  * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
@@ -110,7 +174,13 @@ export function top(element, stage, now, key) {
   return {
     shapes: [
       { key: `${key}-cone`, d: polyline([edges[0], apex, /** @type {Pixel} */ (edges.at(-1))]), className: "ink" },
-      { key, d: `${polyline(rim)}Z`, className: marked(`ink steel body-${element.to}`, element) },
+      {
+        key,
+        d: `${polyline(rim)}Z`,
+        className: marked(`ink steel body-${element.to}`, element),
+        strips: chordsOf(rim),
+        boxes: filled(rim),
+      },
       {
         key: `${key}-spoke`,
         d: line(middle, tip),
@@ -161,7 +231,7 @@ export function arc(element, stage, { key, centre, on, turn, below }) {
         key: `${key}-arc`,
         d: there + back + head,
         className: `pointed mark ${className}`,
-        boxes: [boxAbout(tip, 0.55 * size)],
+        boxes: [tipBox(tip, unit(subtract(tip, points[count - 1])), LINED * size)],
       },
     ],
     labels: [

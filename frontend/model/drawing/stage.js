@@ -1,6 +1,7 @@
 /** From metres to pixels: what part of the plane is shown, and where a place stands on the screen. */
 
 import { parameterClass } from "../symbols.js";
+import { FRONT, viewBy } from "./camera.js";
 
 /** @typedef {import("../types.js").Scene} Scene */
 /** @typedef {import("../types.js").Trajectory} Trajectory */
@@ -30,20 +31,20 @@ const GROWTH = 1.25;
 const SEEN = 0.9;
 const MOST_GROWTH = GROWTH ** 8;
 
-/** A space position seen from the front right; a plane one as it is. @param {readonly number[]} p @returns {Pixel} */
-function flattened(p) {
-  return p.length < 3 ? [p[0], p[1]] : [p[0] - 0.4 * p[1], p[2] - 0.25 * p[1]];
-}
+/** @param {Scene} scene */
+const growsUp = (scene) => scene.drawing?.vertical === "up";
 
 /**
- * The part of the plane to show: the scene's own view, widened about its centre if the motion leaves it.
+ * The part of the plane to show: the scene's own view, widened about its centre if the motion leaves it; of space as it is
+ * seen from the front, so that who turns it comes no nearer and goes no further.
  * @param {Scene} scene @param {Trajectory} trajectory
  * @returns {Box}
  */
 export function viewOf(scene, trajectory) {
   const paths = Object.values(trajectory.positions);
   const own = scene.drawing?.view;
-  return own ? widened(/** @type {Box} */ (own), paths) : padded(boundsOf(paths.flat().map(flattened)));
+  const points = paths.map((path) => path.map(viewBy(FRONT, growsUp(scene))));
+  return own ? widened(/** @type {Box} */ (own), points) : padded(boundsOf(points.flat()));
 }
 
 /** @param {readonly Pixel[]} points @returns {Box} */
@@ -65,13 +66,12 @@ function padded([x0, x1, y0, y1]) {
   return [x0 - margin, x1 + margin, y0 - margin, y1 + margin];
 }
 
-/** @param {Box} box @param {readonly number[]} position */
-function holds([x0, x1, y0, y1], position) {
-  const [x, y] = flattened(position);
+/** @param {Box} box @param {Pixel} point */
+function holds([x0, x1, y0, y1], [x, y]) {
   return x >= x0 && x <= x1 && y >= y0 && y <= y1;
 }
 
-/** @param {Box} own @param {readonly number[][][]} paths @returns {Box} */
+/** @param {Box} own @param {readonly Pixel[][]} paths @returns {Box} */
 function widened(own, paths) {
   let box = own;
   const centre = [(own[0] + own[1]) / 2, (own[2] + own[3]) / 2];
@@ -80,28 +80,29 @@ function widened(own, paths) {
     const [w, h] = half.map((side) => side * growth);
     box = [centre[0] - w, centre[0] + w, centre[1] - h, centre[1] + h];
     const shown = box;
-    if (paths.every((path) => path.filter((position) => holds(shown, position)).length >= SEEN * path.length)) break;
+    if (paths.every((path) => path.filter((point) => holds(shown, point)).length >= SEEN * path.length)) break;
   }
   return box;
 }
 
 /**
  * @param {Scene} scene @param {Trajectory} trajectory @param {Size} size
- * @param {{rem?: number, reserved?: Stage["reserved"]}} [page]
+ * @param {{rem?: number, reserved?: Stage["reserved"], camera?: import("./camera.js").Camera}} [page]
  * @returns {Stage}
  */
-export function stageOf(scene, trajectory, size, { rem = 16, reserved = [] } = {}) {
+export function stageOf(scene, trajectory, size, { rem = 16, reserved = [], camera = FRONT } = {}) {
   const [x0, x1, y0, y1] = viewOf(scene, trajectory);
   const scale = Math.min(size.width / (x1 - x0), size.height / (y1 - y0));
-  const sign = scene.drawing?.vertical === "up" ? -1 : 1;
+  const sign = growsUp(scene) ? -1 : 1;
+  const seen = viewBy(camera, growsUp(scene));
   /** @param {readonly number[]} vector @returns {Pixel} */
   const direct = (vector) => {
-    const [x, y] = flattened(vector);
+    const [x, y] = seen(vector);
     return [x * scale, sign * y * scale];
   };
   /** @param {readonly number[]} position @returns {Pixel} */
   const project = (position) => {
-    const [x, y] = flattened(position);
+    const [x, y] = seen(position);
     return [size.width / 2 + (x - (x0 + x1) / 2) * scale, size.height / 2 + sign * (y - (y0 + y1) / 2) * scale];
   };
   const unit = Math.max(8, Math.min(48, Math.min(size.width, size.height) / 30));

@@ -2,7 +2,7 @@
 
 import { add, lengthOf, scaled, subtract, unit, normal } from "../drawing/geometry.js";
 import { figureOf } from "../drawing/figure.js";
-import { keeper } from "../drawing/stage.js";
+import { coordinateClass, keeper, latexOf } from "../drawing/stage.js";
 import { arrow } from "../drawing/marks.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
@@ -21,8 +21,12 @@ import { arrow } from "../drawing/marks.js";
 
 /** Only what moves has a ghost; what is written into a drawing has none. */
 const MEMBERS = /^(rod|spring|damper|bob|cart|block|disc|hoop|pivot|guide)(?!\d*-(hatch|rail|triangle))/;
+/** Where there are more parts than this, only the arrows of the body that has the most of them have letters. */
+const LETTERED = 8;
 /** Arrows below this many units are too short for a head. */
 const SHORTEST = 0.5;
+/** Parts of δr below this many units have no letters: nobody could tell to which of them it belongs. */
+const TOLD = 0.9;
 
 /**
  * @param {Stage} stage @param {import("./virtual.js").Virtual} virtual
@@ -30,7 +34,12 @@ const SHORTEST = 0.5;
  */
 export function virtualFigure(stage, { varied, later, displacements }) {
   const ghosts = [outline(stage, varied, "ghost-varied"), ...(later ? [outline(stage, later, "ghost-later")] : [])];
-  const arrows = displacements.map((displacement) => arrowsOf(stage, displacement, later !== null));
+  const counts = displacements.map(({ parts }) => parts.length);
+  const few = counts.reduce((sum, count) => sum + count, 0) <= LETTERED;
+  const arrows = displacements.map((displacement) => {
+    const isLettered = few || displacement.parts.length === Math.max(...counts);
+    return arrowsOf(stage, displacement, later !== null, isLettered);
+  });
   return { under: { shapes: ghosts.flat(), labels: [] }, over: merged(arrows) };
 }
 
@@ -49,10 +58,10 @@ const merged = (figures) => ({
 });
 
 /**
- * @param {Stage} stage @param {import("./virtual.js").Displacement} displacement @param {boolean} running  time is not frozen
+ * @param {Stage} stage @param {import("./virtual.js").Displacement} displacement @param {boolean} running  time is not frozen @param {boolean} isLettered
  * @returns {Figure}
  */
-function arrowsOf(stage, { body, at, variation, frozen, explicit }, running) {
+function arrowsOf(stage, { body, at, variation, parts, frozen, explicit }, running, isLettered) {
   const from = stage.project(at);
   const drawn = (/** @type {Arrow[]} */ arrows) =>
     merged(
@@ -63,8 +72,16 @@ function arrowsOf(stage, { body, at, variation, frozen, explicit }, running) {
   const whole = frozen.map((x, c) => x + explicit[c]);
   const partly = add(from, stage.direct(frozen));
   /** @type {Arrow} */
-  const virtual = { key: "variation", from, vector: variation, className: "virtual", latex: "\\delta\\mathbf r" };
-  if (!running) return drawn([virtual]);
+  const virtual = {
+    key: "variation",
+    from,
+    vector: variation,
+    className: "virtual",
+    latex: isLettered ? "\\delta\\mathbf r" : undefined,
+  };
+  const summands = parts.length > 1 ? summandsOf(stage, from, parts, isLettered) : [];
+  // What it is about finds its place first.
+  if (!running) return drawn([virtual, ...summands]);
   /** @type {Arrow} */
   const actual = {
     key: "differential",
@@ -90,6 +107,27 @@ function arrowsOf(stage, { body, at, variation, frozen, explicit }, running) {
   ]);
 }
 
+/**
+ * The parts of δr, one after the other, so that they end where δr does: ∂r/∂q₁ δq₁, ∂r/∂q₂ δq₂ …
+ * @param {Stage} stage @param {Pixel} from @param {import("./virtual.js").Displacement["parts"]} parts @param {boolean} isLettered @returns {Arrow[]}
+ */
+function summandsOf(stage, from, parts, isLettered) {
+  let start = from;
+  return parts.map(({ coordinate, vector }, i) => {
+    const q = latexOf(stage.scene, coordinate);
+    const arrow = {
+      key: `part-${i}`,
+      from: start,
+      vector,
+      className: `summand ${coordinateClass(stage.scene, coordinate)}`,
+      latex: isLettered ? `\\frac{\\partial\\mathbf r}{\\partial ${q}}\\,\\delta ${q}` : undefined,
+      side: /** @type {const} */ (-1),
+    };
+    start = add(start, stage.direct(vector));
+    return arrow;
+  });
+}
+
 /** @param {Stage} stage @param {Arrow} arrow @returns {Figure} */
 function labelled(stage, { key, from, vector: direction, className, latex, side = 1 }) {
   const vector = stage.direct(direction);
@@ -100,18 +138,24 @@ function labelled(stage, { key, from, vector: direction, className, latex, side 
   const shapes = arrow(from, vector, key, className, Math.min(stage.unit, long * 0.5));
   return {
     shapes,
-    labels: latex
-      ? [
-          {
-            key,
-            latex,
-            at:
-              long > 3 * stage.unit
-                ? subtract(middle, aside)
-                : add(add(from, vector), scaled(unit(vector), stage.unit)),
-            className,
-          },
-        ]
-      : [],
+    labels:
+      latex && (long > TOLD * stage.unit || !className.startsWith("summand"))
+        ? [
+            {
+              key,
+              latex,
+              at: subtract(middle, aside),
+              others: [
+                add(middle, aside),
+                ...[1.7, 2.5, 3.3, 4.2].flatMap((far) => [
+                  subtract(middle, scaled(aside, far)),
+                  add(middle, scaled(aside, far)),
+                ]),
+                add(add(from, vector), scaled(unit(vector), 1.2 * stage.unit)),
+              ],
+              className,
+            },
+          ]
+        : [],
   };
 }

@@ -7,13 +7,16 @@
 
 import { configured, moved } from "../kinematics/kinematics.js";
 
+/** Below this part of δr there is nothing to see of a summand. */
+const LEAST = 1e-3;
+
 /** @typedef {import("../types.js").Snapshot} Snapshot */
 /** @typedef {import("../kinematics/kinematics.js").Kinematics} Kinematics */
 /** @typedef {import("../kinematics/expression.js").Values} Values */
 
 /**
- * @typedef {{body: string, at: number[], variation: number[], frozen: number[], explicit: number[]}} Displacement
- *   from `at`: δr, and the two parts of dr, with the time frozen and because of the time alone
+ * @typedef {{body: string, at: number[], variation: number[], parts: {coordinate: string, vector: number[]}[], frozen: number[], explicit: number[]}} Displacement
+ *   from `at`: δr, the part ∂r/∂qᵢ δqᵢ of each coordinate that moves it, and the two parts of dr, with the time frozen and because of the time alone
  * @typedef {{varied: Snapshot, later: Snapshot | null, displacements: Displacement[], works: {load: string, work: number}[], total: number}} Virtual
  */
 
@@ -30,6 +33,9 @@ export function virtualOf(kinematics, now, bodies, { delta, dt }) {
     kinematics.slope(q, now.t, only(along, kinematics.free)),
     kinematics.slope(q, now.t, {}, dt),
   ];
+  const parts = kinematics.free
+    .filter((name) => delta[name])
+    .map((name) => ({ coordinate: name, slope: kinematics.slope(q, now.t, only(delta, [name])) }));
   const works = kinematics.works(q, now.rates, now.t, delta);
   return {
     varied: configured(kinematics, now, moved(q, delta)),
@@ -40,6 +46,9 @@ export function virtualOf(kinematics, now, bodies, { delta, dt }) {
         body,
         at: now.positions[body],
         variation: variation[body],
+        parts: parts
+          .map(({ coordinate, slope }) => ({ coordinate, vector: slope[body] }))
+          .filter(({ vector }) => Math.hypot(...vector) > LEAST * Math.hypot(...variation[body])),
         frozen: frozen[body],
         explicit: explicit[body],
       })),

@@ -8,11 +8,13 @@ import { createHand } from "./hand.js";
 import { createIntegrals } from "./integrals.js";
 import { layerIn } from "./layer.js";
 import { createLook } from "./look.js";
+import { createOrbit } from "./orbit.js";
 import { createPaths } from "./paths.js";
 import { createPhase } from "./phase.js";
 import { createReading } from "./reading.js";
 import { createRuns } from "./runs.js";
 import { createTake } from "./take.js";
+import { createVectors } from "./vectors.js";
 import { createVirtual } from "./virtual.js";
 import { steppers, tools } from "./tools.js";
 import { createWhy } from "./why.js";
@@ -66,8 +68,14 @@ export function open(around) {
   const phase = createPhase(bench, around.seek);
   const energies = createEnergies(bench);
   const paths = createPaths(bench, layerIn(around.frame, "paths"));
+  const vectors = createVectors(bench, layerIn(around.frame, "vectors"));
   const look = createLook(bench);
   const reading = createReading(bench);
+  const move = () => [virtual, vectors, hand, runs, phase, energies, reading].forEach((part) => part.move());
+  const orbit = createOrbit(bench, () => {
+    paths.show();
+    move();
+  });
   void session.need("figure");
   return {
     panel: virtual.panel,
@@ -79,6 +87,7 @@ export function open(around) {
     /** @param {View} view */
     tools(view) {
       hand.handles(view);
+      orbit.show(view.t);
       return html`${tools(view, runs)}${runs.legend(view)}`;
     },
     /** What the page holds has changed. */
@@ -87,11 +96,10 @@ export function open(around) {
       phase.show();
       energies.show();
       paths.show();
+      vectors.move();
     },
     /** Follows the clock. */
-    move() {
-      for (const part of [virtual, hand, runs, phase, energies, reading]) part.move();
-    },
+    move,
   };
 }
 

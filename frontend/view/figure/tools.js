@@ -8,6 +8,7 @@ import { icon } from "../icons.js";
 const PATHS = {
   bars: "M3 17h14M5 17V9h2.6v8M9 17V4h2.6v13M13 17v-6h2.6v6",
   paths: "M3 8c3 9 11 9 14 0M10 3v2M10 7v2M10 11v2",
+  vectors: "M4 16m-1.6 0a1.6 1.6 0 1 0 3.2 0a1.6 1.6 0 1 0-3.2 0M5.2 14.8L15 5M9.5 5H15v5.5",
   phase: "M10 10m-7 0a7 5 0 1 0 14 0a7 5 0 1 0-14 0M10 2v16M2 10h16",
   keep: "M3 15C6 3 9 3 12 9M3 17C8 9 12 9 17 15M15 3v6M12 6h6",
 };
@@ -39,10 +40,10 @@ export function tools({ state, session, clock, t }, { keep }) {
       with: names.includes(name) ? names.filter((other) => other !== name).join() : [...names, name].join(),
     });
   };
-  const switched = (/** @type {"bars" | "paths" | "phase"} */ name) => html`
+  const switched = (/** @type {"bars" | "paths" | "vectors" | "phase"} */ name) => html`
     <button class="tool" aria-pressed=${String(shown.split(",").includes(name))} title=${t(`tools.${name}`)} aria-label=${t(`tools.${name}`)} @click=${() => toggled(name)}>${picture(name)}</button>`;
   return html`
     <button class="tool" aria-pressed=${String(Boolean(vary))} title=${t("virtual.open")} aria-label=${t("virtual.open")} @click=${vary1}><span class="math"><i>δ</i><b>r</b></span></button>
-    ${switched("bars")}${switched("paths")}${switched("phase")}
+    ${switched("bars")}${switched("paths")}${switched("vectors")}${switched("phase")}
     <button class="tool" title=${t("runs.keep")} aria-label=${t("runs.keep")} ?disabled=${!state.trajectory} @click=${keep}>${picture("keep")}</button>`;
 }

@@ -5,6 +5,7 @@ import { live } from "lit-html/directives/live.js";
 import { inline } from "../formula.js";
 import { layerIn } from "./layer.js";
 import { called } from "../../model/catalog.js";
+import { placed } from "../../model/drawing/placing.js";
 import { decimalsOf, fixed, unitText } from "../../model/numbers.js";
 import { differences, LONGEST, reachOf, readChoice, writeChoice } from "../../model/virtual/choice.js";
 import { virtualFigure } from "../../model/virtual/figure.js";
@@ -61,7 +62,7 @@ export function createVirtual(bench) {
     frame.classList.add("varied");
     const figure = virtualFigure(stage, found);
     under.draw(figure.under, stage.size);
-    over.draw(figure.over, stage.size);
+    over.draw(placed(stage, figure.over, bench.clock.time, drawing.ground), stage.size);
     weigh(found);
   }
 
