@@ -82,6 +82,8 @@ def test_measure(text: str, degree: int, value: Real | None, shape: tuple[int, .
         ("(10^30)^(-63/2)", "value-too-small", {"limit": "1e±300"}),
         ("(10^-30)^(63/2)", "value-too-small", {"limit": "1e±300"}),
         ("(10^-30)^(-63/2)", "value-too-large", {"limit": "1e±300"}),
+        ("(10^43)^7", "value-too-large", {"limit": "1e±300"}),
+        ("(10^-43)^7", "value-too-small", {"limit": "1e±300"}),
         ("exp(691)", "value-too-large", {"limit": "1e300"}),
         ("exp(700)", "value-too-large", {"limit": "1e300"}),
         ("exp(701)", "value-too-large", {"limit": "exp(±700)"}),

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import math
 import sys
 import time
 import tomllib
@@ -47,6 +48,7 @@ def main() -> None:
     parser.add_argument("--only", default="", help="mutants of modules with this in their path")
     parser.add_argument("--numbers", type=int, nargs="*", help="only these of the sample, as they were printed")
     parser.add_argument("--processes", type=int, default=1, help="so many mutants at a time")
+    parser.add_argument("--seconds", type=float, default=math.inf, help="of tests for each mutant, quick ones first")
     asked = parser.parse_args()
     part = Part.named(asked.part)
     for name in HEAVY:
@@ -54,12 +56,12 @@ def main() -> None:
     began = time.monotonic()
     chosen, there = sample([module for module in part.modules if asked.only in str(module)], asked.sample, asked.seed)
     mutants = {n: mutant for n, mutant in enumerate(chosen, 1) if not asked.numbers or n in asked.numbers}
-    record = recorded(part.tests, part.modules, asked.processes)
+    record = recorded(part.tests, part.modules, asked.processes, asked.seconds)
     killed = 0
     for tried, (number, noticed) in enumerate(verdicts(mutants, record, part.modules, asked.processes), 1):
         killed += noticed
         if not noticed:
-            print(f"[{number}] {mutants[number]}".replace(f"{ROOT}/", ""), flush=True)
+            print(f"\r[{number}] {mutants[number]}".replace(f"{ROOT}/", ""), flush=True)
         print(f"\r{killed} of {tried} noticed", end="", file=sys.stderr, flush=True)
     share, seconds = killed / max(1, len(mutants)), time.monotonic() - began
     print(f"\n{asked.part}: {killed} of {len(mutants)} noticed ({share:.0%}) of {there}; {seconds:.0f} s")

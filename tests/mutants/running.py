@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import math
 import os
 import pickle
 import resource
@@ -17,6 +18,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import accumulate
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -47,10 +49,14 @@ class Record:
 
     entries: Sequence[Entries]
     before: frozenset[Start]
+    most: float = math.inf  # seconds that all tests of a mutant may take together, the quickest first
 
     def tests_for(self, mutant: Mutant) -> list[str]:
         """The tests that can notice a fault, in the order in which they are to be asked."""
-        return in_turn(function_around(mutant.module, mutant.line), self.entries)
+        tests = in_turn(function_around(mutant.module, mutant.line), self.entries)
+        took = {test: seconds for one in self.entries for test, seconds in one.seconds.items()}
+        totals = accumulate(took[test] for test in tests)
+        return [test for test, total in zip(tests, totals, strict=True) if total <= self.most]
 
     def is_fresh(self, mutant: Mutant) -> bool:
         """Whether the broken code has not run before the tests begin."""
@@ -62,7 +68,7 @@ class Record:
         return LEAST + PATIENCE * sum(sum(one.seconds.values()) for one in self.entries if one.file == file_of(test))
 
 
-def recorded(files: Sequence[str], modules: Sequence[Path], width: int = 1) -> Record:
+def recorded(files: Sequence[str], modules: Sequence[Path], width: int = 1, most: float = math.inf) -> Record:
     """Runs all tests of the sound modules, each file in a process of its own."""
     with tempfile.TemporaryDirectory() as folder:
         before = Path(folder, "before")
@@ -88,7 +94,7 @@ def recorded(files: Sequence[str], modules: Sequence[Path], width: int = 1) -> R
         failing = [file for file, answer in answers.items() if not answer.exists()]
         if failing:
             raise SystemExit(f"Without any fault, not all tests pass in {', '.join(failing)}")
-        return Record([_unpickled(answer) for answer in answers.values()], _unpickled(before))
+        return Record([_unpickled(answer) for answer in answers.values()], _unpickled(before), most)
 
 
 def verdicts(

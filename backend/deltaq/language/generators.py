@@ -68,11 +68,10 @@ class Generators:
         """Numerator and denominator: no base stands in the numerator with a whole or a negative power."""
         denominator: Monomial = ONE
         for key in reversed(tuple(self.bases)):
-            exponents = [dict(mono).get(key, 0) for mono, _, _ in form]
-            lowest = min((_floor(e) for e in exponents), default=0)
-            if lowest == 0 and all(e == 0 or (not isinstance(e, int) and e < 1) for e in exponents):
+            whole = [_floor(dict(mono).get(key, 0)) for mono, _, _ in form]
+            if not any(whole):
                 continue
-            lowest = min(lowest, 0)
+            lowest = min(*whole, 0)
             form = fourier.add(self._expanded(term, c, key, lowest) for term, c in form.items())
             denominator = fourier.times(denominator, ((key, -lowest),)) if lowest else denominator
         return form, denominator

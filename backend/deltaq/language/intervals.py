@@ -116,16 +116,8 @@ class _Ball:
         if expr is sympy.E:
             return flint.arb(1).exp()
         if expr.is_Pow:
-            return self._power(expr)
+            return self.of(expr.base) ** self.of(expr.exp)
         return _function(expr)(*map(self.of, expr.args))
-
-    def _power(self, expr: Any) -> Any:
-        base, exponent = self.of(expr.base), expr.exp
-        if exponent.is_Integer:
-            return base ** int(exponent)
-        if exponent == sympy.Rational(1, 2):
-            return base.sqrt()
-        return base ** self.of(exponent)
 
 
 def _rational(value: Any) -> Any:

@@ -8,6 +8,7 @@ squares and factors known to be positive are taken, √(f²) = |f|; and |f| sgn 
 from __future__ import annotations
 
 import math
+from collections import Counter
 from typing import Any
 
 import sympy
@@ -16,6 +17,7 @@ from flint import Ordering, fmpq, fmpq_mpoly_ctx
 from . import fourier
 from .fourier import ONE, STILL, Form, Monomial
 from .normal_form import Reader
+from .order import arguments_of
 
 MAX_ROOT = 10**12
 # Functions that stay as the author wrote them: hyperbolic ones unless they cancel, tangents where no sine stands by.
@@ -44,13 +46,13 @@ class KernelReader(Reader):
         if isinstance(expr, self._own):
             return self._opaque(expr)
         if isinstance(expr, sympy.Abs):
-            return self._size_of(self.form(expr.args[0]))
+            return self._size_of(self.form(*expr.args))
         if isinstance(expr, sympy.sign):
-            return self._sign_of(self.form(expr.args[0]))
+            return self._sign_of(self.form(*expr.args))
         if isinstance(expr, (sympy.Max, sympy.Min)):
             return self._opaque(expr)
         if isinstance(expr, sympy.Heaviside):
-            return self._step_of(self.form(expr.args[0]))
+            return self._step_of(self.form(*arguments_of(expr)))
         return super()._read(expr)
 
     def _base(self, form: Form, exponent: Any, expr: Any) -> Form:
@@ -141,7 +143,7 @@ class KernelReader(Reader):
     def _divided(self, form: Form) -> Form:
         """f sgn f = |f| for a sum f: what stands before sgn f is divided by f where that leaves nothing over."""
         for key, (size, inner) in self.signs.items():
-            factor = {term: c for term, c in form.items() if dict(term[0]).get(key, 0) == 1}
+            factor = {term: c for term, c in form.items() if (key, 1) in term[0]}
             quotient = divided(self._without(factor, key), inner) if len(factor) >= len(inner) else None
             if quotient is not None:
                 rest = {term: c for term, c in form.items() if term not in factor}
@@ -153,17 +155,17 @@ class KernelReader(Reader):
 
     def _merged_term(self, term: fourier.Term, number: Any) -> Form:
         mono, phase, sine = term
-        exponents = dict(mono)
+        exponents = Counter(dict(mono))
         for key, inner in self.sizes.items():
-            if exponents.get(key, 0) >= 2:
+            if exponents[key] >= 2:
                 return self._replaced(term, number, {key: 2}, fourier.multiply(inner, inner))
         for key, (size, inner) in self.signs.items():
-            if exponents.get(key, 0) < 1:
+            if exponents[key] < 1:
                 continue
-            if exponents.get(size, 0) >= 1:
+            if exponents[size] >= 1:
                 return self._replaced(term, number, {key: 1, size: 1}, inner)
             name = _symbol(inner)
-            if name is not None and exponents.get(name, 0) >= 1:
+            if name is not None and exponents[name] >= 1:
                 return self._replaced(term, number, {key: 1, name: 1}, fourier.monomial(size))
         return {(mono, phase, sine): number}
 

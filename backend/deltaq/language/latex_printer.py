@@ -102,7 +102,7 @@ class _Latex:
         return rf"{sign}\frac{{{size.numerator}}}{{{size.denominator}}}", min(binding, PRODUCT)
 
     def _exponential(self, expr: sympy.Expr) -> str:
-        exponent = self.text(expr.args[0]) if expr.args else "1"
+        exponent = self.text(sympy.Mul(*expr.args))  # 1 of e itself
         return rf"\mathrm{{e}}^{{{exponent}}}"
 
     def _sum(self, expr: sympy.Expr) -> str:

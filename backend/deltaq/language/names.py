@@ -61,8 +61,10 @@ class Names:
 
     def resolve(self, spelling: str) -> Symbol | None:
         """The one symbol that this spelling means; None if there is none or more than one."""
-        found = self.candidates(spelling)
-        return found[0] if len(found) == 1 else None
+        match self.candidates(spelling):
+            case (symbol,):
+                return symbol
+        return None
 
     def candidates(self, spelling: str) -> tuple[Symbol, ...]:
         """The symbols that this spelling can mean, by the closest way of spelling that finds any."""

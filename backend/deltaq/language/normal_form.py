@@ -74,13 +74,13 @@ class Reader(Generators):
         if expr.is_Mul:
             return self._product(expr)
         if isinstance(expr, sympy.exp) or expr is sympy.E:
-            return self._exponential(expr.args[0] if expr.args else sympy.S.One, expr)
+            return self._exponential(sympy.Mul(*expr.args), expr)  # 1 of e itself
         if expr.is_Pow:
             return self._power(*expr.as_base_exp())
         if isinstance(expr, (sympy.sin, sympy.cos)):
             return self._wave(expr)
         if isinstance(expr, (sympy.Abs, sympy.sign)):
-            return self._size(self.form(expr.args[0]), expr, sign=isinstance(expr, sympy.sign))
+            return self._size(self.form(*expr.args), expr, sign=isinstance(expr, sympy.sign))
         rewrite = _REWRITTEN.get(expr.func)
         return self.form(rewrite(*expr.args)) if rewrite else self._opaque(expr)
 
@@ -168,7 +168,7 @@ class Reader(Generators):
 
     def _wave(self, expr: Any) -> Form:
         """cos or sin of a linear form; of its constant multiple of π by the addition theorem."""
-        form = self._with_waves_named(self.form(expr.args[0]))
+        form = self._with_waves_named(self.form(*expr.args))
         sine = isinstance(expr, sympy.sin)
         if not self._is_polynomial(form):
             return self._opaque(expr)

@@ -35,7 +35,7 @@ def _printer(order: Order) -> _Plain:
 def _matrix(matrix: Any, order: Order | None) -> str:
     rows = [[plain(entry, order) for entry in row] for row in matrix.tolist()]
     if matrix.shape[1] == 1:
-        return "[" + ", ".join(row[0] for row in rows) + "]"
+        return "[" + ", ".join(entry for (entry,) in rows) + "]"
     return "[" + ", ".join("[" + ", ".join(row) + "]" for row in rows) + "]"
 
 

@@ -75,7 +75,7 @@ class SpokenPrinter:
 def said_matrix(words: Vocabulary, rows: list[list[str]]) -> str:
     """A vector by its components, a matrix by its rows."""
     if all(len(row) == 1 for row in rows):
-        parts = [words.say("component", words.whole(i), row[0]) for i, row in enumerate(rows, 1)]
+        parts = [words.say("component", words.whole(i), entry) for i, (entry,) in enumerate(rows, 1)]
         return words.say("vector", ", ".join(parts))
     joint = words.say("next")
     parts = [words.say("row", words.whole(i), joint.join(row)) for i, row in enumerate(rows, 1)]
@@ -171,7 +171,7 @@ class _Speech:
         return letter in self._symbols.reader.plain
 
     def _exponential(self, expr: sympy.Expr) -> tuple[str, int]:
-        exponent = expr.args[0] if expr.args else sympy.S.One
+        exponent = sympy.Mul(*expr.args)  # 1 of e itself
         if self._is_taken("e"):
             return self._words.say("of", self._words.say("functions.exp"), self.text(exponent, ATOM)), PREFIX
         return self._words.say("power", self._words.say("euler"), self._exponent(exponent)), POWER

@@ -66,7 +66,7 @@ def _operator(word: str, span: Span) -> Token:
 
 
 def _compound(word: str, span: Span, names: Names, *, after_number: bool) -> Iterator[Token]:
-    if after_number and len(word) > 1 and word in UNITS:
+    if after_number and word in UNITS:
         fail("unit", span, name=word)
     prefixed = tuple(_prefixed(word, span, names)) or tuple(_dotted(word, span, names))
     if prefixed:
@@ -101,7 +101,7 @@ def _splits(word: str, names: Names) -> list[tuple[tuple[str, Symbol | str], ...
     """All ways (up to three) to read a word as a product of different symbols, functions among them: gsinphi."""
     ways: list[list[tuple[tuple[str, Symbol | str], ...]]] = [[] for _ in range(len(word) + 1)]
     ways[len(word)] = [()]
-    for start in range(len(word) - 1, -1, -1):
+    for start in reversed(range(len(word))):
         for end in range(start + 1, len(word) + 1):
             if not ways[end] or not word[start].isalpha():
                 continue
