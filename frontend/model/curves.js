@@ -115,11 +115,12 @@ function within(curve, from, to) {
  * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
  */
 function reactionRows(scene, { t: times, multipliers }, { hidden }) {
+  if (!multipliers) return [];
   const { coordinates, parameters } = scene;
   const known = new Map([...coordinates, ...parameters].map(({ name, latex }) => [name, latex || name]));
   /** @type {Map<string, Row>} */
   const rows = new Map();
-  Object.entries(multipliers ?? {}).forEach(([name, values], k) => {
+  Object.entries(multipliers).forEach(([name, values], k) => {
     const { unit, pulls } = natureOf(scene, name, k);
     const row = rows.get(unit) ?? { key: `reactions${rows.size || ""}`, unit, least: 0, curves: [] };
     rows.set(unit, row);
