@@ -21,7 +21,7 @@ const joined = (first, rest) => ({ ...rest, chapters: [...first.chapters, ...res
 /** With the symbols of the scene marked, by which they are found in the drawing. @param {Derivation} derivation @param {import("./types.js").Scene | null} scene @returns {Derivation} */
 function marked(derivation, scene) {
   if (!scene) return derivation;
-  const mark = markerOf(scene);
+  const mark = markerOf(scene, derivation.result);
   const within = (/** @type {import("./types.js").Chapter} */ chapter) => ({
     ...chapter,
     steps: chapter.steps.map((step) => withSymbols(step, mark)),

@@ -3,6 +3,8 @@
 const QUANTITY = /^([pq]-\d+|load-.+|body-.+|energy-(kinetic|potential)|time-term)$/;
 const SOURCE = /^(load|body)-/;
 const TOGETHER = /^(load|body|p)-/;
+/** Of a symbol of the whole system: what of the drawing belongs to it, without its colour. */
+const BELONGS = /^of-/;
 const VECTOR = /^vector-[rv]$/;
 
 /**
@@ -12,6 +14,8 @@ const VECTOR = /^vector-[rv]$/;
 function quantitiesAt(element) {
   for (let node = element; node && node.id !== "page"; node = node.parentElement) {
     const names = [...node.classList].filter((candidate) => QUANTITY.test(candidate));
+    const belongings = [...node.classList].filter((candidate) => BELONGS.test(candidate));
+    if (belongings.length) return [...names, ...belongings.map((name) => name.slice(3).replace("_", "-"))];
     const sources = names.some((name) => SOURCE.test(name)) ? names.filter((name) => TOGETHER.test(name)) : [];
     if (names.length) return sources.length ? sources : names.slice(0, 1);
   }
@@ -33,7 +37,7 @@ function within(symbols) {
   return { names: letters.flatMap(quantitiesAt), vectors: letters.flatMap(vectorsAt) };
 }
 
-/** Lights what belongs together, and tells of symbols of places and velocities by the event "lit". @param {HTMLElement} root */
+/** Lights what belongs together, and tells of symbols of places and velocities by the event "lit" and in `data-vectors`. @param {HTMLElement} root */
 export function linkHighlights(root) {
   let [lit, arrows] = ["", "[]"];
 
@@ -41,7 +45,9 @@ export function linkHighlights(root) {
   function light(names, vectors) {
     const each = [...new Map(vectors.map((one) => [`${one.vector} ${one.body}`, one])).values()];
     const told = JSON.stringify(each);
-    if (told !== arrows) root.dispatchEvent(new CustomEvent("lit", { detail: each }));
+    // Kept as well: who draws them may come later.
+    root.dataset.vectors = told;
+    if (told !== arrows) root.dispatchEvent(new CustomEvent("lit"));
     arrows = told;
     const selector = [...new Set(names)].map((name) => `.${CSS.escape(name)}`).join();
     if (selector === lit) return;

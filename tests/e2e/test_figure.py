@@ -195,6 +195,9 @@ def test_pointing_works_both_ways(lecture: Lecture) -> None:
     page.locator(".step[aria-current] .formula .katex-html .q-1").first.dispatch_event("pointerover")
     expect(page.locator(".plots .trace.q-1.lit")).to_have_count(1)
     expect(page.locator(".row.q-1.lit").first).to_be_attached()
+    page.locator(".step[aria-current] .formula .katex-html .of-q_1").first.dispatch_event("pointerover")
+    expect(page.locator(".drawing .load-drive.lit").first).to_be_attached()  # Q₂ is of the coordinate and its loads
+    expect(page.locator(".drawing .q-1.lit").first).to_be_attached()
     page.locator(".energies .energy-kinetic").dispatch_event("pointerover")
     expect(page.locator(".plots .trace.energy-kinetic.lit")).to_have_count(1)
 

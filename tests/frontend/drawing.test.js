@@ -325,6 +325,26 @@ test("parameters are marked in formulas where they stand alone, and nothing that
   assert.equal(mark("m\\ell^2 + m_1 x^m \\dot m \\mathrm{m}"), "\\htmlClass{p-0}{m}\\htmlClass{p-1}{\\ell^2} + m_1 x^m \\dot m \\mathrm{m}");
 });
 
+/** Formulas of the server, and what stands about their symbols then. @type {[string, string][]} */
+const OF_THE_SYSTEM = [
+  ["\\htmlClass{energy-kinetic}{E} = 0", "\\htmlClass{energy-kinetic of-body_bob}{E} = 0"],
+  ["\\frac{\\partial L}{\\partial q}", "\\frac{\\partial \\htmlClass{of-body_bob of-load_weight}{L}}{\\partial q}"],
+  ["\\delta W_{a}", "\\htmlClass{of-load_weight of-load_F}{\\delta W_{a}}"],
+  ["Q_{\\htmlClass{q-1}{2}}^{d}", "\\htmlClass{of-q_1 of-load_F}{Q_{\\htmlClass{q-1}{2}}^{d}}"],
+  ["p_{\\htmlClass{q-0}{1}}", "\\htmlClass{of-q_0}{p_{\\htmlClass{q-0}{1}}}"],
+  ["\\mathbf{M} \\dot L", "\\htmlClass{of-body_bob}{\\mathbf{M}} \\dot L"],
+];
+for (const [latex, marked] of OF_THE_SYSTEM)
+  test(`what belongs to the whole system is marked by that: ${latex}`, () => {
+    const forces = /** @type {any} */ ({ generalized_forces: { total: [{ coordinate: "phi", terms: [{ sources: ["load:F"] }] }] } });
+    assert.equal(markerOf(/** @type {any} */ ({ ...scene, parameters: [] }), forces)(latex), marked);
+  });
+
+test("a letter that the scene has taken is not the system's", () => {
+  const mark = markerOf(/** @type {any} */ ({ ...scene, parameters: [{ name: "L", latex: "" }] }));
+  assert.equal(mark("L = 1"), "\\htmlClass{p-0}{L} = 1");
+});
+
 for (const up of [true, false])
   for (const camera of [FRONT, { turn: -2, raised: 1 }, { turn: 3, raised: -0.4 }])
     test(`a camera sees right-handed axes at their lengths: ${up ? "up" : "down"}, ${JSON.stringify(camera)}`, () => {

@@ -40,22 +40,24 @@ function symbolsOf(latex) {
 }
 
 /** What names the thing that a letter stands for; the term about it names where the term comes from. */
-const OWN = /^(?:[pq]-\d+|vector-[rv])$/;
+const OWN = /^(?:[pq]-\d+|vector-[rv]|of-.+)$/;
+/** Symbols of the whole system name what belongs to them. */
+const meant = (name) => (name.startsWith("of-") ? name.slice(3).replace("_", "-") : name);
 const QUANTITY = /^(?:body|load)-/;
 
 /**
  * Symbols in the formulas of all steps that have a mark in the drawing, and those that have none: each once for a step.
  * @returns {{marked: [string, string][], bare: [string, string][]}} step and symbol
  */
-export function coverage(scene, trajectory, { chapters }) {
-  const mark = markerOf(scene);
+export function coverage(scene, trajectory, { chapters, result }) {
+  const mark = markerOf(scene, result);
   const drawn = classesOf(scene, trajectory);
   const found = { marked: new Set(), bare: new Set() };
   for (const step of chapters.flatMap(({ steps }) => steps))
     for (const [letter, classes] of symbolsOf(withSymbols(step, mark).marked ?? "")) {
       const own = classes.filter((name) => OWN.test(name));
       const bold = letter.startsWith("\\mathbf") ? classes.filter((name) => QUANTITY.test(name)) : [];
-      const is = [...own.filter((name) => !name.startsWith("vector")), ...bold].some((name) => drawn.has(name));
+      const is = [...own.filter((name) => !name.startsWith("vector")).map(meant), ...bold].some((name) => drawn.has(name));
       found[is ? "marked" : "bare"].add(`${step.id}\t${letter}${own.length ? ` ${own.at(-1)}` : ""}`);
     }
   const pairs = (symbols) => [...symbols].map((one) => one.split("\t"));

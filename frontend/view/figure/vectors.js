@@ -7,12 +7,11 @@ import { endOf, snapshotAt } from "../../model/trajectory.js";
 /** @typedef {import("../../model/figure/vectors.js").Arrow} Arrow */
 
 const VECTORS = /** @type {const} */ (["r", "v"]);
+const pointedAt = (/** @type {string} */ text) => /** @type {Arrow[]} */ (JSON.parse(text));
 
 /** @param {import("./open.js").Bench} bench @param {ReturnType<typeof import("./layer.js").layerIn>} layer */
 export function createVectors(bench, { draw }) {
   const { root, parts, state, clock, now, kinematics } = bench;
-  /** @type {Arrow[]} */
-  let pointed = [];
   let drawn = false;
   /** @type {{of: unknown, symbols: Map<string, string>}} */
   let known = { of: null, symbols: new Map() };
@@ -26,7 +25,9 @@ export function createVectors(bench, { draw }) {
   function wanted() {
     const { place, scene } = state();
     const all = place.with.split(",").includes("vectors") ? (scene?.bodies ?? []) : [];
-    return all.length ? all.flatMap(({ name: body }) => VECTORS.map((vector) => ({ body, vector }))) : pointed;
+    if (all.length) return all.flatMap(({ name: body }) => VECTORS.map((vector) => ({ body, vector })));
+    const { vectors } = root.dataset;
+    return vectors && vectors !== "[]" ? pointedAt(vectors) : [];
   }
 
   function clear() {
@@ -45,9 +46,6 @@ export function createVectors(bench, { draw }) {
     drawn = true;
   }
 
-  root.addEventListener("lit", (event) => {
-    pointed = /** @type {CustomEvent<Arrow[]>} */ (event).detail;
-    move();
-  });
+  root.addEventListener("lit", move);
   return { move };
 }
