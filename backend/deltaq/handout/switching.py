@@ -9,6 +9,7 @@ Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import sympy as sp
 
@@ -17,6 +18,8 @@ from ..derivation.matrix_form import forcing
 from ..derivation.system import System
 from ..language.derivatives import diff
 from ..mechanics.contributions import Friction
+from ..mechanics.loads.friction import DryFriction
+from ..mechanics.reader import NOTHING
 from .words import Words
 
 SWITCHING = """\
@@ -172,14 +175,9 @@ def frictions(system: System) -> tuple[Friction, ...]:
 
 def smooth_forcing(system: System) -> sp.ImmutableMatrix:
     """f of M q̈ = f without dry friction."""
-    found, rates = forcing(system), [system.slip_rate(part) for part in frictions(system)]
-    rough = [each for each in found.atoms(sp.sign) if any(_same(each.args[0], rate) for rate in rates)]
-    return found.xreplace(dict.fromkeys(rough, system.zero))
-
-
-def _same(one: sp.Expr, other: sp.Expr) -> bool:
-    """Whether they are the same up to the sign."""
-    return bool(sp.expand(one - other) == 0 or sp.expand(one + other) == 0)
+    scene = system.scene
+    loads = tuple(replace(load, force=NOTHING) if isinstance(load, DryFriction) else load for load in scene.loads)
+    return forcing(system if loads == scene.loads else System(replace(scene, loads=loads)))
 
 
 def dynamics(system: System, words: Words, content: Mapping[str, str], ending: str) -> str:
