@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import runpy
 from dataclasses import replace
 from pathlib import Path
@@ -80,6 +81,46 @@ def test_program_goes_on_behind_impacts_and_sticking(name: str, tmp_path: Path) 
     for coordinate, values, rates in zip(program["COORDINATES"], q, v, strict=True):
         np.testing.assert_allclose(values, np.array(shown["coordinates"][coordinate])[at], atol=1e-9)
         np.testing.assert_allclose(rates, np.array(shown["rates"][coordinate])[at], atol=1e-8)
+
+
+def drawn_at_random(seed: int) -> dict[str, object]:
+    """A particle on a spring, or one coupled to a fall; it rubs on a belt and hits a wall or a table."""
+    draw = random.Random(seed)
+    low, high = (
+        {"k": 5.0, "e": 0.1, "mu": 0.0, "b": 0.0, "w": 1.0},
+        {"k": 40.0, "e": 1.0, "mu": 0.5, "b": 0.3, "w": 8.0},
+    )
+    parameters = [{"name": name, "value": draw.uniform(low[name], high[name])} for name in low]
+    coordinates = [{"name": "x", "value": draw.uniform(-1, 1), "rate": draw.uniform(-2, 2)}]
+    position, energy, wall = ["x", "0"], "k*x^2/2", "1.2 - x"
+    if draw.random() < 0.5:
+        coordinates.append({"name": "y", "value": draw.uniform(0.2, 1), "rate": draw.uniform(-2, 2)})
+        position, energy = ["x + 0.3*y", "y"], "k*x^2/2 + 9.81*y"
+        wall = draw.choice(["y", "y - 0.05*b*sin(w*t)", "y + 0.1*x + 1"])
+    surface, static = draw.choice(["0", "b*cos(w*t)", "0.2"]), draw.choice(["15*mu", "10*mu"])
+    rubbing = {"kind": "friction", "coordinate": "x", "force": "10*mu", "static": static, "surface_rate": surface}
+    return {
+        "format": 1,
+        "id": f"drawn-{seed}",
+        "title": {"en": "Drawn"},
+        "coordinates": coordinates,
+        "parameters": parameters,
+        "bodies": [{"name": "bob", "kind": "particle", "mass": "1", "position": position}],
+        "loads": [{"kind": "potential", "energy": energy}, *([rubbing] if draw.random() < 0.8 else [])],
+        "events": [{"name": "hit", "value": wall, "then": "bounce", "restitution": "e"}],
+    }
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_program_and_simulation_agree_on_random_jumps(seed: int, tmp_path: Path) -> None:
+    """Both find the events, in equations of their own."""
+    scene = drawn_at_random(seed)
+    program = executed(str(export_request({"form": "python", "scene": scene, "t_end": 1.5})["text"]), tmp_path)
+    times, q, _ = program["solve"]()
+    shown = run({"scene": scene, "t_end": 1.5, "samples": len(times), "tolerance": 1e-10, "include": ["coordinates"]})
+    at = same_times(times, shown)
+    for name, values in zip(program["COORDINATES"], q, strict=True):
+        np.testing.assert_allclose(values, np.array(shown["coordinates"][name])[at], atol=1e-9)
 
 
 def test_friction_on_a_surface_at_a_rate_in_numbers(tmp_path: Path) -> None:
