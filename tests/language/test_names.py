@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tests.language.scene_names import NAMES, problem_of
+from tests.language.scene_names import DOUBLE, NAMES, SYMBOLS, problem_of
 
 from deltaq.errors import InputError, Problem
 from deltaq.language.names import Names, Symbol
@@ -139,6 +139,35 @@ def test_latex_of_a_name(name: str, latex: str) -> None:
 )
 def test_symbol_in_a_line_of_text(latex: str, text: str) -> None:
     assert in_unicode(latex) == text
+
+
+def test_what_is_known_of_a_symbol() -> None:
+    x, rate, varied, changed = (
+        SYMBOLS.name("x"),
+        SYMBOLS.rate("x"),
+        SYMBOLS.variation("x", 1),
+        SYMBOLS.differential("x"),
+    )
+    assert [str(symbol) for symbol in (x, rate, varied, changed)] == ["x", "dot(x)", "dot(delta(x))", "d(x)"]
+    assert [symbol.is_real for symbol in (x, rate, varied, changed, SYMBOLS.time, SYMBOLS.name("unknown"))] == [
+        True
+    ] * 6
+    assert [SYMBOLS.name(name).is_positive for name in ("m", "a", "x", "pi")] == [True, None, None, True]
+    assert SYMBOLS.rate("x") == SYMBOLS.rate("x", 1)
+    assert str(SYMBOLS.variation("x")) == "delta(x)"
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        (r"\dot{φ}_1", "dot(phi1)"),
+        (r"\ddot{φ}_2^2", "ddot(phi2)^2"),
+        (r"\dot{\varphi}_1", "dot(phi1)"),
+        ("φ_1", "phi1"),
+    ],
+)
+def test_an_index_may_stand_outside_an_accent(text: str, meant: str) -> None:
+    assert plain(to_sympy(parse(text, DOUBLE, "latex").tree, Symbols(DOUBLE))) == meant
 
 
 D = Names((Symbol("x", "coordinate"), Symbol("d", "parameter", positive=True), Symbol("m", "parameter", positive=True)))

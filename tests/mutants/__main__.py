@@ -17,6 +17,8 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.order import durations
+
 from .faults import sample
 from .running import recorded, verdicts
 
@@ -48,7 +50,9 @@ def main() -> None:
     parser.add_argument("--only", default="", help="mutants of modules with this in their path")
     parser.add_argument("--numbers", type=int, nargs="*", help="only these of the sample, as they were printed")
     parser.add_argument("--processes", type=int, default=1, help="so many mutants at a time")
-    parser.add_argument("--seconds", type=float, default=math.inf, help="of tests for each mutant, quick ones first")
+    parser.add_argument(
+        "--seconds", type=float, default=math.inf, help="of tests for each mutant, files that take longer left out"
+    )
     asked = parser.parse_args()
     part = Part.named(asked.part)
     for name in HEAVY:
@@ -56,7 +60,9 @@ def main() -> None:
     began = time.monotonic()
     chosen, there = sample([module for module in part.modules if asked.only in str(module)], asked.sample, asked.seed)
     mutants = {n: mutant for n, mutant in enumerate(chosen, 1) if not asked.numbers or n in asked.numbers}
-    record = recorded(part.tests, part.modules, asked.processes, asked.seconds)
+    took = durations()
+    tests = [file for file in part.tests if took.get(file, 0.0) <= asked.seconds]
+    record = recorded(tests, part.modules, asked.processes, asked.seconds)
     killed = 0
     for tried, (number, noticed) in enumerate(verdicts(mutants, record, part.modules, asked.processes), 1):
         killed += noticed

@@ -26,7 +26,7 @@ class Symbols:
             return sympy.pi
         symbol = self.names.get(name)
         if symbol is not None and symbol.positive:
-            return sympy.Symbol(name, real=True, positive=True)
+            return sympy.Symbol(name, positive=True)
         return sympy.Symbol(name, real=True)
 
     @cached_method
