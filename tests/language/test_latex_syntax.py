@@ -41,6 +41,7 @@ ACCEPTED = [
     ("\\sin(\\varphi)", "sin(phi)"),
     ("\\sin\\left(\\varphi\\right)", "sin(phi)"),
     ("\\sin{\\varphi}", "sin(phi)"),
+    ("\\sin{m-\\ell}", "-sin(l - m)"),
     ("\\sin^2\\varphi", "sin(phi)^2"),
     ("\\sin^{2}\\varphi", "sin(phi)^2"),
     ("\\sin^2(\\varphi)", "sin(phi)^2"),

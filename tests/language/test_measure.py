@@ -71,6 +71,14 @@ def test_measure(text: str, degree: int, value: Real | None, shape: tuple[int, .
     assert type(found.value) is type(value)
 
 
+@pytest.mark.parametrize(("power", "kind"), [(20, Fraction), (21, float), (-20, Fraction), (-21, float)])
+def test_values_of_very_many_digits_are_rounded(power: int, kind: type[Real]) -> None:
+    """Above and below the line together 4000 binary digits are kept."""
+    found = measure(parse(f"1.23456789012345678901234567891^({power})", NAMES).tree).value
+    assert type(found) is kind
+    assert found == pytest.approx(1.23456789012345678901234567891**power, rel=1e-14)
+
+
 @pytest.mark.parametrize(
     ("text", "code", "parameters"),
     [

@@ -206,7 +206,7 @@ class Grammar:
 
     def _may_stand_below(self, *, close: bool) -> bool:
         token = self.cursor.token
-        return token.kind == "name" or (token.kind == "open" and token.text == "(" and close)
+        return token.kind == "name" or (token.text == "(" and close)
 
     def _ambiguous_quotient(self, left: Node, right: Node) -> NoReturn:
         """`1/2 m`: half of m, or one over 2m?"""
@@ -306,7 +306,7 @@ class Operators:
     def _of_time(self) -> None:
         """Step over `(t)` after what depends on time anyway."""
         ahead = [self._cursor.ahead(i) for i in range(3)]
-        if ahead[0].kind == "open" and ahead[0].text == "(" and ahead[1].text == "t" and ahead[2].kind == "close":
+        if [token.text for token in ahead] == ["(", "t", ")"]:
             for _ in ahead:
                 self._cursor.take()
 
@@ -346,7 +346,7 @@ class Operators:
     def _diff(self, token: Token) -> Node:
         """diff(f, x), diff(f, x, y), diff(f, t, 2)."""
         opening = self._cursor.token
-        if opening.kind != "open" or opening.text != "(":
+        if opening.text != "(":
             fail("brackets-expected", token.span, name="diff")
         self._cursor.take()
         node = self._grammar.expression()

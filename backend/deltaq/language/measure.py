@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeAlias
 
 from .functions import FUNCTIONS
 from .tokens import fail
@@ -34,7 +35,7 @@ MAX_VALUE = 1e300
 MAX_EXPONENTIAL = 700
 
 Shape = tuple[int, ...]
-Real = Fraction | float
+Real: TypeAlias = Fraction | float
 
 
 @dataclass(frozen=True)

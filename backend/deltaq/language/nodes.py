@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import TypeAlias
 
 
 @dataclass(frozen=True)
@@ -144,7 +145,7 @@ class Equation:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-Node = (
+Node: TypeAlias = (
     Number
     | Name
     | Rate

@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import TypeAlias
 
 from .polynomial import Alphabet, Exponents, Kind, Poly
 
@@ -40,7 +41,7 @@ class Sum:
     price: float = field(default=0, compare=False)
 
 
-Plan = Product | Sum
+Plan: TypeAlias = Product | Sum
 
 
 @dataclass(frozen=True, eq=False)

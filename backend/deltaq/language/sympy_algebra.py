@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from types import MappingProxyType
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeAlias
 
 import sympy
 
@@ -23,7 +23,7 @@ from .symbols import Symbols
 from .tree import Node, fold
 
 # SymPy objects: Expr, Matrix, Eq or Tuple. SymPy is not typed.
-Value = Any
+Value: TypeAlias = Any
 
 _BOUNDED_DOMAIN = frozenset({"log", "asin", "acos", "acosh", "atanh"})
 _SAME_NAME = FUNCTIONS.keys() - set(CLASSES.values())
